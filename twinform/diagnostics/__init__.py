@@ -1,0 +1,21 @@
+"""Findings as values: rules, diagnostics, the ledger, and reporters that only format them."""
+
+from twinform.diagnostics.catalogue import catalogue
+from twinform.diagnostics.diagnostic import Diagnostic
+from twinform.diagnostics.ledger import Entry, Fate, Ledger
+from twinform.diagnostics.location import NOWHERE, Location
+from twinform.diagnostics.notes import Notes
+from twinform.diagnostics.rule import Rule, Severity
+
+__all__ = [
+    "NOWHERE",
+    "Diagnostic",
+    "Entry",
+    "Fate",
+    "Ledger",
+    "Location",
+    "Notes",
+    "Rule",
+    "Severity",
+    "catalogue",
+]

@@ -1,0 +1,25 @@
+"""A finding, as a value."""
+
+from dataclasses import dataclass
+
+from twinform.diagnostics.location import NOWHERE, Location
+from twinform.diagnostics.rule import Rule, Severity
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One problem in one place. The message stands alone; `found` and `expected` repeat its two halves for programs."""
+
+    rule: Rule
+    message: str
+    location: Location = NOWHERE
+    severity: Severity = Severity.INFO
+    found: str | None = None
+    expected: str | None = None
+    help: str | None = None
+    related: tuple[Location, ...] = ()
+
+    @property
+    def is_error(self) -> bool:
+        """Whether it stops a conversion."""
+        return self.severity is Severity.ERROR

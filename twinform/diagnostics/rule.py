@@ -1,0 +1,37 @@
+"""What a rule is: a kind of finding, with its documentation."""
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+
+class Severity(IntEnum):
+    """How bad a finding is; only an error stops a conversion."""
+
+    INFO = 1
+    WARNING = 2
+    ERROR = 3
+
+    def __str__(self) -> str:
+        return self.name.lower()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rule:
+    """A kind of finding. Its name describes the thing found, reads well after "allow", and is never used again.
+
+    `strict` is the severity under `--strict`; it is the plain one where it is not given.
+    The other fields are the rule's page, as `twinform explain` prints it.
+    """
+
+    name: str
+    severity: Severity
+    finds: str
+    matters: str
+    example: str
+    better: str
+    references: str = ""
+    strict: Severity | None = None
+
+    def severity_in(self, *, strict: bool) -> Severity:
+        """The severity of a finding in this mode."""
+        return self.strict if strict and self.strict is not None else self.severity

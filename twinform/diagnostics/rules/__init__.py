@@ -1,0 +1,1 @@
+"""The rules, one file for each stage of the compiler."""

@@ -1,0 +1,152 @@
+"""Rules about names, references and the tree, which a schema cannot see whole. `twinform.ir.verify` reports them."""
+
+from twinform.diagnostics.rule import Rule, Severity
+
+DUPLICATE_NAME = Rule(
+    name="duplicate-name",
+    severity=Severity.ERROR,
+    finds="Two things of one kind in one scope with one name.",
+    matters="A reference to the name means either of them; readers refuse the file.",
+    example="Two `<link name='arm'>` in one robot.",
+    better="Rename one of them.",
+)
+SHARED_NAME = Rule(
+    name="shared-name",
+    severity=Severity.ERROR,
+    finds="Two things of different kinds in one SDF model, such as a link and a joint, with one name.",
+    matters="From SDF 1.7 on every one of them is a frame, and a reference to the name means either.",
+    example="`<link name='arm'/>` and `<joint name='arm' ...>` in an SDF model. In URDF it is legal.",
+    better="Rename one of them; from URDF, the compiler renames the joint.",
+    references="SDF 1.7, proposal on frame semantics",
+)
+RESERVED_NAME = Rule(
+    name="reserved-name",
+    severity=Severity.ERROR,
+    finds="A name that SDF keeps for itself: `world`, or one that begins and ends with two underscores.",
+    matters="References to it mean the world or the model, never the thing that has the name.",
+    example="`<link name='world'/>` in an SDF model.",
+    better="Choose another name.",
+    references="SDF 1.7, proposal on frame semantics",
+)
+EMPTY_NAME = Rule(
+    name="empty-name",
+    severity=Severity.ERROR,
+    finds="A link, joint, model or frame whose name is empty.",
+    matters="Nothing can refer to it.",
+    example="`<link name=''/>`",
+    better="Give it a name.",
+)
+DANGLING_LINK = Rule(
+    name="dangling-link",
+    severity=Severity.ERROR,
+    finds="A joint whose parent or child does not exist.",
+    matters="The robot cannot be put together; readers refuse the file.",
+    example="`<parent link='bse_link'/>` where the link is called `base_link`.",
+    better="Correct the name.",
+)
+SELF_JOINT = Rule(
+    name="self-joint",
+    severity=Severity.ERROR,
+    finds="A joint that connects a link to itself.",
+    matters="It constrains nothing and has no place in a tree; readers refuse it.",
+    example="`<parent link='a'/><child link='a'/>`",
+    better="Name the other link.",
+)
+WORLD_CHILD = Rule(
+    name="world-child",
+    severity=Severity.ERROR,
+    finds="An SDF joint whose child is the world.",
+    matters="The world does not move; it can only be a parent.",
+    example="`<child>world</child>`",
+    better="Exchange parent and child.",
+)
+NO_LINKS = Rule(
+    name="no-links",
+    severity=Severity.ERROR,
+    finds="A URDF robot without a link.",
+    matters="There is nothing to see, move or simulate; urdfdom refuses it.",
+    example="`<robot name='r'/>`",
+    better="Write a link.",
+)
+SEVERAL_ROOTS = Rule(
+    name="several-roots",
+    severity=Severity.ERROR,
+    finds="A URDF robot in which more than one link is no joint's child.",
+    matters="URDF describes one tree; urdfdom refuses the file.",
+    example="Two links and no joint.",
+    better="Connect the pieces by joints, `floating` ones where they move freely, or write one file for each.",
+)
+KINEMATIC_LOOP = Rule(
+    name="kinematic-loop",
+    severity=Severity.ERROR,
+    finds="A URDF robot in which the joints go round in a circle.",
+    matters="URDF describes a tree; such a robot has no root to begin with.",
+    example="a is b's parent and b is a's.",
+    better="Cut the loop; in a `<gazebo>` element a `<joint>` can close it for Gazebo.",
+)
+TWO_PARENTS = Rule(
+    name="two-parents",
+    severity=Severity.ERROR,
+    finds="A URDF link that is the child of more than one joint.",
+    matters="URDF describes a tree: readers keep one of the joints, and not the same one.",
+    example="Both rods of a four-bar linkage end in the same coupler link.",
+    better="Keep one joint in the tree; in a `<gazebo>` element a `<joint>` can close the loop for Gazebo.",
+)
+MISSING_LIMIT = Rule(
+    name="missing-limit",
+    severity=Severity.ERROR,
+    finds="A revolute or prismatic joint of URDF without `<limit>`.",
+    matters="urdfdom refuses the file; a controller would not know how far the joint may go.",
+    example="`<joint name='elbow' type='revolute'>` with parent, child and axis only.",
+    better="Write the limits, or make the joint `continuous`.",
+)
+LOWER_ABOVE_UPPER = Rule(
+    name="lower-above-upper",
+    severity=Severity.WARNING,
+    finds="A joint whose lower limit is above its upper one.",
+    matters="No position is allowed; libsdformat exchanges the two, other readers lock the joint or fail.",
+    example="`<limit lower='1' upper='-1' .../>`",
+    better="Exchange them.",
+)
+ZERO_AXIS = Rule(
+    name="zero-axis",
+    severity=Severity.ERROR,
+    finds="A joint that moves along or about an axis of length zero.",
+    matters="The direction is not defined; simulators divide by its length.",
+    example="`<axis xyz='0 0 0'/>`",
+    better="Write a direction.",
+)
+UNKNOWN_LEADER = Rule(
+    name="unknown-leader",
+    severity=Severity.WARNING,
+    finds="A mimic joint whose leader does not exist, or is the joint itself.",
+    matters="The joint follows nothing: libsdformat refuses the model, other readers leave the joint free.",
+    example="`<mimic joint='left_finger'/>` where no joint is called so.",
+    better="Correct the name.",
+)
+UNKNOWN_REFERENCE = Rule(
+    name="unknown-reference",
+    severity=Severity.WARNING,
+    strict=Severity.ERROR,
+    finds="A `<gazebo reference='...'>` that names neither a link nor a joint.",
+    matters="libsdformat drops its content without a word: the sensor, friction or colour is simply not there.",
+    example="`<gazebo reference='bse_link'>` where the link is called `base_link`.",
+    better="Correct the name.",
+    references="sdformat issue 1372",
+)
+UNKNOWN_MATERIAL = Rule(
+    name="unknown-material",
+    severity=Severity.WARNING,
+    finds="A visual that names a material which is defined nowhere and says no colour or texture itself.",
+    matters="The visual is drawn in a default colour.",
+    example="`<material name='blu'/>` where the material is called `blue`.",
+    better="Correct the name, or write the colour in the visual.",
+)
+EMPTY_MODEL = Rule(
+    name="empty-model",
+    severity=Severity.WARNING,
+    finds="An SDF model that is not static and has no link, nested model or include.",
+    matters="It has no frame that could move; libsdformat refuses it from SDF 1.7 on.",
+    example="`<model name='m'/>`",
+    better="Write a link, or make the model static.",
+)

@@ -1,0 +1,48 @@
+"""Rules about files as files and as XML."""
+
+from twinform.diagnostics.rule import Rule, Severity
+
+UNREADABLE_FILE = Rule(
+    name="unreadable-file",
+    severity=Severity.ERROR,
+    finds="A file that is not there, cannot be opened, is empty, or is larger than 64 MB.",
+    matters="There is nothing to compile. The limit keeps a hostile file from filling the memory; robots stay far below.",
+    example="`twinform check no_such_robot.urdf`",
+    better="Check the path.",
+)
+NOT_WELL_FORMED = Rule(
+    name="not-well-formed",
+    severity=Severity.ERROR,
+    finds="Text that is not XML, in a way that no reader can mend with certainty.",
+    matters="The parser cannot tell what was meant; what it would guess may be another robot.",
+    example="An end tag that does not match, an attribute without quotes, a file cut off in the middle.",
+    better="Mend the line that the message names.",
+    references="XML 1.0, section 2.1",
+)
+REPAIRED_XML = Rule(
+    name="repaired-xml",
+    severity=Severity.WARNING,
+    strict=Severity.ERROR,
+    finds="A breach of the rules of XML that has one meaning only, and that the parsers of ROS and Gazebo let pass.",
+    matters="Those two read the file, every other XML tool refuses it.",
+    example="`--` inside a comment, `<?xml version='0.0'?>`, `<?xml` after a blank line, a prefix without `xmlns:`.",
+    better="Follow the message; the output of a conversion is well formed in any case.",
+    references="XML 1.0, sections 2.5 and 2.8; Namespaces in XML 1.0, section 5",
+)
+DOCTYPE = Rule(
+    name="doctype",
+    severity=Severity.ERROR,
+    finds="A document type declaration.",
+    matters="Entities and default attributes change what a document says, can read other files and fill the memory. No robot "
+    "needs one.",
+    example="`<!DOCTYPE robot [<!ENTITY mass '1.0'>]>`",
+    better="Write the values out, or use xacro properties.",
+)
+UNKNOWN_ROOT = Rule(
+    name="unknown-root",
+    severity=Severity.ERROR,
+    finds="A document whose root element is neither `robot` nor `sdf`.",
+    matters="It is another format, or a dialect older than SDF 1.3 whose root was `gazebo`.",
+    example="`<gazebo version='1.0'>`, `<model>` of a model.config, `<COLLADA>`.",
+    better="Name the model file itself; bring a file of Gazebo before 1.3 up to date with Gazebo Classic's own tool.",
+)

@@ -1,0 +1,107 @@
+"""Rules about the structure of a file, which its schema decides. The table pass reports them."""
+
+from twinform.diagnostics.rule import Rule, Severity
+
+UNKNOWN_ELEMENT = Rule(
+    name="unknown-element",
+    severity=Severity.WARNING,
+    strict=Severity.ERROR,
+    finds="An element that no version of the format has at this place.",
+    matters="Every reader ignores it without a word, so a misspelt tag looks as if it worked.",
+    example="`<joint ...><limits lower='0' upper='1'/></joint>`: the tag is `<limit>`.",
+    better="Correct the name, or move what belongs to another tool into a namespace of its own (`<my:limits xmlns:my=...>`).",
+)
+UNKNOWN_ATTRIBUTE = Rule(
+    name="unknown-attribute",
+    severity=Severity.WARNING,
+    strict=Severity.ERROR,
+    finds="An attribute that no version of the format has on this element.",
+    matters="Every reader ignores it without a word, so a misspelt attribute leaves its default in place.",
+    example="`<limit min='0' max='1'/>`: the attributes are `lower` and `upper`.",
+    better="Correct the name, or give it a namespace prefix.",
+)
+MISSING_ELEMENT = Rule(
+    name="missing-element",
+    severity=Severity.WARNING,
+    strict=Severity.ERROR,
+    finds="An element that the format requires, and that has no useful default, is not there.",
+    matters="Readers fill the gap each in its own way: an error, a zero, or half of the link left out.",
+    example="`<visual><origin xyz='0 0 1'/></visual>` has no `<geometry>`.",
+    better="Write the element.",
+)
+MISSING_PART = Rule(
+    name="missing-part",
+    severity=Severity.ERROR,
+    finds="An element without which the model has no meaning is not there, such as a joint's parent or child.",
+    matters="Every reader refuses the file.",
+    example="`<joint name='a' type='fixed'><child link='b'/></joint>` has no parent.",
+    better="Write the element.",
+)
+MISSING_ATTRIBUTE = Rule(
+    name="missing-attribute",
+    severity=Severity.ERROR,
+    finds="An attribute that the format requires is not there.",
+    matters="Readers refuse the file, or drop the element and all that follows it in the link.",
+    example="`<limit lower='0' upper='1'/>` in URDF 1.0 has neither effort nor velocity.",
+    better="Write the attribute.",
+)
+REPEATED_ELEMENT = Rule(
+    name="repeated-element",
+    severity=Severity.WARNING,
+    strict=Severity.ERROR,
+    finds="An element that may stand once stands again.",
+    matters="Readers take the first one, or the last one, and ignore the others without a word.",
+    example="A joint with two `<limit>` elements.",
+    better="Keep the one that is meant.",
+)
+INVALID_VALUE = Rule(
+    name="invalid-value",
+    severity=Severity.ERROR,
+    finds="Text that is not of the type that the format asks for.",
+    matters="Readers refuse the file, or read the beginning of the text and ignore the rest.",
+    example="`<origin xyz='0 0'/>`, `<mass>1.0kg</mass>`, `<limit effort='inf' .../>` in URDF, `1e400`.",
+    better="Write a value of the type; vectors are separated by blanks, not commas.",
+)
+OUT_OF_RANGE = Rule(
+    name="out-of-range",
+    severity=Severity.WARNING,
+    finds="A number below the least or above the greatest value that the format allows.",
+    matters="Simulators replace it by a default, refuse the model, or become unstable.",
+    example="`<mass value='-1'/>`, `<cylinder radius='-0.1' .../>`.",
+    better="Write a value in the range.",
+)
+STRAY_TEXT = Rule(
+    name="stray-text",
+    severity=Severity.WARNING,
+    strict=Severity.ERROR,
+    finds="Text between elements, where the format has none.",
+    matters="It is ignored; most often it is a comment or a tag that lost its brackets.",
+    example="`<link name='a'> the base <visual>...`",
+    better="Delete it, or make it a comment.",
+)
+OUTSIDE_VERSION = Rule(
+    name="outside-version",
+    severity=Severity.WARNING,
+    strict=Severity.ERROR,
+    finds="An element or attribute that the format has, but not in the version that the file declares.",
+    matters="Readers of that version ignore it; newer ones may read it in another way than it was meant.",
+    example="`<capsule>` in an SDF 1.6 file: it came with 1.8.",
+    better="Declare the version that has it, or write what the declared version has.",
+)
+UNKNOWN_VERSION = Rule(
+    name="unknown-version",
+    severity=Severity.WARNING,
+    strict=Severity.ERROR,
+    finds="A version that the format does not have, or none where one is required.",
+    matters="Readers guess: most take their newest version, some refuse the file.",
+    example="`<sdf version='9.9'>`",
+    better="Declare the version that the file was written for.",
+)
+SCHEMA_DISAGREEMENT = Rule(
+    name="schema-disagreement",
+    severity=Severity.ERROR,
+    finds="The XSD refuses a file in which the table pass finds nothing wrong.",
+    matters="Both are made from one table, so this is a fault of this compiler and not of the file.",
+    example="None is known.",
+    better="Please report it with the file.",
+)
