@@ -1,0 +1,87 @@
+"""The intermediate representation: frozen Pydantic nodes, one family in each file, and pure functions over them."""
+
+from twinform.ir.counting import children_of, count_parts, walk
+from twinform.ir.document import Document, Format
+from twinform.ir.element import Element, Opaque
+from twinform.ir.extension import GazeboExtension
+from twinform.ir.frame import Frame
+from twinform.ir.geometry import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Empty,
+    Geometry,
+    Heightmap,
+    Image,
+    Mesh,
+    Plane,
+    Polyline,
+    Shape,
+    Sphere,
+)
+from twinform.ir.inertial import Inertia, Inertial
+from twinform.ir.joint import Axis, Dynamics, Joint, JointType, Limit, Mimic
+from twinform.ir.light import Light
+from twinform.ir.link import Link
+from twinform.ir.material import Material, Script
+from twinform.ir.model import Include, Model
+from twinform.ir.node import Color, Node, Quaternion, Vector3
+from twinform.ir.plugin import Plugin
+from twinform.ir.pose import Pose
+from twinform.ir.sensor import Sensor
+from twinform.ir.surface import Surface
+from twinform.ir.visual import Collision, Visual
+from twinform.ir.world import World
+
+__all__ = [
+    "Axis",
+    "Box",
+    "Capsule",
+    "Collision",
+    "Color",
+    "Cone",
+    "Cylinder",
+    "Document",
+    "Dynamics",
+    "Element",
+    "Ellipsoid",
+    "Empty",
+    "Format",
+    "Frame",
+    "GazeboExtension",
+    "Geometry",
+    "Heightmap",
+    "Image",
+    "Include",
+    "Inertia",
+    "Inertial",
+    "Joint",
+    "JointType",
+    "Light",
+    "Limit",
+    "Link",
+    "Material",
+    "Mesh",
+    "Mimic",
+    "Model",
+    "Node",
+    "Opaque",
+    "Plane",
+    "Plugin",
+    "Polyline",
+    "Pose",
+    "Quaternion",
+    "Script",
+    "Sensor",
+    "Shape",
+    "Sphere",
+    "Surface",
+    "Vector3",
+    "Visual",
+    "World",
+    "children_of",
+    "count_parts",
+    "walk",
+]

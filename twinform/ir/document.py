@@ -1,0 +1,30 @@
+"""A whole file."""
+
+from enum import StrEnum
+
+from twinform.ir.light import Light
+from twinform.ir.model import Include, Model
+from twinform.ir.node import Node
+from twinform.ir.world import World
+
+
+class Format(StrEnum):
+    """The two languages."""
+
+    URDF = "urdf"
+    SDF = "sdf"
+
+
+class Document(Node):
+    """All that one file holds, in the terms of `format`.
+
+    `version` is what the file says; `None` where it says nothing. `namespaces` are the prefixes that it declares.
+    """
+
+    format: Format
+    version: str | None = None
+    namespaces: tuple[tuple[str, str], ...] = ()
+    worlds: tuple[World, ...] = ()
+    models: tuple[Model, ...] = ()
+    lights: tuple[Light, ...] = ()
+    includes: tuple[Include, ...] = ()

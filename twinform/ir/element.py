@@ -1,0 +1,69 @@
+"""XML that the IR keeps as it is."""
+
+from collections.abc import Iterator
+from typing import Self
+
+from pydantic import BaseModel, ConfigDict
+
+Attributes = tuple[tuple[str, str], ...]
+
+
+class Element(BaseModel):
+    """A subtree without a typed form. Names are in Clark notation, `{namespace}name`, where they have a namespace.
+
+    `text` is the text before the first child and `tail` the text after the end tag, both stripped; `None` where blank.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    name: str
+    attributes: Attributes = ()
+    text: str | None = None
+    children: tuple[Self, ...] = ()
+    tail: str | None = None
+
+    def get(self, attribute: str) -> str | None:
+        """The value of an attribute, or None."""
+        return next((value for name, value in self.attributes if name == attribute), None)
+
+    def find(self, name: str) -> Self | None:
+        """The first child of this name, or None."""
+        return next((child for child in self.children if child.name == name), None)
+
+    def walk(self) -> Iterator[Self]:
+        """This element and all below it, in document order."""
+        yield self
+        for child in self.children:
+            yield from child.walk()
+
+    @property
+    def weight(self) -> int:
+        """How many elements and attributes it holds, itself included."""
+        return sum(1 + len(element.attributes) for element in self.walk())
+
+
+class Opaque(BaseModel):
+    """A part of a node that has no typed field: an element, an attribute or text, kept where it was.
+
+    `at` is the path from the node's own element to the one that holds the part, such as `limit`; `""` is the node's own.
+    Exactly one of `element`, `attribute` and `text` is there.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    at: str = ""
+    element: Element | None = None
+    attribute: tuple[str, str] | None = None
+    text: str | None = None
+
+    @property
+    def weight(self) -> int:
+        """How many elements and attributes it stands for."""
+        return self.element.weight if self.element else int(self.attribute is not None)
+
+    @property
+    def name(self) -> str:
+        """How to call it in a message."""
+        if self.element:
+            return f"<{self.element.name}>"
+        return f"@{self.attribute[0]}" if self.attribute else "text"

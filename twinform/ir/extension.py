@@ -1,0 +1,11 @@
+"""The `<gazebo>` elements of URDF."""
+
+from twinform.ir.element import Element
+from twinform.ir.node import Node
+
+
+class GazeboExtension(Node):
+    """What URDF cannot say itself and Gazebo reads: for the link or joint `reference`, or for the model where it has none."""
+
+    reference: str | None = None
+    content: tuple[Element, ...] = ()

@@ -1,0 +1,282 @@
+"""Where everything is: the frames of a model or world, and what they are relative to."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal
+
+from twinform.diagnostics import Location, Notes, Rule
+from twinform.diagnostics.rules import frames as rules
+from twinform.ir.frame import Frame
+from twinform.ir.joint import Joint
+from twinform.ir.link import Link
+from twinform.ir.model import Include, Model
+from twinform.ir.pose import Pose
+from twinform.ir.transform import Transform
+from twinform.ir.world import World
+
+Kind = Literal["link", "joint", "frame", "model", "world"]
+MODEL = "__model__"
+WORLD = "world"
+
+_IDENTITY = Transform()
+_NEAR = 64
+"""Frames that are at most so many steps apart are resolved along the way between them, which keeps the numbers of the
+file; others over the root, where each frame is resolved once."""
+
+
+class FrameError(Exception):
+    """A frame that cannot be resolved."""
+
+    def __init__(self, rule: Rule, message: str, location: Location, found: str) -> None:
+        super().__init__(message)
+        self.rule = rule
+        self.message = message
+        self.location = location
+        self.found = found
+
+    def report(self, notes: Notes) -> None:
+        """Say it as a diagnostic."""
+        notes.report(self.rule, self.message, self.location, found=self.found)
+
+
+@dataclass(slots=True, eq=False)
+class _Vertex:
+    """A frame. `base` names the frame that its pose is in and `moves_with` the one that it is attached to.
+
+    Both are names in `scope`; the rest is filled in when it is first asked for.
+    """
+
+    kind: Kind
+    name: str
+    scope: str
+    pose: Pose | None
+    base: str
+    base_kind: Kind
+    moves_with: str
+    location: Location
+    inside: str = ""
+    placement: str | None = None
+    parent: "_Vertex | None" = None
+    depth: int = -1
+    local: Transform | None = None
+    in_root: Transform | None = None
+    body: "_Vertex | None" = None
+    visiting: bool = False
+
+
+class FrameGraph:
+    """The frames of one model or world, by the names that stand in its own scope (`inner::link` for nested ones).
+
+    Poses mean what they mean in SDF 1.12: a link's is relative to `__model__`, a joint's to its child, a frame's to what
+    it is attached to, unless they name another frame. In URDF a link and a joint may share a name: the frame that a
+    link's pose names is then the joint, and the other way round. Every question is answered in time linear in the
+    frames that it is the first to touch; nothing recurses over them.
+    """
+
+    def __init__(self, holder: Model | World) -> None:
+        self._named: dict[str, list[_Vertex]] = {}
+        if isinstance(holder, World):
+            self.root = self._add(_vertex("world", "", WORLD, holder.location))
+            self._add_members(holder.frames, holder.joints, "", WORLD)
+            self._add_inner(holder.models, holder.includes, "", WORLD)
+        else:
+            self.root = self._add(_vertex("model", "", MODEL, holder.location, moves_with=_canonical(holder)))
+            self._add_links(holder.links, "")
+            self._add_members(holder.frames, holder.joints, "", MODEL)
+            self._add_inner(holder.models, holder.includes, "", MODEL)
+            self._add_world_around(holder)
+
+    def pose(self, name: str, relative_to: str, *, kind: Kind = "link", base: Kind = "link") -> Transform:
+        """Where a frame is in another one. The kinds decide between frames that share a name.
+
+        Raises:
+            FrameError: a name is not known, or the frames go round in a circle.
+        """
+        return self._between(self._find(name, kind), self._find(relative_to, base))
+
+    def resolve(
+        self, pose: Pose | None, holder: str, relative_to: str, *, kind: Kind = "link", base: Kind = "link"
+    ) -> Transform:
+        """Where a pose is, which is in the frame of `holder` (of this kind) unless it names another.
+
+        Raises:
+            FrameError: a name is not known, or the frames go round in a circle.
+        """
+        if pose is not None and pose.relative_to:
+            start = self._find(pose.relative_to, "joint", pose.location)
+        else:
+            start = self._find(holder, kind)
+        return self._between(start, self._find(relative_to, base)).compose(Transform.from_pose(pose))
+
+    def body(self, name: str, *, kind: Kind = "link", location: Location | None = None) -> str:
+        """The link that a frame moves with; `world`, or `__model__` of a model without links, where there is none.
+
+        Raises:
+            FrameError: a name is not known, or the frames go round in a circle.
+        """
+        return self._body(self._find(name, kind, location)).name
+
+    def knows(self, name: str) -> bool:
+        """Whether a name stands for a frame."""
+        return name in self._named
+
+    def _add_links(self, links: Iterable[Link], scope: str) -> None:
+        for link in links:
+            base = _base(link.pose, MODEL)
+            self._add(_Vertex("link", scope + link.name, scope, link.pose, base, "joint", "", link.location))
+
+    def _add_members(self, frames: Iterable[Frame], joints: Iterable[Joint], scope: str, around: str) -> None:
+        for joint in joints:
+            child = joint.child or around
+            base = _base(joint.pose, child)
+            self._add(_Vertex("joint", scope + joint.name, scope, joint.pose, base, "link", child, joint.location))
+        for frame in frames:
+            holder = frame.attached_to or around
+            base = _base(frame.pose, holder)
+            self._add(_Vertex("frame", scope + frame.name, scope, frame.pose, base, "link", holder, frame.location))
+
+    def _add_inner(self, models: Iterable[Model], includes: Iterable[Include], scope: str, around: str) -> None:
+        """Nested models, from the outside in; an include that was not expanded has at least a place."""
+        for include in includes:
+            if include.name is not None and include.placement_frame is None:
+                base = _base(include.pose, around)
+                name = scope + include.name
+                self._add(_Vertex("model", name, scope, include.pose, base, "link", around, include.location))
+        stack = [(model, scope, around) for model in models]
+        while stack:
+            model, scope, around = stack.pop()
+            inside = f"{scope}{model.name}::"
+            base, body = _base(model.pose, around), f"{model.name}::{_canonical(model)}"
+            vertex = _Vertex("model", scope + model.name, scope, model.pose, base, "link", body, model.location, inside)
+            vertex.placement = model.placement_frame
+            self._add(vertex)
+            self._named.setdefault(inside + MODEL, []).append(vertex)
+            self._add_links(model.links, inside)
+            self._add_members(model.frames, model.joints, inside, MODEL)
+            self._add_inner((), model.includes, inside, MODEL)
+            stack.extend((nested, inside, MODEL) for nested in model.models)
+
+    def _add_world_around(self, model: Model) -> None:
+        """The world of a model that is looked at alone is one more frame in it: nothing else depends on its pose."""
+        world = self._add(_vertex("world", "", WORLD, model.location))
+        world.parent, world.depth = self.root, 1
+        pose = Transform.from_pose(model.pose)
+        if model.placement_frame:
+            placed = self._between(self._find(model.placement_frame, "frame", model.location), self.root)
+            pose = pose.compose(placed.inverse())
+        world.local = pose.inverse()
+
+    def _add(self, vertex: _Vertex) -> _Vertex:
+        self._named.setdefault(vertex.name, []).append(vertex)
+        return vertex
+
+    def _find(self, name: str, kind: Kind, location: Location | None = None, scope: str = "") -> _Vertex:
+        found = self._named.get(name if name == WORLD else scope + name)
+        if not found:
+            where = location or self.root.location
+            raise FrameError(rules.DANGLING_FRAME, f"there is no frame {scope + name!r}", where, name)
+        return next((vertex for vertex in found if vertex.kind == kind), found[0])
+
+    def _parent(self, vertex: _Vertex) -> _Vertex:
+        if vertex.parent is None:
+            vertex.parent = self._find(vertex.base, vertex.base_kind, vertex.location, vertex.scope)
+        return vertex.parent
+
+    def _settle(self, vertex: _Vertex) -> None:
+        """Give the vertex and all above it their depth."""
+        path: list[_Vertex] = []
+        self.root.depth = 0
+        try:
+            while vertex.depth < 0:
+                if vertex.visiting:
+                    raise _circle(path[path.index(vertex) :], "is given relative to")
+                vertex.visiting = True
+                path.append(vertex)
+                vertex = self._parent(vertex)
+        finally:
+            for each in path:
+                each.visiting = False
+        for each in reversed(path):
+            each.depth = vertex.depth + 1
+            vertex = each
+
+    def _local(self, vertex: _Vertex) -> Transform:
+        """The vertex in its parent."""
+        if vertex.local is None:
+            vertex.local = Transform.from_pose(vertex.pose)
+            if vertex.placement:
+                placed = self._find(vertex.placement, "frame", vertex.location, vertex.inside)
+                vertex.local = vertex.local.compose(self._between(placed, vertex).inverse())
+        return vertex.local
+
+    def _between(self, start: _Vertex, base: _Vertex) -> Transform:
+        if start is base:
+            return _IDENTITY
+        self._settle(start)
+        self._settle(base)
+        in_common, base_in_common = _IDENTITY, _IDENTITY
+        first, second = start, base
+        for _ in range(_NEAR):
+            if first is second:
+                return base_in_common.inverse().compose(in_common)
+            if first.depth >= second.depth:
+                in_common, first = self._local(first).compose(in_common), self._parent(first)
+            else:
+                base_in_common, second = self._local(second).compose(base_in_common), self._parent(second)
+        return self._in_root(base).inverse().compose(self._in_root(start))
+
+    def _in_root(self, vertex: _Vertex) -> Transform:
+        path: list[_Vertex] = []
+        self.root.in_root = _IDENTITY
+        while vertex.in_root is None:
+            path.append(vertex)
+            vertex = self._parent(vertex)
+        transform = vertex.in_root
+        for each in reversed(path):
+            transform = each.in_root = transform.compose(self._local(each))
+        return transform
+
+    def _body(self, vertex: _Vertex) -> _Vertex:
+        path: list[_Vertex] = []
+        try:
+            while vertex.body is None and vertex.moves_with:
+                if vertex.visiting:
+                    raise _circle(path[path.index(vertex) :], "is attached to")
+                vertex.visiting = True
+                path.append(vertex)
+                vertex = self._find(vertex.moves_with, "link", vertex.location, vertex.scope)
+        finally:
+            for each in path:
+                each.visiting = False
+        body = vertex.body or vertex
+        for each in path:
+            each.body = body
+        return body
+
+
+def _vertex(kind: Kind, scope: str, name: str, location: Location, moves_with: str = "") -> _Vertex:
+    return _Vertex(kind, name, scope, None, "", "model", moves_with, location)
+
+
+def _base(pose: Pose | None, default: str) -> str:
+    return pose.relative_to if pose is not None and pose.relative_to else default
+
+
+def _canonical(model: Model) -> str:
+    """The link that a model's own frame moves with, as a name in the model; empty where it has none."""
+    if model.canonical_link:
+        return model.canonical_link
+    prefix = ""
+    while not model.links and model.models:
+        model = model.models[0]
+        prefix += f"{model.name}::"
+        if model.canonical_link:
+            return prefix + model.canonical_link
+    return prefix + model.links[0].name if model.links else ""
+
+
+def _circle(path: list[_Vertex], relation: str) -> FrameError:
+    names = [f"{vertex.kind} {vertex.name!r}" for vertex in path[:6]]
+    names += ["..."] if len(path) > len(names) else [names[0]]
+    start = path[0]
+    return FrameError(rules.FRAME_CYCLE, f" {relation} ".join(names), start.location, start.name)

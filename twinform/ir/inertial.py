@@ -1,0 +1,24 @@
+"""Mass and its distribution."""
+
+from twinform.ir.node import Node
+from twinform.ir.pose import Pose
+
+
+class Inertia(Node):
+    """The rotational inertia about the centre of mass, in the axes of the inertial frame, kg m^2."""
+
+    ixx: float | None = None
+    ixy: float | None = None
+    ixz: float | None = None
+    iyy: float | None = None
+    iyz: float | None = None
+    izz: float | None = None
+
+
+class Inertial(Node):
+    """The mass (kg) of a link; `pose` puts the centre of mass and the axes of `inertia` in the link frame."""
+
+    pose: Pose | None = None
+    mass: float | None = None
+    inertia: Inertia | None = None
+    auto: bool | None = None

@@ -1,0 +1,165 @@
+"""Rigid transforms."""
+
+import math
+from dataclasses import dataclass, field
+from typing import Self
+
+from twinform.ir.node import Quaternion, Vector3
+from twinform.ir.pose import Pose
+
+Matrix3 = tuple[float, float, float, float, float, float, float, float, float]
+"""A rotation, row by row."""
+
+_ORIGIN: Vector3 = (0.0, 0.0, 0.0)
+_UNTURNED: Matrix3 = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+_GIMBAL_LOCK = 1e-15
+"""Below this cosine of the pitch, roll and yaw turn about one axis to the last digit, and yaw is taken as zero."""
+
+
+@dataclass(frozen=True, slots=True)
+class Transform:
+    """Where one frame is in another: a point p of it is at `rotation` p + `translation` in the other, in metres.
+
+    `notation` is the pose that these numbers were written as; composing with the identity keeps it, so that what was
+    not moved is written as it was read.
+    """
+
+    translation: Vector3 = _ORIGIN
+    rotation: Matrix3 = _UNTURNED
+    notation: Pose | None = field(default=None, compare=False, repr=False)
+
+    @classmethod
+    def from_pose(cls, pose: Pose | None) -> Self:
+        """The transform that a pose says; its frame (`relative_to`) is not looked at."""
+        if pose is None:
+            return cls()
+        return cls(_plus_zero(pose.xyz or _ORIGIN), _rotation(pose), pose)
+
+    def to_pose(self, relative_to: str | None = None) -> Pose:
+        """The pose, in the notation that it was read in, or else with the angles in radians. Zeros are left out."""
+        written = self.notation
+        if written is not None:
+            return written.model_copy(update={"relative_to": relative_to, "opaque": ()})
+        xyz = self.translation if self.translation != _ORIGIN else None
+        rpy = self.rpy() if self.rotation != _UNTURNED else None
+        return Pose(xyz=xyz, rpy=rpy, relative_to=relative_to)
+
+    @property
+    def is_identity(self) -> bool:
+        """Whether it is exactly the identity."""
+        return self.rotation == _UNTURNED and self.translation == _ORIGIN
+
+    def compose(self, inner: "Transform") -> "Transform":
+        """The transform of `inner`, which is in the frame that this one places, to the frame that this one is in."""
+        if self.is_identity:
+            return inner
+        if inner.is_identity:
+            return self
+        return Transform(self.apply(inner.translation), _product(self.rotation, inner.rotation))
+
+    def inverse(self) -> "Transform":
+        """The other frame in this one."""
+        if self.is_identity:
+            return self
+        back = _transpose(self.rotation)
+        x, y, z = _turn(back, self.translation)
+        return Transform(_plus_zero((-x, -y, -z)), back)
+
+    def apply(self, point: Vector3) -> Vector3:
+        """A point of the inner frame in the outer one."""
+        x, y, z = self.rotate(point)
+        return (x + self.translation[0], y + self.translation[1], z + self.translation[2])
+
+    def rotate(self, direction: Vector3) -> Vector3:
+        """A direction of the inner frame in the outer one."""
+        return _turn(self.rotation, direction)
+
+    def rpy(self) -> Vector3:
+        """Roll, pitch and yaw in radians, which give the rotation back to the last digits at every pitch."""
+        r00, r01, r02, r10, r11, r12, r20, _, _ = self.rotation
+        yaw = math.atan2(r10, r00) if math.hypot(r00, r10) > _GIMBAL_LOCK else 0.0
+        cosine, sine = math.cos(yaw), math.sin(yaw)
+        # Roll and pitch are read from the rotation with the yaw taken back, where neither loses digits near +-90 deg:
+        # Rz(-yaw) R = Ry(pitch) Rx(roll) has the middle row 0, cos(roll), -sin(roll).
+        pitch = math.atan2(-r20, cosine * r00 + sine * r10)
+        roll = math.atan2(sine * r02 - cosine * r12, cosine * r11 - sine * r01)
+        return _plus_zero((roll, pitch, yaw))
+
+    def quaternion(self) -> Quaternion:
+        """The rotation as a unit quaternion x, y, z, w."""
+        r00, r01, r02, r10, r11, r12, r20, r21, r22 = self.rotation
+        # the four squares times four; the largest is at least one, so that no digits are lost in the division
+        squares = (1 + r00 - r11 - r22, 1 - r00 + r11 - r22, 1 - r00 - r11 + r22, 1 + r00 + r11 + r22)
+        largest = squares.index(max(squares))
+        rows = (
+            (squares[0], r01 + r10, r02 + r20, r21 - r12),
+            (r01 + r10, squares[1], r12 + r21, r02 - r20),
+            (r02 + r20, r12 + r21, squares[2], r10 - r01),
+            (r21 - r12, r02 - r20, r10 - r01, squares[3]),
+        )
+        x, y, z, w = rows[largest]
+        return _unit((x, y, z, w))
+
+
+def _plus_zero(vector: Vector3) -> Vector3:
+    """The same vector with 0 for -0, which would be written as such."""
+    return (vector[0] + 0.0, vector[1] + 0.0, vector[2] + 0.0)
+
+
+def _rotation(pose: Pose) -> Matrix3:
+    if pose.quat_xyzw is not None:
+        return _from_quaternion(pose.quat_xyzw)
+    if pose.rpy is None or pose.rpy == _ORIGIN:
+        return _UNTURNED
+    roll, pitch, yaw = map(math.radians, pose.rpy) if pose.degrees else pose.rpy
+    cr, sr = math.cos(roll), math.sin(roll)
+    cp, sp = math.cos(pitch), math.sin(pitch)
+    cy, sy = math.cos(yaw), math.sin(yaw)
+    return (
+        cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr,
+        sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr,
+        -sp, cp * sr, cp * cr,
+    )  # fmt: skip
+
+
+def _from_quaternion(quaternion: Quaternion) -> Matrix3:
+    x, y, z, w = _unit(quaternion)
+    if (x, y, z) == _ORIGIN:
+        return _UNTURNED
+    return (
+        1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w),
+        2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
+        2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y),
+    )  # fmt: skip
+
+
+def _unit(quaternion: Quaternion) -> Quaternion:
+    """The quaternion with length one; no rotation where it has no length."""
+    length = math.hypot(*quaternion)
+    if length == 0.0:
+        return (0.0, 0.0, 0.0, 1.0)
+    x, y, z, w = quaternion
+    return (x / length, y / length, z / length, w / length)
+
+
+def _turn(m: Matrix3, v: Vector3) -> Vector3:
+    if m is _UNTURNED:
+        return v
+    x, y, z = v
+    return (m[0] * x + m[1] * y + m[2] * z, m[3] * x + m[4] * y + m[5] * z, m[6] * x + m[7] * y + m[8] * z)
+
+
+def _transpose(m: Matrix3) -> Matrix3:
+    return m if m is _UNTURNED else (m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8])
+
+
+def _product(a: Matrix3, b: Matrix3) -> Matrix3:
+    if a is _UNTURNED:
+        return b
+    if b is _UNTURNED:
+        return a
+    return (
+        a[0] * b[0] + a[1] * b[3] + a[2] * b[6], a[0] * b[1] + a[1] * b[4] + a[2] * b[7], a[0] * b[2] + a[1] * b[5] + a[2] * b[8],
+        a[3] * b[0] + a[4] * b[3] + a[5] * b[6], a[3] * b[1] + a[4] * b[4] + a[5] * b[7], a[3] * b[2] + a[4] * b[5] + a[5] * b[8],
+        a[6] * b[0] + a[7] * b[3] + a[8] * b[6], a[6] * b[1] + a[7] * b[4] + a[8] * b[7], a[6] * b[2] + a[7] * b[5] + a[8] * b[8],
+    )  # fmt: skip

@@ -1,0 +1,189 @@
+"""Whether a document makes sense beyond its schema: names, references, trees."""
+
+from collections import Counter
+from collections.abc import Callable, Iterable
+
+from twinform.diagnostics import Location, Notes, Rule
+from twinform.diagnostics.rules import model as rules
+from twinform.ir.document import Document, Format
+from twinform.ir.joint import Axis, Joint
+from twinform.ir.model import Model
+from twinform.ir.node import Node
+from twinform.ir.world import World
+
+_MOVES = frozenset({"revolute", "continuous", "prismatic", "planar", "screw"})
+_NEEDS_LIMIT = frozenset({"revolute", "prismatic"})
+
+
+def verify(document: Document, notes: Notes) -> None:
+    """Report what is wrong with a document, in the order of its parts."""
+    verify_model = _verify_robot if document.format is Format.URDF else _verify_sdf_model
+    for world in document.worlds:
+        _verify_world(world, notes)
+    for model in (*document.models, *(model for world in document.worlds for model in world.models)):
+        verify_model(model, notes)
+
+
+def _verify_robot(model: Model, notes: Notes) -> None:
+    """The rules of URDF, which describes one tree."""
+    for kind, nodes in (("link", model.links), ("joint", model.joints)):
+        _report_names(kind, nodes, notes)
+    _report_materials(model, notes)
+    links = {link.name for link in model.links}
+    for joint in model.joints:
+        _verify_joint(joint, links, notes)
+        if joint.type in _NEEDS_LIMIT and (joint.axis is None or joint.axis.limit is None):
+            message = f"{joint.type} joint {joint.name!r} has no <limit>"
+            notes.report(rules.MISSING_LIMIT, message, joint.location, expected="<limit>")
+    _verify_tree(model, links, notes)
+    known = links | {joint.name for joint in model.joints}
+    for extension in model.extensions:
+        if extension.reference and extension.reference not in known:
+            where = extension.location.at("@reference")
+            message = f"<gazebo> refers to {extension.reference!r}, which is neither a link nor a joint"
+            notes.report(rules.UNKNOWN_REFERENCE, message, where, found=extension.reference)
+
+
+def _verify_tree(model: Model, links: set[str], notes: Notes) -> None:
+    if not links:
+        notes.report(rules.NO_LINKS, f"robot {model.name!r} has no link", model.location, expected="<link>")
+        return
+    parents: dict[str, Joint] = {}
+    for joint in model.joints:
+        if joint.child is None or joint.child not in links:
+            continue
+        if joint.child in parents:
+            first = parents[joint.child]
+            message = f"link {joint.child!r} is the child of joint {first.name!r} and of joint {joint.name!r}"
+            notes.report(rules.TWO_PARENTS, message, joint.location, related=(first.location,))
+        parents.setdefault(joint.child, joint)
+    roots = [link for link in model.links if link.name not in parents]
+    if len(roots) > 1:
+        names = ", ".join(repr(link.name) for link in roots[:5])
+        message = f"robot {model.name!r} has {len(roots)} root links: {names}{', ...' if len(roots) > 5 else ''}"  # noqa: PLR2004 - enough to find them
+        notes.report(rules.SEVERAL_ROOTS, message, roots[1].location, related=tuple(link.location for link in roots[2:5]))
+    for joint in _circles(parents):
+        message = f"joint {joint.name!r} closes a circle of joints through link {joint.child!r}"
+        notes.report(rules.KINEMATIC_LOOP, message, joint.location)
+
+
+def _circles(parents: dict[str, Joint]) -> list[Joint]:
+    """One joint of each circle; every link is walked over once."""
+    settled: set[str] = set()
+    found: list[Joint] = []
+    for start in parents:
+        path: dict[str, Joint] = {}
+        link = start
+        while link in parents and link not in settled and link not in path:
+            path[link] = parents[link]
+            link = parents[link].parent or ""
+        if link in path:
+            found.append(path[link])
+        settled.update(path)
+    return found
+
+
+def _verify_joint(joint: Joint, links: set[str], notes: Notes) -> None:
+    for end, name in (("parent", joint.parent), ("child", joint.child)):
+        if name is not None and name not in links:
+            message = f"joint {joint.name!r} has the {end} {name!r}, which is no link"
+            notes.report(rules.DANGLING_LINK, message, joint.location.at(end), found=name)
+    _verify_joint_itself(joint, notes)
+
+
+def _verify_joint_itself(joint: Joint, notes: Notes) -> None:
+    if joint.parent is not None and joint.parent == joint.child:
+        message = f"joint {joint.name!r} connects {joint.parent!r} to itself"
+        notes.report(rules.SELF_JOINT, message, joint.location, found=joint.parent)
+    for name, axis in (("axis", joint.axis), ("axis2", joint.axis2)):
+        if axis is not None:
+            _verify_axis(joint, axis, joint.location.at(name), notes)
+
+
+def _verify_axis(joint: Joint, axis: Axis, where: Location, notes: Notes) -> None:
+    if joint.type in _MOVES and axis.xyz is not None and not any(axis.xyz):
+        notes.report(rules.ZERO_AXIS, f"the axis of joint {joint.name!r} has length zero", where, found="0 0 0")
+    limit = axis.limit
+    if limit is None or limit.lower is None or limit.upper is None or joint.type == "continuous":
+        return
+    if limit.lower > limit.upper:
+        message = f"joint {joint.name!r} has the lower limit {limit.lower:g} above the upper limit {limit.upper:g}"
+        notes.report(rules.LOWER_ABOVE_UPPER, message, limit.location, found=f"{limit.lower:g}")
+
+
+def _report_materials(model: Model, notes: Notes) -> None:
+    _report_names("material", [material for material in model.materials if material.name], notes)
+    defined = {material.name for material in model.materials}
+    visuals = [visual for link in model.links for visual in link.visuals if visual.material]
+    said = {v.material.name for v in visuals if v.material and (v.material.color or v.material.texture)}
+    for visual in visuals:
+        material = visual.material
+        if material is None or material.color or material.texture or not material.name:
+            continue
+        if material.name not in defined and material.name not in said:
+            message = f"material {material.name!r} is not defined"
+            notes.report(rules.UNKNOWN_MATERIAL, message, material.location, found=material.name)
+
+
+def _verify_sdf_model(model: Model, notes: Notes) -> None:
+    """The rules of SDF, where links, joints, frames and nested models share one scope."""
+    kinds = (("link", model.links), ("joint", model.joints), ("frame", model.frames), ("model", model.models))
+    _report_scope(kinds, notes)
+    for link in model.links:
+        for kind, nodes in (("visual", link.visuals), ("collision", link.collisions), ("sensor", link.sensors)):
+            _report_names(kind, [node for node in nodes if node.name], notes)
+    known = {node.name for _, nodes in kinds for node in nodes}
+    open_scope = bool(model.includes)  # an include adds names that only its file knows
+    for joint in model.joints:
+        _verify_sdf_joint(joint, lambda name: open_scope or name in known or "::" in name, notes)
+    if not (model.links or model.models or model.includes or model.static):
+        message = f"model {model.name!r} has no link"
+        notes.report(rules.EMPTY_MODEL, message, model.location, expected="<link>")
+    for nested in model.models:
+        _verify_sdf_model(nested, notes)
+
+
+def _verify_sdf_joint(joint: Joint, known: Callable[[str], bool], notes: Notes) -> None:
+    for end, name in (("parent", joint.parent), ("child", joint.child)):
+        if name is None or name == "world" or name.startswith("__") or known(name):
+            continue
+        message = f"joint {joint.name!r} has the {end} {name!r}, which is no link or frame of the model"
+        notes.report(rules.DANGLING_LINK, message, joint.location.at(end), found=name)
+    if joint.child == "world":
+        notes.report(rules.WORLD_CHILD, f"joint {joint.name!r} has the child 'world'", joint.location.at("child"))
+    _verify_joint_itself(joint, notes)
+
+
+def _verify_world(world: World, notes: Notes) -> None:
+    kinds = (("model", world.models), ("light", world.lights), ("frame", world.frames), ("joint", world.joints))
+    _report_scope(kinds, notes)
+
+
+def _report_scope(kinds: Iterable[tuple[str, Iterable[Node]]], notes: Notes) -> None:
+    owners: dict[str, tuple[str, Node]] = {}
+    for kind, nodes in kinds:
+        named = [node for node in nodes if getattr(node, "name", None) is not None]
+        _report_names(kind, named, notes)
+        for node in named:
+            name = str(getattr(node, "name", ""))
+            if name == "world" or (name.startswith("__") and name.endswith("__")):
+                message = f"{kind} {name!r} has a name that SDF keeps for itself"
+                notes.report(rules.RESERVED_NAME, message, node.location, found=name)
+            other, first = owners.setdefault(name, (kind, node))
+            if other != kind:
+                message = f"{kind} {name!r} has the name of a {other}"
+                notes.report(rules.SHARED_NAME, message, node.location, found=name, related=(first.location,))
+
+
+def _report_names(kind: str, nodes: Iterable[Node], notes: Notes) -> None:
+    listed = list(nodes)
+    names: list[str] = [getattr(node, "name", "") for node in listed]
+    several: dict[str, Rule] = {name: rules.DUPLICATE_NAME for name, count in Counter(names).items() if count > 1}
+    seen: dict[str, Node] = {}
+    for name, node in zip(names, listed, strict=True):
+        if not name and kind in {"link", "joint", "model", "frame"}:
+            notes.report(rules.EMPTY_NAME, f"a {kind} has an empty name", node.location)
+        if name in several and name in seen:
+            message = f"{kind} {name!r} is there twice"
+            notes.report(rules.DUPLICATE_NAME, message, node.location, found=name, related=(seen[name].location,))
+        seen.setdefault(name, node)
