@@ -1,0 +1,220 @@
+"""The facts tables: what each format's elements and attributes are, in which versions, and where the IR keeps them.
+
+A table is a folder of `.facts` files. A line without indent opens a *definition*, an element type that others refer to;
+below it stand rows, two blanks deeper for each level:
+
+    joint
+      @name            1  string                       -> name
+      axis             ?                               -> axis
+        xyz            ?  vector3   default="0 0 1"    -> xyz
+          @expressed_in  ?  string  since=1.7          -> expressed_in
+      pose             ?  &pose                        -> pose
+
+A row is a name (`@` marks an attribute), a count (`1`, `?`, `*`, `+`), a value type or a `&definition` (neither: a
+container), then keys (`default`, `min`, `max`, `enum`, `since`, `until`, `unit`), flags (`any`: free content,
+`deprecated`) and the place in the IR:
+
+* `-> field`: a leaf's value, or a container as a node of its own; where it repeats they make a tuple;
+* `-> field[]`: a tuple even where this version has at most one;
+* `-> outer.field`: the same, one node further in;
+* `-> field:kind`: one of several elements that share a field and differ by kind;
+* `-> /field`: a field of the document around the root's node;
+* `-> .`: a container that makes no node: its rows fill the node around it;
+* nothing: the subtree is kept as an opaque element.
+"""
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from functools import cache
+from importlib import resources
+
+Version = tuple[int, int]
+
+_LINE = re.compile(r"(?P<indent> *)(?P<name>@?[\w.]+)(?P<rest>.*)")
+_WORD = re.compile(r'->\s*\S+|\w+=(?:"[^"]*"|\S+)|\S+')
+_COUNTS = frozenset("1?*+")
+_FLAGS = frozenset({"any", "deprecated"})
+
+
+@dataclass(slots=True)
+class Fact:
+    """One row: an element or, where the name begins with `@`, an attribute."""
+
+    name: str
+    count: str = "1"
+    type: str | None = None
+    reference: str | None = None
+    place: str | None = None
+    kind: str | None = None
+    default: str | None = None
+    enum: tuple[str, ...] = ()
+    min: float | None = None
+    max: float | None = None
+    unit: str | None = None
+    since: Version = (0, 0)
+    until: Version = (99, 99)
+    any: bool = False
+    deprecated: bool = False
+    many: bool = False
+    rows: list["Fact"] = field(default_factory=list["Fact"])
+
+    @property
+    def is_attribute(self) -> bool:
+        """Whether it is an attribute rather than an element."""
+        return self.name.startswith("@")
+
+    @property
+    def required(self) -> bool:
+        """Whether it must be written."""
+        return self.count in "1+"
+
+    @property
+    def needs_text(self) -> bool:
+        """Whether blank text is a gap, and not another way to write the default."""
+        return self.required and self.default is None
+
+    @property
+    def repeats(self) -> bool:
+        """Whether it may be written more than once."""
+        return self.count in "*+"
+
+    @property
+    def fills_tuple(self) -> bool:
+        """Whether its field in the IR is a tuple of nodes or values."""
+        return (self.repeats or self.many) and self.kind is None
+
+    @property
+    def attributes(self) -> list["Fact"]:
+        """The rows of its attributes."""
+        return [row for row in self.rows if row.is_attribute]
+
+    @property
+    def children(self) -> list["Fact"]:
+        """The rows of its child elements."""
+        return [row for row in self.rows if not row.is_attribute]
+
+    def exists_in(self, version: Version) -> bool:
+        """Whether this version of the format has it."""
+        return self.since <= version <= self.until
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """The facts of one format: definitions by name, the root's first."""
+
+    format: str
+    versions: tuple[str, ...]
+    root: str
+    definitions: dict[str, Fact]
+
+    def resolve(self, row: Fact) -> Fact:
+        """The fact that holds a row's rows: the definition that it refers to, or itself."""
+        return self.definitions[row.reference] if row.reference else row
+
+    @property
+    def newest(self) -> Version:
+        """The newest version that the table knows."""
+        return parse_version(self.versions[-1])
+
+
+def parse_version(text: str) -> Version:
+    """`1.10` as (1, 10).
+
+    Raises:
+        ValueError: it is not two whole numbers with a dot between them.
+    """
+    major, minor = text.split(".")
+    return int(major), int(minor)
+
+
+def print_version(version: Version) -> str:
+    """The inverse of `parse_version`."""
+    return f"{version[0]}.{version[1]}"
+
+
+_TABLES = {
+    "urdf": ("robot", ("1.0", "1.1", "1.2")),
+    "sdf": ("sdf", ("1.2", "1.3", "1.4", "1.5", "1.6", "1.7", "1.8", "1.9", "1.10", "1.11", "1.12")),
+}
+
+
+@cache
+def table(format: str) -> Table:  # noqa: A002 - the word of the domain
+    """The facts of `urdf` or `sdf`."""
+    root, versions = _TABLES[format]
+    folder = resources.files("twinform.schemas").joinpath(format, "facts")
+    files = sorted((file for file in folder.iterdir() if file.name.endswith(".facts")), key=lambda file: file.name)
+    definitions: dict[str, Fact] = {}
+    for file in files:
+        for definition in parse_facts(file.read_text(encoding="utf-8").splitlines(), file.name):
+            if definition.name in definitions:
+                raise ValueError(f"{file.name}: {definition.name} is defined twice")
+            definitions[definition.name] = definition
+    return Table(format, versions, root, definitions)
+
+
+def parse_facts(lines: Iterable[str], name: str) -> Iterator[Fact]:
+    """The definitions in the lines of a `.facts` file.
+
+    Raises:
+        ValueError: a line is not in the notation; the message names it.
+    """
+    stack: list[Fact] = []
+    for number, line in enumerate(lines, 1):
+        if not line.strip() or line.lstrip().startswith("#"):
+            continue
+        match = _LINE.fullmatch(line.rstrip())
+        depth, odd = divmod(len(match["indent"]), 2) if match else (0, 1)
+        if not match or odd or depth > len(stack):
+            raise ValueError(f"{name}:{number}: not a row of a facts table: {line!r}")
+        fact = _fact(match["name"], _WORD.findall(match["rest"]), f"{name}:{number}")
+        if depth == 0:
+            if stack:
+                yield stack[0]
+        else:
+            stack[depth - 1].rows.append(fact)
+        stack[depth:] = [fact]
+    if stack:
+        yield stack[0]
+
+
+def _fact(name: str, words: list[str], where: str) -> Fact:
+    fact = Fact(name)
+    for word in words:
+        key, equals, value = word.partition("=")
+        if word.startswith("->"):
+            place, _, kind = word[2:].strip().partition(":")
+            fact.place, fact.kind, fact.many = place.removesuffix("[]"), kind or None, place.endswith("[]")
+        elif word in _COUNTS:
+            fact.count = word
+        elif word in _FLAGS:
+            setattr(fact, word, True)
+        elif word.startswith("&"):
+            fact.reference = word[1:]
+        elif equals:
+            _set(fact, key, value.strip('"'), where)
+        elif fact.type is None:
+            fact.type = word
+        else:
+            raise ValueError(f"{where}: {word!r} is not known here")
+    return fact
+
+
+def _set(fact: Fact, key: str, value: str, where: str) -> None:
+    match key:
+        case "default" | "unit":
+            setattr(fact, key, value)
+        case "min" | "max":
+            setattr(fact, key, float(value.split()[0]))  # of a vector, all components have one bound
+        case "since" | "until":
+            setattr(fact, key, parse_version(value))
+        case "enum":
+            fact.enum = tuple(value.split("|"))
+        case _:
+            raise ValueError(f"{where}: {key!r} is not a key of a facts table")
+
+
+def in_version(fact: Fact, version: Version) -> Fact:
+    """A copy of the fact with only the rows that a version has, all the way down."""
+    return replace(fact, rows=[in_version(row, version) for row in fact.rows if row.exists_in(version)])

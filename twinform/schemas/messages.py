@@ -1,0 +1,129 @@
+"""The words of the table pass: one function for each finding, so that the hot path holds none of them."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+
+from twinform.diagnostics import Location, Notes, Rule
+from twinform.diagnostics.rules import structure
+from twinform.schemas.facts import Fact, Version, print_version
+from twinform.schemas.xml import XmlElement, path_of
+
+_ESSENTIAL = frozenset({"parent", "child"})
+"""Elements without which no reader, not even the most forgiving, makes sense of the file."""
+
+
+@dataclass(slots=True)
+class Context:
+    """One run of the table pass over one document.
+
+    `tolerated` holds the elements, and the attributes and texts of elements, that are reported and kept although the
+    schema does not have them: the gate looks at the document without them. `#text` is the text in an element,
+    `#tail` the one that follows it. `header` holds what the root element says about the document rather than about its
+    node.
+    """
+
+    notes: Notes
+    file: str
+    format: str
+    version: Version
+    tolerated: list[tuple[XmlElement, str | None]] = field(default_factory=list[tuple[XmlElement, str | None]])
+    structural: int = 0
+    namespaces: dict[str, str] = field(default_factory=dict[str, str])
+    header: dict[str, object] = field(default_factory=dict[str, object])
+
+    def report(self, rule: Rule, element: XmlElement, message: str, step: str = "", **more: str | None) -> None:
+        """Report at an element, or at a step below it."""
+        path = path_of(element) + (f"/{step}" if step else "")
+        self.structural += rule is not structure.OUT_OF_RANGE
+        self.notes.report(rule, message, Location(self.file, element.sourceline or 0, path), **more)
+
+
+def unknown_element(context: Context, element: XmlElement, known: Iterable[str]) -> None:
+    """An element that no version has here."""
+    context.tolerated.append((element, None))
+    parent = element.getparent()
+    holder = "the document" if parent is None else f"<{parent.tag}>"
+    context.report(
+        structure.UNKNOWN_ELEMENT,
+        element,
+        f"<{element.tag}> is not an element of {holder}",
+        found=str(element.tag),
+        help=_did_you_mean(str(element.tag), known),
+    )
+
+
+def unknown_attribute(context: Context, element: XmlElement, name: str, known: Iterable[str]) -> None:
+    """An attribute that no version has here."""
+    context.tolerated.append((element, name))
+    message = f"{name!r} is not an attribute of <{element.tag}>"
+    hint = _did_you_mean(name, known)
+    context.report(structure.UNKNOWN_ATTRIBUTE, element, message, f"@{name}", found=name, help=hint)
+
+
+def outside_version(context: Context, element: XmlElement, fact: Fact) -> None:
+    """Something of another version."""
+    name = fact.name
+    context.tolerated.append((element, name[1:] if fact.is_attribute else None))
+    what = f"the attribute {name[1:]!r}" if fact.is_attribute else f"<{name}>"
+    when = f"came with {context.format.upper()} {print_version(fact.since)}"
+    if fact.until < context.version:
+        when = f"went after {context.format.upper()} {print_version(fact.until)}"
+    message = f"{what} {when}; the file declares {print_version(context.version)}"
+    context.report(structure.OUTSIDE_VERSION, element, message, name if fact.is_attribute else "", found=name)
+
+
+def missing_child(context: Context, element: XmlElement, name: str) -> None:
+    """A required element that is not there."""
+    rule = structure.MISSING_PART if name in _ESSENTIAL else structure.MISSING_ELEMENT
+    context.report(rule, element, f"<{element.tag}> has no <{name}>", expected=f"<{name}>")
+
+
+def missing_attribute(context: Context, element: XmlElement, name: str) -> None:
+    """A required attribute that is not there."""
+    message = f"<{element.tag}> has no attribute {name!r}"
+    context.report(structure.MISSING_ATTRIBUTE, element, message, expected=f"@{name}")
+
+
+def missing_text(context: Context, element: XmlElement, expected: str) -> None:
+    """A required value that was left blank."""
+    message = f"<{element.tag}> is empty; expected {expected}"
+    context.report(structure.MISSING_ELEMENT, element, message, found="", expected=expected)
+
+
+def repeated(context: Context, element: XmlElement) -> None:
+    """A second one of what may stand once."""
+    context.tolerated.append((element, None))
+    parent = element.getparent()
+    holder = "its parent" if parent is None else f"<{parent.tag}>"
+    context.report(structure.REPEATED_ELEMENT, element, f"<{element.tag}> stands again in {holder}")
+
+
+def invalid_value(context: Context, element: XmlElement, step: str, text: str, expected: str) -> None:
+    """Text of the wrong type. `step` is the attribute, or empty for the element's own text."""
+    subject = f"{step[1:]!r} of <{element.tag}>" if step else f"<{element.tag}>"
+    shown = text if len(text) <= 60 else text[:57] + "..."  # noqa: PLR2004 - a line of a terminal
+    message = f"{subject} is {shown!r}; expected {expected}"
+    context.report(structure.INVALID_VALUE, element, message, step, found=text, expected=expected)
+
+
+def out_of_range(context: Context, element: XmlElement, fact: Fact, value: float) -> None:
+    """A number outside its bounds."""
+    bound = f"at least {fact.min:g}" if fact.min is not None and value < fact.min else f"at most {fact.max:g}"
+    attribute = fact.is_attribute
+    subject = f"{fact.name[1:]!r} of <{element.tag}>" if attribute else f"<{element.tag}>"
+    message = f"{subject} is {value:g}; expected {bound}"
+    step = fact.name if attribute else ""
+    context.report(structure.OUT_OF_RANGE, element, message, step, found=f"{value:g}", expected=bound)
+
+
+def stray_text(context: Context, element: XmlElement, text: str, after: XmlElement | None) -> None:
+    """Text where only elements belong: at the beginning of an element, or after one of its children."""
+    context.tolerated.append((element, "#text") if after is None else (after, "#tail"))
+    shown = " ".join(text.split())[:40]
+    context.report(structure.STRAY_TEXT, element, f"text {shown!r} in <{element.tag}>", found=shown)
+
+
+def _did_you_mean(name: str, known: Iterable[str]) -> str | None:
+    close = get_close_matches(name, list(known), n=1)
+    return f"did you mean {close[0]!r}?" if close else None

@@ -1,0 +1,160 @@
+"""Value types: how the text of an attribute or a leaf becomes a value, and back.
+
+Every parser raises `ValueError` for text that the type's XSD pattern refuses, and for numbers that do not fit a double.
+"""
+
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+
+Parser = Callable[[str], object]
+
+
+@dataclass(frozen=True, slots=True)
+class ValueType:
+    """A value type: its parser, and what to call it when the text does not fit."""
+
+    parse: Parser
+    expected: str
+
+
+def format_number(value: float) -> str:
+    """The shortest text that reads back as the same double."""
+    text = repr(value)
+    return text[:-2] if text.endswith(".0") else text
+
+
+def format_value(value: object) -> str:
+    """The text of a value of any type."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, float):
+        return format_number(value)
+    if isinstance(value, tuple):
+        return " ".join(map(format_value, value))  # pyright: ignore[reportUnknownArgumentType, reportUnknownVariableType]
+    return str(value)
+
+
+_PLAIN = re.compile(r"[-+.0-9eE\s]*", re.ASCII)
+_TRUE = frozenset({"true", "1"})
+_FALSE = frozenset({"false", "0"})
+
+
+def _ascii(text: str) -> str:
+    # strip() and split() also take the no-break space and others for white space, XML does not
+    if not text.isascii():
+        raise ValueError
+    return text
+
+
+def _float(text: str) -> float:
+    # float() also takes underscores, digits of every script and "infinity"
+    value = float(text)
+    if not _PLAIN.fullmatch(text) or not math.isfinite(value):
+        raise ValueError
+    return value
+
+
+def _loose_float(text: str) -> float:
+    value = float(text)
+    if math.isfinite(value):
+        return _float(text)
+    # 1e400 is no number, although float() says infinity
+    if _ascii(text).strip().lstrip("+-").lower() not in {"inf", "nan"}:
+        raise ValueError
+    return value
+
+
+def _vector(counts: tuple[int, ...], *, loose: bool = False) -> Parser:
+    def parse(text: str) -> tuple[float, ...]:
+        values = tuple(map(float, text.split()))
+        if len(values) not in counts:
+            raise ValueError
+        if _PLAIN.fullmatch(text) and all(map(math.isfinite, values)):
+            return values
+        if not loose:
+            raise ValueError
+        return tuple(map(_loose_float, _ascii(text).split()))
+
+    return parse
+
+
+def parse_bool(text: str) -> bool:
+    """`true`, `false`, `1` or `0` in any case, as libsdformat reads them."""
+    word = _ascii(text).strip().lower()
+    if word in _TRUE:
+        return True
+    if word in _FALSE:
+        return False
+    raise ValueError
+
+
+_INTEGER = re.compile(r"\s*[-+]?(0[xX][0-9a-fA-F]+|[0-9]+)\s*", re.ASCII)
+
+
+def _int(text: str) -> int:
+    if not _INTEGER.fullmatch(text):
+        raise ValueError
+    return int(text, 16 if "x" in text.lower() else 10)
+
+
+def _uint(text: str) -> int:
+    value = _int(text)
+    if value < 0:
+        raise ValueError
+    return value
+
+
+def _ints(text: str) -> tuple[int, ...]:
+    first, second = map(_int, _ascii(text).split())
+    return first, second
+
+
+def _time(text: str) -> tuple[float, ...] | float:
+    words = _ascii(text).split()
+    return tuple(map(_float, words)) if len(words) == 2 else _float(text)  # noqa: PLR2004 - seconds and nanoseconds
+
+
+def _pose(text: str) -> tuple[float, ...]:
+    values = _vector((6, 7))(text)
+    assert isinstance(values, tuple)  # noqa: S101 - for the type checker: a vector parser returns a tuple
+    return values  # pyright: ignore[reportUnknownVariableType]
+
+
+def _string(text: str) -> str:
+    return text
+
+
+_URDF = {
+    "string": ValueType(_string, "text"),
+    "bool": ValueType(parse_bool, "true or false"),
+    "int": ValueType(_int, "a whole number"),
+    "uint": ValueType(_uint, "a whole number that is not negative"),
+    "double": ValueType(_float, "a finite number"),
+    "vector3": ValueType(_vector((3,)), "three numbers"),
+    "quaternion": ValueType(_vector((4,)), "four numbers: x y z w"),
+    "color4": ValueType(_vector((4,)), "four numbers from 0 to 1: red green blue alpha"),
+}
+
+_SDF = _URDF | {
+    "double": ValueType(_loose_float, "a number"),
+    "vector3": ValueType(_vector((3,), loose=True), "three numbers"),
+    "vector2d": ValueType(_vector((2,), loose=True), "two numbers"),
+    "vector2i": ValueType(_ints, "two whole numbers"),
+    "quaternion": ValueType(_vector((3, 4)), "three or four numbers"),
+    "color": ValueType(_vector((3, 4)), "three or four numbers from 0 to 1: red green blue and perhaps alpha"),
+    "pose": ValueType(_pose, "six numbers, x y z roll pitch yaw, or seven with a quaternion: x y z qx qy qz qw"),
+    "time": ValueType(_time, "seconds, or seconds and nanoseconds"),
+}
+
+VALUE_TYPES = {"urdf": _URDF, "sdf": _SDF}
+
+
+def parse_value(type: str, text: str, format: str = "sdf") -> object:  # noqa: A002 - the words of the domain
+    """The value of a text.
+
+    Raises:
+        ValueError: the text is not of the type.
+    """
+    return VALUE_TYPES[format][type].parse(text)
