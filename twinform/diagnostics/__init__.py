@@ -3,7 +3,7 @@
 from twinform.diagnostics.catalogue import catalogue
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.ledger import Entry, Fate, Ledger
-from twinform.diagnostics.location import NOWHERE, Location
+from twinform.diagnostics.location import NOWHERE, Location, Source
 from twinform.diagnostics.notes import Notes
 from twinform.diagnostics.rule import Rule, Severity
 
@@ -17,5 +17,6 @@ __all__ = [
     "Notes",
     "Rule",
     "Severity",
+    "Source",
     "catalogue",
 ]

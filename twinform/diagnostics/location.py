@@ -20,3 +20,37 @@ class Location(NamedTuple):
 
 
 NOWHERE = Location()
+
+
+class Source(NamedTuple):
+    """Where a part of a document was read, in a form that is cheap to keep: the path is put together when it is asked for.
+
+    `above` is the source of the node around it, `step` the element names from there, and `key` the name of the last one or
+    its place among its like, where it needs one to be found.
+    """
+
+    file: str
+    line: int
+    above: "Source | None"
+    step: str
+    key: str | int | None = None
+
+    @property
+    def path(self) -> str:
+        """An XPath from the root of the file."""
+        steps: list[str] = []
+        here: Source | None = self
+        while here is not None:
+            steps.append(here._last_step())
+            here = here.above
+        return "/" + "/".join(reversed(steps))
+
+    def _last_step(self) -> str:
+        if self.key is None:
+            return self.step
+        return f"{self.step}[{self.key}]" if isinstance(self.key, int) else f"{self.step}[@name='{self.key}']"
+
+    @property
+    def location(self) -> Location:
+        """The same as a location."""
+        return Location(self.file, self.line, self.path)

@@ -1,6 +1,5 @@
 """The intermediate representation: frozen Pydantic nodes, one family in each file, and pure functions over them."""
 
-from twinform.ir.counting import children_of, count_parts, walk
 from twinform.ir.document import Document, Format
 from twinform.ir.element import Element, Opaque
 from twinform.ir.extension import GazeboExtension
@@ -32,6 +31,7 @@ from twinform.ir.plugin import Plugin
 from twinform.ir.pose import Pose
 from twinform.ir.sensor import Sensor
 from twinform.ir.surface import Surface
+from twinform.ir.tree import children_of, count_parts, map_children, node_fields, walk
 from twinform.ir.visual import Collision, Visual
 from twinform.ir.world import World
 
@@ -83,5 +83,7 @@ __all__ = [
     "World",
     "children_of",
     "count_parts",
+    "map_children",
+    "node_fields",
     "walk",
 ]

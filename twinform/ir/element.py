@@ -5,6 +5,8 @@ from typing import Self
 
 from pydantic import BaseModel, ConfigDict
 
+from twinform.ir.sourced import Sourced
+
 Attributes = tuple[tuple[str, str], ...]
 
 
@@ -42,14 +44,12 @@ class Element(BaseModel):
         return sum(1 + len(element.attributes) for element in self.walk())
 
 
-class Opaque(BaseModel):
+class Opaque(Sourced):
     """A part of a node that has no typed field: an element, an attribute or text, kept where it was.
 
     `at` is the path from the node's own element to the one that holds the part, such as `limit`; `""` is the node's own.
     Exactly one of `element`, `attribute` and `text` is there.
     """
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
     at: str = ""
     element: Element | None = None

@@ -67,9 +67,9 @@ class _Vertex:
 class FrameGraph:
     """The frames of one model or world, by the names that stand in its own scope (`inner::link` for nested ones).
 
-    Poses mean what they mean in SDF 1.12: a link's is relative to `__model__`, a joint's to its child, a frame's to what
-    it is attached to, unless they name another frame. In URDF a link and a joint may share a name: the frame that a
-    link's pose names is then the joint, and the other way round. Every question is answered in time linear in the
+    Poses mean what they mean in SDF 1.12: a link's is relative to `__model__`, a joint's to its child, a frame's to
+    what it is attached to, unless they name another frame. In URDF a link and a joint may share a name: the frame that
+    a link's pose names is then the joint, and the other way round. Every question is answered in time linear in the
     frames that it is the first to touch; nothing recurses over them.
     """
 
@@ -146,7 +146,8 @@ class FrameGraph:
         while stack:
             model, scope, around = stack.pop()
             inside = f"{scope}{model.name}::"
-            base, body = _base(model.pose, around), f"{model.name}::{_canonical(model)}"
+            base, link = _base(model.pose, around), _canonical(model)
+            body = f"{model.name}::{link}" if link else ""
             vertex = _Vertex("model", scope + model.name, scope, model.pose, base, "link", body, model.location, inside)
             vertex.placement = model.placement_frame
             self._add(vertex)
@@ -203,11 +204,20 @@ class FrameGraph:
     def _local(self, vertex: _Vertex) -> Transform:
         """The vertex in its parent."""
         if vertex.local is None:
-            vertex.local = Transform.from_pose(vertex.pose)
-            if vertex.placement:
-                placed = self._find(vertex.placement, "frame", vertex.location, vertex.inside)
-                vertex.local = vertex.local.compose(self._between(placed, vertex).inverse())
+            pose = Transform.from_pose(vertex.pose)
+            vertex.local = pose.compose(self._placement(vertex).inverse()) if vertex.placement else pose
         return vertex.local
+
+    def _placement(self, vertex: _Vertex) -> Transform:
+        """The frame that a nested model's pose is about, in that model."""
+        if vertex.visiting:
+            raise _circle([vertex], "is placed by")
+        vertex.visiting = True
+        try:
+            placed = self._find(vertex.placement or MODEL, "frame", vertex.location, vertex.inside)
+            return self._between(placed, vertex)
+        finally:
+            vertex.visiting = False
 
     def _between(self, start: _Vertex, base: _Vertex) -> Transform:
         if start is base:

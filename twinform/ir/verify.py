@@ -61,7 +61,9 @@ def _verify_tree(model: Model, links: set[str], notes: Notes) -> None:
     if len(roots) > 1:
         names = ", ".join(repr(link.name) for link in roots[:5])
         message = f"robot {model.name!r} has {len(roots)} root links: {names}{', ...' if len(roots) > 5 else ''}"  # noqa: PLR2004 - enough to find them
-        notes.report(rules.SEVERAL_ROOTS, message, roots[1].location, related=tuple(link.location for link in roots[2:5]))
+        notes.report(
+            rules.SEVERAL_ROOTS, message, roots[1].location, related=tuple(link.location for link in roots[2:5])
+        )
     for joint in _circles(parents):
         message = f"joint {joint.name!r} closes a circle of joints through link {joint.child!r}"
         notes.report(rules.KINEMATIC_LOOP, message, joint.location)

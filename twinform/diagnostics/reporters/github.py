@@ -1,0 +1,33 @@
+"""The report for GitHub: workflow commands, which it shows as annotations beside the lines of a change."""
+
+from collections.abc import Sequence
+
+from twinform.diagnostics.diagnostic import Diagnostic
+from twinform.diagnostics.reporters.findings import Findings
+from twinform.diagnostics.rule import Severity
+
+_COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
+
+# `%` comes first: the escapes themselves begin with it. Properties are parted by `,` and `:` ends them.
+_IN_DATA = (("%", "%25"), ("\r", "%0D"), ("\n", "%0A"))
+_IN_PROPERTIES = (*_IN_DATA, (":", "%3A"), (",", "%2C"))
+
+
+def github(files: Sequence[Findings]) -> str:
+    """`::error file=,line=,title=::message`, one line for each finding; empty without findings."""
+    return "".join(f"{_command(each, file.path)}\n" for file in files for each in file.diagnostics)
+
+
+def _command(diagnostic: Diagnostic, file: str) -> str:
+    where = diagnostic.location
+    properties = {"file": where.file or file, "line": str(where.line or ""), "title": diagnostic.rule.name}
+    listed = ",".join(f"{key}={_escape(value, _IN_PROPERTIES)}" for key, value in properties.items() if value)
+    parts = (diagnostic.message, where.path and f"at {where.path}", diagnostic.help and f"help: {diagnostic.help}")
+    message = _escape("\n".join(part for part in parts if part), _IN_DATA)
+    return f"::{_COMMANDS[diagnostic.severity]} {listed}::{message}"
+
+
+def _escape(text: str, table: tuple[tuple[str, str], ...]) -> str:
+    for character, code in table:
+        text = text.replace(character, code)
+    return text

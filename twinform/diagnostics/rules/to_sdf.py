@@ -1,0 +1,103 @@
+"""Rules of the way from URDF to SDF: what becomes of parts that SDF has no word for."""
+
+from twinform.diagnostics.rule import Rule, Severity
+
+URDF_ONLY = Rule(
+    name="urdf-only",
+    severity=Severity.INFO,
+    finds="A part of a URDF file that SDF has no word for: transmissions, ros2_control, safety limits, calibration, elements "
+    "of other tools.",
+    matters="Gazebo does not read it; ROS and our way back do.",
+    example="`<transmission>`, `<safety_controller>`, `<calibration>`.",
+    better="Nothing needs doing: it travels in a carrier, which every other reader skips. `--no-carriers` leaves it out.",
+)
+MATERIAL_NAME = Rule(
+    name="material-name",
+    severity=Severity.INFO,
+    finds="The name of a URDF material, or a shared material that no visual uses.",
+    matters="Materials of SDF have colours but no names.",
+    example="`<material name='blue'>`",
+    better="Nothing needs doing: the colours are written into every visual and the name travels in a carrier.",
+)
+WORLD_LINK = Rule(
+    name="world-link",
+    severity=Severity.WARNING,
+    finds="A root link called `world` that has a body: mass, shapes or sensors.",
+    matters="The link becomes SDF's own world, which has none of these; libsdformat drops them without a word.",
+    example="`<link name='world'><visual>...</visual></link>`",
+    better="Put the shapes on a link of their own that is fixed to `world`.",
+)
+MASSLESS_LINK = Rule(
+    name="massless-link",
+    severity=Severity.WARNING,
+    finds="A link without mass that moves by itself: it is neither fixed to another nor carries anything that has mass.",
+    matters="Simulators divide by its mass. libsdformat drops it with everything below it.",
+    example="A wheel without `<inertial>` on a continuous joint.",
+    better="Give it an inertia; `fill-inertia` can do that from its shapes.",
+    references="sdformat issue 199",
+)
+FRAME_LINK = Rule(
+    name="frame-link",
+    severity=Severity.INFO,
+    finds="A link without mass on a fixed joint.",
+    matters="SDF has a word for such a thing, `<frame>`; as a link, a simulator would give it a mass of its own.",
+    example="A camera's optical frame, a tool centre point.",
+    better="Nothing needs doing: link and joint become frames of the same names, the shapes and sensors move to the "
+    "parent at the same place.",
+)
+RENAMED = Rule(
+    name="renamed",
+    severity=Severity.INFO,
+    finds="A thing whose name had to change, because all names of an SDF model share one scope.",
+    matters="Plugins and programs that use the old name must use the new one.",
+    example="A joint and a link that are both called `arm`: the joint becomes `arm_joint`.",
+    better="Choose different names in the URDF.",
+)
+SHAPE_NAME = Rule(
+    name="shape-name",
+    severity=Severity.INFO,
+    finds="A visual or collision without a name, or with the name of another one of its link.",
+    matters="In SDF they must have one each.",
+    example="`<visual>` in link `base` becomes `base_visual`, the second one `base_visual_1`.",
+    better="Name them in the URDF if plugins or sensors refer to them.",
+)
+NO_JOINT = Rule(
+    name="no-joint",
+    severity=Severity.INFO,
+    finds="A `floating` joint.",
+    matters="In SDF two links that may move freely simply have no joint between them.",
+    example="`<joint name='free' type='floating'>`",
+    better="Nothing needs doing: the child keeps its place, the joint's name travels in a carrier.",
+)
+JOINT_TYPE_UNSUPPORTED = Rule(
+    name="joint-type-unsupported",
+    severity=Severity.ERROR,
+    finds="A joint type that the target has no word for and that cannot be expressed by others yet.",
+    matters="Left out or replaced, the robot would move in another way.",
+    example="`planar` from URDF; `ball`, `universal`, `revolute2`, `screw` and `gearbox` from SDF.",
+    better="Write the joint as a chain of revolute and prismatic ones.",
+)
+GAZEBO_TAG_WITHOUT_TARGET = Rule(
+    name="gazebo-tag-without-target",
+    severity=Severity.WARNING,
+    finds="A tag in a `<gazebo>` element that means nothing at this kind of reference.",
+    matters="libsdformat ignores it without a word.",
+    example="`<mu1>` in a `<gazebo>` for the whole model or for a joint; `<static>` for a link.",
+    better="Refer to the link or joint that is meant.",
+)
+GAZEBO_CONFLICT = Rule(
+    name="gazebo-conflict",
+    severity=Severity.WARNING,
+    finds="A `<gazebo>` element that says again what the model, link or joint says already.",
+    matters="libsdformat writes both, and then reads one of them.",
+    example="Two `<gazebo reference='arm'>` with a different `<gravity>`; an `<inertial>` for a link that has one.",
+    better="Say it once.",
+)
+OLDER_VERSION = Rule(
+    name="older-version",
+    severity=Severity.WARNING,
+    finds="Something that the SDF version asked for cannot say.",
+    matters="Readers of that version would not see it.",
+    example="`mimic` before 1.11, `capsule` before 1.8.",
+    better="Ask for a newer `--sdf-version` if the simulator reads it.",
+)

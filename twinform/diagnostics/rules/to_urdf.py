@@ -1,0 +1,126 @@
+"""Rules of the way from SDF to URDF: what becomes of parts that URDF has no word for."""
+
+from twinform.diagnostics.rule import Rule, Severity
+
+SDF_ONLY = Rule(
+    name="sdf-only",
+    severity=Severity.INFO,
+    finds="A part of an SDF file that neither URDF nor a `<gazebo>` element has a word for.",
+    matters="ROS does not read it; our way back does.",
+    example="`<transparency>` of a visual, `<dissipation>` of a joint limit, `thread_pitch`.",
+    better="Nothing needs doing: it travels in a carrier, which every other reader skips. `--no-carriers` leaves it out.",
+)
+MODEL_NOT_CHOSEN = Rule(
+    name="model-not-chosen",
+    severity=Severity.ERROR,
+    finds="A file with several models, or none of the name that was asked for; a URDF file holds one robot.",
+    matters="Choosing one by its place in the file would be a guess.",
+    example="A world with a robot and a table.",
+    better="Say which one: `--model NAME`, or `--split` for all of them.",
+)
+OUTSIDE_MODEL = Rule(
+    name="outside-model",
+    severity=Severity.INFO,
+    finds="A part of the file around the model that becomes the robot: the world, its physics and lights, other models.",
+    matters="A URDF file holds one robot and nothing else.",
+    example="`<physics>`, `<scene>` and the ground plane of a world.",
+    better="Keep the world file, and let it include the robot.",
+)
+INCLUDE_NOT_EXPANDED = Rule(
+    name="include-not-expanded",
+    severity=Severity.ERROR,
+    finds="An `<include>` inside the model whose file was not read.",
+    matters="The links in it would be missing from the robot.",
+    example="`<include><uri>model://gripper</uri></include>` where no folder of models is known.",
+    better="Say where its model is, so that it is put in its place.",
+)
+NESTED_MODEL = Rule(
+    name="nested-model",
+    severity=Severity.INFO,
+    finds="A model inside the model.",
+    matters="A URDF robot has one level: the links, joints and frames come up, called `inner::link`, and the inner model's "
+    "own frame becomes a link.",
+    example="`<model name='arm'><model name='hand'>...`",
+    better="Nothing needs doing: what only a model can say (`static`, plugins, ...) travels in a carrier.",
+)
+FRAME_MADE_LINK = Rule(
+    name="frame-made-link",
+    severity=Severity.INFO,
+    finds="A `<frame>`.",
+    matters="URDF has no other word for it than a link without mass on a fixed joint.",
+    example="`<frame name='tool' attached_to='hand'>`",
+    better="Nothing needs doing: our way back makes it a frame again, and so does libsdformat.",
+)
+AUTOMATIC_INERTIA = Rule(
+    name="automatic-inertia",
+    severity=Severity.ERROR,
+    finds="An inertial that asks the reader to compute it from the collisions (`auto='true'`).",
+    matters="URDF can only write the numbers.",
+    example="`<inertial auto='true'/>`",
+    better="Compute it first, with a pass or by `gz sdf --print --expand-auto-inertials`.",
+)
+JOINT_END = Rule(
+    name="joint-end",
+    severity=Severity.INFO,
+    finds="A joint whose parent or child is a frame and not a link.",
+    matters="Joints of URDF connect links.",
+    example="`<child>hand::mount</child>` where `mount` is a frame.",
+    better="Nothing needs doing: the joint keeps its place and connects the links that the frames move with.",
+)
+AXIS_FRAME = Rule(
+    name="axis-frame",
+    severity=Severity.INFO,
+    finds="A joint axis that is expressed in another frame than the joint's.",
+    matters="In URDF it is always the joint frame: the axis is turned into it.",
+    example="`<xyz expressed_in='__model__'>`, `<use_parent_model_frame>`, every axis before SDF 1.5.",
+    better="Nothing needs doing; the axis as it was written travels in a carrier.",
+)
+MOVED_FRAME = Rule(
+    name="moved-frame",
+    severity=Severity.INFO,
+    finds="A pose that is written with other numbers or in another frame than in the SDF file.",
+    matters="In URDF a link's frame is its joint's, every pose is in the frame around it, and angles are in radians.",
+    example="`<link name='arm'><pose>0 0 1 0 0 0</pose>` in the model frame becomes the origin of arm's joint.",
+    better="Nothing needs doing: the robot is the same, and the pose as it was written travels in a carrier.",
+)
+CUT_LOOP = Rule(
+    name="cut-loop",
+    severity=Severity.WARNING,
+    finds="A joint that closes a loop, or gives a link a second parent.",
+    matters="URDF describes a tree. Gazebo closes the loop again by the `<joint>` in a `<gazebo>` element; to all other "
+    "readers it is open.",
+    example="The last joint of a four-bar linkage.",
+    better="Close it in the other tools by their own means, such as a constraint.",
+)
+HUNG_ROOT = Rule(
+    name="hung-root",
+    severity=Severity.INFO,
+    finds="A link without a parent beside another one.",
+    matters="A URDF robot has one root: the link hangs by a `floating` joint from it, or a `fixed` one in a static model.",
+    example="Two links and no joint.",
+    better="Connect them by a joint if they belong together.",
+)
+UNSAYABLE_SHAPE = Rule(
+    name="unsayable-shape",
+    severity=Severity.WARNING,
+    finds="A visual or collision with a shape that URDF does not have, or with none.",
+    matters="ROS neither shows it nor plans around it.",
+    example="`<plane>`, `<ellipsoid>`, `<cone>`, `<heightmap>`, `<polyline>`, one submesh of a mesh.",
+    better="Use a mesh or one of box, cylinder and sphere. The shape travels in a carrier.",
+)
+UNBOUNDED_LIMIT = Rule(
+    name="unbounded-limit",
+    severity=Severity.INFO,
+    finds="A limit of a revolute or prismatic joint that is infinite or not written.",
+    matters="URDF asks for finite numbers: 1e16 stands for infinity, as it does in SDF before 1.10.",
+    example="A prismatic joint without `<limit>`; `<effort>-1</effort>`.",
+    better="Write the limit.",
+)
+COLOURS = Rule(
+    name="colours",
+    severity=Severity.INFO,
+    finds="Colours of a visual that are more than one colour with alpha.",
+    matters="A URDF material has one colour: the diffuse one.",
+    example="`<ambient>` unlike `<diffuse>`, or one of them alone.",
+    better="Nothing needs doing: the colours as they were written travel in a carrier.",
+)

@@ -1,0 +1,83 @@
+"""Walking and rebuilding trees of nodes."""
+
+from collections.abc import Callable, Iterator
+from functools import cache
+from typing import Any, TypeVar, get_args
+
+from twinform.ir.element import Element, Opaque
+from twinform.ir.node import Node
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+_ABOUT = frozenset({"source", "spelling", "namespaces", "format", "kind", "version"})
+
+
+@cache
+def node_fields(kind: type[Node]) -> tuple[str, ...]:
+    """The fields of a class of nodes that may hold nodes."""
+    return tuple(name for name, field in kind.model_fields.items() if _holds_nodes(field.annotation, kind))
+
+
+def _holds_nodes(annotation: Any, kind: type[Node]) -> bool:
+    if isinstance(annotation, type):
+        return issubclass(annotation, Node)
+    return any(_holds_nodes(argument, kind) for argument in get_args(annotation))
+
+
+def children_of(node: Node) -> Iterator[Node]:
+    """The nodes directly inside a node, in the order of its fields."""
+    values = node.__dict__
+    for name in node_fields(type(node)):
+        value = values[name]
+        if isinstance(value, Node):
+            yield value
+        elif value:
+            yield from value
+
+
+def walk(node: Node) -> Iterator[Node]:
+    """A node and all nodes inside it, from the outside in."""
+    stack = [node]
+    while stack:
+        current = stack.pop()
+        yield current
+        stack.extend(reversed(list(children_of(current))))
+
+
+def map_children(node: AnyNode, change: Callable[[Node], Node]) -> AnyNode:
+    """The node with each node directly inside it changed; the same object where nothing changes."""
+    values = node.__dict__
+    update: dict[str, Any] = {}
+    for name in node_fields(type(node)):
+        value = values[name]
+        if isinstance(value, Node):
+            changed = change(value)
+            if changed is not value:
+                update[name] = changed
+        elif value:
+            many = tuple([change(one) for one in value])
+            if any(new is not old for new, old in zip(many, value, strict=True)):
+                update[name] = many
+    return node.model_copy(update=update) if update else node
+
+
+def count_parts(node: Node) -> int:
+    """How many facts a node states: one for each node, written value, and opaque element or attribute."""
+    return sum(1 + _count_values(one) for one in walk(node))
+
+
+def _count_values(node: Node) -> int:
+    return sum(_weight(value) for name, value in node.__dict__.items() if name not in _ABOUT)
+
+
+def _weight(value: object) -> int:
+    if value is None or isinstance(value, Node):
+        return 0
+    if not isinstance(value, tuple):
+        return 1
+    parts: tuple[object, ...] = value  # pyright: ignore[reportUnknownVariableType]
+    if not parts or isinstance(parts[0], Node):
+        return 0
+    if isinstance(parts[0], Element | Opaque):
+        return sum(part.weight for part in parts if isinstance(part, Element | Opaque))
+    return 1
