@@ -30,6 +30,7 @@ class Context:
     tolerated: list[tuple[XmlElement, str | None]] = field(default_factory=list[tuple[XmlElement, str | None]])
     structural: int = 0
     namespaces: dict[str, str] = field(default_factory=dict[str, str])
+    clean: bool = False
     header: dict[str, object] = field(default_factory=dict[str, object])
 
     def report(self, rule: Rule, element: XmlElement, message: str, step: str = "", **more: str | None) -> None:

@@ -6,28 +6,29 @@ typed field is kept as opaque parts. The dicts hold IR field names and know noth
 
 from collections.abc import Callable
 from functools import cache
-from typing import Any
 
-from twinform.diagnostics import Location
+from twinform.diagnostics import Source
 from twinform.schemas import messages
 from twinform.schemas.facts import Fact, Table, Version, table
 from twinform.schemas.messages import Context
+from twinform.schemas.quick import GIVE_UP, quick_attributes, quick_parse, quick_pose
+from twinform.schemas.stores import Data, value_check, value_store
 from twinform.schemas.values import VALUE_TYPES
-from twinform.schemas.xml import XmlElement, is_blank, step_of
+from twinform.schemas.xml import XmlElement, is_blank
 
 _INSTANCE = "{http://www.w3.org/2001/XMLSchema-instance}"
 _OF_SCHEMAS = frozenset({_INSTANCE + "type", _INSTANCE + "nil"})
 """Foreign attributes that make an XSD engine check an element in another way."""
 
-Data = dict[str, Any]
-Fill = Callable[[XmlElement, Data, str, str, Context], None]
-"""Reads the inside of an element into the dict of its node: (element, node, path from the node, path, context)"""
+_locate = tuple.__new__
+"""Makes a Source without the detour through its own constructor: this file makes one for every node."""
+
+Fill = Callable[[XmlElement, Data, str, Context], None]
+"""Reads the inside of an element into the dict of its node: (element, node, path from the node, context)"""
 ReadAttribute = Callable[[XmlElement, str, Data, str, Context], None]
 """Reads an attribute: (element, text, node, path from the node, context)"""
-ReadChild = Callable[[XmlElement, Data, str, str, int, Context], None]
-"""Reads a child: (child, node, path from the node to the parent, path of the parent, place among its like, context)"""
-Store = Callable[[XmlElement, Data, Any, Context], None]
-"""Puts a value into a node: (element, node, value, context)"""
+ReadChild = Callable[[XmlElement, Data, str, int, Context], None]
+"""Reads a child: (child, node, path from the node to the parent, place among its like, context)"""
 
 
 def element_data(element: XmlElement, context: Context) -> Data:
@@ -70,39 +71,53 @@ class Reader:
 
     def read(self, element: XmlElement, context: Context, definition: str | None = None) -> Data:
         """The data of the node that an element makes; it is the format's root where no definition is named."""
-        path = f"/{step_of(element)}"
-        node: Data = {"source": Location(context.file, element.sourceline or 0, path)}
-        self.fills[definition or self.table.root](element, node, "", path, context)
+        source = Source(context.file, element.sourceline or 0, None, str(element.tag), element.get("name"))
+        node: Data = {"source": source}
+        self.fills[definition or self.table.root](element, node, "", context)
         return node
 
     def _fill(self, fact: Fact, *, keep: bool) -> Fill:
         """The reader of an element's inside. Where `keep` is false it only checks."""
         attributes = {row.name[1:]: self._attribute(row, keep=keep) for row in self._rows(fact.attributes)}
+        parses = [(row, quick_parse(row, self.types, self.version)) for row in fact.attributes if keep]
+        quick = {row.name[1:]: (row.place or "", parse) for row, parse in parses if parse}
         children = {row.name: self._child(row, keep=keep) for row in self._rows(fact.children)}
         present = [row for row in fact.rows if row.exists_in(self.version)]
-        needed_attributes = tuple(row.name[1:] for row in present if row.is_attribute and row.required)
-        needed_children = tuple(row.name for row in present if not row.is_attribute and row.required)
+        needed_attributes = frozenset(row.name[1:] for row in present if row.is_attribute and row.required)
+        needed_children = frozenset(row.name for row in present if not row.is_attribute and row.required)
         once = frozenset(row.name for row in self._rows(fact.children) if not row.repeats)
         free, content = fact.any, fact.place if fact.any and keep else None
         read_text = self._text(fact, fact.place, keep=keep) if fact.type else None
         kinds = frozenset(row.name for row in fact.children if row.kind)
 
-        def fill(element: XmlElement, node: Data, at: str, path: str, context: Context) -> None:
+        def fill(element: XmlElement, node: Data, at: str, context: Context) -> None:
             for name, text in element.items():
+                if name in quick:
+                    place_of, parse = quick[name]
+                    try:
+                        node[place_of] = parse(text)
+                        continue
+                    except GIVE_UP:
+                        pass
                 read = attributes.get(name)
                 if read is not None:
                     read(element, text, node, at, context)
                 else:
                     other_attribute(element, name, text, node, at, context)
-            for name in needed_attributes:
-                if name not in element.attrib:
+            if needed_attributes and not needed_attributes.issubset(element.keys()):
+                for name in sorted(needed_attributes.difference(element.keys())):
                     messages.missing_attribute(context, element, name)
             text = element.text
             if read_text is not None:
                 read_text(element, node, at, context)
-            elif text and not is_blank(text):
+            elif text and not (text.isspace() and text.isascii()):  # is_blank, without a call for each element
                 stray(element, text, node, at, context)
             counts: dict[str, int] = {}
+            if not len(element):
+                if needed_children:
+                    for name in sorted(needed_children):
+                        messages.missing_child(context, element, name)
+                return
             for child in element:
                 tag: str = child.tag  # pyright: ignore[reportAssignmentType] - the parser removes comments
                 place = counts[tag] = counts.get(tag, 0) + 1
@@ -114,14 +129,13 @@ class Reader:
                     if keep:
                         _keep_element(child, node, at, context)
                 else:
-                    read_child(child, node, at, path, place, context)
-                tail = child.tail
-                if tail and not is_blank(tail) and content is None:
-                    stray(element, tail, node, at, context, after=child)
+                    read_child(child, node, at, place, context)
+                if not context.clean and content is None and not is_blank(child.tail or ""):
+                    stray(element, child.tail or "", node, at, context, after=child)
             if kinds and len(kinds & counts.keys()) > 1:
                 _other_kinds(element, kinds, context)
-            for name in needed_children:
-                if name not in counts:
+            if not needed_children.issubset(counts):
+                for name in sorted(needed_children.difference(counts)):
                     messages.missing_child(context, element, name)
 
         def stray(
@@ -130,7 +144,7 @@ class Reader:
             if not free:
                 messages.stray_text(context, element, text, after)
             if keep:
-                _keep(node, {"at": at, "text": " ".join(text.split())})
+                _keep(element, node, context, {"at": at, "text": " ".join(text.split())})
 
         def other_child(child: XmlElement, node: Data, at: str, context: Context) -> None:
             if content is not None:
@@ -147,7 +161,7 @@ class Reader:
             if name in _OF_SCHEMAS or (name[0] != "{" and not free):
                 messages.unknown_attribute(context, element, name, attributes)
             if keep:
-                _keep(node, {"at": at, "attribute": (name, text)})
+                _keep(element, node, context, {"at": at, "attribute": (name, text)})
 
         return fill
 
@@ -161,9 +175,9 @@ class Reader:
 
     def _attribute(self, row: Fact, *, keep: bool) -> ReadAttribute:
         value_type = self.types[row.type or "string"]
-        parse, check = value_type.parse, _check(row)
+        parse, check = value_type.parse, value_check(row)
         late, name = not row.exists_in(self.version), row.name[1:]
-        store = _store(row, row.place) if keep and row.place else None
+        store = value_store(row, row.place) if keep and row.place else None
 
         def read(element: XmlElement, text: str, node: Data, at: str, context: Context) -> None:
             if late:
@@ -178,7 +192,7 @@ class Reader:
             if store is not None:
                 store(element, node, (value, text), context)
             elif keep:
-                _keep(node, {"at": at, "attribute": (name, text)})
+                _keep(element, node, context, {"at": at, "attribute": (name, text)})
 
         return read
 
@@ -200,60 +214,66 @@ class Reader:
             return self._fill(row, keep=keep)
         fills, name = self.fills if keep else self.checks, row.reference
 
-        def fill(element: XmlElement, node: Data, at: str, path: str, context: Context) -> None:
-            fills[name](element, node, at, path, context)
+        def fill(element: XmlElement, node: Data, at: str, context: Context) -> None:
+            fills[name](element, node, at, context)
 
         return fill
 
     def _checked(self, row: Fact) -> ReadChild:
         check = self._inner(row, keep=False)
 
-        def read(child: XmlElement, node: Data, at: str, path: str, place: int, context: Context) -> None:  # noqa: ARG001 - all readers have one signature
-            check(child, node, "", path, context)
+        def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:  # noqa: ARG001 - all readers have one signature
+            check(child, node, "", context)
 
         return read
 
     def _opaque(self, row: Fact) -> ReadChild:
         check = self._inner(row, keep=False)
 
-        def read(child: XmlElement, node: Data, at: str, path: str, place: int, context: Context) -> None:  # noqa: ARG001 - all readers have one signature
-            check(child, {}, "", path, context)
+        def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:  # noqa: ARG001 - all readers have one signature
+            check(child, {}, "", context)
             _keep_element(child, node, at, context)
 
         return read
 
     def _hoisted(self, row: Fact) -> ReadChild:
         """The reader of a container whose rows fill the node around it."""
+        quick = quick_attributes(self.table.resolve(row), self.types, self.version)
         fill, name = self._inner(row, keep=True), row.name
 
-        def read(child: XmlElement, node: Data, at: str, path: str, place: int, context: Context) -> None:  # noqa: ARG001 - all readers have one signature
-            if len(child) or child.attrib or child.text:
-                fill(child, node, f"{at}/{name}" if at else name, f"{path}/{name}", context)
+        def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:  # noqa: ARG001 - all readers have one signature
+            if quick is not None and context.clean and quick(child, node):
+                return
+            if len(child) or child.keys() or child.text:
+                fill(child, node, f"{at}/{name}" if at else name, context)
             else:
-                fill(child, {}, "", path, context)
+                fill(child, {}, "", context)
                 _keep_element(child, node, at, context)
 
         return read
 
     def _own_node(self, row: Fact, field: str) -> ReadChild:
         """The reader of an element that makes a node."""
+        fact = self.table.resolve(row)
+        quick = quick_pose(fact, self.types) or quick_attributes(fact, self.types, self.version)
         fill, name, kind, repeats = self._inner(row, keep=True), row.name, row.kind, row.repeats
+        check = self._inner(row, keep=False)
         outer, _, inner = field.rpartition(".")
         fills_tuple = row.fills_tuple
+        is_named = any(inner_row.name == "@name" for inner_row in fact.rows)
 
-        def read(child: XmlElement, node: Data, at: str, path: str, place: int, context: Context) -> None:
-            called = child.get("name")
-            if called is not None:
-                path = f"{path}/{name}[@name='{called}']"
-            else:
-                path = f"{path}/{name}[{place}]" if repeats else f"{path}/{name}"
-            data: Data = {"source": Location(context.file, child.sourceline or 0, path)}
+        def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
+            key = (child.get("name") if is_named else None) or (place if repeats else None)
+            above, line = node["source"], child.sourceline or 0
+            data: Data = {"source": _locate(Source, (context.file, line, above, f"{at}/{name}" if at else name, key))}
             if kind is not None:
                 data["kind"] = kind
                 if field in node:
+                    check(child, {}, "", context)
                     _keep_element(child, node, at, context)
                     return
-            fill(child, data, "", path, context)
+            if quick is None or not context.clean or not quick(child, data):
+                fill(child, data, "", context)
             holder = node if not outer else node.setdefault(outer, {"source": data["source"]})
             if fills_tuple:
                 holder.setdefault(inner, []).append(data)
@@ -266,12 +286,20 @@ class Reader:
 
     def _leaf(self, row: Fact, place: str) -> ReadChild:
         """The reader of an element with text, and perhaps attributes, whose value is a field of the node around it."""
-        fill, name = self._fill(row, keep=True), row.name
+        fill, name, field = self._fill(row, keep=True), row.name, place
         read_text = self._text(row, place, keep=True)
+        parse = quick_parse(row, self.types, self.version) if row.type != "string" else None
 
-        def read(child: XmlElement, node: Data, at: str, path: str, place: int, context: Context) -> None:  # noqa: ARG001 - all readers have one signature
-            if child.attrib or len(child):
-                fill(child, node, f"{at}/{name}" if at else name, f"{path}/{name}", context)
+        def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:  # noqa: ARG001 - all readers have one signature
+            if parse is not None and context.clean and not child.keys() and not len(child):
+                try:
+                    node[field] = parse(child.text)
+                except (*GIVE_UP, AttributeError):
+                    pass
+                else:
+                    return
+            if child.keys() or len(child):
+                fill(child, node, f"{at}/{name}" if at else name, context)
             elif not read_text(child, node, at, context):
                 _keep_element(child, node, at, context)
 
@@ -280,8 +308,8 @@ class Reader:
     def _text(self, row: Fact, place: str | None, *, keep: bool) -> Callable[[XmlElement, Data, str, Context], bool]:
         """The reader of an element's text; it says whether there was any. Blank text means the default."""
         value_type = self.types[row.type or "string"]
-        parse, check, is_string, needed = value_type.parse, _check(row), row.type == "string", row.needs_text
-        store = _store(row, place) if keep and place else None
+        parse, check, is_string, needed = value_type.parse, value_check(row), row.type == "string", row.needs_text
+        store = value_store(row, place) if keep and place else None
 
         def read(element: XmlElement, node: Data, at: str, context: Context) -> bool:  # noqa: ARG001 - the signature of a text reader
             text = element.text or ""
@@ -322,78 +350,20 @@ def _other_kinds(element: XmlElement, kinds: frozenset[str], context: Context) -
 def _late(row: Fact, read: ReadChild) -> ReadChild:
     """The same reader for an element of another version: it is reported first."""
 
-    def read_late(child: XmlElement, node: Data, at: str, path: str, place: int, context: Context) -> None:
+    def read_late(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
         messages.outside_version(context, child, row)
-        read(child, node, at, path, place, context)
+        read(child, node, at, place, context)
 
     return read_late
 
 
-def _keep(node: Data, part: Data) -> None:
-    node.setdefault("opaque", []).append(part)
+def _keep(element: XmlElement, node: Data, context: Context, part: Data) -> None:
+    """Keep a part that has no typed field, with where it stood."""
+    called = part["element"]["name"] if "element" in part else f"@{part['attribute'][0]}" if "attribute" in part else "text()"
+    step = f"{part['at']}/{called}" if part["at"] else called
+    source = Source(context.file, element.sourceline or 0, node.get("source"), step)
+    node.setdefault("opaque", []).append({"source": source, **part})
 
 
 def _keep_element(child: XmlElement, node: Data, at: str, context: Context) -> None:
-    _keep(node, {"at": at, "element": element_data(child, context) | {"tail": None}})
-
-
-def _check(row: Fact) -> Callable[[XmlElement, Any, Context], None] | None:
-    """What is asked of a value beyond its type."""
-    if row.enum:
-        allowed = frozenset(row.enum)
-
-        def check_word(element: XmlElement, value: str, context: Context) -> None:
-            if value not in allowed:
-                step = row.name if row.is_attribute else ""
-                messages.invalid_value(context, element, step, value, f"one of {', '.join(row.enum)}")
-
-        return check_word
-    if row.min is None and row.max is None:
-        return None
-    low = row.min if row.min is not None else float("-inf")
-    high = row.max if row.max is not None else float("inf")
-
-    def check_range(element: XmlElement, value: float | tuple[float, ...], context: Context) -> None:
-        for number in value if isinstance(value, tuple) else (value,):
-            if number < low or number > high:
-                messages.out_of_range(context, element, row, number)
-
-    return check_range
-
-
-def _store(row: Fact, place: str) -> Store:
-    """Puts a value, which comes with its text, where the IR has it."""
-    outer, _, field = place.rpartition(".")
-
-    def store_pose(element: XmlElement, node: Data, read: tuple[tuple[float, ...], str], context: Context) -> None:  # noqa: ARG001 - all stores have one signature
-        values = read[0]
-        node["xyz"] = values[:3]
-        node["rpy" if len(values) == 6 else "quat_xyzw"] = values[3:]  # noqa: PLR2004 - three angles
-
-    def store_repeated(element: XmlElement, node: Data, read: tuple[object, str], context: Context) -> None:  # noqa: ARG001
-        node.setdefault(field, []).append(read[0])
-
-    def store_inside(element: XmlElement, node: Data, read: tuple[object, str], context: Context) -> None:
-        source = Location(context.file, element.sourceline or 0, node["source"].path)
-        node.setdefault(outer, {"source": source})[field] = read[0]
-
-    def store_header(element: XmlElement, node: Data, read: tuple[object, str], context: Context) -> None:  # noqa: ARG001
-        context.header[place[1:]] = read[0]
-
-    def store_bool(element: XmlElement, node: Data, read: tuple[object, str], context: Context) -> None:  # noqa: ARG001
-        node[field], text = read
-        if text not in ("true", "false"):
-            node.setdefault("spelling", {})[field] = text.strip()
-
-    def store(element: XmlElement, node: Data, read: tuple[object, str], context: Context) -> None:  # noqa: ARG001
-        node[field] = read[0]
-
-    if place.startswith("/"):
-        return store_header
-    if row.type == "pose":
-        return store_pose
-    if outer:
-        return store_inside
-    if row.repeats:
-        return store_repeated
-    return store_bool if row.type == "bool" else store
+    _keep(child, node, context, {"at": at, "element": element_data(child, context) | {"tail": None}})

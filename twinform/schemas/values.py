@@ -36,22 +36,30 @@ def format_value(value: object) -> str:
     return str(value)
 
 
-_PLAIN = re.compile(r"[-+.0-9eE\s]*", re.ASCII)
+def format_numbers(values: tuple[float, ...]) -> str:
+    """The text of a vector."""
+    return " ".join(map(format_number, values))
+
+
 _TRUE = frozenset({"true", "1"})
 _FALSE = frozenset({"false", "0"})
 
 
 def _ascii(text: str) -> str:
-    # strip() and split() also take the no-break space and others for white space, XML does not
+    """The text, if it is ASCII: blanks and digits of other scripts are none of the formats'."""
     if not text.isascii():
         raise ValueError
     return text
 
 
+def _is_plain(text: str) -> bool:
+    """Whether none of what `float` takes beyond plain numbers is there: underscores and the digits of other scripts."""
+    return text.isascii() and "_" not in text
+
+
 def _float(text: str) -> float:
-    # float() also takes underscores, digits of every script and "infinity"
     value = float(text)
-    if not _PLAIN.fullmatch(text) or not math.isfinite(value):
+    if not math.isfinite(value) or not _is_plain(text):
         raise ValueError
     return value
 
@@ -71,7 +79,8 @@ def _vector(counts: tuple[int, ...], *, loose: bool = False) -> Parser:
         values = tuple(map(float, text.split()))
         if len(values) not in counts:
             raise ValueError
-        if _PLAIN.fullmatch(text) and all(map(math.isfinite, values)):
+        # a finite sum has finite terms, and is quicker to see
+        if (math.isfinite(sum(values)) or all(map(math.isfinite, values))) and _is_plain(text):
             return values
         if not loose:
             raise ValueError

@@ -1,0 +1,36 @@
+"""Facts tables of both formats, and what is made from them: readers, writers, XSDs and validators."""
+
+from twinform.schemas.facts import Fact, Table, Version, parse_version, print_version, table
+from twinform.schemas.messages import Context
+from twinform.schemas.packaged import schema_text
+from twinform.schemas.reader import Reader, element_data, reader
+from twinform.schemas.validator import Engine, SchemaError, gate, libxml2_errors, refusals, xmlschema_errors
+from twinform.schemas.values import format_value, parse_value
+from twinform.schemas.writer import Writer, element_xml, writer
+from twinform.schemas.xml import XmlElement
+
+__all__ = [
+    "Context",
+    "Engine",
+    "Fact",
+    "Reader",
+    "SchemaError",
+    "Table",
+    "Version",
+    "Writer",
+    "XmlElement",
+    "element_data",
+    "element_xml",
+    "format_value",
+    "gate",
+    "libxml2_errors",
+    "parse_value",
+    "parse_version",
+    "print_version",
+    "reader",
+    "refusals",
+    "schema_text",
+    "table",
+    "writer",
+    "xmlschema_errors",
+]

@@ -1,0 +1,42 @@
+"""Writes the XSDs: `python -m twinform.schemas.generate`, or with `--check` only compares them."""
+
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import get_args
+
+from twinform.schemas.facts import parse_version, table
+from twinform.schemas.packaged import XsdVersion, schema_file
+from twinform.schemas.xsd import generate_schema
+
+FORMATS = ("urdf", "sdf")
+
+
+def generated() -> Iterator[tuple[Path, str]]:
+    """Every schema: its file and its text."""
+    for name in FORMATS:
+        facts = table(name)
+        for version in map(parse_version, facts.versions):
+            for xsd in get_args(XsdVersion):
+                yield Path(str(schema_file(name, version, xsd))), generate_schema(facts, version, xsd)
+
+
+def stale() -> list[Path]:
+    """The files that do not hold what the facts say."""
+    return [file for file, text in generated() if not file.is_file() or file.read_text(encoding="utf-8") != text]
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Write all schemas, or check them; the exit code."""
+    if "--check" in arguments:
+        for file in (files := stale()):
+            sys.stderr.write(f"{file}: not what the facts say; run python -m twinform.schemas.generate\n")
+        return 1 if files else 0
+    for file, text in generated():
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8", newline="\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

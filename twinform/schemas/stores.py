@@ -1,0 +1,84 @@
+"""What happens to a value once it is parsed: it is checked against its bounds and put where the IR has it."""
+
+from collections.abc import Callable
+from typing import Any
+
+from twinform.diagnostics import Source
+from twinform.schemas import messages
+from twinform.schemas.facts import Fact
+from twinform.schemas.messages import Context
+from twinform.schemas.xml import XmlElement
+
+Data = dict[str, Any]
+Store = Callable[[XmlElement, Data, Any, Context], None]
+"""Puts a value, which comes with its text, into a node: (element, node, (value, text), context)"""
+
+_SCALARS = frozenset({"double", "int", "uint"})
+
+
+def value_check(row: Fact) -> Callable[[XmlElement, Any, Context], None] | None:
+    """What is asked of a value beyond its type."""
+    if row.enum:
+        allowed = frozenset(row.enum)
+
+        def check_word(element: XmlElement, value: str, context: Context) -> None:
+            if value not in allowed:
+                step = row.name if row.is_attribute else ""
+                messages.invalid_value(context, element, step, value, f"one of {', '.join(row.enum)}")
+
+        return check_word
+    if row.min is None and row.max is None:
+        return None
+    low = row.min if row.min is not None else float("-inf")
+    high = row.max if row.max is not None else float("inf")
+
+    def check_number(element: XmlElement, value: float, context: Context) -> None:
+        if value < low or value > high:
+            messages.out_of_range(context, element, row, value)
+
+    def check_vector(element: XmlElement, value: tuple[float, ...], context: Context) -> None:
+        for number in value:
+            check_number(element, number, context)
+
+    return check_number if row.type in _SCALARS else check_vector
+
+
+def value_store(row: Fact, place: str) -> Store:
+    """Puts a value, which comes with its text, where the IR has it."""
+    outer, _, field = place.rpartition(".")
+
+    def store_pose(element: XmlElement, node: Data, read: tuple[tuple[float, ...], str], context: Context) -> None:  # noqa: ARG001 - all stores have one signature
+        values = read[0]
+        node["xyz"] = values[:3]
+        node["rpy" if len(values) == 6 else "quat_xyzw"] = values[3:]  # noqa: PLR2004 - three angles
+
+    def store_repeated(element: XmlElement, node: Data, read: tuple[object, str], context: Context) -> None:  # noqa: ARG001
+        node.setdefault(field, []).append(read[0])
+
+    def store_inside(element: XmlElement, node: Data, read: tuple[object, str], context: Context) -> None:
+        holder = node.get(outer)
+        if holder is None:
+            step = str(element.tag)
+            holder = node[outer] = {"source": Source(context.file, element.sourceline or 0, node["source"], step)}
+        holder[field] = read[0]
+
+    def store_header(element: XmlElement, node: Data, read: tuple[object, str], context: Context) -> None:  # noqa: ARG001
+        context.header[place[1:]] = read[0]
+
+    def store_bool(element: XmlElement, node: Data, read: tuple[object, str], context: Context) -> None:  # noqa: ARG001
+        node[field], text = read
+        if text not in ("true", "false"):
+            node.setdefault("spelling", {})[field] = text.strip()
+
+    def store(element: XmlElement, node: Data, read: tuple[object, str], context: Context) -> None:  # noqa: ARG001
+        node[field] = read[0]
+
+    if place.startswith("/"):
+        return store_header
+    if row.type == "pose":
+        return store_pose
+    if outer:
+        return store_inside
+    if row.repeats:
+        return store_repeated
+    return store_bool if row.type == "bool" else store

@@ -1,0 +1,143 @@
+"""The XSD engines, and the gate that no document passes without the consent of its schema.
+
+The table pass has read the document before and said in words whatever is wrong with it. The schema's verdict is asked
+for as well because the two are independent readings of the same facts: where they differ, one of them is wrong.
+"""
+
+import copy
+from collections.abc import Iterable
+from functools import cache
+from itertools import islice
+from threading import local
+from typing import TYPE_CHECKING, Literal, NamedTuple, cast
+
+from lxml import etree
+
+from twinform.diagnostics import Location
+from twinform.diagnostics.rules import structure
+from twinform.schemas.facts import Version, print_version
+from twinform.schemas.messages import Context
+from twinform.schemas.packaged import schema_text
+from twinform.schemas.xml import XmlElement
+from twinform.schemas.xsd_names import without_names
+
+if TYPE_CHECKING:
+    from xmlschema import XMLSchema11
+
+Engine = Literal["libxml2", "xmlschema"]
+
+MOST = 100
+"""The errors of an engine that are kept: a document can hold any number of them."""
+
+_FAULTS = frozenset(
+    {
+        structure.INVALID_VALUE.name,
+        structure.MISSING_ATTRIBUTE.name,
+        structure.MISSING_ELEMENT.name,
+        structure.MISSING_PART.name,
+    }
+)
+"""Findings of the table pass that leave nothing to take out of the document, and that the schema refuses as well."""
+
+
+class SchemaError(NamedTuple):
+    """What an engine does not accept."""
+
+    line: int
+    message: str
+
+
+def gate(
+    root: XmlElement, context: Context, engine: Engine = "libxml2", errors: list[SchemaError] | None = None
+) -> None:
+    """Report whatever the schema refuses and the table pass, which has filled the context, did not speak of.
+
+    `errors` is what the engine says of the tree, where it was asked already. Duplicate and dangling names, which only the
+    normative schema looks for, are the business of later checks.
+    """
+    if errors is None:
+        errors = refusals(root, context, engine)
+    if errors and context.tolerated:
+        errors = refusals(_without(root, context.tolerated), context, engine)
+    explained = _lines_with_faults(context) if errors else ()
+    for error in errors:
+        if error.line not in explained and not context.notes.left_out:
+            message = f"the XSD of {context.format.upper()} {print_version(context.version)} refuses: {error.message}"
+            context.notes.report(structure.SCHEMA_DISAGREEMENT, message, Location(context.file, error.line, "/"))
+
+
+def libxml2_errors(root: XmlElement, format: str, version: Version) -> list[SchemaError]:  # noqa: A002 - the word of the domain
+    """What libxml2 does not accept by the XSD 1.0 projection."""
+    schema = _libxml2_schema(format, version)
+    if schema.validate(root):
+        return []
+    return [SchemaError(entry.line, entry.message) for entry in islice(schema.error_log, MOST)]
+
+
+def xmlschema_errors(
+    root: XmlElement,
+    format: str,  # noqa: A002 - the word of the domain
+    version: Version,
+    *,
+    names: bool = True,
+) -> list[SchemaError]:
+    """What xmlschema does not accept by the normative XSD 1.1; with or without its keys."""
+    errors = islice(_xmlschema_schema(format, version, names=names).iter_errors(root), MOST)
+    try:
+        return [SchemaError(error.sourceline or 0, error.reason or error.message) for error in errors]
+    except KeyError as error:  # xmlschema 4.3 does not catch its own when xsi:type names a type that there is not
+        return [SchemaError(root.sourceline or 0, str(error))]
+
+
+_schemas = local()  # threads that share a schema of libxml2 share its error log as well
+
+
+def _libxml2_schema(format_: str, version: Version) -> etree.XMLSchema:
+    built = cast("dict[tuple[str, Version], etree.XMLSchema]", _schemas.__dict__)
+    schema = built.get((format_, version))
+    if schema is None:
+        text = schema_text(format_, version, "1.0").encode()
+        schema = built[format_, version] = etree.XMLSchema(etree.fromstring(text))
+    return schema
+
+
+@cache
+def _xmlschema_schema(format_: str, version: Version, *, names: bool) -> "XMLSchema11":
+    from xmlschema import XMLSchema11  # noqa: PLC0415 - a tenth of a second
+
+    text = schema_text(format_, version, "1.1")
+    return XMLSchema11(text if names else without_names(text), allow="none")
+
+
+def refusals(root: XmlElement, context: Context, engine: Engine) -> list[SchemaError]:
+    """What an engine says of a tree."""
+    if engine == "xmlschema":
+        return xmlschema_errors(root, context.format, context.version, names=False)
+    return libxml2_errors(root, context.format, context.version)
+
+
+def _lines_with_faults(context: Context) -> set[int]:
+    """The lines of the elements that the table pass found a fault in."""
+    return {found.location.line for found in context.notes.diagnostics if found.rule.name in _FAULTS}
+
+
+def _without(root: XmlElement, tolerated: Iterable[tuple[XmlElement, str | None]]) -> XmlElement:
+    """A copy of the tree that lacks what was reported and kept."""
+    whole = copy.deepcopy(root)
+    doomed = {element for element, _ in tolerated}
+    copies = {element: twin for element, twin in zip(root.iter(), whole.iter(), strict=True) if element in doomed}
+    for element, part in tolerated:
+        _remove(copies[element], part)
+    return whole
+
+
+def _remove(element: XmlElement, part: str | None) -> None:
+    parent = element.getparent()
+    if part == "#text":
+        element.text = None
+    elif part == "#tail":
+        element.tail = None
+    elif part is not None:
+        element.attrib.pop(part, None)
+    elif parent is not None:
+        parent.remove(element)

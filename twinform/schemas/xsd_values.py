@@ -1,0 +1,152 @@
+"""The value types of `values.py` as XSD simple types, and the leaves that hold them.
+
+All patterns are linear and none of XSD's own numbers or truth values is used: libxml2 takes "1e" for an xs:double.
+Numbers that no double can hold fit the patterns; the parsers refuse them.
+"""
+
+from dataclasses import dataclass
+
+from lxml import etree
+
+from twinform.schemas.facts import Fact
+from twinform.schemas.xml import XmlElement
+
+XS = "{http://www.w3.org/2001/XMLSchema}"
+
+_FINITE = r"[+\-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+\-]?[0-9]+)?"
+_NUMBER = rf"{_FINITE}|[+\-]?([iI][nN][fF]|[nN][aA][nN])"
+_INT = r"[+\-]?(0[xX][0-9a-fA-F]+|[0-9]+)"
+_UINT = r"\+?(0[xX][0-9a-fA-F]+|[0-9]+)|-(0[xX]0+|0+)"
+_BOOL = "[tT][rR][uU][eE]|[fF][aA][lL][sS][eE]|0|1"
+
+
+@dataclass(frozen=True, slots=True)
+class Words:
+    """Text of so many words of one pattern."""
+
+    pattern: str
+    least: int = 1
+    most: int = 1
+
+
+_URDF = {
+    "bool": Words(_BOOL),
+    "int": Words(_INT),
+    "uint": Words(_UINT),
+    "double": Words(_FINITE),
+    "vector3": Words(_FINITE, 3, 3),
+    "quaternion": Words(_FINITE, 4, 4),
+    "color4": Words(_FINITE, 4, 4),
+}
+
+_SDF = _URDF | {
+    "double": Words(_NUMBER),
+    "vector3": Words(_NUMBER, 3, 3),
+    "vector2d": Words(_NUMBER, 2, 2),
+    "vector2i": Words(_INT, 2, 2),
+    "quaternion": Words(_FINITE, 3, 4),
+    "color": Words(_FINITE, 3, 4),
+    "pose": Words(_FINITE, 6, 7),
+    "time": Words(_FINITE, 1, 2),
+}
+
+WORDS = {"urdf": _URDF, "sdf": _SDF}
+"""By format and value type; `string` is any text."""
+
+_WORD = "word"
+"""The leaves that enumerations restrict. A restriction keeps only attributes that its base allows, so it allows all."""
+
+
+def xs(parent: XmlElement, tag: str, /, **attributes: str) -> XmlElement:
+    """A new XSD element in another."""
+    return etree.SubElement(parent, XS + tag, attributes)
+
+
+class Values:
+    """The value types that one schema uses. Asking for one puts it on the list of those to declare."""
+
+    def __init__(self, format: str) -> None:  # noqa: A002 - the word of the domain
+        self.words = WORDS[format]
+        self.used: set[str] = set()
+        self.blank: set[str] = set()
+        self.leaves: set[str] = set()
+
+    def attribute(self, row: Fact, attribute: XmlElement) -> None:
+        """Give an attribute its type. Its text stands as it is, blanks and all."""
+        if row.enum:
+            _enumerate(xs(xs(attribute, "simpleType"), "restriction", base="xs:string"), row.enum)
+        else:
+            attribute.set("type", self._value(row.type))
+
+    def leaf(self, row: Fact, element: XmlElement) -> XmlElement | None:
+        """Give a leaf its type; where the row asks for a type of its own, the extension that its attributes go into."""
+        if row.enum or row.attributes or row.needs_text:
+            return self.extension(row, xs(element, "complexType"))
+        self.leaves.add(row.type or "string")
+        element.set("type", f"{row.type}-leaf")
+        return None
+
+    def extension(self, row: Fact, complex_type: XmlElement) -> XmlElement:
+        """Simple content in a complex type: the extension that attributes go into."""
+        content = xs(complex_type, "simpleContent")
+        if not row.enum:
+            return xs(content, "extension", base=self._text(row.type, needed=row.needs_text))
+        self.leaves.add(_WORD)
+        restriction = xs(content, "restriction", base=f"{_WORD}-leaf")
+        _enumerate(restriction, row.enum)
+        return restriction
+
+    def declare(self, schema: XmlElement) -> None:
+        """Declare in a schema what has been asked for."""
+        for name in sorted(self.leaves):
+            content = xs(xs(schema, "complexType", name=f"{name}-leaf"), "simpleContent")
+            if name == _WORD:
+                allow_attributes(xs(content, "extension", base="xs:token"), "##any")
+            else:
+                allow_attributes(xs(content, "extension", base=self._text(name)), "##other")
+        for name in sorted(self.blank):
+            union = xs(schema, "simpleType", name=f"{name}-or-blank")
+            xs(union, "union", memberTypes=f"{name}-value blank")
+        for name in sorted(self.used):
+            _declare_words(xs(schema, "simpleType", name=f"{name}-value"), self.words[name])
+        if self.blank:
+            blank = xs(xs(schema, "simpleType", name="blank"), "restriction", base="xs:token")
+            xs(blank, "length", value="0")
+
+    def _value(self, name: str | None) -> str:
+        if name is None or name == "string":
+            return "xs:string"
+        self.used.add(name)
+        return f"{name}-value"
+
+    def _text(self, name: str | None, *, needed: bool = False) -> str:
+        value = self._value(name)
+        if value == "xs:string" or needed:
+            return value
+        self.blank.add(name or "string")
+        return f"{name}-or-blank"
+
+
+def allow_attributes(holder: XmlElement, namespace: str) -> None:
+    """Let an element carry attributes that are not looked at."""
+    xs(holder, "anyAttribute", namespace=namespace, processContents="skip")
+
+
+def _enumerate(restriction: XmlElement, words: tuple[str, ...]) -> None:
+    for word in words:
+        xs(restriction, "enumeration", value=word)
+
+
+def _declare_words(simple_type: XmlElement, words: Words) -> None:
+    restriction = xs(simple_type, "restriction")
+    if words.least == words.most == 1:
+        restriction.set("base", "xs:token")
+        xs(restriction, "pattern", value=words.pattern)
+        return
+    items = xs(xs(xs(restriction, "simpleType"), "list"), "simpleType")
+    xs(xs(items, "restriction", base="xs:token"), "pattern", value=words.pattern)
+    if words.least == words.most:
+        xs(restriction, "length", value=str(words.least))
+    else:
+        xs(restriction, "minLength", value=str(words.least))
+        xs(restriction, "maxLength", value=str(words.most))
