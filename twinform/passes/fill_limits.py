@@ -1,0 +1,108 @@
+"""Fill the limits that joints lack."""
+
+from fnmatch import fnmatchcase
+from typing import ClassVar, Self
+
+from pydantic import Field, model_validator
+
+from twinform.diagnostics import Location, Notes
+from twinform.diagnostics.rules.limits import FILLED_LIMIT, UNFILLED_LIMIT
+from twinform.ir import Axis, Document, Format, Joint, Limit
+from twinform.passes.base import Pass
+from twinform.passes.map_joints import map_joints
+
+_BOUNDED = frozenset({"revolute", "prismatic"})
+_DRIVEN = _BOUNDED | {"continuous"}
+
+
+class FillLimits(Pass):
+    """Fills limits that are missing with values of the user's choice; without options it changes nothing.
+
+    It changes joints with one axis whose name matches `joints`:
+
+    1. `effort` and `velocity` of revolute, prismatic and continuous joints;
+    2. `lower` and `upper` of revolute and prismatic joints, unless the range would be upside down;
+    3. where the whole `<limit>` is missing it is made, in URDF for joints without an `<axis>` too.
+
+    It never touches a limit that is written, nor joints of SDF without an `<axis>`.
+    It reports `filled-limit` for each joint that it fills, and `unfilled-limit` where case 2 left an end open.
+    """
+
+    name = "fill-limits"
+    example: ClassVar[str] = 'fill-limits{effort=100 velocity=3.14 joints="arm_[0-9]"}'
+
+    effort: float | None = Field(
+        default=None, ge=0, allow_inf_nan=False, description="The greatest effort, in N m or N."
+    )
+    velocity: float | None = Field(
+        default=None, ge=0, allow_inf_nan=False, description="The greatest speed, in rad/s or m/s."
+    )
+    lower: float | None = Field(
+        default=None, allow_inf_nan=False, description="The lower end of the range, in rad or m."
+    )
+    upper: float | None = Field(
+        default=None, allow_inf_nan=False, description="The upper end of the range, in rad or m."
+    )
+    joints: str = Field(default="*", description="Only joints with such a name; `*`, `?` and `[...]` are wildcards.")
+
+    @model_validator(mode="after")
+    def _check_range(self) -> Self:
+        if self.lower is not None and self.upper is not None and self.lower > self.upper:
+            raise ValueError("lower is above upper")
+        return self
+
+    def run(self, document: Document, notes: Notes) -> Document:
+        """The document with the limits filled."""
+        return map_joints(document, lambda joint: self._fill(joint, document.format, notes))
+
+    def _fill(self, joint: Joint, format_: Format, notes: Notes) -> Joint:
+        if joint.type not in _DRIVEN or not fnmatchcase(joint.name, self.joints):
+            return joint
+        if joint.axis is None and format_ is Format.SDF:
+            return joint
+        axis = joint.axis or Axis()
+        limit = axis.limit or Limit()
+        values = self._missing(joint.type, limit)
+        if _is_upside_down(limit, values):
+            _report_open_end(joint, limit, values, notes)
+            values = {name: value for name, value in values.items() if name not in {"lower", "upper"}}
+        if not values:
+            return joint
+        _report_filled(joint, limit, values, notes)
+        return joint.model_copy(
+            update={"axis": axis.model_copy(update={"limit": limit.model_copy(update=values)})},
+        )
+
+    def _missing(self, type_: str, limit: Limit) -> dict[str, float]:
+        """The values that the options give for limits which this type of joint has and which are not written."""
+        chosen = {"effort": self.effort, "velocity": self.velocity}
+        if type_ in _BOUNDED:
+            chosen |= {"lower": self.lower, "upper": self.upper}
+        return {name: value for name, value in chosen.items() if value is not None and getattr(limit, name) is None}
+
+
+def _is_upside_down(limit: Limit, values: dict[str, float]) -> bool:
+    """Whether the values would turn a range around; one that is written so is none of our business."""
+    if not values.keys() & {"lower", "upper"}:
+        return False
+    lower, upper = values.get("lower", limit.lower), values.get("upper", limit.upper)
+    return lower is not None and upper is not None and lower > upper
+
+
+def _report_open_end(joint: Joint, limit: Limit, values: dict[str, float], notes: Notes) -> None:
+    open_end, written = ("upper", limit.lower) if limit.upper is None else ("lower", limit.upper)
+    side = "below" if open_end == "upper" else "above"
+    message = (
+        f"the {open_end} limit of joint {joint.name!r} was not filled: "
+        f"{values[open_end]:g} is {side} its other limit, {written:g}"
+    )
+    notes.report(UNFILLED_LIMIT, message, _place(joint, limit), found=f"{written:g}")
+
+
+def _report_filled(joint: Joint, limit: Limit, values: dict[str, float], notes: Notes) -> None:
+    listed = ", ".join(f"{name} {value:g}" for name, value in values.items())
+    notes.report(FILLED_LIMIT, f"limits of joint {joint.name!r} filled: {listed}", _place(joint, limit))
+
+
+def _place(joint: Joint, limit: Limit) -> Location:
+    return limit.location if limit.source else joint.location

@@ -1,0 +1,212 @@
+r"""The text of a pipeline: its grammar, and its parser and printer without any knowledge of passes.
+
+    pipeline = [ pass { "," pass } ]
+    pass     = name [ "{" [ option { separator option } ] "}" ]
+    option   = name "=" value
+    value    = scalar | "[" [ scalar { "," scalar } ] "]"
+    scalar   = number | "true" | "false" | "null" | word | string
+
+A `name` is kebab-case: `fill-limits`. A `separator` is a comma, or blanks, or both. Blanks may stand around commas,
+inside brackets and braces, and at both ends. A `number` is written as in Python, or is `inf` or `-inf`. A `word` is any
+run of characters without blanks, quotes and `, = { } [ ]` that is not one of the other scalars; all other text is a
+`string`: in double quotes, with the escapes of JSON.
+
+    lump-fixed-joints{keep=tool0},check-inertia,fill-limits{effort=100 joints="arm_[0-9]"}
+"""
+
+import json
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+Scalar = str | float | bool | None
+Value = Scalar | list[Scalar]
+
+_BLANKS = re.compile(r"\s*")
+_NAME = re.compile(r"[a-z][a-z0-9]*(?:-[a-z0-9]+)*")
+_STRING = re.compile(r'"(?:[^"\\]|\\.)*"', re.DOTALL)
+_WORD = re.compile(r'[^\s,={}\[\]"]+')
+_INTEGER = re.compile(r"[-+]?[0-9]+")
+_REAL = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?|[-+]?inf")
+_KEYWORDS: dict[str, Scalar] = {"true": True, "false": False, "null": None}
+_LONGEST_NUMBER = 400
+"""No double needs more digits, and Python refuses to read thousands of them."""
+
+
+class PipelineError(ValueError):
+    """The text of a pipeline is wrong; `position` counts characters from 0."""
+
+    def __init__(self, problem: str, text: str, position: int) -> None:
+        self.problem, self.text, self.position = problem, text, position
+        super().__init__(f"{problem}\n{self._caret()}")
+
+    def _caret(self) -> str:
+        """The line that is wrong, and a caret below the character."""
+        start = self.text.rfind("\n", 0, self.position) + 1
+        line = self.text[start:].split("\n", 1)[0]
+        indent = "".join(each if each == "\t" else " " for each in line[: self.position - start])
+        return f"  {line}\n  {indent}^"
+
+
+@dataclass(frozen=True, slots=True)
+class Option:
+    """`name=value`; `position` is the name's, `value_position` the value's."""
+
+    name: str
+    value: Value
+    position: int
+    value_position: int
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """A pass and its options as they are written."""
+
+    name: str
+    options: tuple[Option, ...]
+    position: int
+
+
+def parse_calls(text: str) -> tuple[Call, ...]:
+    """The passes that a text names.
+
+    Raises:
+        PipelineError: the text does not follow the grammar.
+    """
+    return tuple(_Scanner(text).pipeline())
+
+
+def print_call(name: str, options: dict[str, Value]) -> str:
+    """A pass in the canonical spelling: options parted by one blank, and no braces where there are none."""
+    listed = " ".join(f"{key}={print_value(value)}" for key, value in options.items())
+    return f"{name}{{{listed}}}" if listed else name
+
+
+def print_value(value: Value) -> str:
+    """A value in its canonical spelling; text is quoted only where it has to be."""
+    return f"[{','.join(map(_print_scalar, value))}]" if isinstance(value, list) else _print_scalar(value)
+
+
+def _print_scalar(value: Scalar) -> str:
+    if isinstance(value, str):
+        plain = _WORD.fullmatch(value) and value.isprintable() and value not in _KEYWORDS and not _REAL.fullmatch(value)
+        return value if plain else json.dumps(value, ensure_ascii=not value.isprintable())
+    if value is None or isinstance(value, bool):
+        return json.dumps(value)
+    return repr(value).removesuffix(".0") if value else repr(value)  # -0.0 keeps its sign only with its point
+
+
+def _read_word(word: str) -> Scalar:
+    if word in _KEYWORDS:
+        return _KEYWORDS[word]
+    if _INTEGER.fullmatch(word):
+        return int(word)
+    return float(word) if _REAL.fullmatch(word) else word
+
+
+class _Scanner:
+    """Reads the text from left to right; each method takes one part of the grammar."""
+
+    def __init__(self, text: str) -> None:
+        self.text, self.at = text, 0
+
+    def pipeline(self) -> Iterator[Call]:
+        self.take(_BLANKS)
+        if self.at == len(self.text):
+            return
+        yield self.call()
+        while self.skip(","):
+            yield self.call()
+        if self.at < len(self.text):
+            raise self.expected("',' or the end")
+
+    def call(self) -> Call:
+        position, name = self.at, self.name("a pass")
+        options = tuple(self.options()) if self.at < len(self.text) and self.text[self.at] == "{" else ()
+        self.take(_BLANKS)
+        return Call(name, options, position)
+
+    def options(self) -> Iterator[Option]:
+        seen = set[str]()
+        self.skip("{")
+        while not self.skip("}"):
+            if seen:
+                self.separator()
+            option = self.option()
+            if option.name in seen:
+                raise PipelineError(f"the option {option.name} is given twice", self.text, option.position)
+            seen.add(option.name)
+            yield option
+
+    def separator(self) -> None:
+        """A comma here, or blanks before here."""
+        if not self.skip(",") and not self.text[self.at - 1].isspace():
+            raise self.expected("',', a blank or '}'")
+
+    def option(self) -> Option:
+        position, name = self.at, self.name("an option")
+        if not self.skip("=", blanks=False):
+            raise self.expected("'='")
+        start, value = self.at, self.value()
+        self.take(_BLANKS)
+        return Option(name, value, position, start)
+
+    def value(self) -> Value:
+        if not self.skip("["):
+            return self.scalar()
+        values: list[Scalar] = []
+        while not self.skip("]"):
+            if values and not self.skip(","):
+                raise self.expected("',' or ']'")
+            values.append(self.scalar())
+            self.take(_BLANKS)
+        return values
+
+    def scalar(self) -> Scalar:
+        position = self.at
+        if self.text.startswith('"', position):
+            return self.string()
+        word = self.take(_WORD)
+        if not word:
+            raise self.expected("a value")
+        if not _REAL.fullmatch(word) or word.endswith("inf"):
+            return _read_word(word)
+        if len(word) > _LONGEST_NUMBER or math.isinf(float(word)):
+            raise PipelineError("the number is too large", self.text, position)
+        return _read_word(word)
+
+    def string(self) -> str:
+        position = self.at
+        literal = self.take(_STRING)
+        if not literal:
+            raise PipelineError('the string has no closing "', self.text, position)
+        try:
+            return str(json.loads(literal, strict=False))
+        except json.JSONDecodeError as error:
+            raise PipelineError("no such escape", self.text, position + error.pos) from error
+
+    def name(self, what: str) -> str:
+        name = self.take(_NAME)
+        if not name:
+            raise self.expected(f"the name of {what}")
+        return name
+
+    def take(self, pattern: re.Pattern[str]) -> str:
+        """The text here that the pattern matches; empty where it does not."""
+        found = pattern.match(self.text, self.at)
+        self.at = found.end() if found else self.at
+        return found[0] if found else ""
+
+    def skip(self, character: str, *, blanks: bool = True) -> bool:
+        """Go past the character, and blanks after it, if it is here."""
+        if not self.text.startswith(character, self.at):
+            return False
+        self.at += 1
+        if blanks:
+            self.take(_BLANKS)
+        return True
+
+    def expected(self, what: str) -> PipelineError:
+        here = repr(self.text[self.at]) if self.at < len(self.text) else "the end"
+        return PipelineError(f"expected {what}, not {here}", self.text, self.at)
