@@ -1,0 +1,75 @@
+"""Carriers: pieces of one format that travel inside a file of the other, where every reader but ours skips them.
+
+A carrier is an element of our namespace, named after the format that its piece belongs to, inside the element that the
+piece belongs to:
+
+    <tf:urdf at="limit"><foo/></tf:urdf>                  an element, inside the piece's own `limit`
+    <tf:urdf attribute="k" value="1"/>                    an attribute
+    <tf:urdf text="free"/>                                text
+"""
+
+from collections.abc import Iterable
+from typing import TypeVar
+
+from lxml import etree
+
+from twinform.ir import Element, Node, Opaque
+from twinform.schemas import XmlElement, parse_version, table, writer
+
+NAMESPACE = "urn:twinform:1"
+PREFIX = "tf"
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+
+def carry(node: AnyNode, pieces: Iterable[Opaque], dialect: str) -> AnyNode:
+    """The node with these pieces of the other format in carriers."""
+    carriers = tuple(Opaque(element=_carrier(piece, dialect)) for piece in pieces)
+    return node.model_copy(update={"opaque": (*node.opaque, *carriers)}) if carriers else node
+
+
+def is_carrier(part: Opaque, dialect: str) -> bool:
+    """Whether an opaque part is a carrier of a piece of this format."""
+    return part.element is not None and part.element.name == f"{{{NAMESPACE}}}{dialect}"
+
+
+def unpack(part: Opaque) -> tuple[Opaque, ...]:
+    """The pieces in a carrier: the inverse of what `carry` packs."""
+    element = part.element
+    if element is None:
+        return ()
+    at = element.get("at") or ""
+    name, value, text = element.get("attribute"), element.get("value"), element.get("text")
+    if name is not None:
+        return (Opaque(at=at, attribute=(name, value or "")),)
+    if text is not None:
+        return (Opaque(at=at, text=text),)
+    return tuple(Opaque(at=at, element=child) for child in element.children)
+
+
+def to_element(node: Node, tag: str, dialect: str, definition: str | None = None) -> Element:
+    """A typed node as the element that it is in a format; the definition has the tag's name where none is given."""
+    made = etree.Element(tag)
+    writer(dialect, parse_version(table(dialect).versions[-1])).write(node, made, definition or tag)
+    return from_xml(made)
+
+
+def from_xml(xml: XmlElement) -> Element:
+    """An XML tree as an `Element`."""
+    return Element(
+        name=str(xml.tag),
+        attributes=tuple((str(name), str(value)) for name, value in xml.items()),
+        text=(xml.text or "").strip() or None,
+        children=tuple(from_xml(child) for child in xml),
+        tail=(xml.tail or "").strip() or None,
+    )
+
+
+def _carrier(piece: Opaque, dialect: str) -> Element:
+    attributes: list[tuple[str, str]] = [("at", piece.at)] if piece.at else []
+    if piece.attribute is not None:
+        attributes += [("attribute", piece.attribute[0]), ("value", piece.attribute[1])]
+    if piece.text is not None:
+        attributes.append(("text", piece.text))
+    children = (piece.element,) if piece.element is not None else ()
+    return Element(name=f"{{{NAMESPACE}}}{dialect}", attributes=tuple(attributes), children=children)

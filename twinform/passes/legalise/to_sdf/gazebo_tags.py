@@ -1,0 +1,80 @@
+"""The tags of `<gazebo>` elements that mean something else than they say, and how their values are read.
+
+Everything else in such an element is SDF as it stands. The meanings are those of libsdformat's URDF reader.
+"""
+
+from collections.abc import Callable
+from typing import Literal, NamedTuple
+
+from twinform.ir import Element
+from twinform.schemas import parse_value
+
+
+class Tag(NamedTuple):
+    """Where a tag's value goes: into a field of what `target` names, after `read`."""
+
+    target: Literal["surface", "collision", "visual", "link", "dynamics", "physics", "ignored"]
+    field: str
+    read: Callable[[str], object]
+
+
+def value_text(element: Element) -> str:
+    """The value of a tag, which may be written as an attribute or as text."""
+    value = element.get("value")
+    return (value if value is not None else element.text or "").strip()
+
+
+def _number(text: str) -> object:
+    return parse_value("double", text)
+
+
+def _vector(text: str) -> object:
+    return parse_value("vector3", text)
+
+
+def _count(text: str) -> object:
+    return parse_value("int", text)
+
+
+def _truth(text: str) -> bool:
+    return text.lower() in {"true", "yes", "1"}
+
+
+def _gravity(text: str) -> bool:
+    """turnGravityOff: only these words leave gravity on."""
+    return text.lower() in {"false", "no", "0"}
+
+
+LINK_TAGS = {
+    "mu1": Tag("surface", "mu", _number),
+    "mu2": Tag("surface", "mu2", _number),
+    "fdir1": Tag("surface", "fdir1", _vector),
+    "kp": Tag("surface", "kp", _number),
+    "kd": Tag("surface", "kd", _number),
+    "maxVel": Tag("surface", "max_vel", _number),
+    "minDepth": Tag("surface", "min_depth", _number),
+    "maxContacts": Tag("collision", "max_contacts", _count),
+    "laserRetro": Tag("collision", "laser_retro", _number),
+    "material": Tag("visual", "script", str),
+    "turnGravityOff": Tag("link", "gravity", _gravity),
+    "selfCollide": Tag("link", "self_collide", _truth),
+    "dampingFactor": Tag("link", "velocity_decay", _number),
+    "canonicalBody": Tag("ignored", "", str),
+}
+
+JOINT_TAGS = {
+    "springReference": Tag("dynamics", "spring_reference", _number),
+    "springStiffness": Tag("dynamics", "spring_stiffness", _number),
+    "stopCfm": Tag("physics", "ode/limit/cfm", _number),
+    "stopErp": Tag("physics", "ode/limit/erp", _number),
+    "fudgeFactor": Tag("physics", "ode/fudge_factor", _number),
+    "provideFeedback": Tag("physics", "provide_feedback", _truth),
+    "implicitSpringDamper": Tag("physics", "ode/implicit_spring_damper", _truth),
+    "cfmDamping": Tag("physics", "ode/implicit_spring_damper", _truth),
+    "preserveFixedJoint": Tag("ignored", "", str),
+    "disableFixedJointLumping": Tag("ignored", "", str),
+}
+"""Fixed joints are never lumped here, so the two tags that prevent it have nothing to do."""
+
+SCRIPT_URI = "file://media/materials/scripts/gazebo.material"
+"""Where Gazebo Classic keeps the materials that `<material>` names."""

@@ -1,0 +1,101 @@
+"""Joints of URDF as SDF says them."""
+
+from typing import ClassVar
+
+from twinform.diagnostics import Fate, Notes
+from twinform.diagnostics.rules import to_sdf
+from twinform.ir import Axis, Joint, Limit, Link, Model, Opaque
+from twinform.passes.legalise.carrier import carry, to_element
+from twinform.passes.legalise.model_pass import ModelPass
+from twinform.schemas import format_value
+
+_X = (1.0, 0.0, 0.0)
+"""URDF's default axis; SDF's is z."""
+_OF_FIXED = frozenset({"axis", "limit", "dynamics", "mimic"})
+
+
+class UrdfJoints(ModelPass):
+    """Say the types, default axes and default limits of URDF in SDF's terms.
+
+    Changes: 1. a `fixed` joint loses its axis, limits and the like, which are carried; 2. a `continuous` joint loses lower
+    and upper limit, which URDF ignores; 3. a joint that moves gets its axis written, 1 0 0 where URDF leaves it out;
+    4. a revolute or prismatic joint gets its limits written, 0 where URDF leaves them out; 5. a `floating` joint goes, and
+    its child link is posed where it was; 6. limits of acceleration and jerk, which SDF lacks, are carried.
+    Never touches: names, origins, parents, children.
+    Diagnostics: `joint-type-unsupported` for `planar`; ledger entries under `urdf-only` and `no-joint`.
+    """
+
+    name: ClassVar[str] = "urdf-joints"
+    carriers: bool = True
+
+    def run_model(self, model: Model, notes: Notes) -> Model:
+        """The model with joints of SDF."""
+        free = {joint.child: joint for joint in model.joints if joint.type == "floating"}
+        joints = tuple(self._joint(joint, notes) for joint in model.joints if joint.type != "floating")
+        links = model.links
+        if free:
+            links = tuple(self._free(link, free[link.name], notes) if link.name in free else link for link in links)
+        return model.model_copy(update={"joints": joints, "links": links})
+
+    def _free(self, link: Link, joint: Joint, notes: Notes) -> Link:
+        message = f"joint {joint.name!r} leaves link {link.name!r} free, which needs no joint in SDF"
+        element = to_element(joint, "joint", "urdf")
+        notes.account(self._fate(), to_sdf.NO_JOINT, message, joint.location, element.weight)
+        link = link.model_copy(update={"pose": joint.pose, "opaque": (*link.opaque, *joint.opaque)})
+        return carry(link, [Opaque(element=element)], "urdf") if self.carriers else link
+
+    def _joint(self, joint: Joint, notes: Notes) -> Joint:
+        match joint.type:
+            case "fixed":
+                return self._fixed(joint, notes)
+            case "revolute" | "prismatic" | "continuous":
+                return self._moving(joint, notes)
+            case _:
+                message = f"joint {joint.name!r} is {joint.type!r}, which SDF has no joint for"
+                notes.report(to_sdf.JOINT_TYPE_UNSUPPORTED, message, joint.location.at("@type"), found=joint.type)
+                return joint
+
+    def _fixed(self, joint: Joint, notes: Notes) -> Joint:
+        if joint.axis is None:
+            return joint
+        rest = [child for child in to_element(joint, "joint", "urdf").children if child.name in _OF_FIXED]
+        kept = joint.model_copy(update={"axis": None})
+        message = f"the fixed joint {joint.name!r} does not move"
+        return self._keep(kept, [Opaque(element=child) for child in rest], message, notes)
+
+    def _moving(self, joint: Joint, notes: Notes) -> Joint:
+        axis = joint.axis or Axis()
+        limit, rest = _limit(joint, axis.limit)
+        update: dict[str, object] = {}
+        if limit is not axis.limit:
+            update["limit"] = limit
+        if axis.xyz is None:
+            update["xyz"] = _X
+        if not update:
+            return joint
+        joint = joint.model_copy(update={"axis": axis.model_copy(update=update)})
+        return self._keep(joint, rest, f"SDF has no place for these limits of joint {joint.name!r}", notes)
+
+    def _keep(self, joint: Joint, rest: list[Opaque], message: str, notes: Notes) -> Joint:
+        for part in rest:
+            notes.account(self._fate(), to_sdf.URDF_ONLY, f"{message}: {part.name}", joint.location, part.weight)
+        return carry(joint, rest, "urdf") if self.carriers else joint
+
+    def _fate(self) -> Fate:
+        return Fate.CARRIED if self.carriers else Fate.DROPPED
+
+
+_HIGHER = ("acceleration", "deceleration", "jerk")
+
+
+def _limit(joint: Joint, limit: Limit | None) -> tuple[Limit | None, list[Opaque]]:
+    """The limit in SDF's terms, and the attributes of URDF's that it has no place for."""
+    if limit is None:
+        return None, []
+    unsaid = (*_HIGHER, "lower", "upper") if joint.type == "continuous" else _HIGHER
+    written = [(name, getattr(limit, name)) for name in unsaid if getattr(limit, name) is not None]
+    rest = [Opaque(at="limit", attribute=(name, format_value(value))) for name, value in written]
+    update: dict[str, float | None] = {name: None for name, _ in written}
+    if joint.type != "continuous":
+        update |= {name: 0.0 for name in ("lower", "upper") if getattr(limit, name) is None}
+    return (limit.model_copy(update=update) if update else limit), rest

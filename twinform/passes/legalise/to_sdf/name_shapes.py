@@ -1,0 +1,62 @@
+"""A name for every visual and collision."""
+
+from typing import ClassVar, TypeVar
+
+from twinform.diagnostics import Fate, Notes
+from twinform.diagnostics.rules import to_sdf
+from twinform.ir import Collision, Link, Model, Visual
+from twinform.passes.legalise.model_pass import ModelPass
+
+Shape = TypeVar("Shape", Visual, Collision)
+
+
+class NameShapes(ModelPass):
+    """Name what has no name, or the name of another one of its kind in the link.
+
+    Changes: 1. the unnamed become `LINK_visual` or `LINK_collision`, with `_1`, `_2`, ... from the second on;
+    2. a repeated name gets a number.
+    Never touches: names that are there and differ.
+    Diagnostics: none; a ledger entry under `shape-name` for each name that was changed.
+    """
+
+    name: ClassVar[str] = "name-shapes"
+
+    def run_model(self, model: Model, notes: Notes) -> Model:
+        """The model with named shapes."""
+        links = tuple(_name_link(link, notes) for link in model.links)
+        return model.model_copy(update={"links": links})
+
+
+def _name_link(link: Link, notes: Notes) -> Link:
+    visuals = name_all(link.visuals, f"{link.name}_visual", notes)
+    collisions = name_all(link.collisions, f"{link.name}_collision", notes)
+    if visuals is link.visuals and collisions is link.collisions:
+        return link
+    return link.model_copy(update={"visuals": visuals, "collisions": collisions})
+
+
+def name_all(shapes: tuple[Shape, ...], base: str, notes: Notes) -> tuple[Shape, ...]:
+    """The shapes with one name each; `base` names those that have none."""
+    taken = {shape.name for shape in shapes if shape.name}
+    if len(taken) == len(shapes):
+        return shapes
+    seen: set[str] = set()
+    named: list[Shape] = []
+    for shape in shapes:
+        name = shape.name
+        if not name or name in seen:
+            name = _free(name or base, taken | seen)
+            if shape.name:
+                message = f"{shape.name!r} is there twice; the second one is called {name!r} in SDF"
+                notes.account(Fate.APPROXIMATED, to_sdf.SHAPE_NAME, message, shape.location)
+            shape = shape.model_copy(update={"name": name})  # noqa: PLW2901 - the same shape under its name
+        seen.add(name)
+        named.append(shape)
+    return tuple(named)
+
+
+def _free(base: str, taken: set[str]) -> str:
+    name, number = base, 1
+    while name in taken:
+        name, number = f"{base}_{number}", number + 1
+    return name

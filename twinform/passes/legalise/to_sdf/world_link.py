@@ -1,0 +1,47 @@
+"""A root link called `world` is SDF's world."""
+
+from typing import ClassVar
+
+from twinform.diagnostics import Fate, Notes
+from twinform.diagnostics.rules import to_sdf
+from twinform.ir import Joint, Link, Model, Opaque, count_parts
+from twinform.passes.legalise.carrier import carry, to_element
+from twinform.passes.legalise.model_pass import ModelPass
+
+
+class WorldLink(ModelPass):
+    """Replace a root link called `world` by SDF's world.
+
+    Changes: 1. the link goes; 2. poses of joints in its frame are in the model frame, which a robot has at the world's
+    origin when it is fixed to it. A body of the link is carried, or dropped with `carriers` false.
+    Never touches: a link called `world` that is a joint's child; `unique-names` renames it.
+    Diagnostics: `world-link` when the link has a body.
+    """
+
+    name: ClassVar[str] = "world-link"
+    carriers: bool = True
+
+    def run_model(self, model: Model, notes: Notes) -> Model:
+        """The model with `world` as a parent only."""
+        world = next((link for link in model.links if link.name == "world"), None)
+        if world is None or any(joint.child == "world" for joint in model.joints) or len(model.links) == 1:
+            return model
+        links = tuple(link for link in model.links if link is not world)
+        joints = tuple(_on_model(joint) for joint in model.joints)
+        model = model.model_copy(update={"links": links, "joints": joints})
+        return self._keep_body(model, world, notes) if count_parts(world) > 2 else model  # noqa: PLR2004 - element and name
+
+    def _keep_body(self, model: Model, world: Link, notes: Notes) -> Model:
+        message = "the link 'world' has a body, which SDF's world cannot have"
+        notes.report(to_sdf.WORLD_LINK, message, world.location)
+        fate = Fate.CARRIED if self.carriers else Fate.DROPPED
+        notes.account(fate, to_sdf.WORLD_LINK, message, world.location, count_parts(world))
+        if not self.carriers:
+            return model
+        return carry(model, [Opaque(element=to_element(world, "link", "urdf"))], "urdf")
+
+
+def _on_model(joint: Joint) -> Joint:
+    if joint.parent != "world" or joint.pose is None:
+        return joint
+    return joint.model_copy(update={"pose": joint.pose.model_copy(update={"relative_to": "__model__"})})
