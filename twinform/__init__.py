@@ -1,0 +1,44 @@
+"""The robot model compiler between URDF and SDF: strict, lossless, both ways.
+
+    import twinform
+
+    document = twinform.load("robot.urdf")
+    result = twinform.convert("robot.urdf", to="sdf", sdf_version="1.11", passes="check-inertia")
+    result.text, result.document, result.diagnostics, result.ledger
+
+Names are imported when they are first used, so that `import twinform` costs nothing.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from twinform.compiler import CompileError, Conversion, check, convert, load, loads, write_atomically
+    from twinform.diagnostics import Diagnostic, Ledger
+    from twinform.ir import Document
+
+__version__ = "0.1.0"
+__all__ = [
+    "CompileError",
+    "Conversion",
+    "Diagnostic",
+    "Document",
+    "Ledger",
+    "check",
+    "convert",
+    "load",
+    "loads",
+    "write_atomically",
+]
+
+_HOMES = {"Document": "twinform.ir", "Diagnostic": "twinform.diagnostics", "Ledger": "twinform.diagnostics"}
+
+
+def __getattr__(name: str) -> object:
+    if name not in __all__:
+        raise AttributeError(f"module 'twinform' has no attribute {name!r}")
+    return getattr(import_module(_HOMES.get(name, "twinform.compiler")), name)
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "__version__"]

@@ -1,0 +1,16 @@
+"""The one exception of the compiler's public face."""
+
+from twinform.diagnostics import Diagnostic
+
+
+class CompileError(Exception):
+    """A document could not be read or compiled; `diagnostics` say why, `unreadable` that it is no robot model at all."""
+
+    def __init__(self, diagnostics: tuple[Diagnostic, ...], *, unreadable: bool = False) -> None:
+        self.diagnostics = diagnostics
+        self.unreadable = unreadable
+        errors = [diagnostic for diagnostic in diagnostics if diagnostic.is_error]
+        first = errors[0] if errors else None
+        more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
+        where = f"{first.location.file}:{first.location.line}: " if first else ""
+        super().__init__(f"{where}{first.message if first else 'not compiled'}{more}")

@@ -1,0 +1,130 @@
+"""From bytes to a safe XML tree.
+
+The input may be hostile: no entities, no DTD, no network, no decompression, a limit on size. Real files are often not
+quite XML; what the parsers of ROS and Gazebo let pass is repaired when it can only mean one thing.
+"""
+
+from pathlib import Path
+
+from lxml import etree
+
+from twinform.diagnostics import Location, Notes
+from twinform.diagnostics.rules import reading
+from twinform.schemas import XmlElement
+
+LARGEST = 64 * 2**20
+"""The largest file, in bytes. The largest real one that we know has 2 MB; a chain of 10,000 links has 15."""
+
+_REPAIRS = {
+    "ERR_UNKNOWN_VERSION": "write <?xml version='1.0'?>",
+    "ERR_HYPHEN_IN_COMMENT": "write no '--' inside a comment",
+    "NS_ERR_UNDEFINED_NAMESPACE": "declare the prefix on the root element with xmlns:prefix='...'",
+    "ERR_RESERVED_XML_NAME": "move <?xml ...?> to the very beginning of the file",
+}
+"""What libxml2 recovers from without any doubt about the tree, and what the author should do instead."""
+
+
+class Unreadable(Exception):
+    """There is no tree; the notes say why."""
+
+
+def read_bytes(path: Path, notes: Notes) -> bytes:
+    """The bytes of a file.
+
+    Raises:
+        Unreadable: it is missing, empty or too large.
+    """
+    try:
+        size = path.stat().st_size
+        text = path.read_bytes() if size <= LARGEST else b""
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise _unreadable(notes, f"cannot read the file: {reason}") from error
+    if size > LARGEST:
+        raise _unreadable(notes, f"the file has {size:,} bytes; the limit is {LARGEST:,}")
+    return text
+
+
+def parse(text: bytes, notes: Notes) -> XmlElement:
+    """The root of the document, its default namespace removed and undeclared prefixes given a namespace.
+
+    Raises:
+        Unreadable: it is not XML, or has a document type declaration.
+    """
+    if not text.strip():
+        raise _unreadable(notes, "the file is empty")
+    try:
+        root = etree.fromstring(text, _parser(recover=False))
+    except etree.XMLSyntaxError as error:
+        root = _recover(text, notes, error)
+    if root.getroottree().docinfo.doctype:
+        notes.report(reading.DOCTYPE, "the document has a DOCTYPE; none is allowed", Location(line=1, path="/"))
+        raise Unreadable
+    return root
+
+
+def _parser(*, recover: bool) -> etree.XMLParser:
+    return etree.XMLParser(
+        resolve_entities=False,
+        no_network=True,
+        load_dtd=False,
+        attribute_defaults=False,
+        huge_tree=False,
+        remove_comments=True,
+        remove_pis=True,
+        recover=recover,
+    )
+
+
+def _recover(text: bytes, notes: Notes, error: etree.XMLSyntaxError) -> XmlElement:
+    parser = _parser(recover=True)
+    # parsers of ROS and Gazebo skip blank lines before the declaration, libxml2 does so only without the declaration's name
+    root = etree.fromstring(text, parser) if text.strip() else None
+    fatal = [entry for entry in parser.error_log if entry.type_name not in _REPAIRS]
+    if root is None or fatal:
+        line, column = error.position
+        where = Location(line=fatal[0].line if fatal else line, path="/")
+        message = fatal[0].message if fatal else error.msg or "not XML"
+        notes.report(reading.NOT_WELL_FORMED, f"not well-formed XML: {message} (column {column})", where)
+        raise Unreadable from error
+    for entry in parser.error_log:
+        message, hint = f"not well-formed XML, repaired: {entry.message}", _REPAIRS[entry.type_name]
+        notes.report(reading.REPAIRED_XML, message, Location(line=entry.line, path="/"), help=hint)
+    _declare_prefixes(root)
+    return root
+
+
+def _declare_prefixes(root: XmlElement) -> None:
+    """Give the names of undeclared prefixes, which libxml2 leaves as literal `prefix:name`, a namespace."""
+    for element in root.iter():
+        tag = str(element.tag)
+        if ":" in tag and tag[0] != "{":
+            element.tag = _qualified(tag)
+        for name in [name for name in element.attrib if ":" in str(name) and str(name)[0] != "{"]:
+            element.set(_qualified(str(name)), element.attrib.pop(name))
+
+
+def undeclared_namespace(prefix: str) -> str:
+    """The namespace that an undeclared prefix is given."""
+    return f"urn:twinform:undeclared:{prefix}"
+
+
+def _qualified(name: str) -> str:
+    prefix, _, local = name.partition(":")
+    return f"{{{undeclared_namespace(prefix)}}}{local}"
+
+
+def strip_default_namespace(root: XmlElement) -> str | None:
+    """Make names in the default namespace plain, as the readers of ROS and Gazebo see them; give the namespace."""
+    namespace = root.nsmap.get(None)
+    if namespace is None:
+        return None
+    start = f"{{{namespace}}}"
+    for element in root.iter(f"{start}*"):
+        element.tag = str(element.tag)[len(start) :]
+    return namespace
+
+
+def _unreadable(notes: Notes, message: str) -> Unreadable:
+    notes.report(reading.UNREADABLE_FILE, message)
+    return Unreadable()

@@ -1,0 +1,1 @@
+"""SDF: front end and back end."""

@@ -1,0 +1,1 @@
+"""URDF: front end and back end."""
