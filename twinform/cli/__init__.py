@@ -1,0 +1,42 @@
+"""The command line: one file for each command, imported when it is called."""
+
+from collections.abc import Mapping
+from importlib import import_module
+
+import click
+
+from twinform import __version__
+
+COMMANDS: Mapping[str, str] = {
+    "convert": "Compile robot models from one format into the other.",
+    "check": "Find everything that is wrong with robot models.",
+    "passes": "List the passes, or print the page of one.",
+    "explain": "Print the page of a rule, or list all rules.",
+    "schema": "Print the XML schema of a format.",
+}
+"""Every command and its summary, which the help shows without importing the command.
+
+The command is the name `command` in the module of the same name.
+"""
+
+
+class _Commands(click.Group):
+    """Imports a command only when it is called: the compiler takes ten times as long to import as all that is here."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - the signature is click's
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002 - likewise
+        if cmd_name not in COMMANDS:
+            return None
+        return getattr(import_module(f"{__name__}.{cmd_name}"), "command", None)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002 - likewise
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
+
+
+@click.command(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="twinform")
+def main() -> None:
+    """Compile robot models between URDF and SDF: strict, lossless, both ways."""

@@ -1,0 +1,61 @@
+"""`twinform check`."""
+
+from collections import Counter
+
+import click
+
+from twinform.cli.failure import FINDINGS, UNUSABLE
+from twinform.cli.findings import show
+from twinform.cli.source import open_source
+from twinform.compiler import Checked, check
+from twinform.diagnostics import Severity
+from twinform.diagnostics.reporters import REPORTERS, Findings
+from twinform.schemas import Engine
+
+_WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
+
+
+@click.command("check")
+@click.argument("sources", metavar="IN...", nargs=-1, required=True)
+@click.option("--format", "style", type=click.Choice(list(REPORTERS)), default="text", help="How to print findings.")
+@click.option("--strict", is_flag=True, help="Refuse what readers ignore, such as unknown names.")
+@click.option(
+    "--engine",
+    type=click.Choice(["libxml2", "xmlschema"]),
+    default="libxml2",
+    help="The XSD validator; xmlschema is the slow reference.",
+)
+@click.pass_context
+def command(ctx: click.Context, sources: tuple[str, ...], style: str, engine: Engine, *, strict: bool) -> None:
+    """Find everything that is wrong with robot models.
+
+    IN are URDF, SDF or JSON files; - is standard input. Exit code: 0 without errors, 1 with errors, 2 where a file
+    could not be read.
+    """
+    opened = (open_source(each) for each in sources)
+    checked = [check(each.content, name=each.name, strict=strict, engine=engine) for each in opened]
+    findings = [Findings(each.path, each.diagnostics) for each in checked]
+    if style == "text":
+        for each in findings:
+            show(each, on_stderr=False)
+    else:
+        click.echo(REPORTERS[style](findings), nl=False)
+    click.echo(_summary(checked), err=True)
+    ctx.exit(_exit_code(checked))
+
+
+def _exit_code(checked: list[Checked]) -> int:
+    if any(each.unreadable for each in checked):
+        return UNUSABLE
+    return 0 if all(each.accepted for each in checked) else FINDINGS
+
+
+def _summary(checked: list[Checked]) -> str:
+    counts = Counter(diagnostic.severity for each in checked for diagnostic in each.diagnostics)
+    found = ", ".join(_count(counts[severity], word) for severity, word in _WORDS.items())
+    unreadable = sum(each.unreadable for each in checked)
+    return f"{_count(len(checked), 'file')}: {found}{f'; {unreadable} could not be read' if unreadable else ''}"
+
+
+def _count(number: int, word: str) -> str:
+    return f"{number} {word}{'' if number == 1 else 's'}"

@@ -1,0 +1,114 @@
+"""One conversion, as the command line asks for it."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import click
+
+from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
+from twinform.cli.findings import show
+from twinform.cli.targets import Job
+from twinform.compiler import CompileError, Conversion, check, convert, plan, write_atomically
+from twinform.diagnostics import Fate, Ledger
+from twinform.diagnostics.reporters import Findings
+from twinform.ir import Document
+from twinform.passes import BrokenPassError, Pipeline
+from twinform.schemas import Engine
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Options:
+    """What is the same for every input."""
+
+    sdf_version: str | None
+    passes: Pipeline
+    ledger: Path | None
+    strict: bool
+    carriers: bool
+    model: str | None
+    engine: Engine
+    dumps: tuple[str, ...]
+
+
+def run_conversion(job: Job, options: Options, label: str) -> int:
+    """Run one conversion; gives its exit code."""
+    seen: list[str] = []
+
+    def watch(name: str, document: Document) -> None:
+        seen.append(name)
+        if name in options.dumps:
+            click.echo(f"// {job.source.name} after {name}\n{_json(document)}", err=True)
+
+    try:
+        conversion = convert(
+            job.source.content,
+            name=job.source.name,
+            to=job.target,
+            sdf_version=options.sdf_version if job.target == "sdf" else None,
+            passes=options.passes.passes,
+            strict=options.strict,
+            carriers=options.carriers,
+            model=options.model,
+            engine=options.engine,
+            watch=watch,
+        )
+    except CompileError as error:
+        show(Findings(job.source.name, error.diagnostics), on_stderr=True)
+        return UNUSABLE if error.unreadable else FINDINGS
+    except BrokenPassError as error:
+        click.echo(f"{job.source.name}: {error}", err=True)
+        return FINDINGS
+    show(Findings(job.source.name, conversion.diagnostics), on_stderr=True)
+    _require_ran(options.dumps, seen)
+    _write(conversion, job.path, options.ledger)
+    click.echo(f"{label}{': ' if label else ''}{_summary(conversion.ledger)}", err=True)
+    return 0
+
+
+def _json(document: Document) -> str:
+    return document.model_dump_json(indent=2, exclude_defaults=True)
+
+
+def _require_ran(dumps: tuple[str, ...], seen: list[str]) -> None:
+    for name in dumps:
+        if name not in seen:
+            raise click.UsageError(f"--dump-ir-after {name}: no such pass ran; there were {', '.join(seen) or 'none'}")
+
+
+def _write(conversion: Conversion, path: Path | None, ledger: Path | None) -> None:
+    try:
+        if path is None:
+            click.echo(conversion.text.encode(), nl=False)  # the XML declaration says UTF-8, whatever the terminal's is
+        else:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            write_atomically(path, conversion.text)
+        if ledger is not None:
+            write_atomically(ledger, conversion.ledger.to_json())
+    except BrokenPipeError:
+        raise  # click ends quietly
+    except OSError as error:
+        raise Unusable(f"cannot write {error.filename or path}: {error.strerror}") from error
+
+
+def _summary(ledger: Ledger) -> str:
+    return ", ".join([f"expressed {ledger.expressed}", *(f"{fate} {ledger.count(fate)}" for fate in Fate)])
+
+
+def print_plan(job: Job, options: Options, label: str) -> int:
+    """Print the passes of one conversion; gives its exit code."""
+    checked = check(job.source.content, name=job.source.name, strict=options.strict, engine=options.engine)
+    if checked.document is None:
+        show(Findings(checked.path, checked.diagnostics), on_stderr=True)
+        return UNUSABLE if checked.unreadable else FINDINGS
+    version = options.sdf_version if job.target == "sdf" else None
+    passes = options.passes.passes
+    whole = plan(
+        checked.document,
+        to=job.target,
+        sdf_version=version,
+        passes=passes,
+        carriers=options.carriers,
+        model=options.model,
+    )
+    click.echo(f"{label}{': ' if label else ''}{whole}")
+    return 0

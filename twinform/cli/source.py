@@ -1,0 +1,69 @@
+"""The files that a command is given; `-` is standard input."""
+
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+_ENOUGH = 2**16
+"""Bytes that hold the root element of every file but those with a very long comment."""
+
+_FORMATS = {b"robot": "urdf", b"sdf": "sdf"}
+_SUFFIXES = {".urdf": "urdf", ".sdf": "sdf", ".world": "sdf", ".json": "json"}
+_SKIPPED = ((b"<!--", b"-->"), (b"<?", b"?>"), (b"<!", b">"))
+"""What may stand before the root element: beginnings and ends."""
+
+_NAME_END = b" \t\r\n/>"
+
+
+class Source(NamedTuple):
+    """A file by its path, or the bytes of standard input, under the name that messages use."""
+
+    content: str | bytes
+    name: str
+
+    @property
+    def format(self) -> str | None:
+        """`urdf`, `sdf` or `json`, by a look at the beginning and then at the suffix; None where neither tells."""
+        head = self.content[:_ENOUGH] if isinstance(self.content, bytes) else _head(Path(self.content))
+        if head.lstrip()[:1] == b"{":
+            return "json"
+        return _FORMATS.get(_root_name(head)) or format_of_suffix(self.name)
+
+
+def open_source(argument: str) -> Source:
+    """The source that an argument names; standard input is read here."""
+    if argument == "-":
+        return Source(sys.stdin.buffer.read(), "<stdin>")
+    return Source(argument, argument)
+
+
+def format_of_suffix(name: str) -> str | None:
+    """The format that a file of this name has by custom."""
+    return _SUFFIXES.get(Path(name).suffix.lower())
+
+
+def _head(path: Path) -> bytes:
+    try:
+        with path.open("rb") as file:
+            return file.read(_ENOUGH)
+    except (OSError, ValueError):
+        return b""  # the compiler reports it
+
+
+def _root_name(text: bytes) -> bytes:
+    """The name in the first tag that is no comment, declaration or instruction."""
+    at = text.find(b"<")
+    while at >= 0:
+        end = next((end for start, end in _SKIPPED if text.startswith(start, at)), None)
+        if end is None:
+            return _name_at(text, at + 1)
+        past = text.find(end, at)
+        at = text.find(b"<", past) if past >= 0 else -1
+    return b""
+
+
+def _name_at(text: bytes, start: int) -> bytes:
+    end = start
+    while end < len(text) and text[end] not in _NAME_END:
+        end += 1
+    return text[start:end]

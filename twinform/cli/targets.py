@@ -1,0 +1,76 @@
+"""What each input of a conversion becomes, and where it is written."""
+
+import os
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Literal, NamedTuple, get_args
+
+import click
+
+from twinform.cli.source import Source, format_of_suffix
+
+Target = Literal["sdf", "urdf", "json"]
+TARGETS: tuple[Target, ...] = get_args(Target)
+
+_OTHER: dict[str, Target] = {"urdf": "sdf", "sdf": "urdf"}
+_ENDINGS = frozenset({".urdf", ".sdf", ".world", ".xml", ".json", ".xacro"})
+
+
+class Job(NamedTuple):
+    """One conversion; `path` is None for standard output."""
+
+    source: Source
+    target: Target
+    path: Path | None
+
+
+def jobs(sources: Sequence[Source], out: str | None, target: Target | None) -> list[Job]:
+    """The conversions that a command line asks for.
+
+    Raises:
+        click.UsageError: it contradicts itself, or leaves a target open.
+    """
+    if out is None or out == "-":
+        if len(sources) > 1:
+            raise click.UsageError("several inputs need -o DIRECTORY")
+        return [Job(source, target or _other_format(source), None) for source in sources]
+    folder = Path(out)
+    if not _is_folder(out, len(sources)):
+        return [Job(source, target or _of_suffix(folder) or _other_format(source), folder) for source in sources]
+    if folder.exists() and not folder.is_dir():
+        raise click.UsageError(f"several inputs need a directory, and {out} is a file")
+    found = [_into(folder, source, target or _other_format(source)) for source in sources]
+    _require_distinct(found)
+    return found
+
+
+def _is_folder(out: str, count: int) -> bool:
+    return count > 1 or Path(out).is_dir() or out.endswith(("/", os.sep))
+
+
+def _of_suffix(path: Path) -> Target | None:
+    suffix = format_of_suffix(path.name)
+    return next((target for target in TARGETS if target == suffix), None)
+
+
+def _other_format(source: Source) -> Target:
+    """The format that the source is not in; where nothing tells its format, the compiler will say why."""
+    if source.format == "json":
+        raise click.UsageError(f"{source.name} is a JSON document, which can become either format: give --to")
+    return _OTHER.get(source.format or "urdf", "sdf")
+
+
+def _into(folder: Path, source: Source, target: Target) -> Job:
+    name = Path("stdin" if isinstance(source.content, bytes) else source.name)
+    while name.suffix.lower() in _ENDINGS:
+        name = name.with_suffix("")
+    return Job(source, target, folder / f"{name.name}.{target}")
+
+
+def _require_distinct(found: Sequence[Job]) -> None:
+    counts = Counter(job.path for job in found)
+    for path, count in counts.items():
+        if count > 1:
+            names = ", ".join(job.source.name for job in found if job.path == path)
+            raise click.UsageError(f"{names} would all be written to {path}")
