@@ -1,0 +1,55 @@
+import subprocess
+import sys
+
+import pytest
+
+import twinform
+from twinform.cli import COMMANDS, main
+
+from .conftest import Run
+
+HEAVY = {"pydantic", "lxml", "xmlschema", "numpy", "rich"}
+
+
+def python(code: str) -> str:
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+
+
+def test_importing_the_command_line_imports_nothing_heavy() -> None:
+    assert not HEAVY & set(python("import sys, twinform.cli; print(*sys.modules)").split())
+
+
+@pytest.mark.parametrize("module", ["explain", "schema"])
+def test_commands_without_a_compiler_do_not_import_pydantic(module: str) -> None:
+    assert "pydantic" not in python(f"import sys, twinform.cli.{module}; print(*sys.modules)").split()
+
+
+def test_version(run: Run) -> None:
+    assert run("--version").stdout == f"twinform, version {twinform.__version__}\n"
+
+
+def test_help_lists_every_command_with_the_summary_that_it_has(run: Run) -> None:
+    listed = run("--help").stdout
+    for name, summary in COMMANDS.items():
+        assert summary in listed
+        command = main.get_command(main.make_context("twinform", [name], resilient_parsing=True), name)
+        assert command is not None
+        assert (command.help or "").splitlines()[0] == summary
+
+
+@pytest.mark.parametrize("arguments", [["no-such-command"], ["check"], ["convert"], ["check", "--no-such-option", "x"]])
+def test_wrong_usage_exits_2(run: Run, arguments: list[str]) -> None:
+    done = run(*arguments)
+    assert done.exit_code == 2
+    assert done.stdout == ""
+    assert "Usage" in done.stderr
+
+
+def test_a_reader_that_stops_early_sees_no_traceback() -> None:
+    command = [sys.executable, "-c", "from twinform.cli import main; main(['schema', 'sdf'])"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdout
+        assert process.stderr
+        process.stdout.read(1)
+        process.stdout.close()
+        assert process.stderr.read() == b""

@@ -1,0 +1,69 @@
+import re
+import subprocess
+import sys
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+from twinform.diagnostics import Rule, catalogue
+from twinform.diagnostics.pages import rules_page, sections, severity_words
+
+PAGE = Path(__file__).parents[3] / "docs/reference/rules.md"
+RULES = list(catalogue().values())
+
+
+@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.name)
+def test_every_text_of_a_rule_is_written(rule: Rule) -> None:
+    for text in (rule.finds, rule.matters, rule.example, rule.better):
+        assert text.strip() == text
+        assert text
+    assert all(text for _, text in sections(rule))
+    assert rule.finds.rstrip("`").endswith((".", ")", ":"))
+
+
+@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.name)
+def test_names_are_kebab_case_and_no_instructions(rule: Rule) -> None:
+    assert re.fullmatch(r"[a-z]+(-[a-z0-9]+)*", rule.name)
+    assert not rule.name.startswith(("check-", "do-", "use-"))
+
+
+@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.name)
+def test_strict_is_never_milder(rule: Rule) -> None:
+    assert rule.severity_in(strict=True) >= rule.severity_in(strict=False)
+    assert str(rule.severity) in severity_words(rule)
+
+
+def test_rules_are_sorted_and_unique() -> None:
+    assert list(catalogue()) == sorted({rule.name for rule in RULES})
+
+
+def test_two_rules_of_one_name_are_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    module = import_module("twinform.diagnostics.catalogue")
+    monkeypatch.setattr(module, "_defined", lambda: [RULES[0], RULES[0]])
+    with pytest.raises(ValueError, match=f"two rules are called '{RULES[0].name}'"):
+        catalogue.__wrapped__()
+
+
+def test_the_page_has_every_rule_once_in_order() -> None:
+    assert re.findall(r"^## (.*)$", rules_page(), re.MULTILINE) == list(catalogue())
+
+
+def test_the_committed_page_is_up_to_date() -> None:
+    done = generator(str(PAGE), "--check")
+    assert done.returncode == 0, done.stderr
+
+
+def test_an_old_page_is_found_and_renewed(tmp_path: Path) -> None:
+    page = tmp_path / "rules.md"
+    assert generator(str(page), "--check").returncode == 1
+    page.write_text("old")
+    assert "out of date" in generator(str(page), "--check").stderr
+    assert generator(str(page)).returncode == 0
+    assert generator(str(page), "--check").returncode == 0
+    assert generator().stdout == page.read_text()
+
+
+def generator(*arguments: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "twinform.diagnostics.pages", *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=False)

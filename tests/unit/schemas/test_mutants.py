@@ -1,0 +1,70 @@
+"""On documents with mistakes the engines and the table pass come to one verdict as well."""
+
+from functools import cache
+from pathlib import Path
+from random import Random
+
+import pytest
+from lxml import etree
+
+from tests.unit.schemas.mutants import mutant
+from twinform.diagnostics import Notes
+from twinform.schemas import (
+    Context,
+    Engine,
+    Version,
+    XmlElement,
+    gate,
+    libxml2_errors,
+    parse_version,
+    reader,
+    table,
+    xmlschema_errors,
+)
+
+EXAMPLES = Path(__file__).parents[3] / "examples"
+EACH = 15
+
+
+@cache
+def _sources() -> tuple[XmlElement, ...]:
+    parser = etree.XMLParser(remove_comments=True, remove_pis=True)
+    files = sorted([*EXAMPLES.rglob("*.urdf"), *EXAMPLES.rglob("*.sdf")])
+    return tuple(etree.parse(file, parser).getroot() for file in files)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_mutant_gets_one_verdict(seed: int):
+    random = Random(seed)
+    for _ in range(EACH):
+        root = mutant(random.choice(_sources()), random)
+        name, version = _version(root)
+        table_pass = _read(root, name, version)
+        default = table_pass.structural == 0 and not libxml2_errors(root, name, version)
+        normative = not xmlschema_errors(root, name, version, names=False)
+        assert default is normative, etree.tostring(root).decode()
+        engines: tuple[Engine, ...] = ("libxml2", "xmlschema")
+        for engine in engines:
+            context = _read(root, name, version)
+            gate(root, context, engine)
+            said = [found.message for found in context.notes.diagnostics]
+            assert said == [found.message for found in table_pass.notes.diagnostics], etree.tostring(root).decode()
+
+
+def test_mutants_are_of_both_kinds():
+    random = Random(0)
+    mutants = [mutant(random.choice(_sources()), random) for _ in range(100)]
+    taken = [root for root in mutants if _read(root, *_version(root)).structural == 0]
+    assert 5 < len(taken) < 95
+
+
+def _version(root: XmlElement) -> tuple[str, Version]:
+    name = "urdf" if root.tag == "robot" else "sdf"
+    declared, versions = root.get("version"), table(name).versions
+    return name, parse_version(declared if declared in versions else versions[0 if name == "urdf" else -1])
+
+
+def _read(root: XmlElement, name: str, version: Version) -> Context:
+    context = Context(Notes(), "", name, version)
+    reader(name, version).read(root, context)
+    return context
