@@ -45,7 +45,7 @@ def _validate(root: XmlElement, format_: str, version: Version, notes: Notes) ->
     context = Context(found, "<output>", format_, version)
     reader(format_, version).read(root, context)
     gate(root, context)
-    notes.diagnostics.extend(diagnostic for diagnostic in found.diagnostics if diagnostic.is_error)
+    notes.extend(diagnostic for diagnostic in found.diagnostics if diagnostic.is_error)
 
 
 def _in_namespace(root: XmlElement, namespace: str) -> XmlElement:
@@ -57,5 +57,3 @@ def _in_namespace(root: XmlElement, namespace: str) -> XmlElement:
         if str(element.tag)[0] != "{":
             element.tag = f"{{{namespace}}}{element.tag}"
     return made
-
-

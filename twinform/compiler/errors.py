@@ -4,7 +4,10 @@ from twinform.diagnostics import Diagnostic
 
 
 class CompileError(Exception):
-    """A document could not be read or compiled; `diagnostics` say why, `unreadable` that it is no robot model at all."""
+    """A document could not be read or compiled.
+
+    `diagnostics` say why; `unreadable` says that it is no robot model at all.
+    """
 
     def __init__(self, diagnostics: tuple[Diagnostic, ...], *, unreadable: bool = False) -> None:
         self.diagnostics = diagnostics

@@ -11,7 +11,7 @@ from lxml import etree
 from pydantic import ValidationError
 
 from twinform.compiler.errors import CompileError
-from twinform.compiler.parsing import Unreadable, parse, read_bytes, strip_default_namespace
+from twinform.compiler.parsing import UnreadableError, parse, read_bytes, strip_default_namespace
 from twinform.compiler.sdf import front_end as sdf
 from twinform.compiler.urdf import front_end as urdf
 from twinform.diagnostics import Diagnostic, Location, Notes
@@ -24,23 +24,32 @@ _ROOTS: dict[str, tuple[str, Callable[[XmlElement, Context], Mapping[str, Any]]]
     "robot": ("urdf", urdf.lower),
     "sdf": ("sdf", sdf.lower),
 }
-_COUNT = etree.XPath("count(//*) + count(//@*)")
 _WITHOUT_VERSION = {"urdf": (1, 0)}
 """The version of a file that declares none."""
+
+
+_COUNT = etree.XPath("count(//*) + count(//@*)")
 
 
 @dataclass(frozen=True, slots=True)
 class Checked:
     """What `check` found. `unreadable` says that there is no model at all: no file, no XML, or another format.
 
-    `size` counts the elements and attributes of the source.
+    `tree` is the XML that the document came from.
     """
 
     path: str
     document: Document | None
     diagnostics: tuple[Diagnostic, ...]
     unreadable: bool = False
-    size: int = 0
+    tree: XmlElement | None = None
+
+    @property
+    def size(self) -> int:
+        """How many elements and attributes the source has."""
+        if self.tree is not None:
+            return int(float(str(_COUNT(self.tree))))
+        return count_parts(self.document) if self.document else 0
 
     @property
     def accepted(self) -> bool:
@@ -58,12 +67,12 @@ def check(source: str | Path | bytes, *, name: str = "", strict: bool = False, e
 def _check(source: str | Path | bytes, notes: Notes, engine: Engine) -> Checked:
     try:
         text = source if isinstance(source, bytes) else read_bytes(Path(source), notes)
-        document, size = read_document(text, notes, engine)
-    except Unreadable:
+        document, tree = read_document(text, notes, engine)
+    except UnreadableError:
         return Checked(notes.file, None, tuple(notes.diagnostics), unreadable=True)
     if document is not None:
         verify(document, notes)
-    return Checked(notes.file, document, tuple(notes.diagnostics), size=size)
+    return Checked(notes.file, document, tuple(notes.diagnostics), tree=tree)
 
 
 def load(source: str | Path, *, strict: bool = False, engine: Engine = "libxml2") -> Document:
@@ -91,33 +100,33 @@ def _document(checked: Checked) -> Document:
     return checked.document
 
 
-def read_document(text: bytes, notes: Notes, engine: Engine) -> tuple[Document | None, int]:
-    """The document of a text in any of the formats, and its size; None where it has errors, which are in the notes.
+def read_document(text: bytes, notes: Notes, engine: Engine) -> tuple[Document | None, XmlElement | None]:
+    """The document of a text and its XML tree, if it is XML. No document where it has errors, which are in the notes.
 
     Raises:
-        Unreadable: it is neither XML nor one of our own JSON documents.
+        UnreadableError: it is neither XML nor one of our own JSON documents.
     """
     if text.lstrip()[:1] == b"{":
-        document = _from_json(text, notes)
-        return document, count_parts(document) if document else 0
+        return _from_json(text, notes), None
     root = parse(text, notes)
     namespace = strip_default_namespace(root)
     if root.tag not in _ROOTS:
         where = Location(line=root.sourceline or 0, path=f"/{root.tag}")
         message = f"the root element is <{root.tag}>; expected <robot> or <sdf>"
         notes.report(reading.UNKNOWN_ROOT, message, where, found=str(root.tag), expected="robot or sdf")
-        raise Unreadable
+        raise UnreadableError
     format_, lower = _ROOTS[str(root.tag)]
     context = Context(notes, notes.file, format_, _declared_version(root, format_, notes))
     errors = refusals(root, context, engine)
     context.clean = not errors
+    context.simple = context.clean and b"xmlns" not in text
     data = lower(root, context)
     if errors:
         gate(root, context, engine, errors)
     if notes.has_errors:
-        return None, 0
+        return None, root
     document = Document.model_validate({**data, "namespaces": _namespaces(root, context, namespace)})
-    return document, int(_COUNT(root))  # pyright: ignore[reportArgumentType] - count() gives a float
+    return document, root
 
 
 def _declared_version(root: XmlElement, format_: str, notes: Notes) -> Version:

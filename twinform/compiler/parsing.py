@@ -24,7 +24,7 @@ _REPAIRS = {
 """What libxml2 recovers from without any doubt about the tree, and what the author should do instead."""
 
 
-class Unreadable(Exception):
+class UnreadableError(Exception):
     """There is no tree; the notes say why."""
 
 
@@ -32,7 +32,7 @@ def read_bytes(path: Path, notes: Notes) -> bytes:
     """The bytes of a file.
 
     Raises:
-        Unreadable: it is missing, empty or too large.
+        UnreadableError: it is missing, empty or too large.
     """
     try:
         size = path.stat().st_size
@@ -49,7 +49,7 @@ def parse(text: bytes, notes: Notes) -> XmlElement:
     """The root of the document, its default namespace removed and undeclared prefixes given a namespace.
 
     Raises:
-        Unreadable: it is not XML, or has a document type declaration.
+        UnreadableError: it is not XML, or has a document type declaration.
     """
     if not text.strip():
         raise _unreadable(notes, "the file is empty")
@@ -59,7 +59,7 @@ def parse(text: bytes, notes: Notes) -> XmlElement:
         root = _recover(text, notes, error)
     if root.getroottree().docinfo.doctype:
         notes.report(reading.DOCTYPE, "the document has a DOCTYPE; none is allowed", Location(line=1, path="/"))
-        raise Unreadable
+        raise UnreadableError
     return root
 
 
@@ -78,15 +78,14 @@ def _parser(*, recover: bool) -> etree.XMLParser:
 
 def _recover(text: bytes, notes: Notes, error: etree.XMLSyntaxError) -> XmlElement:
     parser = _parser(recover=True)
-    # parsers of ROS and Gazebo skip blank lines before the declaration, libxml2 does so only without the declaration's name
-    root = etree.fromstring(text, parser) if text.strip() else None
+    root = etree.fromstring(text, parser)
     fatal = [entry for entry in parser.error_log if entry.type_name not in _REPAIRS]
     if root is None or fatal:
         line, column = error.position
         where = Location(line=fatal[0].line if fatal else line, path="/")
         message = fatal[0].message if fatal else error.msg or "not XML"
         notes.report(reading.NOT_WELL_FORMED, f"not well-formed XML: {message} (column {column})", where)
-        raise Unreadable from error
+        raise UnreadableError from error
     for entry in parser.error_log:
         message, hint = f"not well-formed XML, repaired: {entry.message}", _REPAIRS[entry.type_name]
         notes.report(reading.REPAIRED_XML, message, Location(line=entry.line, path="/"), help=hint)
@@ -125,6 +124,6 @@ def strip_default_namespace(root: XmlElement) -> str | None:
     return namespace
 
 
-def _unreadable(notes: Notes, message: str) -> Unreadable:
+def _unreadable(notes: Notes, message: str) -> UnreadableError:
     notes.report(reading.UNREADABLE_FILE, message)
-    return Unreadable()
+    return UnreadableError()

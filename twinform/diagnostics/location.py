@@ -23,10 +23,10 @@ NOWHERE = Location()
 
 
 class Source(NamedTuple):
-    """Where a part of a document was read, in a form that is cheap to keep: the path is put together when it is asked for.
+    """Where a part of a document was read, in a form that is cheap to keep: the path is made when it is asked for.
 
-    `above` is the source of the node around it, `step` the element names from there, and `key` the name of the last one or
-    its place among its like, where it needs one to be found.
+    `above` is the source of the node around it, `step` the element names from there, and `key` the name of the last
+    one or its place among its like, where it needs one to be found.
     """
 
     file: str
@@ -41,11 +41,13 @@ class Source(NamedTuple):
         steps: list[str] = []
         here: Source | None = self
         while here is not None:
-            steps.append(here._last_step())
+            steps.append(here.last_step)
             here = here.above
         return "/" + "/".join(reversed(steps))
 
-    def _last_step(self) -> str:
+    @property
+    def last_step(self) -> str:
+        """The step from the node around it to this part."""
         if self.key is None:
             return self.step
         return f"{self.step}[{self.key}]" if isinstance(self.key, int) else f"{self.step}[@name='{self.key}']"

@@ -1,9 +1,8 @@
 """Whether a document makes sense beyond its schema: names, references, trees."""
 
-from collections import Counter
 from collections.abc import Callable, Iterable
 
-from twinform.diagnostics import Location, Notes, Rule
+from twinform.diagnostics import Location, Notes, Severity
 from twinform.diagnostics.rules import model as rules
 from twinform.ir.document import Document, Format
 from twinform.ir.joint import Axis, Joint
@@ -11,17 +10,24 @@ from twinform.ir.model import Model
 from twinform.ir.node import Node
 from twinform.ir.world import World
 
+_REFERRED_TO = frozenset({"link", "joint", "model", "frame"})
 _MOVES = frozenset({"revolute", "continuous", "prismatic", "planar", "screw"})
+_BEFORE_FRAMES = frozenset({"1.2", "1.3", "1.4", "1.5", "1.6"})
+"""Versions in which links and joints were no frames yet: two of one name were bad style only."""
 _NEEDS_LIMIT = frozenset({"revolute", "prismatic"})
 
 
 def verify(document: Document, notes: Notes) -> None:
     """Report what is wrong with a document, in the order of its parts."""
-    verify_model = _verify_robot if document.format is Format.URDF else _verify_sdf_model
+    if document.format is Format.URDF:
+        for model in document.models:
+            _verify_robot(model, notes)
+        return
+    shared = Severity.WARNING if document.version in _BEFORE_FRAMES else Severity.ERROR
     for world in document.worlds:
-        _verify_world(world, notes)
+        _verify_world(world, shared, notes)
     for model in (*document.models, *(model for world in document.worlds for model in world.models)):
-        verify_model(model, notes)
+        _verify_sdf_model(model, shared, notes)
 
 
 def _verify_robot(model: Model, notes: Notes) -> None:
@@ -30,13 +36,15 @@ def _verify_robot(model: Model, notes: Notes) -> None:
         _report_names(kind, nodes, notes)
     _report_materials(model, notes)
     links = {link.name for link in model.links}
+    joints = {joint.name for joint in model.joints}
     for joint in model.joints:
         _verify_joint(joint, links, notes)
+        _verify_mimic(joint, joints, notes)
         if joint.type in _NEEDS_LIMIT and (joint.axis is None or joint.axis.limit is None):
             message = f"{joint.type} joint {joint.name!r} has no <limit>"
             notes.report(rules.MISSING_LIMIT, message, joint.location, expected="<limit>")
     _verify_tree(model, links, notes)
-    known = links | {joint.name for joint in model.joints}
+    known = links | joints
     for extension in model.extensions:
         if extension.reference and extension.reference not in known:
             where = extension.location.at("@reference")
@@ -57,7 +65,7 @@ def _verify_tree(model: Model, links: set[str], notes: Notes) -> None:
             message = f"link {joint.child!r} is the child of joint {first.name!r} and of joint {joint.name!r}"
             notes.report(rules.TWO_PARENTS, message, joint.location, related=(first.location,))
         parents.setdefault(joint.child, joint)
-    roots = [link for link in model.links if link.name not in parents]
+    roots = list({link.name: link for link in model.links if link.name not in parents}.values())
     if len(roots) > 1:
         names = ", ".join(repr(link.name) for link in roots[:5])
         message = f"robot {model.name!r} has {len(roots)} root links: {names}{', ...' if len(roots) > 5 else ''}"  # noqa: PLR2004 - enough to find them
@@ -113,6 +121,15 @@ def _verify_axis(joint: Joint, axis: Axis, where: Location, notes: Notes) -> Non
         notes.report(rules.LOWER_ABOVE_UPPER, message, limit.location, found=f"{limit.lower:g}")
 
 
+def _verify_mimic(joint: Joint, joints: set[str], notes: Notes) -> None:
+    mimic = joint.axis.mimic if joint.axis else None
+    if mimic is None or (mimic.joint in joints and mimic.joint != joint.name):
+        return
+    what = "itself" if mimic.joint == joint.name else "which is no joint"
+    message = f"joint {joint.name!r} mimics {mimic.joint!r}, {what}"
+    notes.report(rules.UNKNOWN_LEADER, message, mimic.location, found=mimic.joint)
+
+
 def _report_materials(model: Model, notes: Notes) -> None:
     _report_names("material", [material for material in model.materials if material.name], notes)
     defined = {material.name for material in model.materials}
@@ -127,22 +144,25 @@ def _report_materials(model: Model, notes: Notes) -> None:
             notes.report(rules.UNKNOWN_MATERIAL, message, material.location, found=material.name)
 
 
-def _verify_sdf_model(model: Model, notes: Notes) -> None:
+def _verify_sdf_model(model: Model, shared: Severity, notes: Notes) -> None:
     """The rules of SDF, where links, joints, frames and nested models share one scope."""
     kinds = (("link", model.links), ("joint", model.joints), ("frame", model.frames), ("model", model.models))
-    _report_scope(kinds, notes)
+    _report_scope(kinds, shared, notes)
     for link in model.links:
         for kind, nodes in (("visual", link.visuals), ("collision", link.collisions), ("sensor", link.sensors)):
             _report_names(kind, [node for node in nodes if node.name], notes)
     known = {node.name for _, nodes in kinds for node in nodes}
+    joints = {joint.name for joint in model.joints}
     open_scope = bool(model.includes)  # an include adds names that only its file knows
     for joint in model.joints:
         _verify_sdf_joint(joint, lambda name: open_scope or name in known or "::" in name, notes)
+        if not open_scope:
+            _verify_mimic(joint, joints, notes)
     if not (model.links or model.models or model.includes or model.static):
         message = f"model {model.name!r} has no link"
         notes.report(rules.EMPTY_MODEL, message, model.location, expected="<link>")
     for nested in model.models:
-        _verify_sdf_model(nested, notes)
+        _verify_sdf_model(nested, shared, notes)
 
 
 def _verify_sdf_joint(joint: Joint, known: Callable[[str], bool], notes: Notes) -> None:
@@ -156,12 +176,12 @@ def _verify_sdf_joint(joint: Joint, known: Callable[[str], bool], notes: Notes) 
     _verify_joint_itself(joint, notes)
 
 
-def _verify_world(world: World, notes: Notes) -> None:
+def _verify_world(world: World, shared: Severity, notes: Notes) -> None:
     kinds = (("model", world.models), ("light", world.lights), ("frame", world.frames), ("joint", world.joints))
-    _report_scope(kinds, notes)
+    _report_scope(kinds, shared, notes)
 
 
-def _report_scope(kinds: Iterable[tuple[str, Iterable[Node]]], notes: Notes) -> None:
+def _report_scope(kinds: Iterable[tuple[str, Iterable[Node]]], shared: Severity, notes: Notes) -> None:
     owners: dict[str, tuple[str, Node]] = {}
     for kind, nodes in kinds:
         named = [node for node in nodes if getattr(node, "name", None) is not None]
@@ -170,22 +190,22 @@ def _report_scope(kinds: Iterable[tuple[str, Iterable[Node]]], notes: Notes) -> 
             name = str(getattr(node, "name", ""))
             if name == "world" or (name.startswith("__") and name.endswith("__")):
                 message = f"{kind} {name!r} has a name that SDF keeps for itself"
-                notes.report(rules.RESERVED_NAME, message, node.location, found=name)
+                notes.report(rules.RESERVED_NAME, message, node.location, found=name, severity=shared)
             other, first = owners.setdefault(name, (kind, node))
             if other != kind:
                 message = f"{kind} {name!r} has the name of a {other}"
-                notes.report(rules.SHARED_NAME, message, node.location, found=name, related=(first.location,))
+                notes.report(
+                    rules.SHARED_NAME, message, node.location, found=name, related=(first.location,), severity=shared
+                )
 
 
 def _report_names(kind: str, nodes: Iterable[Node], notes: Notes) -> None:
-    listed = list(nodes)
-    names: list[str] = [getattr(node, "name", "") for node in listed]
-    several: dict[str, Rule] = {name: rules.DUPLICATE_NAME for name, count in Counter(names).items() if count > 1}
     seen: dict[str, Node] = {}
-    for name, node in zip(names, listed, strict=True):
-        if not name and kind in {"link", "joint", "model", "frame"}:
+    for node in nodes:
+        name = str(node.__dict__["name"])
+        if not name and kind in _REFERRED_TO:
             notes.report(rules.EMPTY_NAME, f"a {kind} has an empty name", node.location)
-        if name in several and name in seen:
+        if name in seen:
             message = f"{kind} {name!r} is there twice"
             notes.report(rules.DUPLICATE_NAME, message, node.location, found=name, related=(seen[name].location,))
         seen.setdefault(name, node)

@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from difflib import get_close_matches
+from typing import TypedDict, Unpack
 
 from twinform.diagnostics import Location, Notes, Rule
 from twinform.diagnostics.rules import structure
@@ -11,6 +12,14 @@ from twinform.schemas.xml import XmlElement, path_of
 
 _ESSENTIAL = frozenset({"parent", "child"})
 """Elements without which no reader, not even the most forgiving, makes sense of the file."""
+
+
+class Details(TypedDict, total=False):
+    """What a finding may say beside its message."""
+
+    found: str | None
+    expected: str | None
+    help: str | None
 
 
 @dataclass(slots=True)
@@ -31,9 +40,10 @@ class Context:
     structural: int = 0
     namespaces: dict[str, str] = field(default_factory=dict[str, str])
     clean: bool = False
+    simple: bool = False
     header: dict[str, object] = field(default_factory=dict[str, object])
 
-    def report(self, rule: Rule, element: XmlElement, message: str, step: str = "", **more: str | None) -> None:
+    def report(self, rule: Rule, element: XmlElement, message: str, step: str = "", **more: Unpack[Details]) -> None:
         """Report at an element, or at a step below it."""
         path = path_of(element) + (f"/{step}" if step else "")
         self.structural += rule is not structure.OUT_OF_RANGE

@@ -20,7 +20,7 @@ _INSTANCE = "{http://www.w3.org/2001/XMLSchema-instance}"
 _OF_SCHEMAS = frozenset({_INSTANCE + "type", _INSTANCE + "nil"})
 """Foreign attributes that make an XSD engine check an element in another way."""
 
-_locate = tuple.__new__
+_locate: Callable[[type[Source], tuple[object, ...]], Source] = tuple.__new__
 """Makes a Source without the detour through its own constructor: this file makes one for every node."""
 
 Fill = Callable[[XmlElement, Data, str, Context], None]
@@ -113,11 +113,6 @@ class Reader:
             elif text and not (text.isspace() and text.isascii()):  # is_blank, without a call for each element
                 stray(element, text, node, at, context)
             counts: dict[str, int] = {}
-            if not len(element):
-                if needed_children:
-                    for name in sorted(needed_children):
-                        messages.missing_child(context, element, name)
-                return
             for child in element:
                 tag: str = child.tag  # pyright: ignore[reportAssignmentType] - the parser removes comments
                 place = counts[tag] = counts.get(tag, 0) + 1
@@ -242,7 +237,7 @@ class Reader:
         fill, name = self._inner(row, keep=True), row.name
 
         def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:  # noqa: ARG001 - all readers have one signature
-            if quick is not None and context.clean and quick(child, node):
+            if quick is not None and context.simple and quick(child, node):
                 return
             if len(child) or child.keys() or child.text:
                 fill(child, node, f"{at}/{name}" if at else name, context)
@@ -272,7 +267,7 @@ class Reader:
                     check(child, {}, "", context)
                     _keep_element(child, node, at, context)
                     return
-            if quick is None or not context.clean or not quick(child, data):
+            if quick is None or not context.simple or not quick(child, data):
                 fill(child, data, "", context)
             holder = node if not outer else node.setdefault(outer, {"source": data["source"]})
             if fills_tuple:
@@ -288,10 +283,10 @@ class Reader:
         """The reader of an element with text, and perhaps attributes, whose value is a field of the node around it."""
         fill, name, field = self._fill(row, keep=True), row.name, place
         read_text = self._text(row, place, keep=True)
-        parse = quick_parse(row, self.types, self.version) if row.type != "string" else None
+        parse = quick_parse(row, self.types, self.version) if row.type != "string" and not row.attributes else None
 
         def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:  # noqa: ARG001 - all readers have one signature
-            if parse is not None and context.clean and not child.keys() and not len(child):
+            if parse is not None and context.simple:
                 try:
                     node[field] = parse(child.text)
                 except (*GIVE_UP, AttributeError):
@@ -359,7 +354,13 @@ def _late(row: Fact, read: ReadChild) -> ReadChild:
 
 def _keep(element: XmlElement, node: Data, context: Context, part: Data) -> None:
     """Keep a part that has no typed field, with where it stood."""
-    called = part["element"]["name"] if "element" in part else f"@{part['attribute'][0]}" if "attribute" in part else "text()"
+    called = (
+        part["element"]["name"]
+        if "element" in part
+        else f"@{part['attribute'][0]}"
+        if "attribute" in part
+        else "text()"
+    )
     step = f"{part['at']}/{called}" if part["at"] else called
     source = Source(context.file, element.sourceline or 0, node.get("source"), step)
     node.setdefault("opaque", []).append({"source": source, **part})

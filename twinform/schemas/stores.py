@@ -59,7 +59,8 @@ def value_store(row: Fact, place: str) -> Store:
         holder = node.get(outer)
         if holder is None:
             step = str(element.tag)
-            holder = node[outer] = {"source": Source(context.file, element.sourceline or 0, node["source"], step)}
+            source = Source(context.file, element.sourceline or 0, node["source"], step)
+            holder = node[outer] = Data(source=source)
         holder[field] = read[0]
 
     def store_header(element: XmlElement, node: Data, read: tuple[object, str], context: Context) -> None:  # noqa: ARG001

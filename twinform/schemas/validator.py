@@ -52,14 +52,14 @@ def gate(
 ) -> None:
     """Report whatever the schema refuses and the table pass, which has filled the context, did not speak of.
 
-    `errors` is what the engine says of the tree, where it was asked already. Duplicate and dangling names, which only the
-    normative schema looks for, are the business of later checks.
+    `errors` is what the engine says of the tree, where it was asked already. Duplicate and dangling names, which only
+    the normative schema looks for, are the business of later checks.
     """
     if errors is None:
         errors = refusals(root, context, engine)
     if errors and context.tolerated:
         errors = refusals(_without(root, context.tolerated), context, engine)
-    explained = _lines_with_faults(context) if errors else ()
+    explained = _lines_with_faults(context) if errors else set[int]()
     for error in errors:
         if error.line not in explained and not context.notes.left_out:
             message = f"the XSD of {context.format.upper()} {print_version(context.version)} refuses: {error.message}"
@@ -118,7 +118,9 @@ def refusals(root: XmlElement, context: Context, engine: Engine) -> list[SchemaE
 
 def _lines_with_faults(context: Context) -> set[int]:
     """The lines of the elements that the table pass found a fault in."""
-    return {found.location.line for found in context.notes.diagnostics if found.rule.name in _FAULTS}
+    lines = {found.location.line for found in context.notes.diagnostics if found.rule.name in _FAULTS}
+    # a copy of a tree loses the lines past 65,535, so where there are faults an error without a line may be one of them
+    return lines | {0} if lines else lines
 
 
 def _without(root: XmlElement, tolerated: Iterable[tuple[XmlElement, str | None]]) -> XmlElement:

@@ -32,7 +32,7 @@ def format_value(value: object) -> str:
     if isinstance(value, float):
         return format_number(value)
     if isinstance(value, tuple):
-        return " ".join(map(format_value, value))  # pyright: ignore[reportUnknownArgumentType, reportUnknownVariableType]
+        return " ".join(map(format_value, value))  # pyright: ignore[reportUnknownArgumentType]
     return str(value)
 
 

@@ -84,7 +84,11 @@ class Writer:
         """One row with a place for each name; this version's where it has one."""
         best: dict[str, Fact] = {}
         for row in rows:
-            if row.place and row.place[0] != "/" and (row.name not in best or not best[row.name].exists_in(self.version)):
+            if (
+                row.place
+                and row.place[0] != "/"
+                and (row.name not in best or not best[row.name].exists_in(self.version))
+            ):
                 best[row.name] = row
         return list(best.values())
 

@@ -24,7 +24,7 @@ def step_of(element: XmlElement) -> str:
         return f"{element.tag}[@name='{name}']"
     parent = element.getparent()
     like = [] if parent is None else [child for child in parent if child.tag == element.tag]
-    return f"{element.tag}[{like.index(element) + 1}]" if len(like) > 1 else element.tag
+    return f"{element.tag}[{like.index(element) + 1}]" if len(like) > 1 else str(element.tag)
 
 
 def path_of(element: XmlElement) -> str:

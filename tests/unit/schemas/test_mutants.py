@@ -51,6 +51,16 @@ def test_a_mutant_gets_one_verdict(seed: int):
             assert said == [found.message for found in table_pass.notes.diagnostics], etree.tostring(root).decode()
 
 
+def test_a_reader_that_trusts_the_schema_says_the_same():
+    random = Random(1)
+    for root in [mutant(random.choice(_sources()), random) for _ in range(300)]:
+        name, version = _version(root)
+        if not libxml2_errors(root, name, version):
+            trusting = Context(Notes(), "", name, version, clean=True)
+            reader(name, version).read(root, trusting)
+            assert trusting.notes == _read(root, name, version).notes, etree.tostring(root).decode()
+
+
 def test_mutants_are_of_both_kinds():
     random = Random(0)
     mutants = [mutant(random.choice(_sources()), random) for _ in range(100)]

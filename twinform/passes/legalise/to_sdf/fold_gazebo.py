@@ -36,10 +36,10 @@ _Read = tuple[Tag, object]
 class FoldGazebo(ModelPass):
     """Fold `<gazebo>` elements into the links, joints and the model that they refer to.
 
-    Changes: 1. tags with a meaning of their own (`mu1`, `material`, `turnGravityOff`, ...) set the field that they mean,
-    in every visual or collision of the link where they are about shapes; 2. `<visual>` and `<collision>` put their
-    children into every visual or collision of the link; 3. all else is read as SDF at the place of the reference:
-    sensors, plugins, lights, joints, poses.
+    Changes: 1. tags with a meaning of their own (`mu1`, `material`, `turnGravityOff`, ...) set the field that they
+    mean, in every visual or collision of the link where they are about shapes; 2. `<visual>` and `<collision>` put
+    their children into every visual or collision of the link; 3. all else is read as SDF at the place of the
+    reference: sensors, plugins, lights, joints, poses.
     Never touches: what the link, joint or model says already; the other one stays, with `gazebo-conflict`.
     Diagnostics: `gazebo-conflict`, `gazebo-tag-without-target`, and those of reading SDF.
     """
@@ -157,7 +157,7 @@ class _Fold:
             self.notes.report(structure.INVALID_VALUE, message, where.at(element.name), found=text)
 
     def _into_shapes(self, link: Link, blob: tuple[Element, GazeboExtension]) -> Link:
-        """Each child of a `<visual>` or `<collision>` blob goes into every visual or collision; it replaces what is there."""
+        """Each child of a `<visual>` or `<collision>` blob goes into every shape of its kind, in place of what is there."""
         element, extension = blob
         field, kind = ("visuals", "visual") if element.name == "visual" else ("collisions", "collision")
         extra = self._read_as(kind, kind, [extension.model_copy(update={"content": element.children})])
@@ -170,9 +170,9 @@ class _Fold:
         if not content:
             return node
         update: dict[str, Any] = {}
-        for field, value in self._read_as(kind, getattr(node, "name", kind), content).items():
+        for field, value in self._read_as(kind, str(node.__dict__["name"]), content).items():
             mine = getattr(node, field)
-            if isinstance(mine, tuple) and field != "gravity":
+            if isinstance(mine, tuple):
                 update[field] = (*mine, *value)
             elif mine is None:
                 update[field] = value
@@ -187,14 +187,14 @@ class _Fold:
 
     def _read_as(self, kind: str, name: str, extensions: list[GazeboExtension]) -> dict[str, Any]:
         """The fields that the content of extensions sets when it is read as the inside of an SDF element."""
-        robot = etree.Element("robot", name=self.robot)
-        xml = etree.SubElement(robot, "gazebo", name=name, **_REQUIRED.get(kind, {}))
+        robot = etree.Element("robot", {"name": self.robot})
+        xml = etree.SubElement(robot, "gazebo", {"name": name, **_REQUIRED.get(kind, {})})
         for tag in _REQUIRED_CHILDREN.get(kind, ()):
             etree.SubElement(xml, tag).text = name
         for extension in extensions:
             for element in extension.content:
                 for made in element_xml(element, xml).iter():
-                    made.sourceline = extension.location.line
+                    made.sourceline = extension.location.line  # pyright: ignore[reportAttributeAccessIssue] - it can be set
         context = Context(self.notes, self.notes.file, "sdf", table("sdf").newest)
         data = reader("sdf", context.version).read(xml, context, kind)
         fields = set(data) - {"source", "name", "type", "parent", "child"}
@@ -268,5 +268,3 @@ def _physics(values: list[tuple[str, object]]) -> Opaque:
             holder = found if found is not None else etree.SubElement(holder, step)
         holder.text = format_value(value)
     return Opaque(element=from_xml(root))
-
-

@@ -32,19 +32,23 @@ class FrameLinks(ModelPass):
         moved = {
             joint.child: joint
             for joint in model.joints
-            if joint.type == "fixed" and joint.parent in links and joint.child in links and is_massless(links[joint.child])
+            if joint.type == "fixed"
+            and joint.parent in links
+            and joint.child in links
+            and is_massless(links[joint.child])
         }
         if not moved:
             return model
         guests: dict[str, list[Link]] = {}
         for name in moved:
-            if name is not None:
-                guests.setdefault(_anchor(name, moved), []).append(links[name])
+            guests.setdefault(_anchor(name, moved), []).append(links[name])
         frames = [frame for joint in moved.values() for frame in self._frames(joint, links[joint.child or ""], notes)]
         return model.model_copy(
             update={
-                "links": tuple(_host(link, guests.get(link.name, []), notes) for link in model.links if link.name not in moved),
-                "joints": tuple(joint for joint in model.joints if moved.get(joint.child) is not joint),
+                "links": tuple(
+                    _host(link, guests.get(link.name, []), notes) for link in model.links if link.name not in moved
+                ),
+                "joints": tuple(joint for joint in model.joints if moved.get(joint.child or "") is not joint),
                 "frames": (*model.frames, *frames),
             }
         )
@@ -70,7 +74,11 @@ class FrameLinks(ModelPass):
         return self._keep(frame, rest, f"the axis of the fixed joint {joint.name!r} has no use", notes)
 
     def _rest_of_link(self, frame: Frame, link: Link, notes: Notes) -> Frame:
-        flags = [field for field in ("gravity", "enable_wind", "self_collide", "kinematic") if getattr(link, field) is not None]
+        flags = [
+            field
+            for field in ("gravity", "enable_wind", "self_collide", "kinematic")
+            if getattr(link, field) is not None
+        ]
         if flags:
             message = f"{', '.join(flags)} of {link.name!r} have no body to act on"
             notes.account(Fate.DROPPED, to_sdf.FRAME_LINK, message, link.location, len(flags))
@@ -93,7 +101,7 @@ def is_massless(link: Link) -> bool:
     return link.inertial is None or (link.inertial.mass or 0.0) <= 0.0
 
 
-def _anchor(name: str, moved: dict[str | None, Joint]) -> str:
+def _anchor(name: str, moved: dict[str, Joint]) -> str:
     """The nearest link above that stays a link."""
     while name in moved:
         name = moved[name].parent or ""
@@ -110,7 +118,9 @@ def _host(link: Link, guests: list[Link], notes: Notes) -> Link:
         return link
     visuals = (*link.visuals, *(_placed(visual, guest.name) for guest in guests for visual in guest.visuals))
     collisions = (*link.collisions, *(_placed(one, guest.name) for guest in guests for one in guest.collisions))
-    plain = tuple(_placed_element(part, guest.name) for guest in guests for part in guest.opaque if part not in _carriers(guest))
+    plain = tuple(
+        _placed_element(part, guest.name) for guest in guests for part in guest.opaque if part not in _carriers(guest)
+    )
     return link.model_copy(
         update={
             "visuals": name_all(visuals, f"{link.name}_visual", notes),

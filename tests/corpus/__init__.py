@@ -1,0 +1,1 @@
+"""Claims about real models that nobody on this project wrote."""

@@ -1,0 +1,120 @@
+"""All that is claimed about one real file, tried on it."""
+
+import time
+import traceback
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+
+import twinform
+from tests.corpus.files import CorpusFile
+from tests.oracles.xml_trees import first_difference, is_well_formed
+from twinform.compiler import Checked
+from twinform.diagnostics import Diagnostic
+from twinform.ir import Document, Format
+
+SDF_VERSION = "1.9"
+"""What URDF is converted to: the newest version that libsdformat 12 reads."""
+
+
+@dataclass(frozen=True, slots=True)
+class Examined:
+    """What the compiler makes of a file. The rules are those of the errors that stopped it, each once.
+
+    `difference` is the first place where the file and its own text from the compiler differ; `faults` are broken
+    promises: tracebacks, and refusals that name no line.
+    """
+
+    name: str
+    well_formed: bool
+    accepted: bool = False
+    refused_by: tuple[str, ...] = ()
+    converted: bool = False
+    not_converted_by: tuple[str, ...] = ()
+    identical: bool = False
+    difference: str = ""
+    faults: tuple[str, ...] = ()
+    seconds: float = 0.0
+
+
+@cache
+def examined(files: tuple[CorpusFile, ...]) -> tuple[Examined, ...]:
+    """All claims tried on some files; the tests that share a process share the work."""
+    return tuple(examine(file.path, file.name) for file in files)
+
+
+def examine(path: Path, name: str) -> Examined:
+    """Check a file, convert it to the other format, and write it in its own; no exception comes out of it."""
+    data = path.read_bytes()
+    found = Examined(name, well_formed=is_well_formed(data))
+    start = time.perf_counter()
+    checked = _checked(path)
+    if isinstance(checked, str):
+        found = replace(found, faults=(checked,))
+    elif checked.document is None or not checked.accepted:
+        faults = _without_line(checked.diagnostics)
+        found = replace(found, refused_by=rules_of(checked.diagnostics), faults=faults)
+    else:
+        found = _converted(path, checked.document, replace(found, accepted=True))
+        found = _written_again(path, data, checked.document, found)
+    return replace(found, seconds=time.perf_counter() - start)
+
+
+def _checked(path: Path) -> Checked | str:
+    try:
+        return twinform.check(path)
+    except Exception as error:  # noqa: BLE001 - every exception is a fault to report
+        return _fault(error)
+
+
+def _converted(path: Path, document: Document, found: Examined) -> Examined:
+    try:
+        if document.format is Format.URDF:
+            twinform.convert(path, to="sdf", sdf_version=SDF_VERSION)
+        else:
+            twinform.convert(path, to="urdf")
+    except twinform.CompileError as error:
+        faults = (*found.faults, *_without_line(error.diagnostics))
+        return replace(found, not_converted_by=rules_of(error.diagnostics), faults=faults)
+    except Exception as error:  # noqa: BLE001 - every other exception is a fault to report
+        return replace(found, faults=(*found.faults, _fault(error)))
+    return replace(found, converted=True)
+
+
+def _written_again(path: Path, data: bytes, document: Document, found: Examined) -> Examined:
+    """The identity: the file in its own format and version, compared by a judge that knows nothing of the compiler."""
+    try:
+        if document.format is Format.URDF:
+            text = twinform.convert(path, to="urdf").text
+        else:
+            text = twinform.convert(path, to="sdf", sdf_version=document.version).text
+        difference = first_difference(data, text.encode())
+    except twinform.CompileError as error:
+        return replace(found, difference=f"not written: {_short(str(error))}")
+    except Exception as error:  # noqa: BLE001 - every other exception is a fault to report
+        return replace(found, faults=(*found.faults, _fault(error)))
+    return replace(found, identical=difference is None, difference=_short(difference or ""))
+
+
+def rules_of(diagnostics: Iterable[Diagnostic]) -> tuple[str, ...]:
+    """The rules of the errors, each once, in order."""
+    return tuple(dict.fromkeys(diagnostic.rule.name for diagnostic in diagnostics if diagnostic.is_error))
+
+
+def _without_line(diagnostics: Iterable[Diagnostic]) -> tuple[str, ...]:
+    errors = [diagnostic for diagnostic in diagnostics if diagnostic.is_error]
+    if any(error.location.line > 0 for error in errors):
+        return ()
+    messages = "; ".join(f"{error.rule.name}: {_short(error.message)}" for error in errors)
+    return (f"refused without a line: {messages or 'no error is reported'}",)
+
+
+def _fault(error: Exception) -> str:
+    where = traceback.extract_tb(error.__traceback__)[-1]
+    return f"{type(error).__name__}: {_short(str(error))} ({Path(where.filename).name}:{where.lineno})"
+
+
+def _short(text: str) -> str:
+    line = " ".join(text.split())
+    return line if len(line) <= 200 else f"{line[:199]}~"

@@ -1,0 +1,23 @@
+"""No real file breaks the compiler, and none is refused without a place to look at."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.corpus.examine import examined
+from tests.corpus.files import chunks
+
+CHUNKS = chunks()
+
+
+@pytest.mark.parametrize("chunk", CHUNKS)
+def test_a_file_is_converted_or_refused_with_a_line(corpus: Path, chunk: str):
+    assert corpus.is_dir()
+    assert {found.name: found.faults for found in examined(CHUNKS[chunk]) if found.faults} == {}
+
+
+@pytest.mark.parametrize("chunk", CHUNKS)
+def test_an_accepted_file_is_converted_or_the_rules_against_it_are_named(corpus: Path, chunk: str):
+    assert corpus.is_dir()
+    accepted = [found for found in examined(CHUNKS[chunk]) if found.accepted and not found.faults]
+    assert [found.name for found in accepted if found.converted == bool(found.not_converted_by)] == []

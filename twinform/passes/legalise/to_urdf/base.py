@@ -1,0 +1,42 @@
+"""The shape of the passes on the way to URDF."""
+
+from abc import abstractmethod
+
+from twinform.diagnostics import Notes
+from twinform.ir import Document, Model
+from twinform.ir.frames import FrameError
+from twinform.passes.base import Pass
+from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.schemas import Version, parse_version, table
+
+
+class ToUrdfPass(Pass):
+    """A pass over the one model that becomes the robot. After an error there is nothing left to do.
+
+    `carriers` says whether parts that URDF cannot say travel in carriers or only into the ledger.
+    """
+
+    carriers: bool = True
+
+    def run(self, document: Document, notes: Notes) -> Document:
+        """The document with its model passed through."""
+        if notes.has_errors:
+            return document
+        keeper = Keeper(notes, self.carriers, sdf_version(document))
+        try:
+            models = tuple(self.run_model(model, keeper) for model in document.models)
+        except FrameError as error:
+            error.report(notes)
+            return document
+        same = all(new is old for new, old in zip(models, document.models, strict=True))
+        return document if same else document.model_copy(update={"models": models})
+
+    @abstractmethod
+    def run_model(self, model: Model, keeper: Keeper) -> Model:
+        """The model after the pass."""
+
+
+def sdf_version(document: Document) -> Version:
+    """The version that the document declares; the newest where there is no such version."""
+    facts = table("sdf")
+    return parse_version(document.version) if document.version in facts.versions else facts.newest

@@ -1,0 +1,120 @@
+"""URDF describes one tree."""
+
+from functools import partial
+from typing import ClassVar
+
+from twinform.diagnostics import Fate
+from twinform.diagnostics.rules import to_urdf as rules
+from twinform.ir import GazeboExtension, Joint, Link, Model, Pose, count_parts
+from twinform.ir.frames import MODEL, WORLD, FrameGraph
+from twinform.ir.transform import Transform
+from twinform.passes.legalise.carrier import to_element
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass
+from twinform.passes.legalise.to_urdf.keeper import Keeper, mark_made
+from twinform.passes.legalise.to_urdf.nodes import map_poses, unique_name
+
+
+class BuildTree(ToUrdfPass):
+    """Cut loops and connect what is not connected.
+
+    Changes: 1. of several joints with one child, and of joints that close a circle, the first ones in the file stay; each
+    of the others becomes a `<joint>` in a `<gazebo>` element, with its pose in the child's frame of URDF; 2. a root beside
+    the first one hangs from it by a `floating` joint. The first root is `world` where a joint has it as its parent, else
+    the one that the canonical link hangs from; 3. in a static model every root is fixed to `world`.
+    Diagnostics: `cut-loop`; in the ledger `cut-loop` and `hung-root`.
+    """
+
+    name: ClassVar[str] = "build-tree"
+
+    def run_model(self, model: Model, keeper: Keeper) -> Model:
+        """The model with its joints in a tree."""
+        tree = Tree([link.name for link in model.links])
+        kept: list[Joint] = []
+        cut: list[Joint] = []
+        for joint in model.joints:
+            (kept if tree.add(joint) else cut).append(joint)
+        if cut:
+            model = _cut(model, kept, cut, tree, keeper)
+        roots = [link for link in model.links if link.name not in tree.parent_joint]
+        first = _first_root(model, tree)
+        return _hang(model, [link for link in roots if link.name != first], first, keeper)
+
+
+class Tree:
+    """The joints that make a forest, as far as they were added; `parent_joint` is by the name of the child."""
+
+    def __init__(self, links: list[str]) -> None:
+        self.parent_joint: dict[str, Joint] = {}
+        self._group = {name: name for name in (*links, WORLD)}
+
+    def add(self, joint: Joint) -> bool:
+        """Take a joint in, unless it closes a loop."""
+        parent, child = joint.parent or WORLD, joint.child or ""
+        if child in self.parent_joint or self._find(parent) == self._find(child):
+            return False
+        self.parent_joint[child] = joint
+        self._group[self._find(child)] = self._find(parent)
+        return True
+
+    def root(self, link: str) -> str:
+        """The link, or `world`, that a link hangs from in the end."""
+        while link in self.parent_joint:
+            link = self.parent_joint[link].parent or WORLD
+        return link
+
+    def _find(self, name: str) -> str:
+        group = self._group
+        while group[name] != name:
+            group[name] = name = group[group[name]]
+        return name
+
+
+def _first_root(model: Model, tree: Tree) -> str:
+    if model.static or any(joint.parent == WORLD for joint in tree.parent_joint.values()):
+        return WORLD
+    return tree.root(FrameGraph(model).body(MODEL, kind="model"))
+
+
+def _cut(model: Model, kept: list[Joint], cut: list[Joint], tree: Tree, keeper: Keeper) -> Model:
+    graph = FrameGraph(model)
+    extensions = list(model.extensions)
+    for joint in cut:
+        child = joint.child or ""
+        closed = tree.parent_joint.get(child)
+        message = f"joint {joint.name!r} closes a loop at link {child!r}"
+        related = (closed.location,) if closed else ()
+        keeper.notes.report(rules.CUT_LOOP, message, joint.location, found=child, related=related)
+        fate = Fate.CARRIED
+        keeper.notes.account(fate, rules.CUT_LOOP, message, joint.location, count_parts(joint))
+        base = (closed.name, "joint") if closed else (child, "link")
+        pose = graph.pose(joint.name, base[0], kind="joint", base="joint" if closed else "link").to_pose()
+        blob = to_element(joint.model_copy(update={"pose": pose}), "joint", "sdf")
+        extensions.append(GazeboExtension(content=(blob,), source=joint.source))
+    model = model.model_copy(update={"joints": tuple(kept), "extensions": tuple(extensions)})
+    children = {joint.name: joint.child or "" for joint in cut}
+    return map_poses(model, partial(_without_cut, graph, children))
+
+
+def _without_cut(graph: FrameGraph, children: dict[str, str], pose: Pose) -> Pose:
+    """A pose relative to a joint that was cut, relative to the joint's child."""
+    joint = pose.relative_to
+    if joint not in children:
+        return pose
+    child = children[joint]
+    return graph.pose(joint, child, kind="joint").compose(Transform.from_pose(pose)).to_pose(child)
+
+
+def _hang(model: Model, roots: list[Link], first: str, keeper: Keeper) -> Model:
+    if not roots:
+        return model
+    taken = {node.name for node in (*model.links, *model.joints)}
+    joints = list(model.joints)
+    kind = "fixed" if model.static else "floating"
+    for link in roots:
+        name = unique_name(f"{link.name}_{kind}_joint", taken)
+        taken.add(name)
+        made = Joint(name=name, type=kind, parent=first, child=link.name, source=link.source)
+        joints.append(mark_made(made, "."))
+        message = f"link {link.name!r} hangs by a {kind} joint from {first!r}"
+        keeper.notes.account(Fate.APPROXIMATED, rules.HUNG_ROOT, message, link.location, 0)
+    return model.model_copy(update={"joints": tuple(joints)})

@@ -1,0 +1,126 @@
+"""The last step: what is left over is carried, and the document is URDF."""
+
+from typing import ClassVar, TypeVar
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules import to_urdf as rules
+from twinform.ir import Capsule, Collision, Document, Format, Joint, Link, Model, Node, Opaque, Visual
+from twinform.ir.frames import WORLD
+from twinform.passes.base import Pass
+from twinform.passes.legalise.carrier import NAMESPACE, PREFIX
+from twinform.passes.legalise.to_urdf.base import sdf_version
+from twinform.passes.legalise.to_urdf.keeper import MADE, Keeper, mark_made
+from twinform.passes.legalise.to_urdf.remainder import Words, take_remainder, urdf_words
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+_IMPLIED: Words = {"relative_to": None}
+"""The frame of a joint's or link's pose, which URDF does not write because it cannot be another."""
+
+
+class CarryTheRest(Pass):
+    """Carry every part that URDF has no word for, and call the document URDF.
+
+    Changes: 1. typed fields and opaque parts that the table of URDF has no row for go into carriers on the nearest element
+    that URDF has; 2. `world` becomes a link where a joint hangs from it; 3. the document is URDF 1.1 where it needs a
+    capsule.
+    Diagnostics: in the ledger `sdf-only`.
+    """
+
+    name: ClassVar[str] = "carry-the-rest"
+
+    carriers: bool = True
+
+    def run(self, document: Document, notes: Notes) -> Document:
+        """The document in terms of URDF."""
+        if notes.has_errors:
+            return document
+        keeper = Keeper(notes, self.carriers, sdf_version(document))
+        models = tuple(_finish(model, document, keeper) for model in document.models)
+        if not self.carriers:
+            models = tuple(without_marks(model) for model in models)
+        namespaces = tuple(pair for pair in document.namespaces if pair[0] not in ("", PREFIX))
+        if self.carriers:
+            namespaces = (*namespaces, (PREFIX, NAMESPACE))
+        version = "1.1" if any(_has_capsule(link) for model in models for link in model.links) else None
+        update = {"format": Format.URDF, "version": version, "models": models, "namespaces": namespaces}
+        return document.model_copy(update=update)
+
+
+def _finish(model: Model, document: Document, keeper: Keeper) -> Model:
+    rest = _Rest(keeper)
+    model = model.model_copy(
+        update={"links": tuple(map(rest.link, model.links)), "joints": tuple(map(rest.joint, model.joints))}
+    )
+    model = rest.take(model, "model", urdf_words("robot"))
+    has_world = any(link.name == WORLD for link in model.links)  # which SDF before 1.7 did not forbid
+    if not has_world and any(joint.parent == WORLD for joint in model.joints):
+        world = mark_made(Link(name=WORLD), ".")
+        model = model.model_copy(update={"links": (world, *model.links)})
+    if document.version is None:
+        return model
+    version = Opaque(at="/sdf", attribute=("version", document.version))
+    message = f"the file is SDF {document.version}"
+    return keeper.keep(model, [version], rules.SDF_ONLY, message, document.location)
+
+
+class _Rest:
+    """Takes the remainders off, from the inside out."""
+
+    def __init__(self, keeper: Keeper) -> None:
+        self.keeper = keeper
+        self.link_words = {**urdf_words("link"), "pose": _IMPLIED}
+        joint = urdf_words("joint")
+        self.joint_words = {**joint, "pose": {**(joint["pose"] or {}), **_IMPLIED}}
+
+    def link(self, link: Link) -> Link:
+        update: dict[str, object] = {
+            "visuals": tuple(self.take(visual, "visual", urdf_words("link", "visual")) for visual in link.visuals),
+            "collisions": tuple(
+                self.take(one, "collision", urdf_words("link", "collision")) for one in link.collisions
+            ),
+        }
+        if link.inertial is not None:
+            update["inertial"] = self.take(link.inertial, "inertial", urdf_words("link", "inertial"))
+        words: Words = {**self.link_words, "inertial": None}
+        return self.take(link.model_copy(update=update), "link", words)
+
+    def joint(self, joint: Joint) -> Joint:
+        words = self.joint_words
+        if joint.type == "fixed":  # its axis would be written, and mean nothing
+            words = {name: inner for name, inner in words.items() if name != "axis"}
+        return self.take(joint, "joint", words)
+
+    def take(self, node: AnyNode, tag: str, words: Words) -> AnyNode:
+        kept, pieces = take_remainder(node, tag, words)
+        name = getattr(node, "name", None)
+        of = f"{tag} {name!r}" if name else f"an {tag}"
+        for piece in pieces:
+            what = f"{piece.at}/{piece.name}" if piece.at else piece.name
+            message = f"{what} of {of} has no word in URDF"
+            kept = self.keeper.keep(kept, [piece], rules.SDF_ONLY, message, node.location)
+        return kept
+
+
+def _has_capsule(link: Link) -> bool:
+    shapes: tuple[Visual | Collision, ...] = (*link.visuals, *link.collisions)
+    return any(one.geometry is not None and isinstance(one.geometry.shape, Capsule) for one in shapes)
+
+
+def without_marks(model: Model) -> Model:
+    """The model without the marks of the passes."""
+    return _clean(model)
+
+
+def _clean(node: AnyNode) -> AnyNode:
+    update: dict[str, object] = {}
+    for name, value in node.__dict__.items():
+        if name == "opaque":
+            kept = tuple(part for part in node.opaque if part.attribute is None or part.attribute[0] != MADE)
+            if len(kept) != len(node.opaque):
+                update[name] = kept
+        elif isinstance(value, Node):
+            update[name] = _clean(value)
+        elif isinstance(value, tuple) and value and isinstance(value[0], Node):
+            update[name] = tuple(_clean(one) for one in value)  # pyright: ignore[reportUnknownVariableType, reportUnknownArgumentType]
+    return node.model_copy(update=update) if update else node

@@ -1,0 +1,92 @@
+"""Poses in parts that have no typed form: projectors, particle emitters, cameras of a sensor."""
+
+from dataclasses import dataclass
+from functools import cache
+
+from twinform.diagnostics import NOWHERE, Notes
+from twinform.diagnostics.rules import to_urdf as rules
+from twinform.ir import Element, Node, Opaque, Pose, Sensor
+from twinform.ir.frames import FrameGraph, Kind
+from twinform.ir.transform import Transform
+from twinform.passes.legalise.carrier import to_element
+from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.legalise.to_urdf.nodes import map_elements
+from twinform.schemas import Context, element_xml, reader, table
+
+_FRAME_ATTRIBUTES = ("relative_to", "frame")
+"""How a pose names its frame, since SDF 1.7 and before."""
+
+
+@dataclass(frozen=True, slots=True)
+class ElementPoses:
+    """Moves the poses in opaque parts of one link, whose frame becomes `base`."""
+
+    graph: FrameGraph
+    link: str
+    base: tuple[str, Kind]
+    keeper: Keeper
+
+    def parts(self, parts: tuple[Opaque, ...], *, still: bool) -> tuple[Opaque, ...]:
+        """The opaque parts of the link: their poses are in the link's frame, or in the one that they name."""
+        if not parts:
+            return parts
+
+        def move(element: Element) -> Element:
+            return element if element.name[0] == "{" else self._move(element, Transform(), moves=not still)
+
+        return map_elements(parts, move)
+
+    def sensor(self, sensor: Sensor, written: Pose | None) -> Sensor:
+        """A sensor of the link; a pose in it that names a frame becomes one in the sensor's frame."""
+        if not any(_names_frame(part.element) for part in sensor.opaque if part.element):
+            return sensor
+        placed = self.graph.resolve(written, self.link, self.base[0], base=self.base[1])
+
+        def move(element: Element) -> Element:
+            return self._move(element, placed, moves=False) if element.name[0] != "{" else element
+
+        return sensor.model_copy(update={"opaque": map_elements(sensor.opaque, move)})
+
+    def _move(self, element: Element, holder: Transform, *, moves: bool) -> Element:
+        """An element whose own pose is in the moved frame, or else relative to `holder` where it names another one."""
+        children = tuple(
+            child if child.name == "pose" else self._move(child, holder, moves=False) for child in element.children
+        )
+        pose = element.find("pose")
+        names_frame = pose is not None and _frame_of(pose) is not None
+        if not names_frame and not (moves and (pose is not None or element.name in _posed())):
+            return element.model_copy(update={"children": children}) if children != element.children else element
+        read = Pose() if pose is None else _read(pose)
+        in_base = self.graph.resolve(read, self.link, self.base[0], base=self.base[1])
+        made = to_element(holder.inverse().compose(in_base).to_pose(), "pose", "sdf")
+        children = tuple(made if child is pose else child for child in children)
+        if pose is None:
+            return element.model_copy(update={"children": (made, *children)})
+        return element.model_copy(update={"children": (*children, *self._keep(element, pose))})
+
+    def _keep(self, element: Element, pose: Element) -> tuple[Element, ...]:
+        message = f"the pose of <{element.name}> of link {self.link!r} is in another frame"
+        kept = self.keeper.keep(Node(), [Opaque(element=pose)], rules.MOVED_FRAME, message, NOWHERE)
+        return tuple(part.element for part in kept.opaque if part.element)
+
+
+@cache
+def _posed() -> frozenset[str]:
+    """The elements of a link that have a pose, written or not."""
+    facts = table("sdf")
+    rows = [row for row in facts.definitions["link"].children if row.place is None]
+    return frozenset(row.name for row in rows if any(inner.name == "pose" for inner in facts.resolve(row).rows))
+
+
+def _frame_of(pose: Element) -> str | None:
+    return next((value for name in _FRAME_ATTRIBUTES if (value := pose.get(name))), None)
+
+
+def _names_frame(element: Element) -> bool:
+    return any(each.name == "pose" and _frame_of(each) for each in element.walk())
+
+
+def _read(element: Element) -> Pose:
+    context = Context(Notes(), "", "sdf", table("sdf").newest)
+    pose = Pose.model_validate(reader("sdf", context.version).read(element_xml(element), context, "pose"))
+    return pose.model_copy(update={"relative_to": _frame_of(element), "opaque": ()})

@@ -1,0 +1,59 @@
+"""In URDF an axis is in the joint frame."""
+
+from typing import ClassVar
+
+from twinform.diagnostics.rules import model as model_rules
+from twinform.diagnostics.rules import to_urdf as rules
+from twinform.ir import Axis, Element, Joint, Model, Opaque
+from twinform.ir.frames import FrameGraph
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass
+from twinform.passes.legalise.to_urdf.keeper import Keeper, mark_made
+from twinform.schemas import format_value
+
+_MOVES = frozenset({"revolute", "continuous", "prismatic"})
+_DEFAULT = (0.0, 0.0, 1.0)
+"""SDF's axis where none is written; URDF's is 1 0 0."""
+
+
+class ExpressAxes(ToUrdfPass):
+    """Write every axis, in the joint frame.
+
+    Changes: 1. an axis that is expressed in another frame is turned into the joint's; its numbers stay where that is no
+    turn; 2. an axis that is not written is SDF's, z.
+    Diagnostics: `zero-axis`; in the ledger `axis-frame`.
+    """
+
+    name: ClassVar[str] = "express-axes"
+
+    def run_model(self, model: Model, keeper: Keeper) -> Model:
+        """The model with its axes in the joint frames."""
+        if not any(joint.type in _MOVES for joint in model.joints):
+            return model
+        graph = FrameGraph(model)
+        joints = tuple(_express(joint, graph, keeper) if joint.type in _MOVES else joint for joint in model.joints)
+        return model.model_copy(update={"joints": joints})
+
+
+def _express(joint: Joint, graph: FrameGraph, keeper: Keeper) -> Joint:
+    axis = joint.axis or Axis()
+    if axis.xyz is not None and not any(axis.xyz):
+        message = f"the axis of joint {joint.name!r} has length zero"
+        keeper.notes.report(model_rules.ZERO_AXIS, message, axis.location, found="0 0 0")
+    if axis.xyz is None:
+        joint = mark_made(joint, "axis.xyz" if joint.axis else "axis")
+    if not axis.expressed_in:
+        made = axis if axis.xyz is not None else axis.model_copy(update={"xyz": _DEFAULT})
+        return joint if made is axis else joint.model_copy(update={"axis": made})
+    turn = graph.pose(axis.expressed_in, joint.name, kind="frame", base="joint")
+    x, y, z = turn.rotate(axis.xyz or _DEFAULT)
+    made = axis.model_copy(update={"xyz": (x + 0.0, y + 0.0, z + 0.0), "expressed_in": None})
+    turned = joint.model_copy(update={"axis": made})
+    message = f"the axis of joint {joint.name!r} is expressed in {axis.expressed_in!r}"
+    return keeper.keep(turned, [_written(axis, keeper)], rules.AXIS_FRAME, message, axis.location)
+
+
+def _written(axis: Axis, keeper: Keeper) -> Opaque:
+    """The axis as it stands in the file; before SDF 1.7 it could not name its frame."""
+    attributes = (("expressed_in", axis.expressed_in or ""),) if keeper.version >= (1, 7) else ()
+    text = format_value(axis.xyz) if axis.xyz is not None else None
+    return Opaque(at="axis", element=Element(name="xyz", attributes=attributes, text=text))

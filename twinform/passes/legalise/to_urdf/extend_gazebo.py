@@ -1,0 +1,171 @@
+"""What URDF lacks and Gazebo reads from `<gazebo>` elements."""
+
+from collections.abc import Iterable, Iterator
+from functools import cache
+from typing import ClassVar
+
+from twinform.ir import Dynamics, Element, GazeboExtension, Joint, Link, Model, Opaque
+from twinform.ir.frames import WORLD
+from twinform.passes.legalise.carrier import to_element
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass
+from twinform.passes.legalise.to_urdf.keeper import Keeper, made_fields
+from twinform.schemas import format_value, table
+
+_LINK_FIELDS = ("gravity", "enable_wind", "self_collide", "kinematic", "sensors", "lights")
+_MODEL_FIELDS = ("static", "self_collide", "allow_auto_disable", "enable_wind", "pose")
+_SPRING_TAGS = {"spring_reference": "springReference", "spring_stiffness": "springStiffness"}
+_PHYSICS_TAGS = {
+    "ode/limit/cfm": "stopCfm",
+    "ode/limit/erp": "stopErp",
+    "ode/fudge_factor": "fudgeFactor",
+    "ode/implicit_spring_damper": "implicitSpringDamper",
+    "provide_feedback": "provideFeedback",
+}
+_NOT_VERBATIM = frozenset({"physics", "frame"})
+"""A second `<physics>` would be a second one in Gazebo too; `<frame>` in links and joints went with SDF 1.7."""
+
+
+class ExtendGazebo(ToUrdfPass):
+    """Put into `<gazebo>` elements what Gazebo reads there.
+
+    Changes: 1. sensors, lights, flags and opaque parts of a link, sensors of a joint, and flags, pose, plugins and opaque
+    parts of the model stand there as they are in SDF; 2. springs and physics of a joint become the tags that mean them;
+    3. `preserveFixedJoint` keeps libsdformat from merging links that are fixed to each other.
+    Never touches: parts without a tag, and second copies of what may stand once; the last pass carries them.
+    """
+
+    name: ClassVar[str] = "extend-gazebo"
+
+    def run_model(self, model: Model, keeper: Keeper) -> Model:  # noqa: ARG002 - the signature of all passes; nothing is lost
+        """The model with its extensions."""
+        extensions = list(model.extensions)
+        links: list[Link] = []
+        joints: list[Joint] = []
+        names = {link.name for link in model.links}
+        with_mass = {link.name for link in model.links if link.inertial and (link.inertial.mass or 0) > 0}
+        for link in model.links:
+            content, left = _link_content(link)
+            links.append(left)
+            extensions.extend(_extension(link, content))
+        for joint in model.joints:
+            content, left = _joint_content(joint, names, with_mass)
+            joints.append(left)
+            extensions.extend(_extension(joint, content))
+        extensions.extend(_model_extensions(model))
+        cleared = dict.fromkeys(_MODEL_FIELDS)
+        update = {
+            "links": tuple(links),
+            "joints": tuple(joints),
+            "extensions": tuple(extensions),
+            "plugins": (),
+            "opaque": _rest(model.opaque, "model"),
+        }
+        return model.model_copy(update={**cleared, **update})
+
+
+def _extension(node: Link | Joint, content: Iterable[Element]) -> Iterator[GazeboExtension]:
+    listed = tuple(content)
+    if listed:
+        yield GazeboExtension(reference=node.name, content=listed, source=node.source)
+
+
+@cache
+def _typed(definition: str) -> frozenset[str]:
+    """The children that have a typed form; an opaque one is a repetition or says nothing."""
+    return frozenset(row.name for row in table("sdf").definitions[definition].children if row.place)
+
+
+def _is_verbatim(part: Opaque, definition: str) -> bool:
+    element = part.element
+    if element is None or part.at or element.name[0] == "{":
+        return False
+    return element.name not in _typed(definition) and element.name not in _NOT_VERBATIM
+
+
+def _verbatim(parts: Iterable[Opaque], definition: str) -> list[Element]:
+    return [part.element for part in parts if part.element and _is_verbatim(part, definition)]
+
+
+def _rest(parts: Iterable[Opaque], definition: str) -> tuple[Opaque, ...]:
+    return tuple(part for part in parts if not _is_verbatim(part, definition))
+
+
+def _link_content(link: Link) -> tuple[list[Element], Link]:
+    said = {field: getattr(link, field) for field in _LINK_FIELDS}
+    content = [*to_element(Link(name=link.name, spelling=link.spelling, **said), "link", "sdf").children]
+    content += _verbatim(link.opaque, "link")
+    if not content:
+        return content, link
+    empty = {field: () if isinstance(value, tuple) else None for field, value in said.items()}
+    return content, link.model_copy(update={**empty, "opaque": _rest(link.opaque, "link")})
+
+
+def _joint_content(joint: Joint, links: set[str], with_mass: set[str]) -> tuple[list[Element], Joint]:
+    content: list[Element] = []
+    if joint.type == "fixed" and joint.parent != WORLD and joint.child in with_mass and "." not in made_fields(joint):
+        content.append(Element(name="preserveFixedJoint", text="true"))
+    springs, joint = _springs(joint)
+    physics, joint = _physics(joint)
+    content += [*springs, *physics]
+    if joint.name in links:  # a reference would mean the link
+        return content, joint
+    content += to_element(Joint(name="", type="fixed", sensors=joint.sensors), "joint", "sdf").children
+    content += _verbatim(joint.opaque, "joint")
+    return content, joint.model_copy(update={"sensors": (), "opaque": _rest(joint.opaque, "joint")})
+
+
+def _springs(joint: Joint) -> tuple[list[Element], Joint]:
+    axis = joint.axis
+    if axis is None or axis.dynamics is None or joint.type == "fixed":
+        return [], joint
+    values = {field: getattr(axis.dynamics, field) for field in _SPRING_TAGS}
+    content = [
+        Element(name=_SPRING_TAGS[field], text=format_value(value))
+        for field, value in values.items()
+        if value is not None
+    ]
+    if not content:
+        return [], joint
+    dynamics: Dynamics | None = axis.dynamics.model_copy(update=dict.fromkeys(_SPRING_TAGS))
+    dynamics = None if dynamics == Dynamics() else dynamics
+    return content, joint.model_copy(update={"axis": axis.model_copy(update={"dynamics": dynamics})})
+
+
+def _physics(joint: Joint) -> tuple[list[Element], Joint]:
+    content: list[Element] = []
+    parts: list[Opaque] = []
+    for part in joint.opaque:
+        if part.element is None or part.element.name != "physics" or part.at or content:
+            parts.append(part)
+            continue
+        left = _take_tags(part.element, "", content)
+        if left is not None:
+            parts.append(part.model_copy(update={"element": left}))
+    return content, joint.model_copy(update={"opaque": tuple(parts)}) if content else joint
+
+
+def _take_tags(element: Element, path: str, tags: list[Element]) -> Element | None:
+    """Move the leaves that have tags out of an element; what is left of it, if anything is."""
+    children: list[Element] = []
+    for child in element.children:
+        inner = f"{path}/{child.name}" if path else child.name
+        if inner in _PHYSICS_TAGS and not child.attributes and not child.children and child.text:
+            tags.append(Element(name=_PHYSICS_TAGS[inner], text=child.text))
+            continue
+        left = _take_tags(child, inner, tags)
+        if left is not None:
+            children.append(left)
+    if not children and element.children and not element.attributes:
+        return None
+    return element.model_copy(update={"children": tuple(children)})
+
+
+def _model_extensions(model: Model) -> Iterator[GazeboExtension]:
+    said = {field: getattr(model, field) for field in _MODEL_FIELDS}
+    flags = to_element(Model(name=model.name, spelling=model.spelling, **said), "model", "sdf").children
+    if flags:
+        yield GazeboExtension(content=flags)
+    for plugin in model.plugins:
+        yield GazeboExtension(content=(to_element(plugin, "plugin", "sdf"),), source=plugin.source)
+    for element in _verbatim(model.opaque, "model"):
+        yield GazeboExtension(content=(element,))

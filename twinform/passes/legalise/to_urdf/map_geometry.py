@@ -1,0 +1,102 @@
+"""The shapes that URDF has, and the others."""
+
+from typing import ClassVar, TypeVar
+
+from twinform.diagnostics.rules import to_urdf as rules
+from twinform.ir import (
+    Box,
+    Capsule,
+    Collision,
+    Cylinder,
+    Geometry,
+    Link,
+    Mesh,
+    Model,
+    Node,
+    Sphere,
+    Visual,
+    count_parts,
+)
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass
+from twinform.passes.legalise.to_urdf.keeper import Keeper, mark_made
+from twinform.passes.legalise.to_urdf.nodes import piece, text_piece
+
+AnyShaped = TypeVar("AnyShaped", Visual, Collision)
+
+_DEFAULTS: dict[type[Node], dict[str, object]] = {
+    Box: {"size": (1.0, 1.0, 1.0)},
+    Cylinder: {"radius": 1.0, "length": 1.0},
+    Sphere: {"radius": 1.0},
+    Capsule: {"radius": 0.5, "length": 1.0},
+    Mesh: {},
+}
+"""The shapes of URDF, with SDF's defaults in metres for what URDF requires."""
+
+
+class MapGeometry(ToUrdfPass):
+    """Keep the shapes that URDF has, with all their sizes.
+
+    Changes: 1. a size that is not written is SDF's default; 2. `model://` becomes `package://`; 3. a visual or collision
+    with a shape that URDF lacks leaves the link, whole, into a carrier.
+    Diagnostics: `unsayable-shape`; in the ledger `unsayable-shape` and `sdf-only`.
+    """
+
+    name: ClassVar[str] = "map-geometry"
+
+    def run_model(self, model: Model, keeper: Keeper) -> Model:
+        """The model with shapes of URDF alone."""
+        return model.model_copy(update={"links": tuple(_map_link(link, keeper) for link in model.links)})
+
+
+def _map_link(link: Link, keeper: Keeper) -> Link:
+    link = _sort(link, "collisions", "collision", link.collisions, keeper)
+    return _sort(link, "visuals", "visual", link.visuals, keeper)
+
+
+def _sort(link: Link, field: str, tag: str, shapes: tuple[AnyShaped, ...], keeper: Keeper) -> Link:
+    kept: list[AnyShaped] = []
+    for one in shapes:
+        if _can_say(one.geometry):
+            kept.append(_map_shape(one, tag, keeper))
+            continue
+        kind = one.geometry.shape.kind if one.geometry and one.geometry.shape else "no shape"
+        message = f"{tag} {one.name!r} of link {link.name!r} is a {kind}, which URDF does not have"
+        if kind == "mesh":
+            message = f"{tag} {one.name!r} of link {link.name!r} is one part of a mesh, which URDF cannot say"
+        keeper.notes.report(rules.UNSAYABLE_SHAPE, message, one.location, found=kind)
+        weight = count_parts(one)
+        link = keeper.keep(link, [piece(one, tag)], rules.UNSAYABLE_SHAPE, message, one.location, weight)
+    return link.model_copy(update={field: tuple(kept)}) if shapes else link
+
+
+def _can_say(geometry: Geometry | None) -> bool:
+    shape = geometry.shape if geometry else None
+    if isinstance(shape, Mesh):
+        return shape.uri is not None and not any(
+            part.element and part.element.name == "submesh" for part in shape.opaque
+        )
+    return type(shape) in _DEFAULTS
+
+
+def _map_shape(one: AnyShaped, tag: str, keeper: Keeper) -> AnyShaped:
+    geometry = one.geometry
+    shape = geometry.shape if geometry else None
+    if geometry is None or shape is None:
+        return one
+    if isinstance(shape, Mesh):
+        uri, lost = package_uri(shape.uri or "")
+        made: Node = shape.model_copy(update={"uri": uri})
+        if lost:
+            message = f"the mesh of {tag} {one.name!r} is called {shape.uri!r}"
+            pieces = [text_piece("uri", shape.uri or "", "geometry/mesh")]
+            one = keeper.keep(one, pieces, rules.SDF_ONLY, message, shape.location)
+    else:
+        missing = {name: value for name, value in _DEFAULTS[type(shape)].items() if getattr(shape, name) is None}
+        made = mark_made(shape.model_copy(update=missing), *missing)
+    return one.model_copy(update={"geometry": geometry.model_copy(update={"shape": made})})
+
+
+def package_uri(uri: str) -> tuple[str, bool]:
+    """A URI of SDF in terms of URDF, and whether the way back would give another one."""
+    there = uri.replace("model://", "package://", 1)
+    return there, there.replace("package://", "model://", 1) != uri

@@ -1,0 +1,74 @@
+"""URDF has no surfaces; Gazebo's tags for a link have them for all its collisions at once."""
+
+from typing import ClassVar
+
+from twinform.ir import Collision, Element, GazeboExtension, Link, Model, Surface
+from twinform.passes.legalise.carrier import to_element
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass
+from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.schemas import format_value
+
+_TAGS = {
+    "mu": "mu1",
+    "mu2": "mu2",
+    "fdir1": "fdir1",
+    "kp": "kp",
+    "kd": "kd",
+    "max_vel": "maxVel",
+    "min_depth": "minDepth",
+}
+_NOT_FIELDS = frozenset({"source", "spelling", "opaque"})
+
+
+class MapSurfaces(ToUrdfPass):
+    """Say surfaces by `<gazebo>` tags where all collisions of a link have the same.
+
+    Changes: 1. a surface of which there are tags for every part becomes these tags, any other a `<collision>` with the
+    `<surface>` in it; 2. `max_contacts` and `laser_retro` become tags.
+    Never touches: what differs between the collisions of a link; the last pass carries it.
+    """
+
+    name: ClassVar[str] = "map-surfaces"
+
+    def run_model(self, model: Model, keeper: Keeper) -> Model:  # noqa: ARG002 - the signature of all passes; nothing is lost
+        """The model with shared surfaces in extensions."""
+        links: list[Link] = []
+        extensions = list(model.extensions)
+        for link in model.links:
+            content, fields = _shared(link.collisions)
+            links.append(_without(link, fields))
+            if content:
+                extensions.append(GazeboExtension(reference=link.name, content=tuple(content), source=link.source))
+        return model.model_copy(update={"links": tuple(links), "extensions": tuple(extensions)})
+
+
+def _shared(collisions: tuple[Collision, ...]) -> tuple[list[Element], list[str]]:
+    """What all collisions say alike, as tags, and the fields that it was in."""
+    if not collisions:
+        return [], []
+    first, content, fields = collisions[0], list[Element](), list[str]()
+    for field in ("surface", "max_contacts", "laser_retro"):
+        value = getattr(first, field)
+        if value is None or any(getattr(other, field) != value for other in collisions[1:]):
+            continue
+        fields.append(field)
+        if isinstance(value, Surface):
+            content.extend(_surface(value))
+        else:
+            tag = "maxContacts" if field == "max_contacts" else "laserRetro"
+            content.append(Element(name=tag, text=format_value(value)))
+    return content, fields
+
+
+def _surface(surface: Surface) -> list[Element]:
+    written = {name: value for name, value in surface.__dict__.items() if value is not None and name not in _NOT_FIELDS}
+    if surface.opaque or not written.keys() <= _TAGS.keys():
+        return [Element(name="collision", children=(to_element(surface, "surface", "sdf"),))]
+    return [Element(name=_TAGS[name], text=format_value(value)) for name, value in written.items()]
+
+
+def _without(link: Link, fields: list[str]) -> Link:
+    if not fields:
+        return link
+    cleared = dict.fromkeys(fields)
+    return link.model_copy(update={"collisions": tuple(one.model_copy(update=cleared) for one in link.collisions)})

@@ -1,0 +1,63 @@
+"""Small things that several passes do with nodes."""
+
+from collections.abc import Callable, Container, Iterable
+from typing import TypeVar
+
+from twinform.ir import Element, Node, Opaque, Pose
+from twinform.passes.legalise.carrier import to_element
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+
+def unique_name(name: str, taken: Container[str]) -> str:
+    """The name, with the first number behind it that makes it unlike all others."""
+    made, number = name, 1
+    while made in taken:
+        made, number = f"{name}_{number}", number + 1
+    return made
+
+
+def piece(node: Node, tag: str) -> Opaque:
+    """A node as an SDF element that can travel in a carrier."""
+    return Opaque(element=to_element(node, tag, "sdf"))
+
+
+def pose_piece(pose: Pose) -> Opaque:
+    """A pose as it was written; where SDF before 1.7 calls its frame `frame`, it stays so."""
+    if any(part.attribute and part.attribute[0] == "frame" for part in pose.opaque):
+        pose = pose.model_copy(update={"relative_to": None})
+    return piece(pose, "pose")
+
+
+def text_piece(name: str, text: str, at: str = "") -> Opaque:
+    """An element with text."""
+    return Opaque(at=at, element=Element(name=name, text=text))
+
+
+def map_poses(node: AnyNode, change: Callable[[Pose], Pose]) -> AnyNode:
+    """The node with every pose in it changed; the same node where none is."""
+    update: dict[str, object] = {}
+    for field, value in node.__dict__.items():
+        if isinstance(value, Pose):
+            changed: object = change(value)
+        elif isinstance(value, Node):
+            changed = map_poses(value, change)
+        elif isinstance(value, tuple) and value and isinstance(value[0], Node):
+            changed = _map_each(value, change)  # pyright: ignore[reportUnknownArgumentType] - all of one kind
+        else:
+            continue
+        if changed is not value:
+            update[field] = changed
+    return node.model_copy(update=update) if update else node
+
+
+def _map_each(nodes: tuple[Node, ...], change: Callable[[Pose], Pose]) -> tuple[Node, ...]:
+    changed = tuple(map_poses(node, change) for node in nodes)
+    return changed if any(new is not old for new, old in zip(changed, nodes, strict=True)) else nodes
+
+
+def map_elements(parts: Iterable[Opaque], change: Callable[[Element], Element]) -> tuple[Opaque, ...]:
+    """Opaque parts with every element changed; it is for `change` to look further down."""
+    return tuple(
+        part if part.element is None else part.model_copy(update={"element": change(part.element)}) for part in parts
+    )

@@ -1,0 +1,162 @@
+"""What of a node URDF can write and what is left over, found by comparing it with the table of URDF."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cache
+from typing import TypeVar, Union
+
+from twinform.ir import Element, Node, Opaque
+from twinform.passes.legalise.carrier import NAMESPACE, to_element
+from twinform.schemas import Fact, table
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+Words = dict[str, Union["Words", None]]
+"""The fields of a node that have a word, each with the words for what is inside; None where that is a plain value."""
+
+_IDENTITY = frozenset({"name", "type", "kind"})
+_ABOUT = frozenset({"source", "spelling", "opaque"})
+
+
+@dataclass(slots=True)
+class Split:
+    """The two halves of a node: `paths` are the places below it where both have something."""
+
+    kept: dict[str, object] = field(default_factory=dict[str, object])
+    left: dict[str, object] = field(default_factory=dict[str, object])
+    paths: list[str] = field(default_factory=list[str])
+
+
+@cache
+def urdf_words(definition: str, *steps: str) -> Words:
+    """The words that URDF has for the node of a definition, or of the rows below it that the steps name."""
+    facts = table("urdf")
+    fact = facts.definitions[definition]
+    for step in steps:
+        fact = facts.resolve(next(row for row in fact.children if row.name == step))
+    words: Words = {}
+    _collect(fact, words)
+    return words
+
+
+def _collect(fact: Fact, words: Words) -> None:
+    if fact.any and fact.place:
+        words[fact.place] = None
+    for row in fact.rows:
+        if row.place == ".":
+            _collect(table("urdf").resolve(row), words)
+        elif row.place:
+            _place(row, words)
+
+
+def _place(row: Fact, words: Words) -> None:
+    *outer, last = row.place.split(".") if row.place else [""]
+    for step in outer:
+        inner = words.setdefault(step, {})
+        words = inner if inner is not None else {}
+    if row.is_attribute or row.type:
+        words[last] = None
+        return
+    inside: Words = {}
+    _collect(table("urdf").resolve(row), inside)
+    if row.kind is None:
+        words[last] = {**(words.get(last) or {}), **inside}
+    else:
+        kinds = words.setdefault(last, {})
+        if kinds is not None:
+            kinds[row.kind] = inside
+
+
+def take_remainder(node: AnyNode, tag: str, words: Words) -> tuple[AnyNode, list[Opaque]]:
+    """The node with only what URDF can write, and the rest as pieces of the SDF element that the node is.
+
+    Nodes in tuples (links, visuals, ...) are left alone where there is a word for them: they have remainders of their own.
+    """
+    split = _split(node, words, "", own_element=True)
+    if not split.left:
+        return node, []
+    kept = node.model_copy(update=split.kept)
+    left = _only(node, split.left)
+    return kept, list(_pieces(to_element(left, tag, "sdf"), "", frozenset(split.paths)))
+
+
+def _split(node: Node, words: Words, path: str, *, own_element: bool) -> Split:
+    split = Split()
+    for name, value in node.__dict__.items():
+        if name in _ABOUT or name in _IDENTITY or value is None or value == ():
+            continue
+        if name not in words:
+            split.left[name], split.kept[name] = value, _blank(node, name)
+            continue
+        inner = words[name]
+        if inner is not None and isinstance(value, Node):
+            _split_inner(split, name, value, inner, path)
+    _split_opaque(split, node, own_element=own_element)
+    return split
+
+
+def _split_inner(split: Split, name: str, value: Node, words: Words, path: str) -> None:
+    kind = getattr(value, "kind", None)
+    if kind is not None:
+        found = words.get(str(kind))
+        if found is None:
+            split.left[name], split.kept[name] = value, None
+            return
+        words = found
+    below = f"{path}/{kind or name}" if path else str(kind or name)
+    inner = _split(value, words, below, own_element=False)
+    if not inner.left:
+        return
+    split.left[name] = _only(value, inner.left)
+    split.kept[name] = value.model_copy(update=inner.kept)
+    split.paths += [below, *inner.paths]
+
+
+def _split_opaque(split: Split, node: Node, *, own_element: bool) -> None:
+    """Carriers stay, and so do other tools' elements and attributes where the node is an element of URDF too."""
+    if not node.opaque:
+        return
+    stays = [part for part in node.opaque if _is_ours(part) or (own_element and _is_foreign(part))]
+    leaves = tuple(part for part in node.opaque if part not in stays)
+    if leaves:
+        split.left["opaque"], split.kept["opaque"] = leaves, tuple(stays)
+
+
+def _is_ours(part: Opaque) -> bool:
+    return _qualified(part).startswith(f"{{{NAMESPACE}}}")
+
+
+def _is_foreign(part: Opaque) -> bool:
+    return not part.at and _qualified(part).startswith("{")
+
+
+def _qualified(part: Opaque) -> str:
+    if part.element is not None:
+        return part.element.name
+    return part.attribute[0] if part.attribute else ""
+
+
+def _only(node: Node, fields: dict[str, object]) -> Node:
+    """The node with these fields alone."""
+    blank: dict[str, object] = {
+        name: _blank(node, name) for name in node.__dict__ if name not in _ABOUT and name not in _IDENTITY
+    }
+    return node.model_copy(update={**blank, "opaque": (), **fields})
+
+
+def _blank(node: Node, name: str) -> object:
+    """The value of a field that was not written."""
+    return type(node).model_fields[name].default
+
+
+def _pieces(element: Element, at: str, paths: frozenset[str]) -> Iterator[Opaque]:
+    for name, value in element.attributes:
+        if at or name not in _IDENTITY:
+            yield Opaque(at=at, attribute=(name, value))
+    if element.text:
+        yield Opaque(at=at, text=element.text)
+    for child in element.children:
+        below = f"{at}/{child.name}" if at else child.name
+        if below in paths:
+            yield from _pieces(child, below, paths)
+        else:
+            yield Opaque(at=at, element=child)

@@ -1,0 +1,158 @@
+"""A URDF file holds one robot."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import ClassVar
+
+from twinform.diagnostics import Fate, Location, Notes
+from twinform.diagnostics.rules import to_urdf as rules
+from twinform.ir import Document, Include, Model, Node, Opaque, World, count_parts
+from twinform.ir.frames import WORLD, FrameError, FrameGraph
+from twinform.passes.base import Pass
+
+
+class SelectModel(Pass):
+    """Take one model out of a file, and its world away.
+
+    Changes: the document has the model named by `model` (or `world::model`), or the only one there is, and nothing else.
+    A pose in a frame of the world becomes a pose in the world.
+    Diagnostics: `model-not-chosen`, `include-not-expanded`; in the ledger `outside-model` for each part left out.
+    """
+
+    name: ClassVar[str] = "select-model"
+
+    model: str | None = None
+
+    def run(self, document: Document, notes: Notes) -> Document:
+        """The document with one model."""
+        if notes.has_errors:
+            return document
+        chosen = _choose(list(_candidates(document)), self.model, document.location, notes)
+        if chosen is None or notes.has_errors:
+            return document
+        model, world = chosen.model, chosen.world
+        if world is not None:
+            model = _place(model, world, notes)
+        for part in _outside(document, chosen):
+            part.drop(notes)
+        return document.model_copy(
+            update={"models": (model,), "worlds": (), "lights": (), "includes": (), "opaque": ()}
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class _Candidate:
+    model: Model | Include
+    world: World | None = None
+
+    @property
+    def full_name(self) -> str:
+        name = self.model.name or self.model.uri if isinstance(self.model, Include) else self.model.name
+        return f"{self.world.name}::{name}" if self.world else name or ""
+
+
+@dataclass(frozen=True, slots=True)
+class _Chosen:
+    model: Model
+    world: World | None
+
+
+@dataclass(frozen=True, slots=True)
+class _Part:
+    what: str
+    location: Location
+    weight: int
+
+    def drop(self, notes: Notes) -> None:
+        message = f"{self.what} is not part of the robot"
+        notes.account(Fate.DROPPED, rules.OUTSIDE_MODEL, message, self.location, self.weight)
+
+
+def _candidates(document: Document) -> Iterator[_Candidate]:
+    for one in (*document.models, *document.includes):
+        yield _Candidate(one)
+    for world in document.worlds:
+        for one in (*world.models, *world.includes):
+            yield _Candidate(one, world)
+
+
+def _choose(candidates: list[_Candidate], name: str | None, where: Location, notes: Notes) -> _Chosen | None:
+    if name is not None:
+        found = [one for one in candidates if name in (one.model.name, one.full_name)]
+    else:
+        found = candidates
+    if len(found) != 1:
+        _say_which(candidates, name, len(found), where, notes)
+        return None
+    model, world = found[0].model, found[0].world
+    if isinstance(model, Include):
+        message = f"the model is in {model.uri!r}, which was not read"
+        notes.report(rules.INCLUDE_NOT_EXPANDED, message, model.location, found=model.uri)
+        return None
+    return _Chosen(model, world)
+
+
+def _say_which(candidates: list[_Candidate], name: str | None, count: int, where: Location, notes: Notes) -> None:
+    names = ", ".join(one.full_name for one in candidates) or "none"
+    if not candidates:
+        message = "there is no model in the file"
+    elif name is None:
+        message = f"there are {count} models, and a URDF file holds one robot; choose one of {names}"
+    else:
+        message = f"{count or 'no'} models are called {name!r}; there are {names}"
+    related = tuple(one.model.location for one in candidates[:5])
+    notes.report(rules.MODEL_NOT_CHOSEN, message, where, found=name, expected=names, related=related)
+
+
+def _place(model: Model, world: World, notes: Notes) -> Model:
+    """The model with its pose in the world."""
+    pose = model.pose
+    if pose is None or not pose.relative_to:
+        return model
+    try:
+        placed = FrameGraph(world).resolve(pose, WORLD, WORLD)
+    except FrameError as error:
+        error.report(notes)
+        return model
+    message = f"the pose of model {model.name!r} is relative to {pose.relative_to!r}, which is not part of the robot"
+    notes.account(Fate.DROPPED, rules.OUTSIDE_MODEL, message, pose.location)
+    return model.model_copy(update={"pose": placed.to_pose()})
+
+
+def _outside(document: Document, chosen: _Chosen) -> Iterator[_Part]:
+    yield from _opaque_parts(document)
+    for field in ("models", "lights", "includes"):
+        yield from _node_parts(getattr(document, field), field, chosen.model)
+    for world in document.worlds:
+        if world is not chosen.world:
+            yield _Part(f"world {world.name!r}", world.location, count_parts(world))
+            continue
+        yield _Part(f"world {world.name!r} around the model", world.location, 2)
+        yield from _opaque_parts(world)
+        if world.gravity is not None:
+            yield _Part("<gravity> of the world", world.location.at("gravity"), 1)
+        for field in ("models", "includes", "lights", "frames", "joints", "plugins"):
+            yield from _node_parts(getattr(world, field), field, chosen.model)
+
+
+def _node_parts(nodes: tuple[Node, ...], field: str, chosen: Model) -> Iterator[_Part]:
+    for node in nodes:
+        if node is not chosen:
+            name = getattr(node, "name", None) or getattr(node, "uri", None)
+            yield _Part(f"{field[:-1]} {name!r}", node.location, count_parts(node))
+
+
+def _opaque_parts(node: Node) -> Iterator[_Part]:
+    for part in node.opaque:
+        yield _Part(_called(part), node.location.at(_step(part)), part.weight)
+
+
+def _called(part: Opaque) -> str:
+    name = part.element.get("name") if part.element else None
+    return f"{part.name} {name!r}" if name else part.name
+
+
+def _step(part: Opaque) -> str:
+    if part.element:
+        return part.element.name
+    return f"@{part.attribute[0]}" if part.attribute else "text()"

@@ -1,0 +1,54 @@
+"""URDF has no frames."""
+
+from typing import ClassVar
+
+from twinform.diagnostics.rules import to_urdf as rules
+from twinform.ir import Frame, Joint, Link, Model, Pose, count_parts
+from twinform.ir.frames import MODEL, FrameGraph
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass
+from twinform.passes.legalise.to_urdf.keeper import Keeper, made_fields, mark_made
+from twinform.passes.legalise.to_urdf.nodes import piece, unique_name
+
+
+class TurnFramesIntoLinks(ToUrdfPass):
+    """Make every frame a link without mass, fixed to the link that the frame moves with.
+
+    Changes: 1. the link has the frame's name, the joint that name and `_joint`; 2. a model without any link gets one,
+    called like the model, because URDF needs a root.
+    Diagnostics: in the ledger `frame-made-link`.
+    """
+
+    name: ClassVar[str] = "turn-frames-into-links"
+
+    def run_model(self, model: Model, keeper: Keeper) -> Model:
+        """The model without frames."""
+        if model.links and not model.frames:
+            return model
+        taken = {node.name for node in (*model.links, *model.joints, *model.frames)}
+        if not model.links:
+            model = model.model_copy(update={"links": (mark_made(Link(name=unique_name(model.name, taken)), "."),)})
+            taken.add(model.links[0].name)
+        graph = FrameGraph(model)
+        links, joints = list(model.links), list(model.joints)
+        for frame in model.frames:
+            joint = unique_name(f"{frame.name}_joint", taken)
+            taken.add(joint)
+            body = graph.body(frame.name, kind="frame")
+            links.append(_link(frame, keeper))
+            made = Joint(name=joint, type="fixed", parent=body, child=frame.name, source=frame.source)
+            joints.append(mark_made(made, "."))
+        return model.model_copy(update={"links": tuple(links), "joints": tuple(joints), "frames": ()})
+
+
+def _link(frame: Frame, keeper: Keeper) -> Link:
+    pose = frame.pose or Pose()
+    if not pose.relative_to:
+        pose = pose.model_copy(update={"relative_to": frame.attached_to or MODEL})
+    made = Link(name=frame.name, pose=pose, source=frame.source, opaque=frame.opaque)
+    if made_fields(frame):  # it stands for a nested model, which is accounted for
+        return made
+    message = f"frame {frame.name!r} becomes a link without mass"
+    made = mark_made(made.model_copy(update={"opaque": ()}), ".")
+    return keeper.keep(
+        made, [piece(frame, "frame")], rules.FRAME_MADE_LINK, message, frame.location, count_parts(frame)
+    )

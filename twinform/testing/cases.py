@@ -1,0 +1,75 @@
+"""Cases as data: a model file that says itself what the compiler should find in it.
+
+A comment `<!-- expect: severity rule-name -->` stands on the line that the finding is reported at; several of them may
+stand there. Findings of severity `info` need not be listed, errors and warnings must be. Beside `NAME.urdf` may lie
+`NAME.expected.sdf`, or the other way round: what the file becomes.
+"""
+
+import re
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from twinform.compiler import CompileError, check, convert
+from twinform.diagnostics import Severity
+
+_EXPECT = re.compile(rb"<!--\s*expect:\s*(?P<severity>\w+)\s+(?P<rule>[\w-]+)\s*-->")
+_OTHER: dict[str, Literal["sdf", "urdf"]] = {".urdf": "sdf", ".sdf": "urdf"}
+
+Finding = tuple[int, str, str]
+"""line, severity, rule"""
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """One case file."""
+
+    path: Path
+    strict: bool = False
+
+    @property
+    def expected(self) -> Counter[Finding]:
+        """What the comments announce."""
+        lines = self.path.read_bytes().splitlines()
+        return Counter(
+            (number, found["severity"].decode(), found["rule"].decode())
+            for number, line in enumerate(lines, 1)
+            for found in _EXPECT.finditer(line)
+        )
+
+    @property
+    def found(self) -> Counter[Finding]:
+        """What the compiler reports."""
+        diagnostics = check(self.path, strict=self.strict).diagnostics
+        return Counter(
+            (each.location.line, str(each.severity), each.rule.name)
+            for each in diagnostics
+            if each.severity > Severity.INFO
+        )
+
+    def mismatches(self) -> list[str]:
+        """A line for each finding that is missing, and for each that is too many."""
+        missing, extra = self.expected - self.found, self.found - self.expected
+        return [
+            *(f"{self.path.name}:{line}: expected {severity} {rule}" for line, severity, rule in sorted(missing)),
+            *(f"{self.path.name}:{line}: unexpected {severity} {rule}" for line, severity, rule in sorted(extra)),
+        ]
+
+    @property
+    def output_path(self) -> Path:
+        """Where the expected output lies, if there is one."""
+        return self.path.with_suffix(f".expected.{_OTHER[self.path.suffix]}")
+
+    def output(self, sdf_version: str | None = None) -> str:
+        """What the file becomes in the other format; the findings where it does not become anything."""
+        try:
+            return convert(self.path, to=_OTHER[self.path.suffix], sdf_version=sdf_version, strict=self.strict).text
+        except CompileError as error:
+            return "\n".join(f"{each.location.line}: {each.rule.name}" for each in error.diagnostics if each.is_error)
+
+
+def cases(folder: Path) -> list[Case]:
+    """Every case of a folder, in the order of their names; expected outputs are not cases."""
+    files = sorted(folder.rglob("*"))
+    return [Case(path) for path in files if path.suffix in _OTHER and ".expected" not in path.suffixes]
