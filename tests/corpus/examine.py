@@ -17,6 +17,9 @@ from twinform.ir import Document, Format
 SDF_VERSION = "1.9"
 """What URDF is converted to: the newest version that libsdformat 12 reads."""
 
+MOST_ROBOTS = 3
+"""So many models of a world are converted."""
+
 
 @dataclass(frozen=True, slots=True)
 class Examined:
@@ -73,13 +76,22 @@ def _converted(path: Path, document: Document, found: Examined) -> Examined:
         if document.format is Format.URDF:
             twinform.convert(path, to="sdf", sdf_version=SDF_VERSION)
         else:
-            twinform.convert(path, to="urdf")
+            for robot in robots(document):
+                twinform.convert(path, to="urdf", model=robot)
     except twinform.CompileError as error:
         faults = (*found.faults, *_without_line(error.diagnostics))
         return replace(found, not_converted_by=rules_of(error.diagnostics), faults=faults)
     except Exception as error:  # noqa: BLE001 - every other exception is a fault to report
         return replace(found, faults=(*found.faults, _fault(error)))
     return replace(found, converted=True)
+
+
+def robots(document: Document) -> list[str | None]:
+    """The models to convert: of a file with several the first few by name, else the only one."""
+    inside = [f"{world.name}::{model.name}" for world in document.worlds for model in world.models]
+    names = [*(model.name for model in document.models), *inside]
+    includes = sum(len(place.includes) for place in (document, *document.worlds))
+    return [*names[:MOST_ROBOTS]] if names and len(names) + includes > 1 else [None]
 
 
 def _written_again(path: Path, data: bytes, document: Document, found: Examined) -> Examined:

@@ -11,7 +11,13 @@ from lxml import etree
 from pydantic import ValidationError
 
 from twinform.compiler.errors import CompileError
-from twinform.compiler.parsing import UnreadableError, parse, read_bytes, strip_default_namespace
+from twinform.compiler.parsing import (
+    UnreadableError,
+    parse,
+    read_bytes,
+    strip_default_namespace,
+    undeclared_prefix,
+)
 from twinform.compiler.sdf import front_end as sdf
 from twinform.compiler.urdf import front_end as urdf
 from twinform.diagnostics import Diagnostic, Location, Notes
@@ -146,6 +152,7 @@ def _declared_version(root: XmlElement, format_: str, notes: Notes) -> Version:
 
 def _namespaces(root: XmlElement, context: Context, default: str | None) -> tuple[tuple[str, str], ...]:
     found = {prefix: uri for prefix, uri in root.nsmap.items() if prefix} | context.namespaces
+    found = {undeclared_prefix(uri) or prefix: uri for prefix, uri in found.items()}
     return (*((("", default),) if default else ()), *sorted(found.items()))
 
 

@@ -103,14 +103,18 @@ def _declare_prefixes(root: XmlElement) -> None:
             element.set(_qualified(str(name)), element.attrib.pop(name))
 
 
-def undeclared_namespace(prefix: str) -> str:
-    """The namespace that an undeclared prefix is given."""
-    return f"urn:twinform:undeclared:{prefix}"
+_UNDECLARED = "urn:twinform:undeclared:"
+"""The beginning of the namespace that an undeclared prefix is given; the prefix is the end."""
+
+
+def undeclared_prefix(namespace: str) -> str | None:
+    """The prefix that a namespace was made for, if it was."""
+    return namespace.removeprefix(_UNDECLARED) if namespace.startswith(_UNDECLARED) else None
 
 
 def _qualified(name: str) -> str:
     prefix, _, local = name.partition(":")
-    return f"{{{undeclared_namespace(prefix)}}}{local}"
+    return f"{{{_UNDECLARED}{prefix}}}{local}"
 
 
 def strip_default_namespace(root: XmlElement) -> str | None:

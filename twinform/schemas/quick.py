@@ -26,7 +26,7 @@ _BOOLS: dict[str, bool] = {"true": True, "false": False}
 def quick_parse(row: Fact, types: dict[str, ValueType], version: Version) -> Parse | None:
     """A parser that gives up on every value that needs a word, or None where the row itself is unusual."""
     place = row.place
-    if not place or "." in place or place[0] == "/" or row.type is None or row.repeats or not row.exists_in(version):
+    if not place or "." in place or place[0] == "/" or row.type is None or row.fills_tuple or not row.exists_in(version):
         return None
     if row.type == "bool":
         return _BOOLS.__getitem__

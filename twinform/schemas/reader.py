@@ -239,7 +239,7 @@ class Reader:
         def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:  # noqa: ARG001 - all readers have one signature
             if quick is not None and context.simple and quick(child, node):
                 return
-            if len(child) or child.keys() or child.text:
+            if len(child) or child.keys() or not is_blank(child.text or ""):
                 fill(child, node, f"{at}/{name}" if at else name, context)
             else:
                 fill(child, {}, "", context)

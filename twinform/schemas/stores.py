@@ -80,6 +80,6 @@ def value_store(row: Fact, place: str) -> Store:
         return store_pose
     if outer:
         return store_inside
-    if row.repeats:
+    if row.fills_tuple:
         return store_repeated
     return store_bool if row.type == "bool" else store

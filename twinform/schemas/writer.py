@@ -6,10 +6,11 @@ their fields. Children that came from a file keep the order that they had in it.
 
 from collections.abc import Callable, Iterable
 from functools import cache
-from operator import attrgetter
+from operator import itemgetter
 from typing import Any
 
 from lxml import etree
+from lxml.etree import SubElement as _append
 
 from twinform.schemas.facts import Fact, Table, Version, table
 from twinform.schemas.values import format_number, format_value, parse_bool
@@ -17,7 +18,15 @@ from twinform.schemas.xml import XmlElement
 
 Write = Callable[[Any, XmlElement], None]
 """Writes a node's fields into an element: (node, element)"""
-Get = Callable[[Any], Any]
+WriteValue = Callable[[Any, Any, XmlElement], None]
+"""Writes one field into an element: (value, node, element)"""
+Step = tuple[str, WriteValue]
+"""A field, and what writes it where it is not None."""
+Show = Callable[[Any, Any], str]
+"""The text of a value: (value, node)"""
+
+_ALWAYS = "opaque"
+"""A field that is never None, for steps that look at several fields themselves."""
 
 
 def element_xml(element: Any, parent: XmlElement | None = None) -> XmlElement:
@@ -26,7 +35,7 @@ def element_xml(element: Any, parent: XmlElement | None = None) -> XmlElement:
     if parent is None:
         made = etree.Element(element.name, attributes)
     else:
-        made = etree.SubElement(parent, element.name, attributes)
+        made = _append(parent, element.name, attributes)
     made.text, made.tail = element.text, element.tail
     for child in element.children:
         element_xml(child, made)
@@ -63,20 +72,24 @@ class Writer:
         return write
 
     def _fields(self, fact: Fact) -> Write:
-        attributes = [self._attribute(row) for row in self._rows(fact.attributes)]
-        text = _text(fact)
-        single = [self._child(row) for row in self._rows(fact.children) if not _makes_many(row)]
-        many = [self._many(row) for row in self._rows(fact.children) if _makes_many(row)]
+        rows = self._rows(fact.rows)
+        kinds = [row for row in rows if row.kind]
+        steps = [self._step(row) for row in rows if not row.kind and not _makes_many(row)]
+        if kinds:
+            steps.append((kinds[0].place or "", self._kinds(kinds)))
+        many = [(row.place or "", self._many(row)) for row in rows if _makes_many(row)]
+        text = _pose_text if fact.type == "pose" else None
 
         def write(node: Any, element: XmlElement) -> None:
-            for write_attribute in attributes:
-                write_attribute(node, element)
+            values: dict[str, Any] = node.__dict__
             if text is not None:
                 element.text = text(node)
-            for write_child in single:
-                write_child(node, element)
+            for field, write_value in steps:
+                value = values[field]
+                if value is not None:
+                    write_value(value, node, element)
             if many:
-                _write_in_order([(child, one) for get, one in many for child in get(node)], element)
+                _write_in_order([(child, write_one) for field, write_one in many for child in values[field]], element)
 
         return write
 
@@ -92,22 +105,35 @@ class Writer:
                 best[row.name] = row
         return list(best.values())
 
-    def _attribute(self, row: Fact) -> Write:
-        name, get, show = row.name[1:], _getter(row.place or ""), _format(row)
+    def _step(self, row: Fact) -> Step:
+        outer, _, field = (row.place or "").rpartition(".")
+        write = self._row(row)
+        if row.place == "." or (row.type and self._rows(row.attributes)):
+            return _ALWAYS, write
+        if not outer:
+            return field, write
 
-        def write(node: Any, element: XmlElement) -> None:
-            value = get(node)
+        def write_inner(holder: Any, node: Any, element: XmlElement) -> None:
+            value = holder.__dict__[field]
             if value is not None:
-                element.set(name, show(node, value))
+                write(value, node, element)
+
+        return outer, write_inner
+
+    def _row(self, row: Fact) -> WriteValue:
+        if row.is_attribute:
+            return self._attribute(row)
+        if row.type is not None:
+            return self._leaf_with_attributes(row) if self._rows(row.attributes) else self._leaf(row)
+        return self._hoisted(row) if row.place == "." else self._own_node(row)
+
+    def _attribute(self, row: Fact) -> WriteValue:
+        name, show = row.name[1:], _show(row)
+
+        def write(value: Any, node: Any, element: XmlElement) -> None:
+            element.set(name, show(value, node))
 
         return write
-
-    def _child(self, row: Fact) -> Write:
-        if row.type is not None:
-            return self._leaf(row)
-        if row.place == ".":
-            return self._hoisted(row)
-        return self._own_node(row)
 
     def _inner(self, row: Fact) -> Write:
         if row.reference is None:
@@ -115,58 +141,72 @@ class Writer:
         writes, name = self.writes, row.reference
         return lambda node, element: writes[name](node, element)
 
-    def _leaf(self, row: Fact) -> Write:
-        name, get, show, repeats = row.name, _getter(row.place or ""), _format(row), row.repeats
-        attributes = [(_getter(a.place or ""), self._attribute(a)) for a in self._rows(row.attributes)]
+    def _leaf(self, row: Fact) -> WriteValue:
+        name, show = row.name, _show(row)
 
-        def write(node: Any, element: XmlElement) -> None:
-            value = get(node)
-            if repeats:
-                for item in value:
-                    etree.SubElement(element, name).text = show(node, item)
+        def write(value: Any, node: Any, element: XmlElement) -> None:
+            _append(element, name).text = show(value, node)
+
+        def write_each(values: Any, node: Any, element: XmlElement) -> None:
+            for value in values:
+                _append(element, name).text = show(value, node)
+
+        return write_each if row.fills_tuple else write
+
+    def _leaf_with_attributes(self, row: Fact) -> WriteValue:
+        """The writer of a leaf that stands even where only one of its attributes is written."""
+        name, show, field = row.name, _show(row), row.place or ""
+        attributes = [(inner.place or "", self._attribute(inner)) for inner in self._rows(row.attributes)]
+
+        def write(_: Any, node: Any, element: XmlElement) -> None:
+            values = node.__dict__
+            value, written = values[field], [each for each in attributes if values[each[0]] is not None]
+            if value is None and not written:
                 return
-            if value is None and all(get_attribute(node) is None for get_attribute, _ in attributes):
-                return
-            leaf = etree.SubElement(element, name)
+            leaf = _append(element, name)
             if value is not None:
-                leaf.text = show(node, value)
-            for _, write_attribute in attributes:
-                write_attribute(node, leaf)
+                leaf.text = show(value, node)
+            for place, write_attribute in written:
+                write_attribute(values[place], node, leaf)
 
         return write
 
-    def _hoisted(self, row: Fact) -> Write:
-        name, fields = row.name, self._fields(row)
-        gets = [_getter(place) for place in _places(row)]
+    def _hoisted(self, row: Fact) -> WriteValue:
+        """The writer of a container that is no node: it stands where one of its fields is written."""
+        name, fields, places = row.name, self._fields(row), [place.split(".") for place in _places(row)]
 
-        def write(node: Any, element: XmlElement) -> None:
-            if any(get(node) is not None for get in gets):
-                fields(node, etree.SubElement(element, name))
+        def write(_: Any, node: Any, element: XmlElement) -> None:
+            if any(_value(node, place) is not None for place in places):
+                fields(node, _append(element, name))
 
         return write
 
-    def _own_node(self, row: Fact) -> Write:
+    def _own_node(self, row: Fact) -> WriteValue:
         """The writer of a child node that may be there once. One that says nothing in this format is not written."""
-        name, get, kind, inner = row.name, _getter(row.place or ""), row.kind, self._inner(row)
+        name, inner = row.name, self._inner(row)
 
-        def write(node: Any, element: XmlElement) -> None:
-            child = get(node)
-            if child is None or (kind is not None and child.kind != kind):
-                return
-            made = etree.SubElement(element, name)
+        def write(child: Any, _: Any, element: XmlElement) -> None:
+            made = _append(element, name)
             inner(child, made)
-            if kind is None and not len(made) and not made.attrib and not made.text:
+            if not len(made) and not made.keys() and not made.text:
                 element.remove(made)
 
         return write
 
-    def _many(self, row: Fact) -> tuple[Get, Write]:
+    def _kinds(self, rows: list[Fact]) -> WriteValue:
+        """The writer of a field that holds one of several kinds of node."""
+        writes = {row.kind: (row.name, self._inner(row)) for row in rows}
+
+        def write(child: Any, _: Any, element: XmlElement) -> None:
+            if child.kind in writes:
+                name, inner = writes[child.kind]
+                inner(child, _append(element, name))
+
+        return write
+
+    def _many(self, row: Fact) -> Write:
         name, inner = row.name, self._inner(row)
-
-        def write(child: Any, element: XmlElement) -> None:
-            inner(child, etree.SubElement(element, name))
-
-        return _getter(row.place or ""), write
+        return lambda child, element: inner(child, _append(element, name))
 
 
 @cache
@@ -179,17 +219,10 @@ def _makes_many(row: Fact) -> bool:
     return row.fills_tuple and row.type is None
 
 
-def _getter(place: str) -> Get:
-    outer, _, field = place.rpartition(".")
-    if not outer:
-        return attrgetter(field)
-    get_outer, get_inner = attrgetter(outer), attrgetter(field)
-
-    def get(node: Any) -> Any:
-        holder = get_outer(node)
-        return None if holder is None else get_inner(holder)
-
-    return get
+def _value(node: Any, place: list[str]) -> Any:
+    for field in place:
+        node = None if node is None else node.__dict__[field]
+    return node
 
 
 def _places(row: Fact) -> Iterable[str]:
@@ -201,28 +234,22 @@ def _places(row: Fact) -> Iterable[str]:
             yield from _places(inner)
 
 
-def _format(row: Fact) -> Callable[[Any, Any], str]:
-    """How to show a value: (node, value)."""
+def _show(row: Fact) -> Show:
     place = row.place or ""
 
-    def show_bool(node: Any, value: bool) -> str:
+    def show_bool(value: bool, node: Any) -> str:
         spelt = node.spelling.get(place) if node.spelling else None
         return spelt if spelt is not None and parse_bool(spelt) == value else format_value(value)
 
     match row.type:
         case "double":
-            return lambda _, value: format_number(value)
+            return lambda value, _: format_number(value)
         case "string":
-            return lambda _, value: value
+            return lambda value, _: value
         case "bool":
             return show_bool
         case _:
-            return lambda _, value: format_value(value)
-
-
-def _text(fact: Fact) -> Get | None:
-    """The text of an element that is a node and has text: only poses do."""
-    return _pose_text if fact.type == "pose" else None
+            return lambda value, _: format_value(value)
 
 
 def _pose_text(pose: Any) -> str | None:
@@ -237,8 +264,7 @@ def _write_in_order(items: list[tuple[Any, Write]], element: XmlElement) -> None
     keys: list[int] = []
     for child, _ in items:
         keys.append(child.source.line if child.source else keys[-1] if keys else 0)
-    for index in sorted(range(len(items)), key=keys.__getitem__):
-        child, write = items[index]
+    for _, (child, write) in sorted(zip(keys, items, strict=True), key=itemgetter(0)):
         write(child, element)
 
 
@@ -256,5 +282,5 @@ def _write_opaque(parts: Iterable[Any], element: XmlElement) -> None:
 def _holder(element: XmlElement, path: str) -> XmlElement:
     for step in filter(None, path.split("/")):
         found = element.find(step)
-        element = found if found is not None else etree.SubElement(element, step)
+        element = found if found is not None else _append(element, step)
     return element

@@ -5,7 +5,7 @@ from twinform.diagnostics.rule import Rule, Severity
 DANGLING_FRAME = Rule(
     name="dangling-frame",
     severity=Severity.ERROR,
-    finds="A name of a frame (`relative_to`, `attached_to`, `expressed_in`, a joint's `parent` or `child`) that nothing has.",
+    finds="A name of a frame (`relative_to`, `attached_to`, `expressed_in`, the ends of a joint) that nothing has.",
     matters="The pose cannot be computed, so every reader refuses the model.",
     example="`<pose relative_to='elbow'>` in a model without a link, joint, frame or nested model called `elbow`.",
     better="Name a frame of the same model, or one of a nested model as `model::frame`.",
@@ -16,7 +16,7 @@ FRAME_CYCLE = Rule(
     severity=Severity.ERROR,
     finds="Frames that are given relative to each other in a circle.",
     matters="None of their poses can be computed, so every reader refuses the model.",
-    example="A link with its pose relative to a joint whose own pose is relative to that link, which a joint's pose is by default.",
+    example="A link with its pose relative to a joint whose own pose is relative to that link, as it is by default.",
     better="Give one of them relative to a frame outside the circle, such as the joint relative to its parent link.",
     references="libsdformat: POSE_RELATIVE_TO_CYCLE, FRAME_ATTACHED_TO_CYCLE",
 )

@@ -8,7 +8,7 @@ SDF_ONLY = Rule(
     finds="A part of an SDF file that neither URDF nor a `<gazebo>` element has a word for.",
     matters="ROS does not read it; our way back does.",
     example="`<transparency>` of a visual, `<dissipation>` of a joint limit, `thread_pitch`.",
-    better="Nothing needs doing: it travels in a carrier, which every other reader skips. `--no-carriers` leaves it out.",
+    better="Nothing needs doing: it travels in a carrier, which all other readers skip. `--no-carriers` leaves it out.",
 )
 MODEL_NOT_CHOSEN = Rule(
     name="model-not-chosen",
@@ -21,7 +21,7 @@ MODEL_NOT_CHOSEN = Rule(
 OUTSIDE_MODEL = Rule(
     name="outside-model",
     severity=Severity.INFO,
-    finds="A part of the file around the model that becomes the robot: the world, its physics and lights, other models.",
+    finds="A part of the file around the model that becomes the robot: the world, its physics, other models.",
     matters="A URDF file holds one robot and nothing else.",
     example="`<physics>`, `<scene>` and the ground plane of a world.",
     better="Keep the world file, and let it include the robot.",
@@ -38,8 +38,8 @@ NESTED_MODEL = Rule(
     name="nested-model",
     severity=Severity.INFO,
     finds="A model inside the model.",
-    matters="A URDF robot has one level: the links, joints and frames come up, called `inner::link`, and the inner model's "
-    "own frame becomes a link.",
+    matters="A URDF robot has one level: the links, joints and frames come up, called `inner::link`, and the inner "
+    "model's own frame becomes a link.",
     example="`<model name='arm'><model name='hand'>...`",
     better="Nothing needs doing: what only a model can say (`static`, plugins, ...) travels in a carrier.",
 )
@@ -87,16 +87,17 @@ CUT_LOOP = Rule(
     name="cut-loop",
     severity=Severity.WARNING,
     finds="A joint that closes a loop, or gives a link a second parent.",
-    matters="URDF describes a tree. Gazebo closes the loop again by the `<joint>` in a `<gazebo>` element; to all other "
-    "readers it is open.",
+    matters="URDF describes a tree. Gazebo closes the loop again by the `<joint>` in a `<gazebo>` element; to all "
+    "other readers it is open.",
     example="The last joint of a four-bar linkage.",
     better="Close it in the other tools by their own means, such as a constraint.",
 )
 HUNG_ROOT = Rule(
     name="hung-root",
     severity=Severity.INFO,
-    finds="A link without a parent beside another one.",
-    matters="A URDF robot has one root: the link hangs by a `floating` joint from it, or a `fixed` one in a static model.",
+    finds="A link without a parent beside another one, or any link without a parent in a static model.",
+    matters="A URDF robot has one root: the link hangs by a `floating` joint from it; in a static model the root is "
+    "`world` and the joint `fixed`.",
     example="Two links and no joint.",
     better="Connect them by a joint if they belong together.",
 )
@@ -107,6 +108,14 @@ UNSAYABLE_SHAPE = Rule(
     matters="ROS neither shows it nor plans around it.",
     example="`<plane>`, `<ellipsoid>`, `<cone>`, `<heightmap>`, `<polyline>`, one submesh of a mesh.",
     better="Use a mesh or one of box, cylinder and sphere. The shape travels in a carrier.",
+)
+UNSAYABLE_NUMBER = Rule(
+    name="unsayable-number",
+    severity=Severity.ERROR,
+    finds="A number that is infinite or none at all, where URDF needs one.",
+    matters="Readers of URDF refuse the file.",
+    example="`<ixx>nan</ixx>`",
+    better="Write a finite number.",
 )
 UNBOUNDED_LIMIT = Rule(
     name="unbounded-limit",

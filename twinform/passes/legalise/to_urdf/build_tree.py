@@ -17,10 +17,10 @@ from twinform.passes.legalise.to_urdf.nodes import map_poses, unique_name
 class BuildTree(ToUrdfPass):
     """Cut loops and connect what is not connected.
 
-    Changes: 1. of several joints with one child, and of joints that close a circle, the first ones in the file stay; each
-    of the others becomes a `<joint>` in a `<gazebo>` element, with its pose in the child's frame of URDF; 2. a root beside
-    the first one hangs from it by a `floating` joint. The first root is `world` where a joint has it as its parent, else
-    the one that the canonical link hangs from; 3. in a static model every root is fixed to `world`.
+    Changes: 1. of several joints with one child, and of joints that close a circle, the first ones in the file stay;
+    each of the others becomes a `<joint>` in a `<gazebo>` element, with its pose in the child's frame of URDF; 2. a
+    root beside the first one hangs from it by a `floating` joint. The first root is `world` where a joint has it as its
+    parent, else the one that the canonical link hangs from; 3. in a static model every root is fixed to `world`.
     Diagnostics: `cut-loop`; in the ledger `cut-loop` and `hung-root`.
     """
 

@@ -1,16 +1,18 @@
 """The last step: what is left over is carried, and the document is URDF."""
 
+import math
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Capsule, Collision, Document, Format, Joint, Link, Model, Node, Opaque, Visual
+from twinform.ir import Capsule, Collision, Document, Format, Joint, Link, Model, Node, Opaque, Visual, walk
 from twinform.ir.frames import WORLD
 from twinform.passes.base import Pass
 from twinform.passes.legalise.carrier import NAMESPACE, PREFIX
 from twinform.passes.legalise.to_urdf.base import sdf_version
 from twinform.passes.legalise.to_urdf.keeper import MADE, Keeper, mark_made
 from twinform.passes.legalise.to_urdf.remainder import Words, take_remainder, urdf_words
+from twinform.schemas import format_value
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -21,10 +23,10 @@ _IMPLIED: Words = {"relative_to": None}
 class CarryTheRest(Pass):
     """Carry every part that URDF has no word for, and call the document URDF.
 
-    Changes: 1. typed fields and opaque parts that the table of URDF has no row for go into carriers on the nearest element
-    that URDF has; 2. `world` becomes a link where a joint hangs from it; 3. the document is URDF 1.1 where it needs a
-    capsule.
-    Diagnostics: in the ledger `sdf-only`.
+    Changes: 1. typed fields and opaque parts that the table of URDF has no row for go into carriers on the nearest
+    element that URDF has; 2. `world` becomes a link where a joint hangs from it; 3. the document is URDF 1.1 where it
+    needs a capsule.
+    Diagnostics: `unsayable-number`; in the ledger `sdf-only`.
     """
 
     name: ClassVar[str] = "carry-the-rest"
@@ -37,6 +39,8 @@ class CarryTheRest(Pass):
             return document
         keeper = Keeper(notes, self.carriers, sdf_version(document))
         models = tuple(_finish(model, document, keeper) for model in document.models)
+        for model in models:
+            _refuse_endless(model, notes)
         if not self.carriers:
             models = tuple(without_marks(model) for model in models)
         namespaces = tuple(pair for pair in document.namespaces if pair[0] not in ("", PREFIX))
@@ -69,9 +73,9 @@ class _Rest:
 
     def __init__(self, keeper: Keeper) -> None:
         self.keeper = keeper
-        self.link_words = {**urdf_words("link"), "pose": _IMPLIED}
+        self.link_words: Words = {**urdf_words("link"), "pose": _IMPLIED}
         joint = urdf_words("joint")
-        self.joint_words = {**joint, "pose": {**(joint["pose"] or {}), **_IMPLIED}}
+        self.joint_words: Words = {**joint, "pose": {**(joint["pose"] or {}), **_IMPLIED}}
 
     def link(self, link: Link) -> Link:
         update: dict[str, object] = {
@@ -100,6 +104,17 @@ class _Rest:
             message = f"{what} of {of} has no word in URDF"
             kept = self.keeper.keep(kept, [piece], rules.SDF_ONLY, message, node.location)
         return kept
+
+
+def _refuse_endless(model: Model, notes: Notes) -> None:
+    """Report numbers that URDF cannot write."""
+    for node in walk(model):
+        for name, value in node.__dict__.items():
+            numbers: tuple[object, ...] = value if isinstance(value, tuple) else (value,)  # pyright: ignore[reportUnknownVariableType] - what a node holds
+            if any(isinstance(number, float) and not math.isfinite(number) for number in numbers):
+                found = " ".join(map(format_value, numbers))
+                message = f"{name!r} is {found}, and numbers in URDF are finite"
+                notes.report(rules.UNSAYABLE_NUMBER, message, node.location, found=found)
 
 
 def _has_capsule(link: Link) -> bool:

@@ -19,12 +19,13 @@ _FRAME_ATTRIBUTES = ("relative_to", "frame")
 
 @dataclass(frozen=True, slots=True)
 class ElementPoses:
-    """Moves the poses in opaque parts of one link, whose frame becomes `base`."""
+    """Moves the poses in opaque parts of one link or joint, whose frame becomes `base`."""
 
     graph: FrameGraph
-    link: str
+    holder: str
     base: tuple[str, Kind]
     keeper: Keeper
+    kind: Kind = "link"
 
     def parts(self, parts: tuple[Opaque, ...], *, still: bool) -> tuple[Opaque, ...]:
         """The opaque parts of the link: their poses are in the link's frame, or in the one that they name."""
@@ -40,7 +41,7 @@ class ElementPoses:
         """A sensor of the link; a pose in it that names a frame becomes one in the sensor's frame."""
         if not any(_names_frame(part.element) for part in sensor.opaque if part.element):
             return sensor
-        placed = self.graph.resolve(written, self.link, self.base[0], base=self.base[1])
+        placed = self._resolve(written)
 
         def move(element: Element) -> Element:
             return self._move(element, placed, moves=False) if element.name[0] != "{" else element
@@ -57,15 +58,18 @@ class ElementPoses:
         if not names_frame and not (moves and (pose is not None or element.name in _posed())):
             return element.model_copy(update={"children": children}) if children != element.children else element
         read = Pose() if pose is None else _read(pose)
-        in_base = self.graph.resolve(read, self.link, self.base[0], base=self.base[1])
+        in_base = self._resolve(read)
         made = to_element(holder.inverse().compose(in_base).to_pose(), "pose", "sdf")
         children = tuple(made if child is pose else child for child in children)
         if pose is None:
             return element.model_copy(update={"children": (made, *children)})
         return element.model_copy(update={"children": (*children, *self._keep(element, pose))})
 
+    def _resolve(self, pose: Pose | None) -> Transform:
+        return self.graph.resolve(pose, self.holder, self.base[0], kind=self.kind, base=self.base[1])
+
     def _keep(self, element: Element, pose: Element) -> tuple[Element, ...]:
-        message = f"the pose of <{element.name}> of link {self.link!r} is in another frame"
+        message = f"the pose of <{element.name}> of {self.kind} {self.holder!r} is in another frame"
         kept = self.keeper.keep(Node(), [Opaque(element=pose)], rules.MOVED_FRAME, message, NOWHERE)
         return tuple(part.element for part in kept.opaque if part.element)
 

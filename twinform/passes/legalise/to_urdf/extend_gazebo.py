@@ -28,9 +28,9 @@ _NOT_VERBATIM = frozenset({"physics", "frame"})
 class ExtendGazebo(ToUrdfPass):
     """Put into `<gazebo>` elements what Gazebo reads there.
 
-    Changes: 1. sensors, lights, flags and opaque parts of a link, sensors of a joint, and flags, pose, plugins and opaque
-    parts of the model stand there as they are in SDF; 2. springs and physics of a joint become the tags that mean them;
-    3. `preserveFixedJoint` keeps libsdformat from merging links that are fixed to each other.
+    Changes: 1. sensors, lights, flags and opaque parts of a link, sensors of a joint, and flags, pose, plugins and
+    opaque parts of the model stand there as they are in SDF; 2. springs and physics of a joint become the tags that
+    mean them; 3. `preserveFixedJoint` keeps libsdformat from merging links that are fixed to each other.
     Never touches: parts without a tag, and second copies of what may stand once; the last pass carries them.
     """
 

@@ -16,8 +16,8 @@ _MASS = 1.0
 class FillInertials(ToUrdfPass):
     """Write the mass and inertia that SDF gives to every link that says nothing about them.
 
-    Changes: a missing mass is 1 kg, a missing `ixx`, `iyy`, `izz` 1 kg m^2 and a missing product of inertia 0. These are
-    the values that every reader of SDF takes; a reader of URDF would take none.
+    Changes: a missing mass is 1 kg, a missing `ixx`, `iyy`, `izz` 1 kg m^2 and a missing product of inertia 0. These
+    are the values that every reader of SDF takes; a reader of URDF would take none.
     Diagnostics: `automatic-inertia` where the reader is to compute them from the shapes.
     """
 

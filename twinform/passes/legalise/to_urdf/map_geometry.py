@@ -36,8 +36,8 @@ _DEFAULTS: dict[type[Node], dict[str, object]] = {
 class MapGeometry(ToUrdfPass):
     """Keep the shapes that URDF has, with all their sizes.
 
-    Changes: 1. a size that is not written is SDF's default; 2. `model://` becomes `package://`; 3. a visual or collision
-    with a shape that URDF lacks leaves the link, whole, into a carrier.
+    Changes: 1. a size that is not written is SDF's default; 2. `model://` becomes `package://`; 3. a visual or
+    collision with a shape that URDF lacks leaves the link, whole, into a carrier.
     Diagnostics: `unsayable-shape`; in the ledger `unsayable-shape` and `sdf-only`.
     """
 

@@ -22,9 +22,8 @@ _UNBOUNDED = 1e16
 class MapJoints(ToUrdfPass):
     """Say joints as URDF does.
 
-    Changes: 1. a revolute joint without an end to its motion is continuous; 2. where URDF needs a number and the limit is
-    infinite or not written, it is 1e16; 3. the `reference` of a mimic goes into its offset; 4. the axis of a fixed joint,
-    which means nothing, is carried.
+    Changes: 1. a revolute joint without an end to its motion is continuous; 2. where URDF needs a number and the limit
+    is infinite or not written, it is 1e16; 3. the `reference` of a mimic goes into its offset.
     Diagnostics: `joint-type-unsupported`; in the ledger `unbounded-limit` and `sdf-only`.
     """
 

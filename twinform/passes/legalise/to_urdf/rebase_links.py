@@ -23,9 +23,9 @@ class RebaseLinks(ToUrdfPass):
     """Move every link's frame onto the joint that carries it; nothing in the robot moves.
 
     Changes: 1. a joint's pose is relative to its parent link, a link's to its joint, with no offset; 2. the poses in a
-    link, of sensors and lights too, are relative to the moved frame, in radians where URDF writes them; 3. the root link
-    is the model's frame: the model's pose is the root's, or none where the root is `world`. Numbers stay as they are
-    where nothing moves.
+    link, of sensors and lights too, are relative to the moved frame, in radians where URDF writes them; 3. the root
+    link is the model's frame: the model's pose is the root's, or none where the root is `world`. Numbers stay as they
+    are where nothing moves.
     Diagnostics: in the ledger `moved-frame` for every pose that is written in another way than it was.
     """
 
@@ -48,14 +48,16 @@ class RebaseLinks(ToUrdfPass):
 
 @dataclass(frozen=True, slots=True)
 class _Rebase:
-    """One link and its new frame."""
+    """One link or joint and the frame that the poses in it are to be in."""
 
     graph: FrameGraph
     name: str
     base: _Base
     keeper: Keeper
+    kind: Kind = "link"
 
     def link(self, link: Link) -> Link:
+        """The link and all in it in the frame of its joint."""
         offset = self.graph.pose(link.name, self.base[0], base=self.base[1])
         still = offset.is_identity
         elements = ElementPoses(self.graph, self.name, self.base, self.keeper)
@@ -68,6 +70,12 @@ class _Rebase:
             "opaque": elements.parts(link.opaque, still=still),
         }
         return self._own_pose(link.model_copy(update=update))
+
+    def joint(self, joint: Joint) -> Joint:
+        """The joint with its sensors in its own frame."""
+        elements = ElementPoses(self.graph, self.name, self.base, self.keeper, "joint")
+        moved = tuple(elements.sensor(self._move(one, "sensor", still=True), one.pose) for one in joint.sensors)
+        return joint.model_copy(update={"sensors": moved}) if moved else joint
 
     def _own_pose(self, link: Link) -> Link:
         name, kind = self.base
@@ -86,7 +94,7 @@ class _Rebase:
         written = holder.pose
         if still and (written is None or _is_plain(written)):
             return holder
-        transform = self.graph.resolve(written, self.name, self.base[0], base=self.base[1])
+        transform = self.graph.resolve(written, self.name, self.base[0], kind=self.kind, base=self.base[1])
         made = transform.to_pose() if tag in {"sensor", "light"} else in_radians(transform)
         if written is None:
             return mark_made(holder.model_copy(update={"pose": made}), "pose")
@@ -95,7 +103,7 @@ class _Rebase:
         message = (
             f"the pose of the {tag} {name!r} is written in another way" if name else f"the pose of the {tag} moved"
         )
-        return moved if made == written else self._keep(moved, written, f"{message} (link {self.name!r})")
+        return moved if made == written else self._keep(moved, written, f"{message} ({self.kind} {self.name!r})")
 
     def _keep(self, node: AnyNode, written: Pose, message: str) -> AnyNode:
         where, weight = written.location, count_parts(written)
@@ -123,7 +131,8 @@ def in_radians(transform: Transform, relative_to: str | None = None) -> Pose:
 def _place_joint(joint: Joint, graph: FrameGraph, base: _Base, keeper: Keeper) -> Joint:
     written = joint.pose
     made = in_radians(graph.pose(joint.name, base[0], kind="joint", base=base[1]), joint.parent)
-    placed = joint.model_copy(update={"pose": made})
+    placed = _Rebase(graph, joint.name, (joint.name, "joint"), keeper, "joint").joint(joint)
+    placed = placed.model_copy(update={"pose": made})
     if written == made or "." in made_fields(joint):
         return placed
     if written is None:

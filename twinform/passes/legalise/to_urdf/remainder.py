@@ -69,7 +69,7 @@ def _place(row: Fact, words: Words) -> None:
 def take_remainder(node: AnyNode, tag: str, words: Words) -> tuple[AnyNode, list[Opaque]]:
     """The node with only what URDF can write, and the rest as pieces of the SDF element that the node is.
 
-    Nodes in tuples (links, visuals, ...) are left alone where there is a word for them: they have remainders of their own.
+    Nodes in tuples (links, visuals, ...) stay where there is a word for them: they have remainders of their own.
     """
     split = _split(node, words, "", own_element=True)
     if not split.left:

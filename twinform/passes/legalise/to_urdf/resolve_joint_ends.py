@@ -14,8 +14,8 @@ from twinform.passes.legalise.to_urdf.nodes import text_piece
 class ResolveJointEnds(ToUrdfPass):
     """Let every joint connect the links that the frames at its ends move with.
 
-    Changes: a parent or child that is a frame, a nested model or `__model__`. The joint stays where it is: its pose names
-    the frame that it was relative to.
+    Changes: a parent or child that is a frame, a nested model or `__model__`. The joint stays where it is: its pose
+    names the frame that it was relative to.
     Diagnostics: `self-joint` where both ends move with one link; in the ledger `joint-end`.
     """
 

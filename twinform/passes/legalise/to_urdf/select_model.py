@@ -14,8 +14,8 @@ from twinform.passes.base import Pass
 class SelectModel(Pass):
     """Take one model out of a file, and its world away.
 
-    Changes: the document has the model named by `model` (or `world::model`), or the only one there is, and nothing else.
-    A pose in a frame of the world becomes a pose in the world.
+    Changes: the document has the model named by `model` (or `world::model`), or the only one there is, and nothing
+    else. A pose in a frame of the world becomes a pose in the world.
     Diagnostics: `model-not-chosen`, `include-not-expanded`; in the ledger `outside-model` for each part left out.
     """
 
@@ -77,10 +77,7 @@ def _candidates(document: Document) -> Iterator[_Candidate]:
 
 
 def _choose(candidates: list[_Candidate], name: str | None, where: Location, notes: Notes) -> _Chosen | None:
-    if name is not None:
-        found = [one for one in candidates if name in (one.model.name, one.full_name)]
-    else:
-        found = candidates
+    found = [one for one in candidates if name is None or name in (one.model.name, one.full_name)]
     if len(found) != 1:
         _say_which(candidates, name, len(found), where, notes)
         return None

@@ -1,0 +1,109 @@
+"""What libsdformat 12, the reference parser of SDF, says of a file."""
+
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import cache
+from itertools import islice
+from pathlib import Path
+from typing import TypedDict
+
+MISSING = "libsdformat 12 is not here: it needs libsdformat-dev, pkg-config and g++"
+
+_WEIGHED_TOGETHER = "links with impossible inertia, which it lumps into their parents when it reads URDF itself"
+KNOWN = {
+    "Gepetto+example-robot-data/robots/alex_description/urdf/alex_psyonic_hands.urdf": _WEIGHED_TOGETHER,
+    "Gepetto+example-robot-data/robots/hyq_description/robots/hyq_no_sensors.urdf": _WEIGHED_TOGETHER,
+}
+"""URDF files of the corpus that it takes, though it does not take SDF that says the same, and why."""
+
+_SOURCE = Path(__file__).with_name("sdf_load.cpp")
+_BUILD = Path(__file__).resolve().parents[2] / "build" / "oracles"
+_AT_ONCE = 50
+_SECONDS_PER_FILE = 20
+
+
+class _Error(TypedDict):
+    code: int
+    message: str
+
+
+class _Row(TypedDict):
+    """A line of the program's output."""
+
+    path: str
+    ok: bool
+    errors: list[_Error]
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """Whether the file was read without an error, and the errors as `code: message`."""
+
+    ok: bool
+    errors: tuple[str, ...] = ()
+
+
+@cache
+def available() -> bool:
+    """Whether the library and the tools to build against it are installed."""
+    if not (shutil.which("pkg-config") and shutil.which("g++")):
+        return False
+    return subprocess.run(["pkg-config", "--exists", "sdformat12"], check=False).returncode == 0
+
+
+def judge(paths: Iterable[Path]) -> dict[Path, Verdict]:
+    """The verdict on each file. A file on which the library crashes or hangs gets an error of its own."""
+    waiting = [Path(path).resolve() for path in paths]
+    verdicts: dict[Path, Verdict] = {}
+    for chunk in _chunks(waiting):
+        while rest := [path for path in chunk if path not in verdicts]:
+            verdicts |= _run(rest)
+    return verdicts
+
+
+def _chunks(paths: list[Path]) -> Iterator[list[Path]]:
+    upcoming = iter(paths)
+    while chunk := list(islice(upcoming, _AT_ONCE)):
+        yield chunk
+
+
+def _run(paths: list[Path]) -> dict[Path, Verdict]:
+    """The verdicts up to and including the first file that the library does not survive."""
+    command = [str(_program()), *map(str, paths)]
+    try:
+        seconds = _SECONDS_PER_FILE * len(paths)
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False, timeout=seconds)
+        output, failure = done.stdout, f"libsdformat ended with {done.returncode}"
+    except subprocess.TimeoutExpired as expired:
+        output, failure = expired.stdout or b"", "libsdformat did not come to an end"
+    rows: list[_Row] = [json.loads(line) for line in output.decode(errors="replace").splitlines()]
+    verdicts = {path: _verdict(row) for path, row in zip(paths, rows, strict=False)}
+    return verdicts if len(verdicts) == len(paths) else verdicts | {paths[len(verdicts)]: Verdict(False, (failure,))}
+
+
+def _verdict(row: _Row) -> Verdict:
+    return Verdict(row["ok"], tuple(f"{error['code']}: {error['message']}" for error in row["errors"]))
+
+
+@cache
+def _program() -> Path:
+    program = _BUILD / f"sdf_load-{hashlib.sha256(_SOURCE.read_bytes()).hexdigest()[:12]}"
+    if not program.exists():
+        _build(program)
+    return program
+
+
+def _build(program: Path) -> None:
+    program.parent.mkdir(parents=True, exist_ok=True)
+    flags = subprocess.run(
+        ["pkg-config", "--cflags", "--libs", "sdformat12"], capture_output=True, text=True, check=True
+    ).stdout.split()
+    # two test processes may build at the same time: each builds its own, and the last one wins
+    own = program.with_name(f"{program.name}.{os.getpid()}")
+    subprocess.run(["g++", "-O1", "-std=c++17", str(_SOURCE), "-o", str(own), *flags], check=True)
+    own.replace(program)

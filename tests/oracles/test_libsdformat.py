@@ -1,0 +1,76 @@
+"""Every SDF that the compiler writes from a good source is read by libsdformat without an error."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import twinform
+from tests.corpus.examine import SDF_VERSION
+from tests.corpus.files import CorpusFile, Kind, chunks
+from tests.oracles import libsdformat
+
+URDF, SDF = chunks(Kind.URDF), chunks(Kind.SDF)
+
+
+@pytest.fixture(autouse=True)
+def reader() -> None:
+    if not libsdformat.available():
+        pytest.skip(libsdformat.MISSING)
+
+
+@pytest.mark.parametrize("chunk", URDF)
+def test_sdf_made_from_urdf_that_libsdformat_takes_is_read(corpus: Path, chunk: str, tmp_path: Path):
+    assert corpus.is_dir()
+    assert _errors(_good(URDF[chunk]), tmp_path) == {}
+
+
+@pytest.mark.parametrize("chunk", SDF)
+def test_an_sdf_model_of_another_version_that_libsdformat_takes_is_read(corpus: Path, chunk: str, tmp_path: Path):
+    assert corpus.is_dir()
+    # worlds take long; `make oracle` has them too
+    assert _errors((file for file in _good(SDF[chunk]) if _is_model_alone(file)), tmp_path) == {}
+
+
+def _is_model_alone(file: CorpusFile) -> bool:
+    # what an include names is found from the place of the file, which is not where the result lies
+    return file.row["format"] == "sdf" and file.row["sdf_version"] != SDF_VERSION and not file.row["uses_include"]
+
+
+def _good(files: tuple[CorpusFile, ...]) -> Iterator[CorpusFile]:
+    return (file for file in files if file.row.get("libsdformat12") == "ok" and file.name not in libsdformat.KNOWN)
+
+
+def _errors(files: Iterator[CorpusFile], folder: Path) -> dict[str, tuple[str, ...]]:
+    outputs = dict(_converted(files, folder))
+    return {outputs[path]: verdict.errors for path, verdict in libsdformat.judge(outputs).items() if not verdict.ok}
+
+
+def _converted(files: Iterator[CorpusFile], folder: Path) -> Iterator[tuple[Path, str]]:
+    for number, file in enumerate(files):
+        path = folder.resolve() / f"{number}.sdf"
+        try:
+            path.write_text(twinform.convert(file.path, to="sdf", sdf_version=SDF_VERSION).text, encoding="utf-8")
+        except twinform.CompileError:
+            continue  # what is refused, and why, is the corpus report's business
+        yield path, file.name
+
+
+def test_good_and_bad_files_are_told_apart(tmp_path: Path):
+    good, bad, missing = tmp_path / "good.sdf", tmp_path / "bad.sdf", tmp_path / "missing.sdf"
+    good.write_text("<sdf version='1.9'><model name='m'><link name='a'/></model></sdf>")
+    bad.write_text("<sdf version='1.9'><model name='m'/></sdf>")
+    verdicts = libsdformat.judge([good, bad, missing])
+    assert [verdicts[path].ok for path in (good, bad, missing)] == [True, False, False]
+    assert "at least one link" in verdicts[bad].errors[0]
+
+
+def test_a_file_that_the_library_does_not_survive_spoils_no_other(tmp_path: Path):
+    crash, good = tmp_path / "crash.urdf", tmp_path / "good.sdf"
+    inertial = "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>"
+    link = f"<link name='a'>{inertial}</link><gazebo reference='a'><dampingFactor>foo</dampingFactor></gazebo>"
+    crash.write_text(f"<robot name='r'>{link}</robot>")
+    good.write_text("<sdf version='1.9'><model name='m'><link name='a'/></model></sdf>")
+    verdicts = libsdformat.judge([crash, good])
+    assert not verdicts[crash].ok
+    assert verdicts[good].ok

@@ -1,0 +1,27 @@
+"""The case files: what `check` finds in them, and what `convert` makes of them."""
+
+from pathlib import Path
+
+import pytest
+
+from twinform.testing import Case, cases
+
+_CASES = Path(__file__).parent / "cases"
+
+
+def _name(case: Case) -> str:
+    return str(case.path.relative_to(_CASES))
+
+
+@pytest.mark.parametrize("case", cases(_CASES / "check"), ids=_name)
+def test_check_finds_what_the_case_announces(case: Case) -> None:
+    assert case.mismatches() == []
+
+
+@pytest.mark.parametrize("case", cases(_CASES / "convert"), ids=_name)
+def test_convert_makes_what_the_case_shows(case: Case) -> None:
+    assert case.mismatches() == []
+    if not case.output_path.exists():
+        case.output_path.write_text(case.output(), encoding="utf-8")
+        pytest.fail(f"{case.output_path.name} was missing and is written now; read it before you keep it")
+    assert case.output() == case.output_path.read_text(encoding="utf-8")

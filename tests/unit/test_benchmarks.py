@@ -1,0 +1,64 @@
+"""The measuring commands measure what they say."""
+
+import os
+import time
+from pathlib import Path
+
+import pytest
+
+import twinform
+from benchmarks import robots
+from benchmarks.markdown import table
+from benchmarks.workers import Failure, run
+from tests.oracles import urdfdom
+
+
+@pytest.mark.parametrize("links", [1, 2, 40])
+def test_generated_robots_are_without_a_fault(links: int, tmp_path: Path):
+    path = tmp_path / "robot.urdf"
+    path.write_text(robots.urdf(links))
+    checked = twinform.check(path)
+    assert checked.diagnostics == ()
+    assert checked.document is not None
+    assert len(checked.document.models[0].links) == links
+    assert not urdfdom.available() or urdfdom.complaints(path) == ()
+
+
+def test_generated_robots_have_the_elements_that_the_page_speaks_of():
+    elements = [robots.urdf(links).count("<") - robots.urdf(links).count("</") for links in (100, 101)]
+    assert elements[1] - elements[0] == robots.ELEMENTS_PER_LINK
+
+
+def test_a_job_that_dies_or_hangs_harms_no_other():
+    found = dict(run(_task, range(8), seconds=3, processes=2))
+    assert {n for n, result in found.items() if result == n * n} == {0, 1, 3, 4, 6, 7}
+    assert isinstance(found[2], Failure)
+    assert "exit code 7" in found[2].cause
+    assert isinstance(found[5], Failure)
+    assert "end" in found[5].cause
+
+
+def test_a_fault_in_the_task_is_raised():
+    with pytest.raises(RuntimeError, match="ZeroDivisionError"):
+        list(run(_divide, [0]))
+
+
+def test_numbers_stand_to_the_right_and_bars_are_escaped():
+    assert table(["a", "b"], [("x|y", 1), ("z", "2.5")]).splitlines() == [
+        "| a | b |",
+        "| --- | ---: |",
+        "| x\\|y | 1 |",
+        "| z | 2.5 |",
+    ]
+
+
+def _task(number: int) -> int:
+    if number == 2:
+        os._exit(7)
+    if number == 5:
+        time.sleep(60)
+    return number * number
+
+
+def _divide(number: int) -> float:
+    return 1 / number
