@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
-from twinform.diagnostics import Location, Notes, Rule
+from twinform.diagnostics import NOWHERE, Location, Notes, Rule, Source
 from twinform.diagnostics.rules import frames as rules
 from twinform.ir.frame import Frame
 from twinform.ir.joint import Joint
@@ -53,7 +53,7 @@ class _Vertex:
     base: str
     base_kind: Kind
     moves_with: str
-    location: Location
+    source: Source | None
     inside: str = ""
     placement: str | None = None
     parent: "_Vertex | None" = None
@@ -76,11 +76,11 @@ class FrameGraph:
     def __init__(self, holder: Model | World) -> None:
         self._named: dict[str, list[_Vertex]] = {}
         if isinstance(holder, World):
-            self.root = self._add(_vertex("world", "", WORLD, holder.location))
+            self.root = self._add(_vertex("world", "", WORLD, holder.source))
             self._add_members(holder.frames, holder.joints, "", WORLD)
             self._add_inner(holder.models, holder.includes, "", WORLD)
         else:
-            self.root = self._add(_vertex("model", "", MODEL, holder.location, moves_with=_canonical(holder)))
+            self.root = self._add(_vertex("model", "", MODEL, holder.source, moves_with=_canonical(holder)))
             self._add_links(holder.links, "")
             self._add_members(holder.frames, holder.joints, "", MODEL)
             self._add_inner(holder.models, holder.includes, "", MODEL)
@@ -103,18 +103,18 @@ class FrameGraph:
             FrameError: a name is not known, or the frames go round in a circle.
         """
         if pose is not None and pose.relative_to:
-            start = self._find(pose.relative_to, "joint", pose.location)
+            start = self._find(pose.relative_to, "joint", pose.source)
         else:
             start = self._find(holder, kind)
         return self._between(start, self._find(relative_to, base)).compose(Transform.from_pose(pose))
 
-    def body(self, name: str, *, kind: Kind = "link", location: Location | None = None) -> str:
+    def body(self, name: str, *, kind: Kind = "link", source: Source | None = None) -> str:
         """The link that a frame moves with; `world`, or `__model__` of a model without links, where there is none.
 
         Raises:
             FrameError: a name is not known, or the frames go round in a circle.
         """
-        return self._body(self._find(name, kind, location)).name
+        return self._body(self._find(name, kind, source)).name
 
     def knows(self, name: str) -> bool:
         """Whether a name stands for a frame."""
@@ -123,17 +123,17 @@ class FrameGraph:
     def _add_links(self, links: Iterable[Link], scope: str) -> None:
         for link in links:
             base = _base(link.pose, MODEL)
-            self._add(_Vertex("link", scope + link.name, scope, link.pose, base, "joint", "", link.location))
+            self._add(_Vertex("link", scope + link.name, scope, link.pose, base, "joint", "", link.source))
 
     def _add_members(self, frames: Iterable[Frame], joints: Iterable[Joint], scope: str, around: str) -> None:
         for joint in joints:
             child = joint.child or around
             base = _base(joint.pose, child)
-            self._add(_Vertex("joint", scope + joint.name, scope, joint.pose, base, "link", child, joint.location))
+            self._add(_Vertex("joint", scope + joint.name, scope, joint.pose, base, "link", child, joint.source))
         for frame in frames:
             holder = frame.attached_to or around
             base = _base(frame.pose, holder)
-            self._add(_Vertex("frame", scope + frame.name, scope, frame.pose, base, "link", holder, frame.location))
+            self._add(_Vertex("frame", scope + frame.name, scope, frame.pose, base, "link", holder, frame.source))
 
     def _add_inner(self, models: Iterable[Model], includes: Iterable[Include], scope: str, around: str) -> None:
         """Nested models, from the outside in; an include that was not expanded has at least a place."""
@@ -141,14 +141,14 @@ class FrameGraph:
             if include.name is not None and include.placement_frame is None:
                 base = _base(include.pose, around)
                 name = scope + include.name
-                self._add(_Vertex("model", name, scope, include.pose, base, "link", around, include.location))
+                self._add(_Vertex("model", name, scope, include.pose, base, "link", around, include.source))
         stack = [(model, scope, around) for model in models]
         while stack:
             model, scope, around = stack.pop()
             inside = f"{scope}{model.name}::"
             base, link = _base(model.pose, around), _canonical(model)
             body = f"{model.name}::{link}" if link else ""
-            vertex = _Vertex("model", scope + model.name, scope, model.pose, base, "link", body, model.location, inside)
+            vertex = _Vertex("model", scope + model.name, scope, model.pose, base, "link", body, model.source, inside)
             vertex.placement = model.placement_frame
             self._add(vertex)
             self._named.setdefault(inside + MODEL, []).append(vertex)
@@ -159,11 +159,11 @@ class FrameGraph:
 
     def _add_world_around(self, model: Model) -> None:
         """The world of a model that is looked at alone is one more frame in it: nothing else depends on its pose."""
-        world = self._add(_vertex("world", "", WORLD, model.location))
+        world = self._add(_vertex("world", "", WORLD, model.source))
         world.parent, world.depth = self.root, 1
         pose = Transform.from_pose(model.pose)
         if model.placement_frame:
-            placed = self._between(self._find(model.placement_frame, "frame", model.location), self.root)
+            placed = self._between(self._find(model.placement_frame, "frame", model.source), self.root)
             pose = pose.compose(placed.inverse())
         world.local = pose.inverse()
 
@@ -171,16 +171,17 @@ class FrameGraph:
         self._named.setdefault(vertex.name, []).append(vertex)
         return vertex
 
-    def _find(self, name: str, kind: Kind, location: Location | None = None, scope: str = "") -> _Vertex:
+    def _find(self, name: str, kind: Kind, source: Source | None = None, scope: str = "") -> _Vertex:
         found = self._named.get(name if name == WORLD else scope + name)
         if not found:
-            where = location or self.root.location
+            named_in = source or self.root.source
+            where = named_in.location if named_in else NOWHERE
             raise FrameError(rules.DANGLING_FRAME, f"there is no frame {scope + name!r}", where, name)
         return next((vertex for vertex in found if vertex.kind == kind), found[0])
 
     def _parent(self, vertex: _Vertex) -> _Vertex:
         if vertex.parent is None:
-            vertex.parent = self._find(vertex.base, vertex.base_kind, vertex.location, vertex.scope)
+            vertex.parent = self._find(vertex.base, vertex.base_kind, vertex.source, vertex.scope)
         return vertex.parent
 
     def _settle(self, vertex: _Vertex) -> None:
@@ -214,7 +215,7 @@ class FrameGraph:
             raise _circle([vertex], "is placed by")
         vertex.visiting = True
         try:
-            placed = self._find(vertex.placement or MODEL, "frame", vertex.location, vertex.inside)
+            placed = self._find(vertex.placement or MODEL, "frame", vertex.source, vertex.inside)
             return self._between(placed, vertex)
         finally:
             vertex.visiting = False
@@ -254,7 +255,7 @@ class FrameGraph:
                     raise _circle(path[path.index(vertex) :], "is attached to")
                 vertex.visiting = True
                 path.append(vertex)
-                vertex = self._find(vertex.moves_with, "link", vertex.location, vertex.scope)
+                vertex = self._find(vertex.moves_with, "link", vertex.source, vertex.scope)
         finally:
             for each in path:
                 each.visiting = False
@@ -264,8 +265,8 @@ class FrameGraph:
         return body
 
 
-def _vertex(kind: Kind, scope: str, name: str, location: Location, moves_with: str = "") -> _Vertex:
-    return _Vertex(kind, name, scope, None, "", "model", moves_with, location)
+def _vertex(kind: Kind, scope: str, name: str, source: Source | None, moves_with: str = "") -> _Vertex:
+    return _Vertex(kind, name, scope, None, "", "model", moves_with, source)
 
 
 def _base(pose: Pose | None, default: str) -> str:
@@ -289,4 +290,5 @@ def _circle(path: list[_Vertex], relation: str) -> FrameError:
     names = [f"{vertex.kind} {vertex.name!r}" for vertex in path[:6]]
     names += ["..."] if len(path) > len(names) else [names[0]]
     start = path[0]
-    return FrameError(rules.FRAME_CYCLE, f" {relation} ".join(names), start.location, start.name)
+    where = start.source.location if start.source else NOWHERE
+    return FrameError(rules.FRAME_CYCLE, f" {relation} ".join(names), where, start.name)

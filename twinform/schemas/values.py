@@ -38,7 +38,8 @@ def format_value(value: object) -> str:
 
 def format_numbers(values: tuple[float, ...]) -> str:
     """The text of a vector."""
-    return " ".join(map(format_number, values))
+    texts = map(repr, values)
+    return " ".join([text[:-2] if text.endswith(".0") else text for text in texts])
 
 
 _TRUE = frozenset({"true", "1"})

@@ -13,7 +13,7 @@ from lxml import etree
 from lxml.etree import SubElement as _append
 
 from twinform.schemas.facts import Fact, Table, Version, table
-from twinform.schemas.values import format_number, format_value, parse_bool
+from twinform.schemas.values import format_numbers, format_value, parse_bool
 from twinform.schemas.xml import XmlElement
 
 Write = Callable[[Any, XmlElement], None]
@@ -241,26 +241,39 @@ def _show(row: Fact) -> Show:
         spelt = node.spelling.get(place) if node.spelling else None
         return spelt if spelt is not None and parse_bool(spelt) == value else format_value(value)
 
-    match row.type:
-        case "double":
-            return lambda value, _: format_number(value)
-        case "string":
-            return lambda value, _: value
-        case "bool":
-            return show_bool
-        case _:
-            return lambda value, _: format_value(value)
+    if row.type == "bool":
+        return show_bool
+    if row.type == "string":
+        return _show_text
+    return _show_number if row.type == "double" else _show_value
+
+
+def _show_text(value: str, _: Any) -> str:
+    return value
+
+
+def _show_number(value: float, _: Any) -> str:
+    text = repr(value)
+    return text[:-2] if text.endswith(".0") else text
+
+
+def _show_value(value: Any, _: Any) -> str:
+    return format_numbers(value) if isinstance(value, tuple) else format_value(value)
 
 
 def _pose_text(pose: Any) -> str | None:
     if pose.xyz is None and pose.rpy is None and pose.quat_xyzw is None:
         return None
     rotation = pose.quat_xyzw if pose.quat_xyzw is not None else pose.rpy or (0.0, 0.0, 0.0)
-    return " ".join(map(format_number, (*(pose.xyz or (0.0, 0.0, 0.0)), *rotation)))
+    return format_numbers((*(pose.xyz or (0.0, 0.0, 0.0)), *rotation))
 
 
 def _write_in_order(items: list[tuple[Any, Write]], element: XmlElement) -> None:
     """Write children by the line that they came from; one made by a pass follows the one before it."""
+    if len(items) == 1:
+        child, write = items[0]
+        write(child, element)
+        return
     keys: list[int] = []
     for child, _ in items:
         keys.append(child.source.line if child.source else keys[-1] if keys else 0)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from twinform.diagnostics import Location, Notes
+from twinform.diagnostics import Notes, Source
 from twinform.ir import Frame, Include, Joint, Link, Model, Pose, World
 from twinform.ir.frames import FrameError, FrameGraph
 from twinform.ir.transform import Transform
@@ -193,7 +193,7 @@ def test_long_chains_are_no_recursion() -> None:
     ("model", "ask", "rule", "line"),
     [
         (
-            Model(name="m", links=(Link(name="a", pose=Pose(relative_to="b"), source=Location("", 7)),)),
+            Model(name="m", links=(Link(name="a", pose=Pose(relative_to="b"), source=Source("", 7, None, "link")),)),
             "a",
             "dangling-frame",
             7,
@@ -202,7 +202,7 @@ def test_long_chains_are_no_recursion() -> None:
             Model(
                 name="m",
                 links=(Link(name="a"), Link(name="b", pose=Pose(relative_to="j"))),
-                joints=(joint("j", "a", "b").model_copy(update={"source": Location("", 8)}),),
+                joints=(joint("j", "a", "b").model_copy(update={"source": Source("", 8, None, "joint")}),),
             ),
             "j",
             "frame-cycle",
@@ -210,7 +210,7 @@ def test_long_chains_are_no_recursion() -> None:
         ),
         (chain(5000, pose=Pose(relative_to="l4999")), "l7", "frame-cycle", 0),
         (
-            Model(name="m", links=(Link(name="a", pose=Pose(relative_to="a"), source=Location("", 9)),)),
+            Model(name="m", links=(Link(name="a", pose=Pose(relative_to="a"), source=Source("", 9, None, "link")),)),
             "a",
             "frame-cycle",
             9,

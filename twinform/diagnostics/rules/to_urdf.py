@@ -133,3 +133,12 @@ COLOURS = Rule(
     example="`<ambient>` unlike `<diffuse>`, or one of them alone.",
     better="Nothing needs doing: the colours as they were written travel in a carrier.",
 )
+
+STALE_CARRIER = Rule(
+    name="stale-carrier",
+    severity=Severity.WARNING,
+    finds="A carrier whose piece no longer fits the model around it, because somebody edited the file since.",
+    matters="Putting the piece back would undo the edit; so it is left out, and what the file says now counts.",
+    example="The colour of a visual was changed in the SDF, and its carrier names the URDF material it had before.",
+    better="Nothing, if the edit was meant. Delete the carrier to be rid of the warning.",
+)

@@ -16,6 +16,7 @@ def legalisation(
         from twinform.passes.legalise.to_sdf import to_sdf
 
         return to_sdf(sdf_version, carriers=carriers)
-    from twinform.passes.legalise.to_urdf import to_urdf
+    from twinform.passes.legalise.to_urdf import pipeline as to_urdf
+    from twinform.passes.legalise.to_urdf.unpack_urdf import UnpackUrdf
 
-    return to_urdf(model=model, carriers=carriers)
+    return (*to_urdf(model=model, carriers=carriers), UnpackUrdf())

@@ -24,8 +24,13 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 
 def carry(node: AnyNode, pieces: Iterable[Opaque], dialect: str) -> AnyNode:
     """The node with these pieces of the other format in carriers."""
-    carriers = tuple(Opaque(element=_carrier(piece, dialect)) for piece in pieces)
+    carriers = pack(pieces, dialect)
     return node.model_copy(update={"opaque": (*node.opaque, *carriers)}) if carriers else node
+
+
+def pack(pieces: Iterable[Opaque], dialect: str) -> tuple[Opaque, ...]:
+    """A carrier for each of the pieces."""
+    return tuple([Opaque(element=_carrier(piece, dialect)) for piece in pieces])
 
 
 def is_carrier(part: Opaque, dialect: str) -> bool:

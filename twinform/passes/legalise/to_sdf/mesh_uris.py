@@ -3,7 +3,7 @@
 from typing import ClassVar
 
 from twinform.diagnostics import Notes
-from twinform.ir import Collision, Geometry, Link, Material, Mesh, Model, Node, Visual, map_children
+from twinform.ir import Collision, Link, Material, Mesh, Model, Node, Visual, map_children
 from twinform.passes.legalise.model_pass import ModelPass
 
 _ROS, _GAZEBO = "package://", "model://"
@@ -21,16 +21,27 @@ class MeshUris(ModelPass):
 
     def run_model(self, model: Model, notes: Notes) -> Model:  # noqa: ARG002 - the signature of a pass
         """The model with URIs that Gazebo resolves."""
-        return map_children(model, _rewrite)
+        return model.model_copy(update={"links": tuple([_link(link) for link in model.links])})
+
+
+def _link(link: Link) -> Link:
+    shapes = (*link.visuals, *link.collisions)
+    return map_children(link, _rewrite) if any(map(_names_a_package, shapes)) else link
+
+
+def _names_a_package(shape: Visual | Collision) -> bool:
+    mesh = shape.geometry.shape if shape.geometry else None
+    material = shape.material if isinstance(shape, Visual) else None
+    return (isinstance(mesh, Mesh) and _is_ros(mesh.uri)) or (material is not None and _is_ros(material.albedo_map))
 
 
 def _rewrite(node: Node) -> Node:
-    """The node, and all below it, with URIs for Gazebo; only what can hold one is looked into."""
+    """The node, and all below it, with URIs for Gazebo."""
     if isinstance(node, Mesh):
         return node.model_copy(update={"uri": _gazebo(node.uri)}) if _is_ros(node.uri) else node
     if isinstance(node, Material):
         return node.model_copy(update={"albedo_map": _gazebo(node.albedo_map)}) if _is_ros(node.albedo_map) else node
-    return map_children(node, _rewrite) if isinstance(node, Link | Visual | Collision | Geometry) else node
+    return map_children(node, _rewrite)
 
 
 def _is_ros(uri: str | None) -> bool:

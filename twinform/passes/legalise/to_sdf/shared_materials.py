@@ -6,7 +6,7 @@ from typing import ClassVar
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf
 from twinform.ir import Color, Element, Link, Material, Model, Opaque, Visual, count_parts
-from twinform.passes.legalise.carrier import carry, to_element
+from twinform.passes.legalise.carrier import carry, pack, to_element
 from twinform.passes.legalise.model_pass import ModelPass
 
 
@@ -49,11 +49,12 @@ class SharedMaterials(ModelPass):
         source = material
         if not (material.color or material.texture):
             source = defined.get(material.name or "", material)
-        visual = visual.model_copy(update={"material": _sdf_material(material, source)})
+        look = _sdf_material(material, source)
         if not material.name:
-            return visual
+            return visual.model_copy(update={"material": look})
         self._account(material, 1, notes)
-        return carry(visual, [Opaque(element=_element(material))], "urdf") if self.carriers else visual
+        carriers = pack([Opaque(element=_element(material))], "urdf") if self.carriers else ()
+        return visual.model_copy(update={"material": look, "opaque": (*visual.opaque, *carriers)})
 
     def _account(self, material: Material, weight: int, notes: Notes) -> None:
         fate = Fate.CARRIED if self.carriers else Fate.DROPPED

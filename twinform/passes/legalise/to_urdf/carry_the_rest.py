@@ -1,18 +1,16 @@
 """The last step: what is left over is carried, and the document is URDF."""
 
-import math
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Capsule, Collision, Document, Format, Joint, Link, Model, Node, Opaque, Visual, walk
+from twinform.ir import Capsule, Collision, Document, Format, Joint, Link, Model, Node, Opaque, Visual
 from twinform.ir.frames import WORLD
 from twinform.passes.base import Pass
 from twinform.passes.legalise.carrier import NAMESPACE, PREFIX
 from twinform.passes.legalise.to_urdf.base import sdf_version
 from twinform.passes.legalise.to_urdf.keeper import MADE, Keeper, mark_made
 from twinform.passes.legalise.to_urdf.remainder import Words, take_remainder, urdf_words
-from twinform.schemas import format_value
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -39,8 +37,6 @@ class CarryTheRest(Pass):
             return document
         keeper = Keeper(notes, self.carriers, sdf_version(document))
         models = tuple(_finish(model, document, keeper) for model in document.models)
-        for model in models:
-            _refuse_endless(model, notes)
         if not self.carriers:
             models = tuple(without_marks(model) for model in models)
         namespaces = tuple(pair for pair in document.namespaces if pair[0] not in ("", PREFIX))
@@ -96,25 +92,17 @@ class _Rest:
         return self.take(joint, "joint", words)
 
     def take(self, node: AnyNode, tag: str, words: Words) -> AnyNode:
-        kept, pieces = take_remainder(node, tag, words)
+        kept, pieces, endless = take_remainder(node, tag, words)
         name = getattr(node, "name", None)
         of = f"{tag} {name!r}" if name else f"an {tag}"
         for piece in pieces:
             what = f"{piece.at}/{piece.name}" if piece.at else piece.name
             message = f"{what} of {of} has no word in URDF"
             kept = self.keeper.keep(kept, [piece], rules.SDF_ONLY, message, node.location)
+        for path, text in endless:
+            message = f"{path} of {of} is {text}, and numbers in URDF are finite"
+            self.keeper.notes.report(rules.UNSAYABLE_NUMBER, message, node.location, found=text)
         return kept
-
-
-def _refuse_endless(model: Model, notes: Notes) -> None:
-    """Report numbers that URDF cannot write."""
-    for node in walk(model):
-        for name, value in node.__dict__.items():
-            numbers: tuple[object, ...] = value if isinstance(value, tuple) else (value,)  # pyright: ignore[reportUnknownVariableType] - what a node holds
-            if any(isinstance(number, float) and not math.isfinite(number) for number in numbers):
-                found = " ".join(map(format_value, numbers))
-                message = f"{name!r} is {found}, and numbers in URDF are finite"
-                notes.report(rules.UNSAYABLE_NUMBER, message, node.location, found=found)
 
 
 def _has_capsule(link: Link) -> bool:

@@ -92,7 +92,9 @@ def _rest(parts: Iterable[Opaque], definition: str) -> tuple[Opaque, ...]:
 
 def _link_content(link: Link) -> tuple[list[Element], Link]:
     said = {field: getattr(link, field) for field in _LINK_FIELDS}
-    content = [*to_element(Link(name=link.name, spelling=link.spelling, **said), "link", "sdf").children]
+    content: list[Element] = []
+    if any(value not in (None, ()) for value in said.values()):
+        content += to_element(Link(name=link.name, spelling=link.spelling, **said), "link", "sdf").children
     content += _verbatim(link.opaque, "link")
     if not content:
         return content, link
@@ -109,7 +111,8 @@ def _joint_content(joint: Joint, links: set[str], with_mass: set[str]) -> tuple[
     content += [*springs, *physics]
     if joint.name in links:  # a reference would mean the link
         return content, joint
-    content += to_element(Joint(name="", type="fixed", sensors=joint.sensors), "joint", "sdf").children
+    if joint.sensors:
+        content += to_element(Joint(name="", type="fixed", sensors=joint.sensors), "joint", "sdf").children
     content += _verbatim(joint.opaque, "joint")
     return content, joint.model_copy(update={"sensors": (), "opaque": _rest(joint.opaque, "joint")})
 

@@ -32,7 +32,7 @@ class Keeper:
         location: Location,
         weight: int | None = None,
     ) -> AnyNode:
-        """The node with the pieces in carriers, and an entry in the ledger; its weight is the pieces' if none is given."""
+        """The node with the pieces in carriers, and an entry in the ledger; the weight is the pieces' by default."""
         listed = tuple(pieces)
         if not listed:
             return node

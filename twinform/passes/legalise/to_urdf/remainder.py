@@ -1,5 +1,6 @@
 """What of a node URDF can write and what is left over, found by comparing it with the table of URDF."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache
@@ -7,7 +8,7 @@ from typing import TypeVar, Union
 
 from twinform.ir import Element, Node, Opaque
 from twinform.passes.legalise.carrier import NAMESPACE, to_element
-from twinform.schemas import Fact, table
+from twinform.schemas import Fact, format_value, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 Words = dict[str, Union["Words", None]]
@@ -19,11 +20,15 @@ _ABOUT = frozenset({"source", "spelling", "opaque"})
 
 @dataclass(slots=True)
 class Split:
-    """The two halves of a node: `paths` are the places below it where both have something."""
+    """The two halves of a node: `paths` are the places below it where both have something.
+
+    `endless` are the paths and texts of numbers that are kept and not finite, which URDF cannot write.
+    """
 
     kept: dict[str, object] = field(default_factory=dict[str, object])
     left: dict[str, object] = field(default_factory=dict[str, object])
     paths: list[str] = field(default_factory=list[str])
+    endless: list[tuple[str, str]] = field(default_factory=list[tuple[str, str]])
 
 
 @cache
@@ -66,17 +71,17 @@ def _place(row: Fact, words: Words) -> None:
             kinds[row.kind] = inside
 
 
-def take_remainder(node: AnyNode, tag: str, words: Words) -> tuple[AnyNode, list[Opaque]]:
-    """The node with only what URDF can write, and the rest as pieces of the SDF element that the node is.
+def take_remainder(node: AnyNode, tag: str, words: Words) -> tuple[AnyNode, list[Opaque], list[tuple[str, str]]]:
+    """The node with only what URDF can write, the rest as pieces of the SDF element that the node is, and bad numbers.
 
     Nodes in tuples (links, visuals, ...) stay where there is a word for them: they have remainders of their own.
     """
     split = _split(node, words, "", own_element=True)
     if not split.left:
-        return node, []
+        return node, [], split.endless
     kept = node.model_copy(update=split.kept)
     left = _only(node, split.left)
-    return kept, list(_pieces(to_element(left, tag, "sdf"), "", frozenset(split.paths)))
+    return kept, list(_pieces(to_element(left, tag, "sdf"), "", frozenset(split.paths))), split.endless
 
 
 def _split(node: Node, words: Words, path: str, *, own_element: bool) -> Split:
@@ -88,7 +93,10 @@ def _split(node: Node, words: Words, path: str, *, own_element: bool) -> Split:
             split.left[name], split.kept[name] = value, _blank(node, name)
             continue
         inner = words[name]
-        if inner is not None and isinstance(value, Node):
+        if inner is None:
+            if _is_endless(value):
+                split.endless.append((f"{path}/{name}" if path else name, format_value(value)))
+        elif isinstance(value, Node):
             _split_inner(split, name, value, inner, path)
     _split_opaque(split, node, own_element=own_element)
     return split
@@ -104,11 +112,18 @@ def _split_inner(split: Split, name: str, value: Node, words: Words, path: str) 
         words = found
     below = f"{path}/{kind or name}" if path else str(kind or name)
     inner = _split(value, words, below, own_element=False)
+    split.endless += inner.endless
     if not inner.left:
         return
     split.left[name] = _only(value, inner.left)
     split.kept[name] = value.model_copy(update=inner.kept)
     split.paths += [below, *inner.paths]
+
+
+def _is_endless(value: object) -> bool:
+    if isinstance(value, float):
+        return not math.isfinite(value)
+    return isinstance(value, tuple) and any(map(_is_endless, value))  # pyright: ignore[reportUnknownArgumentType] - any
 
 
 def _split_opaque(split: Split, node: Node, *, own_element: bool) -> None:

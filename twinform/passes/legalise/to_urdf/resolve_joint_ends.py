@@ -37,7 +37,7 @@ def _resolve(joint: Joint, links: set[str], graph: FrameGraph, keeper: Keeper) -
     pieces: list[Opaque] = []
     for end, name in (("parent", joint.parent), ("child", joint.child)):
         if name is not None and name not in links:
-            changed[end] = graph.body(name, location=joint.location.at(end))
+            changed[end] = graph.body(name, source=joint.source)
             pieces.append(text_piece(end, name))
     if not changed:
         return joint

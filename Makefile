@@ -1,0 +1,80 @@
+# Every command of the project; `make help` lists them. A fresh machine needs Python 3.11 or newer, make and git.
+SHELL := bash
+.SHELLFLAGS := -euo pipefail -c
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+
+PYTHON ?= python3
+JOBS ?= 2
+BIN := .venv/bin
+# what .venv was made from; a change of the project file makes it again
+SYNCED := .venv/.synced
+ORACLES := .venv/.oracles
+DEMO := out/demo
+
+.PHONY: help sync fmt generate lint wheel test demo corpus oracle bench clean
+
+help: ## this list
+	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
+
+sync: $(SYNCED) ## make .venv with the package and all tools; other targets do so by themselves
+
+$(SYNCED): pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed")'
+	test -x $(BIN)/python || $(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --upgrade 'pip>=25.1'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable . --group dev
+	touch $@
+
+$(ORACLES): $(SYNCED)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[oracles]'
+	touch $@
+
+fmt: $(SYNCED) ## format, and mend what the linter can mend
+	$(BIN)/ruff check --quiet --fix-only .
+	$(BIN)/ruff format .
+
+generate: $(SYNCED) ## write the files that are made from tables: schemas and reference pages
+	$(BIN)/python -m twinform.schemas.generate
+	$(BIN)/python -m twinform.diagnostics.pages docs/reference/rules.md
+
+lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel that works in an empty environment
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/basedpyright
+	$(BIN)/lint-imports
+	$(BIN)/python -m twinform.schemas.generate --check
+	$(BIN)/python -m twinform.diagnostics.pages docs/reference/rules.md --check
+	$(MAKE) --no-print-directory wheel
+
+wheel: $(SYNCED) ## build the wheel, list it, install it into an empty environment and run the command
+	rm -rf dist .wheel-venv
+	$(BIN)/python -m build --wheel --outdir dist . >/dev/null
+	$(BIN)/python -m zipfile --list dist/*.whl
+	$(PYTHON) -m venv .wheel-venv
+	.wheel-venv/bin/python -m pip install --quiet --disable-pip-version-check dist/*.whl
+	.wheel-venv/bin/twinform check examples/rover.urdf
+
+test: $(SYNCED) ## all tests
+	$(BIN)/python -m pytest -n $(JOBS)
+
+demo: $(SYNCED) ## the rover to SDF and back, with what is found and what is lost on the way
+	mkdir -p $(DEMO)
+	$(BIN)/twinform check examples/rover.urdf
+	$(BIN)/twinform convert examples/rover.urdf --to sdf -o $(DEMO)/rover.sdf --ledger $(DEMO)/rover.sdf.ledger.json
+	$(BIN)/twinform convert $(DEMO)/rover.sdf --to urdf -o $(DEMO)/rover.urdf --ledger $(DEMO)/rover.urdf.ledger.json
+	@echo "-- ledger, URDF to SDF:"; cat $(DEMO)/rover.sdf.ledger.json
+	@echo "-- ledger, SDF to URDF:"; cat $(DEMO)/rover.urdf.ledger.json
+	@echo "-- files:"; ls -1 $(DEMO)/*
+
+corpus: $(SYNCED) ## every real file through the compiler; writes docs/reference/corpus.md
+	$(BIN)/python -m benchmarks.corpus
+
+oracle: $(ORACLES) ## Drake, libsdformat and urdfdom judge the conversions; writes docs/reference/oracle.md
+	$(BIN)/python -m benchmarks.oracle
+
+bench: $(SYNCED) ## how fast it is; writes docs/reference/performance.md
+	$(BIN)/python -m benchmarks.bench
+
+clean: ## delete what the other targets made
+	rm -rf .venv .wheel-venv build dist out

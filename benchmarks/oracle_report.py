@@ -1,0 +1,112 @@
+"""The page about the judgements."""
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from benchmarks.drake import TOLERANCE
+from benchmarks.judging import Direction, Outcome, Verdict
+from benchmarks.markdown import table, write
+from tests.oracles import libsdformat
+
+INTRODUCTION = f"""# The same robot, in the eyes of others
+
+Made by `make oracle`.
+
+Every URDF file of the corpus is converted to SDF, and every SDF model that libsdformat 12 takes without an error to
+URDF. Drake reads source and result, and at five joint positions the poses of links, centres of mass, inertias, the mass
+matrix and gravity torques are compared, with a tolerance of {TOLERANCE:g} (of the largest number of the kind, where
+that is more than one). Joint limits and damping must be equal, and only massless links may come and go.
+
+* *same (frames)*: all of that is equal.
+* *same (inertial)*: all but the poses of link frames, which a conversion to URDF moves onto the joints, or a massless
+  link became a frame, which Drake does not list among the links.
+* *source not readable*: Drake refuses the source, so there is nothing to compare with."""
+
+_GROUPS = (
+    (Verdict.DIFFERENT, "## Different"),
+    (Verdict.RESULT, "## Results that Drake cannot read"),
+    (Verdict.CRASH, "## Crashes"),
+    (Verdict.REFUSED, "## Not converted"),
+    (Verdict.SOURCE, "## Sources that Drake cannot read"),
+)
+_IN_FULL = frozenset({Verdict.DIFFERENT, Verdict.RESULT, Verdict.CRASH})
+_SHOWN = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Reader:
+    """What a reference parser says of some results: its errors by file, empty where it has none; None without it."""
+
+    name: str
+    reads: str
+    verdicts: Mapping[str, str] | None
+
+    @property
+    def complaints(self) -> dict[str, str]:
+        """The files that it has errors for."""
+        return {file: errors for file, errors in (self.verdicts or {}).items() if errors}
+
+
+def report(page: Path, outcomes: list[Outcome], readers: Sequence[Reader], known: Mapping[str, str]) -> None:
+    """Write the page."""
+    groups = (f"{title}\n\n{_group(outcomes, verdict, known)}" for verdict, title in _GROUPS)
+    write(page, INTRODUCTION, _counts(outcomes), _readers(readers), *groups)
+
+
+def _counts(outcomes: list[Outcome]) -> str:
+    counts = Counter((one.direction, one.verdict) for one in outcomes)
+    rows = [
+        (way, sum(counts[way, verdict] for verdict in Verdict), *(counts[way, verdict] for verdict in Verdict))
+        for way in Direction
+    ]
+    return "## Counts\n\n" + table(["conversion", "files", *Verdict], rows)
+
+
+def _readers(readers: Sequence[Reader]) -> str:
+    counted = [(reader.name, reader.reads, *_tally(reader)) for reader in readers]
+    bad = [
+        (reader.name, file, _explained(file, text)) for reader in readers for file, text in reader.complaints.items()
+    ]
+    parts = [table(["parser", "reads", "results", "without an error"], counted)]
+    parts += [table(["parser", "file", "errors"], bad)] if bad else []
+    return "## The reference parsers\n\n" + "\n".join(parts)
+
+
+def _tally(reader: Reader) -> tuple[object, object]:
+    if reader.verdicts is None:
+        return ("not installed", "")
+    return (len(reader.verdicts), len(reader.verdicts) - len(reader.complaints))
+
+
+def _explained(file: str, errors: str) -> str:
+    return f"{errors[:160]} (known: {libsdformat.KNOWN[file]})" if file in libsdformat.KNOWN else errors[:160]
+
+
+def _group(outcomes: list[Outcome], verdict: Verdict, known: Mapping[str, str]) -> str:
+    groups: dict[tuple[str, str], list[str]] = {}
+    for (name, cause), ways in _ways(outcomes, verdict).items():
+        reason = f" ({known[name]})" if name in known else ""
+        groups.setdefault((", ".join(ways), cause + reason), []).append(name)
+    if not groups:
+        return "None."
+    ordered = sorted(groups.items(), key=lambda item: (item[0][0], -len(item[1]), item[0][1]))
+    most = None if verdict in _IN_FULL else _SHOWN
+    rows = ((ways, cause, len(names), _names(names, most)) for (ways, cause), names in ordered)
+    return table(["conversion", "cause", "files", "which"], rows)
+
+
+def _ways(outcomes: list[Outcome], verdict: Verdict) -> dict[tuple[str, str], list[str]]:
+    """The conversions that met this verdict, by file and cause."""
+    ways: dict[tuple[str, str], list[str]] = {}
+    for one in outcomes:
+        if one.verdict is verdict:
+            cause = one.cause.partition(":")[0] if verdict is Verdict.REFUSED else one.cause
+            ways.setdefault((one.name, cause), []).append(one.direction)
+    return ways
+
+
+def _names(names: list[str], most: int | None) -> str:
+    more = ", .." if most is not None and len(names) > most else ""
+    return ", ".join(names[:most]) + more

@@ -1,0 +1,70 @@
+"""Where the time of a conversion goes: each stage on its own, one after the other."""
+
+import time
+from collections.abc import Generator
+from contextlib import contextmanager
+from statistics import median
+
+from lxml import etree
+
+from twinform.compiler.driver import plan
+from twinform.compiler.emitting import written_version
+from twinform.compiler.loading import garbage_collection_paused
+from twinform.compiler.parsing import parse
+from twinform.compiler.sdf import back_end
+from twinform.compiler.urdf import front_end
+from twinform.diagnostics import Notes
+from twinform.ir import Document
+from twinform.ir.verify import verify
+from twinform.schemas import Context, libxml2_errors
+
+
+class Stages:
+    """The seconds of each stage, over all runs, in the order in which they were first run."""
+
+    def __init__(self) -> None:
+        self.seconds: dict[str, list[float]] = {}
+
+    @contextmanager
+    def time(self, name: str) -> Generator[None]:
+        """Count what happens inside to a stage."""
+        start = time.perf_counter()
+        yield
+        self.seconds.setdefault(name, []).append(time.perf_counter() - start)
+
+    def medians(self) -> dict[str, float]:
+        """The seconds of each stage in a run."""
+        return {name: median(seconds) for name, seconds in self.seconds.items()}
+
+
+def profile_urdf_to_sdf(text: bytes, *, sdf_version: str, runs: int) -> dict[str, float]:
+    """The seconds of each stage of a conversion."""
+    stages = Stages()
+    for _ in range(runs):
+        with garbage_collection_paused():
+            _convert(text, sdf_version, stages)
+    return stages.medians()
+
+
+def _convert(text: bytes, sdf_version: str, stages: Stages) -> None:
+    notes = Notes(file="robot.urdf")
+    with stages.time("parse"):
+        root = parse(text, notes)
+    with stages.time("table pass: structure, values, lowering"):
+        data = front_end.lower(root, Context(notes, notes.file, "urdf", (1, 0)))
+    with stages.time("XSD of the input"):
+        libxml2_errors(root, "urdf", (1, 0))
+    with stages.time("pydantic"):
+        document = Document.model_validate({**data})
+    with stages.time("verify"):
+        verify(document, notes)
+    with stages.time("passes, each followed by verify"):
+        document = plan(document, to="sdf", sdf_version=sdf_version).run(document, notes, verify=verify)
+    version = written_version(document)
+    with stages.time("emit"):
+        root = back_end.emit(document, version, {})
+    with stages.time("XSD of the output"):
+        libxml2_errors(root, "sdf", version)
+    with stages.time("serialise"):
+        etree.indent(root, "  ")
+        etree.tostring(root, encoding="unicode")
