@@ -8,7 +8,6 @@ from pathlib import Path
 from benchmarks.drake import TOLERANCE
 from benchmarks.judging import Direction, Outcome, Verdict
 from benchmarks.markdown import table, write
-from tests.oracles import libsdformat
 
 INTRODUCTION = f"""# The same robot, in the eyes of others
 
@@ -37,11 +36,15 @@ _SHOWN = 3
 
 @dataclass(frozen=True, slots=True)
 class Reader:
-    """What a reference parser says of some results: its errors by file, empty where it has none; None without it."""
+    """What a reference parser says of some results: its errors by file, empty where it has none; None without it.
+
+    `known` are the files for which it is known to have errors, with the reason.
+    """
 
     name: str
     reads: str
     verdicts: Mapping[str, str] | None
+    known: Mapping[str, str]
 
     @property
     def complaints(self) -> dict[str, str]:
@@ -67,7 +70,9 @@ def _counts(outcomes: list[Outcome]) -> str:
 def _readers(readers: Sequence[Reader]) -> str:
     counted = [(reader.name, reader.reads, *_tally(reader)) for reader in readers]
     bad = [
-        (reader.name, file, _explained(file, text)) for reader in readers for file, text in reader.complaints.items()
+        (reader.name, file, _explained(reader, file, text))
+        for reader in readers
+        for file, text in reader.complaints.items()
     ]
     parts = [table(["parser", "reads", "results", "without an error"], counted)]
     parts += [table(["parser", "file", "errors"], bad)] if bad else []
@@ -80,8 +85,8 @@ def _tally(reader: Reader) -> tuple[object, object]:
     return (len(reader.verdicts), len(reader.verdicts) - len(reader.complaints))
 
 
-def _explained(file: str, errors: str) -> str:
-    return f"{errors[:160]} (known: {libsdformat.KNOWN[file]})" if file in libsdformat.KNOWN else errors[:160]
+def _explained(reader: Reader, file: str, errors: str) -> str:
+    return errors[:160] + (f" (known: {reader.known[file]})" if file in reader.known else "")
 
 
 def _group(outcomes: list[Outcome], verdict: Verdict, known: Mapping[str, str]) -> str:
