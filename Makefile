@@ -37,6 +37,7 @@ fmt: $(SYNCED) ## format, and mend what the linter can mend
 generate: $(SYNCED) ## write the files that are made from tables: schemas and reference pages
 	$(BIN)/python -m twinform.schemas.generate
 	$(BIN)/python -m twinform.diagnostics.pages docs/reference/rules.md
+	$(BIN)/python -m twinform.passes.pages docs/reference/passes.md
 
 lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel that works in an empty environment
 	$(BIN)/ruff check .
@@ -45,6 +46,7 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/lint-imports
 	$(BIN)/python -m twinform.schemas.generate --check
 	$(BIN)/python -m twinform.diagnostics.pages docs/reference/rules.md --check
+	$(BIN)/python -m twinform.passes.pages docs/reference/passes.md --check
 	$(MAKE) --no-print-directory wheel
 
 wheel: $(SYNCED) ## build the wheel, list it, install it into an empty environment and run the command

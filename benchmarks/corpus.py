@@ -37,7 +37,8 @@ def main() -> int:
     write(PAGE, INTRODUCTION, *_sections(outcomes, seconds))
     print(_totals(outcomes, seconds), f"\nwritten to {PAGE.relative_to(ROOT)}")
     faults = [f"{found.name}: {fault}" for _, found in outcomes for fault in found.faults]
-    print(*faults, sep="\n", file=sys.stderr)
+    print(*faults[:MOST_SHOWN], sep="\n", file=sys.stderr)
+    print(f"{len(faults)} broken promises", file=sys.stderr)
     return 1 if faults else 0
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from tests.corpus.files import CorpusFile, chunks
-from twinform.compiler.parsing import Unreadable, parse, strip_default_namespace
+from twinform.compiler.parsing import UnreadableError, parse, strip_default_namespace
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import structure
 from twinform.schemas import (
@@ -40,7 +40,7 @@ def test_both_engines_agree(chunk: str, corpus: Path):
 def _disagreement(file: CorpusFile) -> str | None:
     try:
         root = parse(file.path.read_bytes(), Notes())
-    except Unreadable:
+    except UnreadableError:
         return None
     strip_default_namespace(root)
     if root.tag not in _FORMATS:

@@ -8,7 +8,7 @@ import click
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.findings import show
 from twinform.cli.targets import Job
-from twinform.compiler import CompileError, Conversion, check, convert, plan, write_atomically
+from twinform.compiler import CompileError, Conversion, UrdfVersion, check, convert, plan, write_atomically
 from twinform.diagnostics import Fate, Ledger
 from twinform.diagnostics.reporters import Findings
 from twinform.ir import Document
@@ -21,6 +21,7 @@ class Options:
     """What is the same for every input."""
 
     sdf_version: str | None
+    urdf_version: UrdfVersion
     passes: Pipeline
     ledger: Path | None
     strict: bool
@@ -45,6 +46,7 @@ def run_conversion(job: Job, options: Options, label: str) -> int:
             name=job.source.name,
             to=job.target,
             sdf_version=options.sdf_version if job.target == "sdf" else None,
+            urdf_version=options.urdf_version,
             passes=options.passes.passes,
             strict=options.strict,
             carriers=options.carriers,
@@ -106,6 +108,7 @@ def print_plan(job: Job, options: Options, label: str) -> int:
         checked.document,
         to=job.target,
         sdf_version=version,
+        urdf_version=options.urdf_version,
         passes=passes,
         carriers=options.carriers,
         model=options.model,

@@ -8,6 +8,7 @@ from twinform.cli.conversion import Options, print_plan, run_conversion
 from twinform.cli.failure import Unusable
 from twinform.cli.source import open_source
 from twinform.cli.targets import TARGETS, Target, jobs
+from twinform.compiler import UrdfVersion
 from twinform.passes import Pipeline, PipelineError, RegistryError, parse_pipeline
 from twinform.schemas import Engine, table
 
@@ -33,6 +34,7 @@ def _pipeline(_ctx: click.Context, _option: click.Parameter, value: str | None) 
 @click.option("-o", "--output", "out", metavar="OUT", help="The file to write, or the directory for several inputs.")
 @click.option("--to", "target", type=click.Choice(TARGETS), help="The format; else OUT's suffix or the other format.")
 @click.option("--sdf-version", metavar="V", callback=_known_version, help="The version of SDF to write.")
+@click.option("--urdf-version", type=click.Choice(["1.0", "1.1", "1.2"]), default="1.0", help="Likewise of URDF.")
 @click.option("--passes", metavar="PIPELINE", callback=_pipeline, help="Passes to run, such as 'check-inertia'.")
 @click.option(
     "--ledger", type=click.Path(path_type=Path), metavar="FILE", help="Where to write what was not expressed."
@@ -51,6 +53,7 @@ def command(
     target: Target | None,
     *,
     sdf_version: str | None,
+    urdf_version: UrdfVersion,
     passes: Pipeline,
     ledger: Path | None,
     strict: bool,
@@ -69,6 +72,7 @@ def command(
         raise click.UsageError("--ledger takes one input")
     options = Options(
         sdf_version=sdf_version,
+        urdf_version=urdf_version,
         passes=passes,
         ledger=ledger,
         strict=strict,

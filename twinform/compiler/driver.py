@@ -12,10 +12,11 @@ from twinform.diagnostics import Diagnostic, Ledger, Notes
 from twinform.ir import Document, Format
 from twinform.ir.verify import verify
 from twinform.passes import Pass, Pipeline, parse_pipeline
-from twinform.passes.legalise import legalisation
+from twinform.passes.legalise import Target, legalisation
 from twinform.schemas import Engine
 
-Target = Literal["sdf", "urdf", "json"]
+Language = Literal["sdf", "urdf", "json"]
+UrdfVersion = Literal["1.0", "1.1", "1.2"]
 DEFAULT_SDF_VERSION = "1.11"
 """The version of Gazebo Harmonic, the newest long-term release, and the first that can say `mimic`."""
 
@@ -33,41 +34,25 @@ class Conversion:
 def plan(
     source: Document,
     *,
-    to: Target,
+    to: Language,
     sdf_version: str | None = None,
+    urdf_version: UrdfVersion = "1.0",
     passes: str | Sequence[Pass] | None = None,
     carriers: bool = True,
     model: str | None = None,
 ) -> Pipeline:
     """Every pass that a conversion of this document runs, in order: the user's, then those that the target asks for."""
-    users, legal = _stages(source, to, sdf_version, passes, carriers=carriers, model=model)
-    return Pipeline((*users.passes, *legal.passes))
-
-
-def _stages(
-    source: Document,
-    to: Target,
-    sdf_version: str | None,
-    passes: str | Sequence[Pass] | None,
-    *,
-    carriers: bool,
-    model: str | None,
-) -> tuple[Pipeline, Pipeline]:
-    """The user's passes, between which the document is verified, and legalisation, which is whole only at its end."""
-    users = parse_pipeline(passes) if isinstance(passes, str) else Pipeline(tuple(passes or ()))
-    if to == "json":
-        return users, Pipeline()
-    version = sdf_version or (source.version if source.format is Format.SDF else None) or DEFAULT_SDF_VERSION
-    legal = legalisation(source.format, Format(to), sdf_version=version, carriers=carriers, model=model)
-    return users, Pipeline(legal)
+    users = _pipeline(passes)
+    return Pipeline((*users, *_legalisation(source, to, sdf_version, urdf_version, carriers=carriers, model=model)))
 
 
 def convert(
     source: str | Path | bytes,
     *,
-    to: Target,
+    to: Language,
     name: str = "",
     sdf_version: str | None = None,
+    urdf_version: UrdfVersion = "1.0",
     passes: str | Sequence[Pass] | None = None,
     strict: bool = False,
     carriers: bool = True,
@@ -81,31 +66,52 @@ def convert(
         CompileError: the source, a pass or the result has an error.
         PipelineError: `passes` is not a pipeline.
     """
+    users = _pipeline(passes)
     with garbage_collection_paused():
         checked = check(source, name=name, strict=strict, engine=engine)
         if checked.document is None or not checked.accepted:
             raise CompileError(checked.diagnostics, unreadable=checked.unreadable)
-        stages = _stages(checked.document, to, sdf_version, passes, carriers=carriers, model=model)
-        return _run(checked, stages, to, strict=strict, watch=watch)
+        legal = _legalisation(checked.document, to, sdf_version, urdf_version, carriers=carriers, model=model)
+        return _run(checked, checked.document, users, legal, to, strict=strict, watch=watch)
+
+
+def _pipeline(passes: str | Sequence[Pass] | None) -> Pipeline:
+    return parse_pipeline(passes) if isinstance(passes, str) else Pipeline(tuple(passes or ()))
+
+
+def _legalisation(
+    source: Document,
+    to: Language,
+    sdf_version: str | None,
+    urdf_version: UrdfVersion,
+    *,
+    carriers: bool,
+    model: str | None,
+) -> Pipeline:
+    if to == "json":
+        return Pipeline()
+    own = source.version if source.format is Format.SDF else None
+    target = Target(Format(to), sdf_version or own or DEFAULT_SDF_VERSION, urdf_version, carriers, model)
+    return Pipeline(legalisation(source.format, source.version, target))
 
 
 def _run(
     checked: Checked,
-    stages: tuple[Pipeline, Pipeline],
-    to: Target,
+    document: Document,
+    users: Pipeline,
+    legal: Pipeline,
+    to: Language,
     *,
     strict: bool,
     watch: Callable[[str, Document], None] | None,
 ) -> Conversion:
-    assert checked.document is not None  # noqa: S101 - the caller looked
     notes = Notes(file=checked.path, strict=strict, diagnostics=list(checked.diagnostics))
-    users, legal = stages
-    document = users.run(checked.document, notes, watch=watch, verify=verify)
+    document = users.run(document, notes, watch=watch, verify=verify)
     if not notes.has_errors and len(legal):
         document = legal.run(document, notes, watch=watch)
         if not notes.has_errors:
             verify(document, notes)
-    text = "" if notes.has_errors else _write(document, to, notes)
+    text = "" if notes.has_errors else _write(document, to, notes, fit=bool(len(legal)))
     if notes.has_errors:
         raise CompileError(tuple(notes.diagnostics))
     lost = sum(entry.weight for entry in notes.entries)
@@ -113,7 +119,7 @@ def _run(
     return Conversion(text, document, tuple(notes.diagnostics), ledger)
 
 
-def _write(document: Document, to: Target, notes: Notes) -> str:
+def _write(document: Document, to: Language, notes: Notes, *, fit: bool) -> str:
     if to == "json":
         return document.model_dump_json(indent=2, exclude_defaults=True) + "\n"
-    return emit(document, notes)
+    return emit(document, notes, fit=fit)

@@ -6,9 +6,21 @@ from lxml import etree
 
 from twinform.compiler.sdf import back_end as sdf
 from twinform.compiler.urdf import back_end as urdf
-from twinform.diagnostics import Notes
+from twinform.diagnostics import Fate, Location, Notes
+from twinform.diagnostics.rules import to_sdf
 from twinform.ir import Document, Format
-from twinform.schemas import Context, Version, XmlElement, gate, libxml2_errors, parse_version, reader, table
+from twinform.schemas import (
+    Context,
+    Version,
+    XmlElement,
+    gate,
+    libxml2_errors,
+    parse_version,
+    path_of,
+    print_version,
+    reader,
+    table,
+)
 
 _BACK_ENDS: dict[Format, Callable[[Document, Version, dict[str | None, str]], XmlElement]] = {
     Format.URDF: urdf.emit,
@@ -16,13 +28,17 @@ _BACK_ENDS: dict[Format, Callable[[Document, Version, dict[str | None, str]], Xm
 }
 
 
-def emit(document: Document, notes: Notes) -> str:
-    """The text of a document in its own format and version, and errors in the notes where its schema refuses it."""
+def emit(document: Document, notes: Notes, *, fit: bool = False) -> str:
+    """The text of a document in its own format and version, and errors in the notes where its schema refuses it.
+
+    Where the document was not read in this version, `fit` leaves out what other versions have and this one has not, and
+    accounts for it.
+    """
     version = written_version(document)
     named = {prefix or None: uri for prefix, uri in document.namespaces}
     default = named.pop(None, None)
     root = _BACK_ENDS[document.format](document, version, named)
-    _validate(root, document.format, version, notes)
+    _validate(root, document.format, version, notes, fit=fit)
     if default is not None:
         root = _in_namespace(root, default)
     etree.indent(root, "  ")
@@ -37,15 +53,35 @@ def written_version(document: Document) -> Version:
     return (1, 0) if document.format is Format.URDF and document.version is None else facts.newest
 
 
-def _validate(root: XmlElement, format_: str, version: Version, notes: Notes) -> None:
+def _validate(root: XmlElement, format_: Format, version: Version, notes: Notes, *, fit: bool) -> None:
     """The gate behind the back end. The table pass looks only where the XSD refuses: at what came in as unknown."""
-    if not libxml2_errors(root, format_, version):
+    errors = libxml2_errors(root, format_, version)
+    if not errors:
         return
-    found = Notes(file="<output>")
-    context = Context(found, "<output>", format_, version)
+    found = Notes(file=notes.file)
+    context = Context(found, notes.file, format_, version)
     reader(format_, version).read(root, context)
-    gate(root, context)
+    gate(root, context, errors=errors)
+    if fit:
+        _leave_out(context, notes)
     notes.extend(diagnostic for diagnostic in found.diagnostics if diagnostic.is_error)
+
+
+def _leave_out(context: Context, notes: Notes) -> None:
+    """Take what the version does not have out of the tree that the table pass has looked at."""
+    version = f"{context.format.upper()} {print_version(context.version)}"
+    for element, fact in context.outside:
+        what = f"the attribute {fact.name[1:]!r} of <{element.tag}>" if fact.is_attribute else f"<{element.tag}>"
+        message = f"{version} does not have {what}"
+        where = Location(notes.file, element.sourceline or 0, path_of(element))
+        weight = 1 if fact.is_attribute else sum(1 + len(each.keys()) for each in element.iter())
+        notes.report(to_sdf.OLDER_VERSION, message, where, found=fact.name)
+        notes.account(Fate.DROPPED, to_sdf.OLDER_VERSION, message, where, weight)
+        parent = element.getparent()
+        if fact.is_attribute:
+            element.attrib.pop(fact.name[1:], None)
+        elif parent is not None:
+            parent.remove(element)
 
 
 def _in_namespace(root: XmlElement, namespace: str) -> XmlElement:

@@ -1,7 +1,7 @@
 """From text to a verified document: parse, read, gate, build the IR."""
 
 import gc
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Generator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -163,7 +163,7 @@ def _from_json(text: bytes, notes: Notes) -> Document | None:
 
 
 @contextmanager
-def garbage_collection_paused() -> Iterator[None]:
+def garbage_collection_paused() -> Generator[None]:
     """Keep the collector from walking a growing tree again and again; nothing here makes cycles."""
     enabled = gc.isenabled()
     gc.disable()

@@ -5,6 +5,7 @@ quite XML; what the parsers of ROS and Gazebo let pass is repaired when it can o
 """
 
 from pathlib import Path
+from typing import cast
 
 from lxml import etree
 
@@ -78,7 +79,7 @@ def _parser(*, recover: bool) -> etree.XMLParser:
 
 def _recover(text: bytes, notes: Notes, error: etree.XMLSyntaxError) -> XmlElement:
     parser = _parser(recover=True)
-    root = etree.fromstring(text, parser)
+    root = cast("XmlElement | None", etree.fromstring(text, parser))  # None for what has no element at all
     fatal = [entry for entry in parser.error_log if entry.type_name not in _REPAIRS]
     if root is None or fatal:
         line, column = error.position

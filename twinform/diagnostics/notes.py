@@ -37,7 +37,7 @@ class Notes:
         *,
         found: str | None = None,
         expected: str | None = None,
-        help: str | None = None,  # noqa: A002 - the word that the JSON report uses
+        help: str | None = None,
         related: tuple[Location, ...] = (),
         severity: Severity | None = None,
     ) -> None:

@@ -47,8 +47,8 @@ class Element(BaseModel):
 class Opaque(Sourced):
     """A part of a node that has no typed field: an element, an attribute or text, kept where it was.
 
-    `at` is the path from the node's own element to the one that holds the part, such as `limit`; `""` is the node's own.
-    Exactly one of `element`, `attribute` and `text` is there.
+    `at` is the path from the node's own element to the one that holds the part, such as `limit`; `""` is the node's
+    own. Exactly one of `element`, `attribute` and `text` is there.
     """
 
     at: str = ""

@@ -5,7 +5,7 @@ from twinform.ir.node import Node
 
 
 class GazeboExtension(Node):
-    """What URDF cannot say itself and Gazebo reads: for the link or joint `reference`, or for the model where it has none."""
+    """What URDF cannot say itself and Gazebo reads, for the link or joint `reference`; without one, for the model."""
 
     reference: str | None = None
     content: tuple[Element, ...] = ()

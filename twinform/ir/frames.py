@@ -1,6 +1,6 @@
 """Where everything is: the frames of a model or world, and what they are relative to."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal
 
@@ -115,6 +115,16 @@ class FrameGraph:
             FrameError: a name is not known, or the frames go round in a circle.
         """
         return self._body(self._find(name, kind, source)).name
+
+    def problems(self) -> Iterator[FrameError]:
+        """Every frame that cannot be resolved, or that moves with nothing."""
+        for vertices in list(self._named.values()):
+            for vertex in vertices:
+                try:
+                    self._settle(vertex)
+                    self._body(vertex)
+                except FrameError as error:
+                    yield error
 
     def knows(self, name: str) -> bool:
         """Whether a name stands for a frame."""

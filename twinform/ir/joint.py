@@ -50,7 +50,7 @@ class Mimic(Node):
 
 
 class Axis(Node):
-    """One degree of freedom along or about `xyz`, which is expressed in the joint frame unless `expressed_in` names another.
+    """One degree of freedom along or about `xyz`, in the joint frame or in the one that `expressed_in` names.
 
     `use_parent_model_frame` is the same question as SDF before 1.7 asked it: true means the model frame.
     """

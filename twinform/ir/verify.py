@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable
 from twinform.diagnostics import Location, Notes, Severity
 from twinform.diagnostics.rules import model as rules
 from twinform.ir.document import Document, Format
+from twinform.ir.frames import FrameGraph
 from twinform.ir.joint import Axis, Joint
 from twinform.ir.model import Model
 from twinform.ir.node import Node
@@ -27,7 +28,10 @@ def verify(document: Document, notes: Notes) -> None:
     for world in document.worlds:
         _verify_world(world, shared, notes)
     for model in (*document.models, *(model for world in document.worlds for model in world.models)):
+        before = len(notes.diagnostics)
         _verify_sdf_model(model, shared, notes)
+        if document.version not in _BEFORE_FRAMES and len(notes.diagnostics) == before:
+            _verify_frames(model, notes)
 
 
 def _verify_robot(model: Model, notes: Notes) -> None:
@@ -68,7 +72,7 @@ def _verify_tree(model: Model, links: set[str], notes: Notes) -> None:
     roots = list({link.name: link for link in model.links if link.name not in parents}.values())
     if len(roots) > 1:
         names = ", ".join(repr(link.name) for link in roots[:5])
-        message = f"robot {model.name!r} has {len(roots)} root links: {names}{', ...' if len(roots) > 5 else ''}"  # noqa: PLR2004 - enough to find them
+        message = f"robot {model.name!r} has {len(roots)} root links: {names}{', ...' if len(roots) > 5 else ''}"
         notes.report(
             rules.SEVERAL_ROOTS, message, roots[1].location, related=tuple(link.location for link in roots[2:5])
         )
@@ -163,6 +167,17 @@ def _verify_sdf_model(model: Model, shared: Severity, notes: Notes) -> None:
         notes.report(rules.EMPTY_MODEL, message, model.location, expected="<link>")
     for nested in model.models:
         _verify_sdf_model(nested, shared, notes)
+
+
+def _verify_frames(model: Model, notes: Notes) -> None:
+    """Every frame of the model and those nested in it must lead somewhere; names in includes are in other files."""
+    if any(each.includes for each in (model, *model.models)):
+        return
+    seen: set[tuple[str, str]] = set()
+    for problem in FrameGraph(model).problems():
+        if (problem.rule.name, problem.found) not in seen:
+            problem.report(notes)
+        seen.add((problem.rule.name, problem.found))
 
 
 def _verify_sdf_joint(joint: Joint, known: Callable[[str], bool], notes: Notes) -> None:

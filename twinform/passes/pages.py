@@ -18,9 +18,9 @@ from twinform.passes.syntax import print_value
 _INTRODUCTION = """\
 # Passes
 
-Steps from IR to IR, sorted by name. `twinform passes NAME` prints one page, and also those of passes from other packages.
-A pipeline is text, such as `check-inertia,fill-limits{effort=100}`; quote it, as shells give braces a meaning.
-This file is made by `python -m twinform.passes.pages docs/reference/passes.md`; do not edit it.
+Steps from IR to IR, sorted by name. `twinform passes NAME` prints one page, and also those of passes from other
+packages. A pipeline is text, such as `check-inertia,fill-limits{effort=100}`; quote it, as shells give braces a
+meaning. This file is made by `python -m twinform.passes.pages docs/reference/passes.md`; do not edit it.
 """
 _OWNER = "twinform"
 _WORDS: dict[object, str] = {str: "text", float: "number", int: "whole number", bool: "true or false"}
@@ -65,7 +65,7 @@ def _words(annotation: object) -> str:
         return " or ".join(map(str, inner))
     if isinstance(annotation, type) and issubclass(annotation, Enum):
         return " or ".join(str(each.value) for each in annotation)
-    return _WORDS.get(annotation, "text")
+    return _WORDS.get(cast("object", annotation), "text")
 
 
 def passes_page() -> str:

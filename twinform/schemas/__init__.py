@@ -7,7 +7,7 @@ from twinform.schemas.reader import Reader, element_data, reader
 from twinform.schemas.validator import Engine, SchemaError, gate, libxml2_errors, refusals, xmlschema_errors
 from twinform.schemas.values import format_value, parse_value
 from twinform.schemas.writer import Writer, element_xml, writer
-from twinform.schemas.xml import XmlElement
+from twinform.schemas.xml import XmlElement, path_of
 
 __all__ = [
     "Context",
@@ -26,6 +26,7 @@ __all__ = [
     "libxml2_errors",
     "parse_value",
     "parse_version",
+    "path_of",
     "print_version",
     "reader",
     "refusals",

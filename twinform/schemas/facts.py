@@ -140,7 +140,7 @@ _TABLES = {
 
 
 @cache
-def table(format: str) -> Table:  # noqa: A002 - the word of the domain
+def table(format: str) -> Table:
     """The facts of `urdf` or `sdf`."""
     root, versions = _TABLES[format]
     folder = resources.files("twinform.schemas").joinpath(format, "facts")
@@ -206,7 +206,7 @@ def _set(fact: Fact, key: str, value: str, where: str) -> None:
         case "default" | "unit":
             setattr(fact, key, value)
         case "min" | "max":
-            setattr(fact, key, float(value.split()[0]))  # of a vector, all components have one bound
+            setattr(fact, key, float(value.split(maxsplit=1)[0]))  # of a vector, all components have one bound
         case "since" | "until":
             setattr(fact, key, parse_version(value))
         case "enum":

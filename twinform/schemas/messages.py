@@ -28,7 +28,8 @@ class Context:
 
     `tolerated` holds the elements, and the attributes and texts of elements, that are reported and kept although the
     schema does not have them: the gate looks at the document without them. `#text` is the text in an element,
-    `#tail` the one that follows it. `header` holds what the root element says about the document rather than about its
+    `#tail` the one that follows it. `outside` lists those
+    of other versions. `header` holds what the root element says about the document rather than about its
     node.
     """
 
@@ -41,6 +42,7 @@ class Context:
     namespaces: dict[str, str] = field(default_factory=dict[str, str])
     clean: bool = False
     simple: bool = False
+    outside: list[tuple[XmlElement, Fact]] = field(default_factory=list[tuple[XmlElement, Fact]])
     header: dict[str, object] = field(default_factory=dict[str, object])
 
     def report(self, rule: Rule, element: XmlElement, message: str, step: str = "", **more: Unpack[Details]) -> None:
@@ -75,6 +77,7 @@ def unknown_attribute(context: Context, element: XmlElement, name: str, known: I
 def outside_version(context: Context, element: XmlElement, fact: Fact) -> None:
     """Something of another version."""
     name = fact.name
+    context.outside.append((element, fact))
     context.tolerated.append((element, name[1:] if fact.is_attribute else None))
     what = f"the attribute {name[1:]!r}" if fact.is_attribute else f"<{name}>"
     when = f"came with {context.format.upper()} {print_version(fact.since)}"
@@ -113,7 +116,7 @@ def repeated(context: Context, element: XmlElement) -> None:
 def invalid_value(context: Context, element: XmlElement, step: str, text: str, expected: str) -> None:
     """Text of the wrong type. `step` is the attribute, or empty for the element's own text."""
     subject = f"{step[1:]!r} of <{element.tag}>" if step else f"<{element.tag}>"
-    shown = text if len(text) <= 60 else text[:57] + "..."  # noqa: PLR2004 - a line of a terminal
+    shown = text if len(text) <= 60 else text[:57] + "..."
     message = f"{subject} is {shown!r}; expected {expected}"
     context.report(structure.INVALID_VALUE, element, message, step, found=text, expected=expected)
 

@@ -11,14 +11,14 @@ XsdVersion = Literal["1.0", "1.1"]
 """A version of the schema language."""
 
 
-def schema_file(format: str, version: Version, xsd: XsdVersion = "1.1") -> Traversable:  # noqa: A002 - the word of the domain
+def schema_file(format: str, version: Version, xsd: XsdVersion = "1.1") -> Traversable:
     """Where the schema of a format's version lies."""
     folder = resources.files("twinform.schemas").joinpath(format, f"xsd{xsd.replace('.', '')}")
     return folder.joinpath(f"{format}-{print_version(version)}.xsd")
 
 
 @cache
-def schema_text(format: str, version: Version, xsd: XsdVersion = "1.1") -> str:  # noqa: A002 - the word of the domain
+def schema_text(format: str, version: Version, xsd: XsdVersion = "1.1") -> str:
     """The schema of a format's version, in XSD 1.1 or its projection to XSD 1.0.
 
     Raises:

@@ -1,8 +1,8 @@
 """The short way through an element in which nothing is unusual, which is nearly every one.
 
 It is for documents that the schema has accepted and that have no namespaces: there, an element that the facts give no
-children has none. Everything here may give up: it then says so, has done nothing, and the reader takes the long way, which knows what to
-report. So nothing here checks twice, and none of it reports.
+children has none. Everything here may give up: it then says so, has done nothing, and the reader takes the long way,
+which knows what to report. So nothing here checks twice, and none of it reports.
 """
 
 from collections.abc import Callable
@@ -26,7 +26,14 @@ _BOOLS: dict[str, bool] = {"true": True, "false": False}
 def quick_parse(row: Fact, types: dict[str, ValueType], version: Version) -> Parse | None:
     """A parser that gives up on every value that needs a word, or None where the row itself is unusual."""
     place = row.place
-    if not place or "." in place or place[0] == "/" or row.type is None or row.fills_tuple or not row.exists_in(version):
+    if (
+        not place
+        or "." in place
+        or place[0] == "/"
+        or row.type is None
+        or row.fills_tuple
+        or not row.exists_in(version)
+    ):
         return None
     if row.type == "bool":
         return _BOOLS.__getitem__
@@ -90,7 +97,7 @@ def quick_pose(fact: Fact, types: dict[str, ValueType]) -> Quick | None:
             values = parse(element.text)
         except (*GIVE_UP, AttributeError):
             return False
-        if len(values) != 6:  # noqa: PLR2004 - three of a place and three angles
+        if len(values) != 6:
             return False
         node["xyz"], node["rpy"] = values[:3], values[3:]
         return True

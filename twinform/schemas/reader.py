@@ -20,7 +20,7 @@ _INSTANCE = "{http://www.w3.org/2001/XMLSchema-instance}"
 _OF_SCHEMAS = frozenset({_INSTANCE + "type", _INSTANCE + "nil"})
 """Foreign attributes that make an XSD engine check an element in another way."""
 
-_locate: Callable[[type[Source], tuple[object, ...]], Source] = tuple.__new__
+_locate: Callable[[type[Source], tuple[object, ...]], Source] = tuple.__new__  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] - typeshed leaves the items open
 """Makes a Source without the detour through its own constructor: this file makes one for every node."""
 
 Fill = Callable[[XmlElement, Data, str, Context], None]
@@ -76,7 +76,7 @@ class Reader:
         self.fills[definition or self.table.root](element, node, "", context)
         return node
 
-    def _fill(self, fact: Fact, *, keep: bool) -> Fill:
+    def _fill(self, fact: Fact, *, keep: bool) -> Fill:  # noqa: C901 - closures over one set of tables
         """The reader of an element's inside. Where `keep` is false it only checks."""
         attributes = {row.name[1:]: self._attribute(row, keep=keep) for row in self._rows(fact.attributes)}
         parses = [(row, quick_parse(row, self.types, self.version)) for row in fact.attributes if keep]
@@ -90,7 +90,7 @@ class Reader:
         read_text = self._text(fact, fact.place, keep=keep) if fact.type else None
         kinds = frozenset(row.name for row in fact.children if row.kind)
 
-        def fill(element: XmlElement, node: Data, at: str, context: Context) -> None:
+        def fill(element: XmlElement, node: Data, at: str, context: Context) -> None:  # noqa: C901 - the hot path
             for name, text in element.items():
                 if name in quick:
                     place_of, parse = quick[name]
@@ -217,7 +217,7 @@ class Reader:
     def _checked(self, row: Fact) -> ReadChild:
         check = self._inner(row, keep=False)
 
-        def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:  # noqa: ARG001 - all readers have one signature
+        def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
             check(child, node, "", context)
 
         return read
@@ -225,7 +225,7 @@ class Reader:
     def _opaque(self, row: Fact) -> ReadChild:
         check = self._inner(row, keep=False)
 
-        def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:  # noqa: ARG001 - all readers have one signature
+        def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
             check(child, {}, "", context)
             _keep_element(child, node, at, context)
 
@@ -236,7 +236,7 @@ class Reader:
         quick = quick_attributes(self.table.resolve(row), self.types, self.version)
         fill, name = self._inner(row, keep=True), row.name
 
-        def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:  # noqa: ARG001 - all readers have one signature
+        def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
             if quick is not None and context.simple and quick(child, node):
                 return
             if len(child) or child.keys() or not is_blank(child.text or ""):
@@ -285,7 +285,7 @@ class Reader:
         read_text = self._text(row, place, keep=True)
         parse = quick_parse(row, self.types, self.version) if row.type != "string" and not row.attributes else None
 
-        def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:  # noqa: ARG001 - all readers have one signature
+        def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
             if parse is not None and context.simple:
                 try:
                     node[field] = parse(child.text)
@@ -306,7 +306,7 @@ class Reader:
         parse, check, is_string, needed = value_type.parse, value_check(row), row.type == "string", row.needs_text
         store = value_store(row, place) if keep and place else None
 
-        def read(element: XmlElement, node: Data, at: str, context: Context) -> bool:  # noqa: ARG001 - the signature of a text reader
+        def read(element: XmlElement, node: Data, at: str, context: Context) -> bool:
             text = element.text or ""
             if is_string:
                 text = text.strip(" \t\r\n")
@@ -329,7 +329,7 @@ class Reader:
 
 
 @cache
-def reader(format: str, version: Version) -> Reader:  # noqa: A002 - the word of the domain
+def reader(format: str, version: Version) -> Reader:
     """The reader of a format in a version."""
     return Reader(table(format), version)
 

@@ -43,16 +43,16 @@ def value_check(row: Fact) -> Callable[[XmlElement, Any, Context], None] | None:
     return check_number if row.type in _SCALARS else check_vector
 
 
-def value_store(row: Fact, place: str) -> Store:
+def value_store(row: Fact, place: str) -> Store:  # noqa: C901 - six small closures, one of which is chosen
     """Puts a value, which comes with its text, where the IR has it."""
     outer, _, field = place.rpartition(".")
 
-    def store_pose(element: XmlElement, node: Data, read: tuple[tuple[float, ...], str], context: Context) -> None:  # noqa: ARG001 - all stores have one signature
+    def store_pose(element: XmlElement, node: Data, read: tuple[tuple[float, ...], str], context: Context) -> None:
         values = read[0]
         node["xyz"] = values[:3]
-        node["rpy" if len(values) == 6 else "quat_xyzw"] = values[3:]  # noqa: PLR2004 - three angles
+        node["rpy" if len(values) == 6 else "quat_xyzw"] = values[3:]
 
-    def store_repeated(element: XmlElement, node: Data, read: tuple[object, str], context: Context) -> None:  # noqa: ARG001
+    def store_repeated(element: XmlElement, node: Data, read: tuple[object, str], context: Context) -> None:
         node.setdefault(field, []).append(read[0])
 
     def store_inside(element: XmlElement, node: Data, read: tuple[object, str], context: Context) -> None:
@@ -63,15 +63,15 @@ def value_store(row: Fact, place: str) -> Store:
             holder = node[outer] = Data(source=source)
         holder[field] = read[0]
 
-    def store_header(element: XmlElement, node: Data, read: tuple[object, str], context: Context) -> None:  # noqa: ARG001
+    def store_header(element: XmlElement, node: Data, read: tuple[object, str], context: Context) -> None:
         context.header[place[1:]] = read[0]
 
-    def store_bool(element: XmlElement, node: Data, read: tuple[object, str], context: Context) -> None:  # noqa: ARG001
+    def store_bool(element: XmlElement, node: Data, read: tuple[object, str], context: Context) -> None:
         node[field], text = read
         if text not in ("true", "false"):
             node.setdefault("spelling", {})[field] = text.strip()
 
-    def store(element: XmlElement, node: Data, read: tuple[object, str], context: Context) -> None:  # noqa: ARG001
+    def store(element: XmlElement, node: Data, read: tuple[object, str], context: Context) -> None:
         node[field] = read[0]
 
     if place.startswith("/"):

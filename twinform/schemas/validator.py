@@ -66,7 +66,7 @@ def gate(
             context.notes.report(structure.SCHEMA_DISAGREEMENT, message, Location(context.file, error.line, "/"))
 
 
-def libxml2_errors(root: XmlElement, format: str, version: Version) -> list[SchemaError]:  # noqa: A002 - the word of the domain
+def libxml2_errors(root: XmlElement, format: str, version: Version) -> list[SchemaError]:
     """What libxml2 does not accept by the XSD 1.0 projection."""
     schema = _libxml2_schema(format, version)
     if schema.validate(root):
@@ -76,7 +76,7 @@ def libxml2_errors(root: XmlElement, format: str, version: Version) -> list[Sche
 
 def xmlschema_errors(
     root: XmlElement,
-    format: str,  # noqa: A002 - the word of the domain
+    format: str,
     version: Version,
     *,
     names: bool = True,

@@ -21,8 +21,7 @@ class ValueType:
 
 def format_number(value: float) -> str:
     """The shortest text that reads back as the same double."""
-    text = repr(value)
-    return text[:-2] if text.endswith(".0") else text
+    return repr(value).removesuffix(".0")
 
 
 def format_value(value: object) -> str:
@@ -38,8 +37,7 @@ def format_value(value: object) -> str:
 
 def format_numbers(values: tuple[float, ...]) -> str:
     """The text of a vector."""
-    texts = map(repr, values)
-    return " ".join([text[:-2] if text.endswith(".0") else text for text in texts])
+    return " ".join([repr(value).removesuffix(".0") for value in values])
 
 
 _TRUE = frozenset({"true", "1"})
@@ -123,13 +121,7 @@ def _ints(text: str) -> tuple[int, ...]:
 
 def _time(text: str) -> tuple[float, ...] | float:
     words = _ascii(text).split()
-    return tuple(map(_float, words)) if len(words) == 2 else _float(text)  # noqa: PLR2004 - seconds and nanoseconds
-
-
-def _pose(text: str) -> tuple[float, ...]:
-    values = _vector((6, 7))(text)
-    assert isinstance(values, tuple)  # noqa: S101 - for the type checker: a vector parser returns a tuple
-    return values  # pyright: ignore[reportUnknownVariableType]
+    return tuple(map(_float, words)) if len(words) == 2 else _float(text)
 
 
 def _string(text: str) -> str:
@@ -154,14 +146,16 @@ _SDF = _URDF | {
     "vector2i": ValueType(_ints, "two whole numbers"),
     "quaternion": ValueType(_vector((3, 4)), "three or four numbers"),
     "color": ValueType(_vector((3, 4)), "three or four numbers from 0 to 1: red green blue and perhaps alpha"),
-    "pose": ValueType(_pose, "six numbers, x y z roll pitch yaw, or seven with a quaternion: x y z qx qy qz qw"),
+    "pose": ValueType(
+        _vector((6, 7)), "six numbers, x y z roll pitch yaw, or seven with a quaternion: x y z qx qy qz qw"
+    ),
     "time": ValueType(_time, "seconds, or seconds and nanoseconds"),
 }
 
 VALUE_TYPES = {"urdf": _URDF, "sdf": _SDF}
 
 
-def parse_value(type: str, text: str, format: str = "sdf") -> object:  # noqa: A002 - the words of the domain
+def parse_value(type: str, text: str, format: str = "sdf") -> object:
     """The value of a text.
 
     Raises:

@@ -10,7 +10,7 @@ from operator import itemgetter
 from typing import Any
 
 from lxml import etree
-from lxml.etree import SubElement as _append
+from lxml.etree import SubElement
 
 from twinform.schemas.facts import Fact, Table, Version, table
 from twinform.schemas.values import format_numbers, format_value, parse_bool
@@ -25,6 +25,7 @@ Step = tuple[str, WriteValue]
 Show = Callable[[Any, Any], str]
 """The text of a value: (value, node)"""
 
+_VECTORS = frozenset({"vector3", "vector2d", "quaternion", "color", "color4"})
 _ALWAYS = "opaque"
 """A field that is never None, for steps that look at several fields themselves."""
 
@@ -32,10 +33,7 @@ _ALWAYS = "opaque"
 def element_xml(element: Any, parent: XmlElement | None = None) -> XmlElement:
     """The XML of an IR `Element`, below `parent` where one is given."""
     attributes = dict(element.attributes)
-    if parent is None:
-        made = etree.Element(element.name, attributes)
-    else:
-        made = _append(parent, element.name, attributes)
+    made = etree.Element(element.name, attributes) if parent is None else SubElement(parent, element.name, attributes)
     made.text, made.tail = element.text, element.tail
     for child in element.children:
         element_xml(child, made)
@@ -139,17 +137,17 @@ class Writer:
         if row.reference is None:
             return self._node(row)
         writes, name = self.writes, row.reference
-        return lambda node, element: writes[name](node, element)
+        return lambda node, element: writes[name](node, element)  # noqa: PLW0108 - it may not be there yet
 
     def _leaf(self, row: Fact) -> WriteValue:
         name, show = row.name, _show(row)
 
         def write(value: Any, node: Any, element: XmlElement) -> None:
-            _append(element, name).text = show(value, node)
+            SubElement(element, name).text = show(value, node)
 
         def write_each(values: Any, node: Any, element: XmlElement) -> None:
             for value in values:
-                _append(element, name).text = show(value, node)
+                SubElement(element, name).text = show(value, node)
 
         return write_each if row.fills_tuple else write
 
@@ -163,7 +161,7 @@ class Writer:
             value, written = values[field], [each for each in attributes if values[each[0]] is not None]
             if value is None and not written:
                 return
-            leaf = _append(element, name)
+            leaf = SubElement(element, name)
             if value is not None:
                 leaf.text = show(value, node)
             for place, write_attribute in written:
@@ -177,7 +175,7 @@ class Writer:
 
         def write(_: Any, node: Any, element: XmlElement) -> None:
             if any(_value(node, place) is not None for place in places):
-                fields(node, _append(element, name))
+                fields(node, SubElement(element, name))
 
         return write
 
@@ -186,7 +184,7 @@ class Writer:
         name, inner = row.name, self._inner(row)
 
         def write(child: Any, _: Any, element: XmlElement) -> None:
-            made = _append(element, name)
+            made = SubElement(element, name)
             inner(child, made)
             if not len(made) and not made.keys() and not made.text:
                 element.remove(made)
@@ -200,17 +198,17 @@ class Writer:
         def write(child: Any, _: Any, element: XmlElement) -> None:
             if child.kind in writes:
                 name, inner = writes[child.kind]
-                inner(child, _append(element, name))
+                inner(child, SubElement(element, name))
 
         return write
 
     def _many(self, row: Fact) -> Write:
         name, inner = row.name, self._inner(row)
-        return lambda child, element: inner(child, _append(element, name))
+        return lambda child, element: inner(child, SubElement(element, name))
 
 
 @cache
-def writer(format: str, version: Version) -> Writer:  # noqa: A002 - the word of the domain
+def writer(format: str, version: Version) -> Writer:
     """The writer of a format in a version."""
     return Writer(table(format), version)
 
@@ -245,6 +243,8 @@ def _show(row: Fact) -> Show:
         return show_bool
     if row.type == "string":
         return _show_text
+    if row.type in _VECTORS:
+        return _show_vector
     return _show_number if row.type == "double" else _show_value
 
 
@@ -253,12 +253,15 @@ def _show_text(value: str, _: Any) -> str:
 
 
 def _show_number(value: float, _: Any) -> str:
-    text = repr(value)
-    return text[:-2] if text.endswith(".0") else text
+    return repr(value).removesuffix(".0")
+
+
+def _show_vector(value: tuple[float, ...], _: Any) -> str:
+    return format_numbers(value)
 
 
 def _show_value(value: Any, _: Any) -> str:
-    return format_numbers(value) if isinstance(value, tuple) else format_value(value)
+    return format_value(value)
 
 
 def _pose_text(pose: Any) -> str | None:
@@ -295,5 +298,5 @@ def _write_opaque(parts: Iterable[Any], element: XmlElement) -> None:
 def _holder(element: XmlElement, path: str) -> XmlElement:
     for step in filter(None, path.split("/")):
         found = element.find(step)
-        element = found if found is not None else _append(element, step)
+        element = found if found is not None else SubElement(element, step)
     return element

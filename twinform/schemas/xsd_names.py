@@ -27,7 +27,7 @@ _REFERENCES = {
 }
 
 
-def declare_names(format: str, element: XmlElement, named: list[str], path: str) -> None:  # noqa: A002 - the word of the domain
+def declare_names(format: str, element: XmlElement, named: list[str], path: str) -> None:
     """Declare that each kind of the named children has its names once; where others refer to them, as a key."""
     references = [reference for reference in _REFERENCES[format] if reference.key in named]
     keys = {reference.key for reference in references}

@@ -65,7 +65,7 @@ def xs(parent: XmlElement, tag: str, /, **attributes: str) -> XmlElement:
 class Values:
     """The value types that one schema uses. Asking for one puts it on the list of those to declare."""
 
-    def __init__(self, format: str) -> None:  # noqa: A002 - the word of the domain
+    def __init__(self, format: str) -> None:
         self.words = WORDS[format]
         self.used: set[str] = set()
         self.blank: set[str] = set()

@@ -10,7 +10,7 @@ from twinform.diagnostics import Fate, Notes
 from twinform.ir import Document, Opaque
 from twinform.passes import Pipeline
 from twinform.passes.legalise.carrier import NAMESPACE, is_carrier, unpack
-from twinform.passes.legalise.to_urdf import PIPELINE, pipeline
+from twinform.passes.legalise.to_urdf import to_urdf
 from twinform.schemas import Context, XmlElement, libxml2_errors, parse_version, reader, writer
 
 LINK = "<link name='a'/>"
@@ -27,7 +27,7 @@ def read(text: str, version: str = "1.11", around: str = "<model name='m'>{}</mo
 
 def lower(document: Document, *, model: str | None = None, carriers: bool = True) -> tuple[XmlElement, Notes]:
     notes = Notes()
-    made = Pipeline(pipeline(model=model, carriers=carriers)).run(document, notes)
+    made = Pipeline(to_urdf(model=model, carriers=carriers)).run(document, notes)
     if notes.has_errors:
         return etree.Element("none"), notes
     assert made.format == "urdf"
@@ -425,7 +425,7 @@ def test_without_carriers_nothing_of_ours_is_left_and_the_ledger_says_dropped() 
 
 def test_carriers_unpack_to_the_pieces_as_they_were() -> None:
     document, notes = read(link(visual(BOX + "<transparency>0.5</transparency><foo:bar xmlns:foo='urn:f'/>"))), Notes()
-    made = Pipeline(pipeline()).run(document, notes).models[0].links[0].visuals[0]
+    made = Pipeline(to_urdf()).run(document, notes).models[0].links[0].visuals[0]
     pieces = [piece for part in made.opaque if is_carrier(part, "sdf") for piece in unpack(part)]
     assert [piece.name for piece in pieces] == ["<transparency>"]
     assert [part.name for part in made.opaque if isinstance(part, Opaque) and not is_carrier(part, "sdf")] == [
@@ -458,16 +458,19 @@ def test_urdfdom_reads_what_is_written(text: str, tmp_path: Path) -> None:
     assert urdfdom.complaints(file) == ()
 
 
-def test_a_capsule_makes_it_urdf_1_1() -> None:
+def test_a_capsule_is_carried_in_urdf_1_0_and_said_in_1_1() -> None:
     capsule = "<geometry><capsule><radius>1</radius></capsule></geometry>"
     document, notes = read(link(visual(capsule))), Notes()
-    assert Pipeline(pipeline()).run(document, notes).version == "1.1"
+    old = Pipeline(to_urdf()).run(document, notes)
+    assert (old.version, old.models[0].links[0].visuals) == (None, ())
+    new = Pipeline(to_urdf(urdf_version="1.1")).run(document, notes)
+    assert new.version == "1.1"
+    assert len(new.models[0].links[0].visuals) == 1
 
 
-def test_the_pipeline_has_every_pass_once_and_they_have_names() -> None:
-    names = [each.name for each in PIPELINE]
+def test_the_pipeline_has_every_pass_once() -> None:
+    names = [each.name for each in to_urdf()]
     assert len(set(names)) == len(names)
-    assert [each.name for each in pipeline()] == names
 
 
 def values(root: XmlElement) -> set[str]:

@@ -6,7 +6,8 @@ UNREADABLE_FILE = Rule(
     name="unreadable-file",
     severity=Severity.ERROR,
     finds="A file that is not there, cannot be opened, is empty, or is larger than 64 MB.",
-    matters="There is nothing to compile. The limit keeps a hostile file from filling the memory; robots stay far below.",
+    matters="There is nothing to compile. The limit keeps a hostile file from filling the memory; robots stay far "
+    "below.",
     example="`twinform check no_such_robot.urdf`",
     better="Check the path.",
 )
@@ -33,7 +34,8 @@ DOCTYPE = Rule(
     name="doctype",
     severity=Severity.ERROR,
     finds="A document type declaration.",
-    matters="Entities and default attributes change what a document says, can read other files and fill the memory. No robot "
+    matters="Entities and default attributes change what a document says, can read other files and fill the memory. "
+    "No robot "
     "needs one.",
     example="`<!DOCTYPE robot [<!ENTITY mass '1.0'>]>`",
     better="Write the values out, or use xacro properties.",

@@ -9,7 +9,8 @@ UNKNOWN_ELEMENT = Rule(
     finds="An element that no version of the format has at this place.",
     matters="Every reader ignores it without a word, so a misspelt tag looks as if it worked.",
     example="`<joint ...><limits lower='0' upper='1'/></joint>`: the tag is `<limit>`.",
-    better="Correct the name, or move what belongs to another tool into a namespace of its own (`<my:limits xmlns:my=...>`).",
+    better="Correct the name, or move what belongs to another tool into a namespace of its own (`<my:limits "
+    "xmlns:my=...>`).",
 )
 UNKNOWN_ATTRIBUTE = Rule(
     name="unknown-attribute",

@@ -5,11 +5,13 @@ from twinform.diagnostics.rule import Rule, Severity
 URDF_ONLY = Rule(
     name="urdf-only",
     severity=Severity.INFO,
-    finds="A part of a URDF file that SDF has no word for: transmissions, ros2_control, safety limits, calibration, elements "
+    finds="A part of a URDF file that SDF has no word for: transmissions, ros2_control, safety limits, calibration, "
+    "elements "
     "of other tools.",
     matters="Gazebo does not read it; ROS and our way back do.",
     example="`<transmission>`, `<safety_controller>`, `<calibration>`.",
-    better="Nothing needs doing: it travels in a carrier, which every other reader skips. `--no-carriers` leaves it out.",
+    better="Nothing needs doing: it travels in a carrier, which every other reader skips. `--no-carriers` leaves it "
+    "out.",
 )
 MATERIAL_NAME = Rule(
     name="material-name",
@@ -30,7 +32,8 @@ WORLD_LINK = Rule(
 MASSLESS_LINK = Rule(
     name="massless-link",
     severity=Severity.WARNING,
-    finds="A link without mass that moves by itself: it is neither fixed to another nor carries anything that has mass.",
+    finds="A link without mass that moves by itself: it is neither fixed to another nor carries anything that has "
+    "mass.",
     matters="Simulators divide by its mass. libsdformat drops it with everything below it.",
     example="A wheel without `<inertial>` on a continuous joint.",
     better="Give it an inertia; `fill-inertia` can do that from its shapes.",
@@ -100,4 +103,14 @@ OLDER_VERSION = Rule(
     matters="Readers of that version would not see it.",
     example="`mimic` before 1.11, `capsule` before 1.8.",
     better="Ask for a newer `--sdf-version` if the simulator reads it.",
+)
+VERSION_CHANGE_UNSUPPORTED = Rule(
+    name="version-change-unsupported",
+    severity=Severity.ERROR,
+    finds="An SDF file that was asked for in another version of SDF.",
+    matters="Names, defaults and frames mean different things in different versions; with another number alone, the "
+    "file "
+    "would say another robot.",
+    example="`twinform convert model-1_6.sdf --to sdf --sdf-version 1.9`",
+    better="Leave the version out; the file keeps its own.",
 )

@@ -1,22 +1,41 @@
 """The passes that turn what a target cannot say into what it can."""
 
+from dataclasses import dataclass
+from typing import Literal
+
 from twinform.ir import Format
 from twinform.passes.base import Pass
+from twinform.passes.legalise.keep_version import KeepVersion
 
-__all__ = ["legalisation"]
+__all__ = ["Target", "legalisation"]
 
 
-def legalisation(
-    source: Format, target: Format, *, sdf_version: str, carriers: bool = True, model: str | None = None
-) -> tuple[Pass, ...]:
-    """Every pass that a document of `source` needs before the back end of `target` can write it."""
-    if source is target:
-        return ()
-    if target is Format.SDF:
-        from twinform.passes.legalise.to_sdf import to_sdf
+@dataclass(frozen=True, slots=True)
+class Target:
+    """What a conversion is to make.
 
-        return to_sdf(sdf_version, carriers=carriers)
-    from twinform.passes.legalise.to_urdf import pipeline as to_urdf
-    from twinform.passes.legalise.to_urdf.unpack_urdf import UnpackUrdf
+    `carriers` says whether parts that the target cannot say travel along; `model` names the one of several models that
+    becomes a URDF.
+    """
 
-    return (*to_urdf(model=model, carriers=carriers), UnpackUrdf())
+    format: Format
+    sdf_version: str = "1.11"
+    urdf_version: Literal["1.0", "1.1", "1.2"] = "1.0"
+    carriers: bool = True
+    model: str | None = None
+
+
+def legalisation(source: Format, version: str | None, target: Target) -> tuple[Pass, ...]:
+    """Every pass that a document of `source` in `version` needs before the target's back end can write it."""
+    if source is target.format:
+        return (
+            (KeepVersion(version=target.sdf_version),) if source is Format.SDF and version != target.sdf_version else ()
+        )
+    # imported here: a conversion goes one way only, and each way has many passes
+    if target.format is Format.SDF:
+        from twinform.passes.legalise.to_sdf import to_sdf  # noqa: PLC0415
+
+        return to_sdf(target.sdf_version, carriers=target.carriers)
+    from twinform.passes.legalise.to_urdf import to_urdf  # noqa: PLC0415
+
+    return to_urdf(model=target.model, urdf_version=target.urdf_version, carriers=target.carriers)

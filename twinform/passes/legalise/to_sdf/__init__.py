@@ -1,6 +1,7 @@
 """From the terms of URDF to those of SDF: the passes, in order."""
 
 from twinform.passes.base import Pass
+from twinform.passes.legalise.to_sdf.absolute_poses import AbsolutePoses
 from twinform.passes.legalise.to_sdf.bodies import UrdfBodies
 from twinform.passes.legalise.to_sdf.carry_urdf import CarryUrdf
 from twinform.passes.legalise.to_sdf.fit_version import FitVersion
@@ -13,12 +14,19 @@ from twinform.passes.legalise.to_sdf.retarget import RetargetSdf
 from twinform.passes.legalise.to_sdf.shared_materials import SharedMaterials
 from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
 from twinform.passes.legalise.to_sdf.world_link import WorldLink
+from twinform.schemas import parse_version
 
 __all__ = ["to_sdf"]
+
+_AXES_IN_JOINTS = (1, 5)
+"""The version since which an axis is in the frame of its joint."""
+_NAMED_FRAMES = (1, 7)
+"""The version since which poses may name the frame that they are in."""
 
 
 def to_sdf(version: str, *, carriers: bool) -> tuple[Pass, ...]:
     """The passes that make SDF of a version out of a URDF document."""
+    named_frames = parse_version(version) >= _NAMED_FRAMES
     return (
         CarryUrdf(carriers=carriers),  # before anything of SDF comes in
         FoldGazebo(),
@@ -31,5 +39,10 @@ def to_sdf(version: str, *, carriers: bool) -> tuple[Pass, ...]:
         UrdfBodies(),
         MeshUris(),
         FitVersion(version=version, carriers=carriers),
+        *(
+            ()
+            if named_frames
+            else (AbsolutePoses(carriers=carriers, axes_in_model=parse_version(version) < _AXES_IN_JOINTS),)
+        ),
         RetargetSdf(version=version),
     )

@@ -15,8 +15,8 @@ _NONE = Inertial(mass=0.0, inertia=Inertia(ixx=0.0, ixy=0.0, ixz=0.0, iyy=0.0, i
 class UrdfBodies(ModelPass):
     """Write out what URDF means by saying nothing about a link's mass, and name the root.
 
-    Changes: 1. a link without inertial gets one of zero: SDF would give it 1 kg; 2. `canonical_link` names the root where
-    another link comes first.
+    Changes: 1. a link without inertial gets one of zero: SDF would give it 1 kg; 2. `canonical_link` names the root
+    where another link comes first.
     Never touches: an inertial that is written.
     Diagnostics: `massless-link` for a link that moves although nothing fixed to it has mass.
     """

@@ -15,8 +15,8 @@ class CarryUrdf(ModelPass):
     """Put every opaque part of a URDF model into a carrier where it stands, and unpack those that SDF left here.
 
     Changes: 1. opaque elements, attributes and text of URDF (transmissions, ros2_control, other tools' elements) become
-    carriers; 2. parts of an origin, which is a plain text in SDF, are carried by what has the origin; 3. carriers of SDF
-    become opaque parts of SDF again. With `carriers` false, the parts of the first two are dropped.
+    carriers; 2. parts of an origin, which is a plain text in SDF, are carried by what has the origin; 3. carriers of
+    SDF become opaque parts of SDF again. With `carriers` false, the parts of the first two are dropped.
     Never touches: typed fields.
     Diagnostics: none; every part has a ledger entry under `urdf-only`.
     """

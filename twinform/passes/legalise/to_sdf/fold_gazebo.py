@@ -157,7 +157,7 @@ class _Fold:
             self.notes.report(structure.INVALID_VALUE, message, where.at(element.name), found=text)
 
     def _into_shapes(self, link: Link, blob: tuple[Element, GazeboExtension]) -> Link:
-        """Each child of a `<visual>` or `<collision>` blob goes into every shape of its kind, in place of what is there."""
+        """Each child of a `<visual>` or `<collision>` goes into every shape of its kind, in place of what is there."""
         element, extension = blob
         field, kind = ("visuals", "visual") if element.name == "visual" else ("collisions", "collision")
         extra = self._read_as(kind, kind, [extension.model_copy(update={"content": element.children})])

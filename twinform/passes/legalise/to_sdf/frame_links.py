@@ -4,8 +4,7 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf
-from twinform.ir import Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, count_parts
-from twinform.ir import Collision, Visual
+from twinform.ir import Collision, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual, count_parts
 from twinform.passes.legalise.carrier import carry, to_element
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.to_sdf.name_shapes import name_all
@@ -17,8 +16,8 @@ class FrameLinks(ModelPass):
     """Turn a link without mass on a fixed joint into SDF's `<frame>`, and its joint into another one.
 
     Changes: 1. the joint becomes a frame attached to its parent, with the joint's origin; 2. the link becomes a frame
-    attached to that one; 3. visuals, collisions, sensors and lights move to the nearest link above that stays a link, and
-    are posed in the link's frame as before. Joints below keep the link's name as their parent.
+    attached to that one; 3. visuals, collisions, sensors and lights move to the nearest link above that stays a link,
+    and are posed in the link's frame as before. Joints below keep the link's name as their parent.
     Never touches: links with mass; a link fixed to the world, which has no link above.
     Diagnostics: none; ledger entries under `frame-link` for what a frame cannot have.
     """

@@ -17,10 +17,10 @@ _OF_FIXED = frozenset({"axis", "limit", "dynamics", "mimic"})
 class UrdfJoints(ModelPass):
     """Say the types, default axes and default limits of URDF in SDF's terms.
 
-    Changes: 1. a `fixed` joint loses its axis, limits and the like, which are carried; 2. a `continuous` joint loses lower
-    and upper limit, which URDF ignores; 3. a joint that moves gets its axis written, 1 0 0 where URDF leaves it out;
-    4. a revolute or prismatic joint gets its limits written, 0 where URDF leaves them out; 5. a `floating` joint goes, and
-    its child link is posed where it was; 6. limits of acceleration and jerk, which SDF lacks, are carried.
+    Changes: 1. a `fixed` joint loses its axis, limits and the like, which are carried; 2. a `continuous` joint loses
+    lower and upper limit, which URDF ignores; 3. a joint that moves gets its axis written, 1 0 0 where URDF leaves it
+    out; 4. a revolute or prismatic joint gets its limits written, 0 where URDF leaves them out; 5. a `floating` joint
+    goes, and its child link is posed where it was; 6. limits of acceleration and jerk, which SDF lacks, are carried.
     Never touches: names, origins, parents, children.
     Diagnostics: `joint-type-unsupported` for `planar`; ledger entries under `urdf-only` and `no-joint`.
     """

@@ -19,7 +19,7 @@ class MeshUris(ModelPass):
 
     name: ClassVar[str] = "mesh-uris"
 
-    def run_model(self, model: Model, notes: Notes) -> Model:  # noqa: ARG002 - the signature of a pass
+    def run_model(self, model: Model, notes: Notes) -> Model:
         """The model with URIs that Gazebo resolves."""
         return model.model_copy(update={"links": tuple([_link(link) for link in model.links])})
 

@@ -49,9 +49,8 @@ def name_all(shapes: tuple[Shape, ...], base: str, notes: Notes) -> tuple[Shape,
             if shape.name:
                 message = f"{shape.name!r} is there twice; the second one is called {name!r} in SDF"
                 notes.account(Fate.APPROXIMATED, to_sdf.SHAPE_NAME, message, shape.location)
-            shape = shape.model_copy(update={"name": name})  # noqa: PLW2901 - the same shape under its name
         seen.add(name)
-        named.append(shape)
+        named.append(shape if shape.name == name else shape.model_copy(update={"name": name}))
     return tuple(named)
 
 

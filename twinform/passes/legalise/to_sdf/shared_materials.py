@@ -13,9 +13,9 @@ from twinform.passes.legalise.model_pass import ModelPass
 class SharedMaterials(ModelPass):
     """Write the colour and texture of a URDF material into every visual that uses it.
 
-    Changes: 1. a colour becomes `diffuse` and `ambient`; 2. a texture becomes the albedo map of a PBR material; 3. a visual
-    that only names a material takes what is defined for the name, by the robot or else by the first visual that says more.
-    The `<material>` elements as they stood are carried, by the visual and by the model.
+    Changes: 1. a colour becomes `diffuse` and `ambient`; 2. a texture becomes the albedo map of a PBR material; 3. a
+    visual that only names a material takes what is defined for the name, by the robot or else by the first visual that
+    says more. The `<material>` elements as they stood are carried, by the visual and by the model.
     Never touches: what a `<gazebo>` element says about the look.
     Diagnostics: none; ledger entries under `material-name`.
     """

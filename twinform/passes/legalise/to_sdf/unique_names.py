@@ -9,15 +9,15 @@ from twinform.ir import Joint, Link, Model, Opaque, Pose
 from twinform.passes.legalise.carrier import carry
 from twinform.passes.legalise.model_pass import ModelPass
 
-
 Named = TypeVar("Named", Link, Joint)
 
 
 class UniqueNames(ModelPass):
     """Give joints names that no link has, and links names that SDF does not keep for itself.
 
-    Changes: 1. a joint with a link's name becomes `NAME_joint` (with a number if that is taken too), and mimics and poses
-    follow; 2. a link called `world`, or with two underscores at both ends, becomes `NAME_link`, and joints and poses follow.
+    Changes: 1. a joint with a link's name becomes `NAME_joint` (with a number if that is taken too), and mimics and
+    poses follow; 2. a link called `world`, or with two underscores at both ends, becomes `NAME_link`, and joints and
+    poses follow.
     Never touches: names inside plugins, which only the plugins understand.
     Diagnostics: `renamed`. The old name is carried.
     """

@@ -29,7 +29,7 @@ class WorldLink(ModelPass):
         links = tuple(link for link in model.links if link is not world)
         joints = tuple(_on_model(joint) for joint in model.joints)
         model = model.model_copy(update={"links": links, "joints": joints})
-        return self._keep_body(model, world, notes) if count_parts(world) > 2 else model  # noqa: PLR2004 - element and name
+        return self._keep_body(model, world, notes) if count_parts(world) > 2 else model
 
     def _keep_body(self, model: Model, world: Link, notes: Notes) -> Model:
         message = "the link 'world' has a body, which SDF's world cannot have"

@@ -4,12 +4,13 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Capsule, Collision, Document, Format, Joint, Link, Model, Node, Opaque, Visual
+from twinform.ir import Document, Format, Joint, Link, Model, Node, Opaque
 from twinform.ir.frames import WORLD
 from twinform.passes.base import Pass
 from twinform.passes.legalise.carrier import NAMESPACE, PREFIX
 from twinform.passes.legalise.to_urdf.base import sdf_version
 from twinform.passes.legalise.to_urdf.keeper import MADE, Keeper, mark_made
+from twinform.passes.legalise.to_urdf.map_geometry import UrdfVersion
 from twinform.passes.legalise.to_urdf.remainder import Words, take_remainder, urdf_words
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -22,14 +23,15 @@ class CarryTheRest(Pass):
     """Carry every part that URDF has no word for, and call the document URDF.
 
     Changes: 1. typed fields and opaque parts that the table of URDF has no row for go into carriers on the nearest
-    element that URDF has; 2. `world` becomes a link where a joint hangs from it; 3. the document is URDF 1.1 where it
-    needs a capsule.
+    element that URDF has; 2. `world` becomes a link where a joint hangs from it; 3. the document is URDF of the version
+    asked for; 1.0, which every reader takes, goes without saying.
     Diagnostics: `unsayable-number`; in the ledger `sdf-only`.
     """
 
     name: ClassVar[str] = "carry-the-rest"
 
     carriers: bool = True
+    urdf_version: UrdfVersion = "1.0"
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The document in terms of URDF."""
@@ -42,7 +44,7 @@ class CarryTheRest(Pass):
         namespaces = tuple(pair for pair in document.namespaces if pair[0] not in ("", PREFIX))
         if self.carriers:
             namespaces = (*namespaces, (PREFIX, NAMESPACE))
-        version = "1.1" if any(_has_capsule(link) for model in models for link in model.links) else None
+        version = None if self.urdf_version == "1.0" else self.urdf_version
         update = {"format": Format.URDF, "version": version, "models": models, "namespaces": namespaces}
         return document.model_copy(update=update)
 
@@ -103,11 +105,6 @@ class _Rest:
             message = f"{path} of {of} is {text}, and numbers in URDF are finite"
             self.keeper.notes.report(rules.UNSAYABLE_NUMBER, message, node.location, found=text)
         return kept
-
-
-def _has_capsule(link: Link) -> bool:
-    shapes: tuple[Visual | Collision, ...] = (*link.visuals, *link.collisions)
-    return any(one.geometry is not None and isinstance(one.geometry.shape, Capsule) for one in shapes)
 
 
 def without_marks(model: Model) -> Model:

@@ -36,7 +36,7 @@ class ExtendGazebo(ToUrdfPass):
 
     name: ClassVar[str] = "extend-gazebo"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:  # noqa: ARG002 - the signature of all passes; nothing is lost
+    def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model with its extensions."""
         extensions = list(model.extensions)
         links: list[Link] = []

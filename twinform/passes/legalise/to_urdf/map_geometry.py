@@ -1,6 +1,6 @@
 """The shapes that URDF has, and the others."""
 
-from typing import ClassVar, TypeVar
+from typing import ClassVar, Literal, TypeVar
 
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import (
@@ -21,6 +21,8 @@ from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper, mark_made
 from twinform.passes.legalise.to_urdf.nodes import piece, text_piece
 
+UrdfVersion = Literal["1.0", "1.1", "1.2"]
+Sayable = frozenset[type[Node]]
 AnyShaped = TypeVar("AnyShaped", Visual, Collision)
 
 _DEFAULTS: dict[type[Node], dict[str, object]] = {
@@ -37,26 +39,28 @@ class MapGeometry(ToUrdfPass):
     """Keep the shapes that URDF has, with all their sizes.
 
     Changes: 1. a size that is not written is SDF's default; 2. `model://` becomes `package://`; 3. a visual or
-    collision with a shape that URDF lacks leaves the link, whole, into a carrier.
+    collision with a shape that URDF lacks, which a capsule is before 1.1, leaves the link, whole, into a carrier.
     Diagnostics: `unsayable-shape`; in the ledger `unsayable-shape` and `sdf-only`.
     """
 
     name: ClassVar[str] = "map-geometry"
+    urdf_version: UrdfVersion = "1.0"
 
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model with shapes of URDF alone."""
-        return model.model_copy(update={"links": tuple(_map_link(link, keeper) for link in model.links)})
+        sayable = frozenset(_DEFAULTS) - ({Capsule} if self.urdf_version == "1.0" else set())
+        return model.model_copy(update={"links": tuple(_map_link(link, sayable, keeper) for link in model.links)})
 
 
-def _map_link(link: Link, keeper: Keeper) -> Link:
-    link = _sort(link, "collisions", "collision", link.collisions, keeper)
-    return _sort(link, "visuals", "visual", link.visuals, keeper)
+def _map_link(link: Link, sayable: Sayable, keeper: Keeper) -> Link:
+    link = _sort(link, "collisions", "collision", link.collisions, sayable, keeper)
+    return _sort(link, "visuals", "visual", link.visuals, sayable, keeper)
 
 
-def _sort(link: Link, field: str, tag: str, shapes: tuple[AnyShaped, ...], keeper: Keeper) -> Link:
+def _sort(link: Link, field: str, tag: str, shapes: tuple[AnyShaped, ...], sayable: Sayable, keeper: Keeper) -> Link:
     kept: list[AnyShaped] = []
     for one in shapes:
-        if _can_say(one.geometry):
+        if _can_say(one.geometry, sayable):
             kept.append(_map_shape(one, tag, keeper))
             continue
         kind = one.geometry.shape.kind if one.geometry and one.geometry.shape else "no shape"
@@ -69,13 +73,13 @@ def _sort(link: Link, field: str, tag: str, shapes: tuple[AnyShaped, ...], keepe
     return link.model_copy(update={field: tuple(kept)}) if shapes else link
 
 
-def _can_say(geometry: Geometry | None) -> bool:
+def _can_say(geometry: Geometry | None, sayable: Sayable) -> bool:
     shape = geometry.shape if geometry else None
     if isinstance(shape, Mesh):
         return shape.uri is not None and not any(
             part.element and part.element.name == "submesh" for part in shape.opaque
         )
-    return type(shape) in _DEFAULTS
+    return type(shape) in sayable
 
 
 def _map_shape(one: AnyShaped, tag: str, keeper: Keeper) -> AnyShaped:

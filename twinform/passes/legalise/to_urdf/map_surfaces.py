@@ -30,7 +30,7 @@ class MapSurfaces(ToUrdfPass):
 
     name: ClassVar[str] = "map-surfaces"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:  # noqa: ARG002 - the signature of all passes; nothing is lost
+    def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model with shared surfaces in extensions."""
         links: list[Link] = []
         extensions = list(model.extensions)

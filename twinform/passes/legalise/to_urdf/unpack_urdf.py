@@ -18,8 +18,8 @@ _STAYS = frozenset({"joint", "link"})
 class UnpackUrdf(ModelPass):
     """Put what came from a URDF file back into the robot.
 
-    Changes: 1. transmissions, ros2_control, safety limits and the like become what they were; 2. so do shared materials;
-    3. a visual has its own `<material>` again, if that still means the colour that the visual has.
+    Changes: 1. transmissions, ros2_control, safety limits and the like become what they were; 2. so do shared
+    materials; 3. a visual has its own `<material>` again, if that still means the colour that the visual has.
     Never touches: renamed joints, frames and floating joints, whose carriers stay.
     Diagnostics: `stale-carrier` for a material that no longer fits.
     """
@@ -31,7 +31,9 @@ class UnpackUrdf(ModelPass):
         if notes.has_errors:
             return model
         carried = [piece.element for part in model.opaque if is_carrier(part, "urdf") for piece in unpack(part)]
-        materials = tuple(_material(element) for element in carried if element is not None and element.name == "material")
+        materials = tuple(
+            _material(element) for element in carried if element is not None and element.name == "material"
+        )
         shared = {material.name: material.color for material in materials}
         model = map_children(model, lambda node: _unpack(node, shared, notes))
         kept = tuple(part for part in _native(model) if part.element is None or part.element.name != "material")
@@ -50,7 +52,9 @@ def _unpack(node: Node, shared: dict[str | None, Color | None], notes: Notes) ->
 def _native(node: Node) -> tuple[Opaque, ...]:
     """The opaque parts of a node, those of URDF out of their carriers where they can be."""
     return tuple(
-        piece for part in node.opaque for piece in (unpack(part) if is_carrier(part, "urdf") and _fits(part) else (part,))
+        piece
+        for part in node.opaque
+        for piece in (unpack(part) if is_carrier(part, "urdf") and _fits(part) else (part,))
     )
 
 
