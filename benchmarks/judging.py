@@ -7,7 +7,6 @@ from pathlib import Path
 
 import twinform
 from benchmarks import drake
-from tests.corpus.examine import SDF_VERSION
 from tests.corpus.files import ROOT, CorpusFile, Kind
 
 OUT = ROOT / "out" / "oracle"
@@ -58,12 +57,12 @@ def judge(file: CorpusFile) -> tuple[Outcome, ...]:
 
 
 def rewrite(file: CorpusFile) -> Path | None:
-    """Write an SDF file in the version that libsdformat 12 reads; None where that is refused."""
+    """Write an SDF file in its own version; None where that is refused."""
     try:
-        text = twinform.convert(file.path, to="sdf", sdf_version=SDF_VERSION).text
+        text = twinform.convert(file.path, to="sdf").text
     except twinform.CompileError:
         return None
-    return _written(f"{file.name}.{SDF_VERSION}.sdf", text)
+    return _written(f"{file.name}.again.sdf", text)
 
 
 def post_mortem(file: CorpusFile) -> tuple[Outcome, ...]:

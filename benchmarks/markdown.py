@@ -23,4 +23,4 @@ def _cell(value: object) -> str:
 
 
 def _is_number(cell: str) -> bool:
-    return cell.replace(".", "", 1).replace(",", "").removeprefix("-").removesuffix(" %").isdigit()
+    return cell.replace(".", "", 1).replace(",", "").removeprefix("-").removesuffix("%").isdigit()

@@ -74,8 +74,10 @@ def _readers(outcomes: list[Outcome]) -> tuple[Reader, ...]:
             _by_libsdformat(from_urdf),
             libsdformat.KNOWN,
         ),
-        Reader("libsdformat 12", "SDF 1.9 from SDF files that it takes itself", _by_libsdformat(_rewritten(good)), {}),
-        Reader("check_urdf", "URDF from SDF", _by_urdfdom(to_urdf), urdfdom.KNOWN),
+        Reader(
+            "libsdformat 12", "SDF files that it takes itself, written again", _by_libsdformat(_rewritten(good)), {}
+        ),
+        Reader("check_urdf", "URDF from SDF", _by_urdfdom(to_urdf), {}),
     )
 
 

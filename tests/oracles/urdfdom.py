@@ -6,12 +6,6 @@ from pathlib import Path
 
 MISSING = "urdfdom is not here: it needs check_urdf of liburdfdom-tools"
 
-KNOWN = {
-    "RobotLocomotion+drake/multibody/parsing/test/sdf_parser_test/all_geometries_as_visual.sdf": "capsules (URDF 1.1)",
-    "gazebosim+sdformat/test/sdf/shapes.sdf": "capsules (URDF 1.1)",
-}
-"""SDF files of the corpus whose URDF it does not read, since it has only URDF 1.0, and what they need."""
-
 
 def available() -> bool:
     """Whether its tool is installed."""

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable
 from twinform.diagnostics import Location, Notes, Severity
 from twinform.diagnostics.rules import model as rules
 from twinform.ir.document import Document, Format
-from twinform.ir.frames import FrameGraph
+from twinform.ir.frames import FrameError, FrameGraph
 from twinform.ir.joint import Axis, Joint
 from twinform.ir.model import Model
 from twinform.ir.node import Node
@@ -174,7 +174,12 @@ def _verify_frames(model: Model, notes: Notes) -> None:
     if any(each.includes for each in (model, *model.models)):
         return
     seen: set[tuple[str, str]] = set()
-    for problem in FrameGraph(model).problems():
+    try:
+        graph = FrameGraph(model)
+    except FrameError as error:
+        error.report(notes)
+        return
+    for problem in graph.problems():
         if (problem.rule.name, problem.found) not in seen:
             problem.report(notes)
         seen.add((problem.rule.name, problem.found))

@@ -18,7 +18,7 @@ class MapMaterials(ToUrdfPass):
     """Say colours and albedo maps as URDF does.
 
     Changes: 1. the diffuse colour, or the ambient one where that is all there is, becomes the colour; both are carried
-    unless they are equal, as URDF's one colour means both; 2. the albedo map becomes the texture; 3. each such material
+    unless they are equal, as URDF's one colour means both; a part beyond 0 or 1 is cut off there; 2. the albedo map becomes the texture; 3. each such material
     gets a name, LINK_VISUAL_material, because URDF asks for one; 4. a material of Gazebo Classic that all visuals of a
     link share is its `<material>` tag too.
     Never touches: the other parts of a material, which the last pass carries.
@@ -48,7 +48,7 @@ def _map_visual(visual: Visual, link: Link, names: set[str], keeper: Keeper) -> 
     update: dict[str, object] = {}
     color = material.diffuse or material.ambient
     if color is not None:
-        update |= {"color": _with_alpha(color), "diffuse": None, "ambient": None}
+        update |= {"color": _urdf_color(color), "diffuse": None, "ambient": None}
         visual = _keep_colours(visual, material, keeper)
     if material.albedo_map is not None:
         uri, lost = package_uri(material.albedo_map)
@@ -65,13 +65,16 @@ def _map_visual(visual: Visual, link: Link, names: set[str], keeper: Keeper) -> 
     return visual.model_copy(update={"material": made})
 
 
-def _with_alpha(color: Color) -> Color:
-    return color if len(color) == _OPAQUE_COLOR else (*color, 1.0)
+def _urdf_color(color: Color) -> Color:
+    """With alpha, and each part from 0 to 1, outside of which urdfdom refuses it."""
+    clamped = tuple(min(1.0, max(0.0, part)) for part in color)
+    within = color if clamped == color else clamped
+    return within if len(color) == _OPAQUE_COLOR else (*within, 1.0)
 
 
 def _keep_colours(visual: Visual, material: Material, keeper: Keeper) -> Visual:
     """Carry the colours where they say more than one colour does."""
-    if material.diffuse == material.ambient and len(material.diffuse or ()) == _OPAQUE_COLOR:
+    if material.diffuse == material.ambient and material.diffuse == _urdf_color(material.diffuse or ()):
         return visual
     written = (("ambient", material.ambient), ("diffuse", material.diffuse))
     pieces = [text_piece(name, format_value(color), "material") for name, color in written if color is not None]
