@@ -9,14 +9,15 @@ from twinform.ir import Inertia, Inertial, Link, Model
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.to_sdf.frame_links import is_massless
 
-_NONE = Inertial(mass=0.0, inertia=Inertia(ixx=0.0, ixy=0.0, ixz=0.0, iyy=0.0, iyz=0.0, izz=0.0))
+_NO_INERTIA = Inertia(ixx=0.0, ixy=0.0, ixz=0.0, iyy=0.0, iyz=0.0, izz=0.0)
+_NONE = Inertial(mass=0.0, inertia=_NO_INERTIA)
 
 
 class UrdfBodies(ModelPass):
     """Write out what URDF means by saying nothing about a link's mass, and name the root.
 
-    Changes: 1. a link without inertial gets one of zero: SDF would give it 1 kg; 2. `canonical_link` names the root
-    where another link comes first.
+    Changes: 1. a link without inertial, mass or inertia gets one of zero: SDF would give it 1 kg or 1 kg m^2; 2.
+    `canonical_link` names the root where another link comes first.
     Never touches: an inertial that is written.
     Diagnostics: `massless-link` for a link that moves although nothing fixed to it has mass.
     """
@@ -51,7 +52,15 @@ class UrdfBodies(ModelPass):
 
 
 def _with_inertial(link: Link) -> Link:
-    return link if link.inertial is not None else link.model_copy(update={"inertial": _NONE})
+    inertial = link.inertial
+    if inertial is None:
+        return link.model_copy(update={"inertial": _NONE})
+    missing: dict[str, object] = {}
+    if inertial.mass is None:
+        missing["mass"] = 0.0
+    if inertial.inertia is None:
+        missing["inertia"] = _NO_INERTIA
+    return link.model_copy(update={"inertial": inertial.model_copy(update=missing)}) if missing else link
 
 
 def _reaches(start: str, edges: dict[str, list[str]], goal: set[str]) -> bool:

@@ -18,9 +18,9 @@ class MapMaterials(ToUrdfPass):
     """Say colours and albedo maps as URDF does.
 
     Changes: 1. the diffuse colour, or the ambient one where that is all there is, becomes the colour; both are carried
-    unless they are equal, as URDF's one colour means both; a part beyond 0 or 1 is cut off there; 2. the albedo map becomes the texture; 3. each such material
-    gets a name, LINK_VISUAL_material, because URDF asks for one; 4. a material of Gazebo Classic that all visuals of a
-    link share is its `<material>` tag too.
+    unless they are equal, as URDF's one colour means both; a part beyond 0 or 1 is cut off there; 2. the albedo map
+    becomes the texture; 3. each such material gets a name, LINK_VISUAL_material, because URDF asks for one; 4. a
+    material of Gazebo Classic that all visuals of a link share is its `<material>` tag too.
     Never touches: the other parts of a material, which the last pass carries.
     Diagnostics: in the ledger `colours` and `sdf-only`.
     """
