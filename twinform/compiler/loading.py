@@ -20,7 +20,7 @@ from twinform.compiler.parsing import (
 from twinform.compiler.sdf import front_end as sdf
 from twinform.compiler.urdf import front_end as urdf
 from twinform.diagnostics import Diagnostic, Location, Notes
-from twinform.diagnostics.rules import reading, structure
+from twinform.diagnostics.rules import model, reading, structure
 from twinform.ir import Document, count_parts
 from twinform.ir.verify import verify
 from twinform.schemas import Context, Engine, Version, XmlElement, gate, parse_version, print_version, refusals, table
@@ -29,6 +29,7 @@ _ROOTS: dict[str, tuple[str, Callable[[XmlElement, Context], Mapping[str, Any]]]
     "robot": ("urdf", urdf.lower),
     "sdf": ("sdf", sdf.lower),
 }
+_CONSEQUENCES = frozenset({model.MISSING_LIMIT, model.SEVERAL_ROOTS, model.EMPTY_MODEL, model.UNKNOWN_MATERIAL})
 _WITHOUT_VERSION = {"urdf": (1, 0)}
 """The version of a file that declares none."""
 
@@ -74,7 +75,8 @@ def _check(source: str | Path | bytes, notes: Notes, engine: Engine) -> Checked:
         return Checked(notes.file, None, tuple(notes.diagnostics), unreadable=True)
     if document is not None:
         verify(document, notes)
-    return Checked(notes.file, document, tuple(notes.diagnostics), tree=tree)
+    found = tuple(sorted(notes.diagnostics, key=lambda each: each.location.line))
+    return Checked(notes.file, document, found, tree=tree)
 
 
 def load(source: str | Path, *, strict: bool = False, engine: Engine = "libxml2") -> Document:
@@ -125,10 +127,24 @@ def read_document(text: bytes, notes: Notes, engine: Engine) -> tuple[Document |
     data = lower(root, context)
     if errors:
         gate(root, context, engine, errors)
+    data = {**data, "namespaces": _namespaces(root, context, namespace)}
     if notes.has_errors:
+        _verify_what_is_there(data, notes)
         return None, root
-    document = Document.model_validate({**data, "namespaces": _namespaces(root, context, namespace)})
-    return document, root
+    return Document.model_validate(data), root
+
+
+def _verify_what_is_there(data: Mapping[str, Any], notes: Notes) -> None:
+    """After an error the names and references are still checked, so that the author sees all at once.
+
+    Left out are findings that may only follow from what could not be read.
+    """
+    found = Notes(file=notes.file, strict=notes.strict)
+    try:
+        verify(Document.model_validate(data), found)
+    except ValidationError:
+        return  # without its name or type a thing cannot be looked at, and that is reported already
+    notes.extend(each for each in found.diagnostics if each.rule not in _CONSEQUENCES)
 
 
 def _declared_version(root: XmlElement, format_: str, notes: Notes) -> Version:
