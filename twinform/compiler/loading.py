@@ -180,11 +180,18 @@ def _from_json(text: bytes, notes: Notes) -> Document | None:
 
 @contextmanager
 def garbage_collection_paused() -> Generator[None]:
-    """Keep the collector from walking a growing tree again and again; nothing here makes cycles."""
+    """Keep the collector from walking a growing tree again and again; nothing here makes cycles.
+
+    Before it goes on, all that was made joins the old generation, which `freeze` and `unfreeze` do without looking at
+    it; otherwise the first thing that the collector did would be to walk all of it once more.
+    """
     enabled = gc.isenabled()
     gc.disable()
     try:
         yield
     finally:
         if enabled:
+            if not gc.get_freeze_count():  # what others have frozen stays so
+                gc.freeze()
+                gc.unfreeze()
             gc.enable()

@@ -56,27 +56,11 @@ class Writer:
 
     def _node(self, fact: Fact) -> Write:
         """The writer of an element that is a node of its own."""
-        fields = self._fields(fact)
-        content = fact.place if fact.any else None
-
-        def write(node: Any, element: XmlElement) -> None:
-            fields(node, element)
-            if content is not None:
-                for child in getattr(node, content):
-                    element_xml(child, element)
-            if node.opaque:
-                _write_opaque(node.opaque, element)
-
-        return write
-
-    def _fields(self, fact: Fact) -> Write:
         rows = self._rows(fact.rows)
-        kinds = [row for row in rows if row.kind]
-        steps = [self._step(row) for row in rows if not row.kind and not _makes_many(row)]
-        if kinds:
-            steps.append((kinds[0].place or "", self._kinds(kinds)))
+        steps = self._steps(rows)
         many = [(row.place or "", self._many(row)) for row in rows if _makes_many(row)]
         text = _pose_text if fact.type == "pose" else None
+        content = fact.place if fact.any else None
 
         def write(node: Any, element: XmlElement) -> None:
             values: dict[str, Any] = node.__dict__
@@ -88,8 +72,19 @@ class Writer:
                     write_value(value, node, element)
             if many:
                 _write_in_order([(child, write_one) for field, write_one in many for child in values[field]], element)
+            if content is not None:
+                for child in values[content]:
+                    element_xml(child, element)
+            if values["opaque"]:
+                _write_opaque(values["opaque"], element)
 
         return write
+
+    def _steps(self, rows: list[Fact]) -> list[Step]:
+        """What writes the fields that are written once, in the order of the facts."""
+        kinds = [row for row in rows if row.kind]
+        steps = [self._step(row) for row in rows if not row.kind and not _makes_many(row)]
+        return [*steps, (kinds[0].place or "", self._kinds(kinds))] if kinds else steps
 
     def _rows(self, rows: list[Fact]) -> list[Fact]:
         """One row with a place for each name; this version's where it has one."""
@@ -171,11 +166,16 @@ class Writer:
 
     def _hoisted(self, row: Fact) -> WriteValue:
         """The writer of a container that is no node: it stands where one of its fields is written."""
-        name, fields, places = row.name, self._fields(row), [place.split(".") for place in _places(row)]
+        name, steps, places = row.name, self._steps(self._rows(row.rows)), [p.split(".") for p in _places(row)]
 
         def write(_: Any, node: Any, element: XmlElement) -> None:
-            if any(_value(node, place) is not None for place in places):
-                fields(node, SubElement(element, name))
+            if all(_value(node, place) is None for place in places):
+                return
+            made, values = SubElement(element, name), node.__dict__
+            for field, write_value in steps:
+                value = values[field]
+                if value is not None:
+                    write_value(value, node, made)
 
         return write
 

@@ -53,7 +53,7 @@ class SharedMaterials(ModelPass):
         if not material.name:
             return visual.model_copy(update={"material": look})
         self._account(material, 1, notes)
-        carriers = pack([Opaque(element=_element(material))], "urdf") if self.carriers else ()
+        carriers = _carriers(material.name, material.color, material.texture) if self.carriers else ()
         return visual.model_copy(update={"material": look, "opaque": (*visual.opaque, *carriers)})
 
     def _account(self, material: Material, weight: int, notes: Notes) -> None:
@@ -62,14 +62,14 @@ class SharedMaterials(ModelPass):
         notes.account(fate, to_sdf.MATERIAL_NAME, message, material.location, weight)
 
 
-def _element(material: Material) -> Element:
-    """The material as URDF writes it; its opaque parts stay where they are."""
-    return _plain_element(material.name, material.color, material.texture)
-
-
 @lru_cache(maxsize=256)
-def _plain_element(name: str | None, color: Color | None, texture: str | None) -> Element:
-    return to_element(Material(name=name, color=color, texture=texture), "material", "urdf")
+def _carriers(name: str | None, color: Color | None, texture: str | None) -> tuple[Opaque, ...]:
+    """The material as URDF writes it, in a carrier; most robots say the same few again and again."""
+    return pack([Opaque(element=_element(Material(name=name, color=color, texture=texture)))], "urdf")
+
+
+def _element(material: Material) -> Element:
+    return to_element(material.model_copy(update={"opaque": ()}), "material", "urdf")
 
 
 def _sdf_material(material: Material, source: Material) -> Material:
