@@ -99,7 +99,7 @@ def _summary(ledger: Ledger) -> str:
 def print_plan(job: Job, options: Options, label: str) -> int:
     """Print the passes of one conversion; gives its exit code."""
     checked = check(job.source.content, name=job.source.name, strict=options.strict, engine=options.engine)
-    if checked.document is None:
+    if checked.document is None or not checked.accepted:
         show(Findings(checked.path, checked.diagnostics), on_stderr=True)
         return UNUSABLE if checked.unreadable else FINDINGS
     version = options.sdf_version if job.target == "sdf" else None

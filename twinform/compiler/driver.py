@@ -9,6 +9,8 @@ from twinform.compiler.emitting import emit
 from twinform.compiler.errors import CompileError
 from twinform.compiler.loading import Checked, check, garbage_collection_paused
 from twinform.diagnostics import Diagnostic, Ledger, Notes
+from twinform.diagnostics.rules.model import MISSING_LIMIT
+from twinform.diagnostics.rules.structure import MISSING_ATTRIBUTE
 from twinform.ir import Document, Format
 from twinform.ir.verify import verify
 from twinform.passes import Pass, Pipeline, parse_pipeline
@@ -69,7 +71,7 @@ def convert(
     users = _pipeline(passes)
     with garbage_collection_paused():
         checked = check(source, name=name, strict=strict, engine=engine)
-        if checked.document is None or not checked.accepted:
+        if checked.document is None or not (checked.accepted or (users and _may_be_mended(checked))):
             raise CompileError(checked.diagnostics, unreadable=checked.unreadable)
         legal = _legalisation(checked.document, to, sdf_version, urdf_version, carriers=carriers, model=model)
         return _run(checked, checked.document, users, legal, to, strict=strict, watch=watch)
@@ -105,8 +107,11 @@ def _run(
     strict: bool,
     watch: Callable[[str, Document], None] | None,
 ) -> Conversion:
-    notes = Notes(file=checked.path, strict=strict, diagnostics=list(checked.diagnostics))
-    document = users.run(document, notes, watch=watch, verify=verify)
+    kept = [each for each in checked.diagnostics if not each.is_error]
+    notes = Notes(file=checked.path, strict=strict, diagnostics=kept)
+    document = users.run(document, notes, watch=watch, verify=verify if checked.accepted else None)
+    if not checked.accepted:
+        verify(document, notes)
     if not notes.has_errors and len(legal):
         document = legal.run(document, notes, watch=watch)
         if not notes.has_errors:
@@ -117,6 +122,15 @@ def _run(
     lost = sum(entry.weight for entry in notes.entries)
     ledger = Ledger(max(0, checked.size - lost), tuple(notes.entries))
     return Conversion(text, document, tuple(notes.diagnostics), ledger)
+
+
+def _may_be_mended(checked: Checked) -> bool:
+    """Whether nothing is wrong but what a pass can put right: limits that are missing."""
+    errors = [each for each in checked.diagnostics if each.is_error]
+    return all(
+        each.rule is MISSING_LIMIT or (each.rule is MISSING_ATTRIBUTE and each.location.path.endswith("/limit"))
+        for each in errors
+    )
 
 
 def _write(document: Document, to: Language, notes: Notes, *, fit: bool) -> str:

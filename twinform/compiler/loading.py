@@ -29,7 +29,9 @@ _ROOTS: dict[str, tuple[str, Callable[[XmlElement, Context], Mapping[str, Any]]]
     "robot": ("urdf", urdf.lower),
     "sdf": ("sdf", sdf.lower),
 }
-_CONSEQUENCES = frozenset({model.MISSING_LIMIT, model.SEVERAL_ROOTS, model.EMPTY_MODEL, model.UNKNOWN_MATERIAL})
+_CONSEQUENCES = frozenset(
+    {model.MISSING_LIMIT, model.PARTIAL_LIMIT, model.SEVERAL_ROOTS, model.EMPTY_MODEL, model.UNKNOWN_MATERIAL}
+)
 _WITHOUT_VERSION = {"urdf": (1, 0)}
 """The version of a file that declares none."""
 
@@ -37,6 +39,8 @@ _WITHOUT_VERSION = {"urdf": (1, 0)}
 @dataclass(frozen=True, slots=True)
 class Checked:
     """What `check` found. `unreadable` says that there is no model at all: no file, no XML, or another format.
+
+    The document may be there in spite of errors; `accepted` says whether it has any.
 
     `tree` is the XML that the document came from.
     """
@@ -73,7 +77,7 @@ def _check(source: str | Path | bytes, notes: Notes, engine: Engine) -> Checked:
         document, tree = read_document(text, notes, engine)
     except UnreadableError:
         return Checked(notes.file, None, tuple(notes.diagnostics), unreadable=True)
-    if document is not None:
+    if document is not None and not notes.has_errors:
         verify(document, notes)
     found = tuple(sorted(notes.diagnostics, key=lambda each: each.location.line))
     return Checked(notes.file, document, found, tree=tree)
@@ -105,7 +109,7 @@ def _document(checked: Checked) -> Document:
 
 
 def read_document(text: bytes, notes: Notes, engine: Engine) -> tuple[Document | None, XmlElement | None]:
-    """The document of a text and its XML tree, if it is XML. No document where it has errors, which are in the notes.
+    """The document of a text and its XML tree, if it is XML. Where it has errors, the document is there if it can be.
 
     Raises:
         UnreadableError: it is neither XML nor one of our own JSON documents.
@@ -129,22 +133,23 @@ def read_document(text: bytes, notes: Notes, engine: Engine) -> tuple[Document |
         gate(root, context, engine, errors)
     data = {**data, "namespaces": _namespaces(root, context, namespace)}
     if notes.has_errors:
-        _verify_what_is_there(data, notes)
-        return None, root
+        return _verify_what_is_there(data, notes), root
     return Document.model_validate(data), root
 
 
-def _verify_what_is_there(data: Mapping[str, Any], notes: Notes) -> None:
+def _verify_what_is_there(data: Mapping[str, Any], notes: Notes) -> Document | None:
     """After an error the names and references are still checked, so that the author sees all at once.
 
     Left out are findings that may only follow from what could not be read.
     """
     found = Notes(file=notes.file, strict=notes.strict)
     try:
-        verify(Document.model_validate(data), found)
+        document = Document.model_validate(data)
     except ValidationError:
-        return  # without its name or type a thing cannot be looked at, and that is reported already
+        return None  # without its name or type a thing cannot be looked at, and that is reported already
+    verify(document, found)
     notes.extend(each for each in found.diagnostics if each.rule not in _CONSEQUENCES)
+    return document
 
 
 def _declared_version(root: XmlElement, format_: str, notes: Notes) -> Version:

@@ -6,7 +6,7 @@ from twinform.diagnostics import Location, Notes, Severity
 from twinform.diagnostics.rules import model as rules
 from twinform.ir.document import Document, Format
 from twinform.ir.frames import FrameError, FrameGraph
-from twinform.ir.joint import Axis, Joint
+from twinform.ir.joint import Axis, Joint, Limit
 from twinform.ir.model import Model
 from twinform.ir.node import Node
 from twinform.ir.world import World
@@ -22,7 +22,7 @@ def verify(document: Document, notes: Notes) -> None:
     """Report what is wrong with a document, in the order of its parts."""
     if document.format is Format.URDF:
         for model in document.models:
-            _verify_robot(model, notes)
+            _verify_robot(model, notes, optional=document.version == "1.2")
         return
     shared = Severity.WARNING if document.version in _BEFORE_FRAMES else Severity.ERROR
     for world in document.worlds:
@@ -34,8 +34,8 @@ def verify(document: Document, notes: Notes) -> None:
             _verify_frames(model, notes)
 
 
-def _verify_robot(model: Model, notes: Notes) -> None:
-    """The rules of URDF, which describes one tree."""
+def _verify_robot(model: Model, notes: Notes, *, optional: bool) -> None:
+    """The rules of URDF, which describes one tree; `optional` says whether limits may lack effort and velocity."""
     for kind, nodes in (("link", model.links), ("joint", model.joints)):
         _report_names(kind, nodes, notes)
     _report_materials(model, notes)
@@ -47,6 +47,8 @@ def _verify_robot(model: Model, notes: Notes) -> None:
         if joint.type in _NEEDS_LIMIT and (joint.axis is None or joint.axis.limit is None):
             message = f"{joint.type} joint {joint.name!r} has no <limit>"
             notes.report(rules.MISSING_LIMIT, message, joint.location, expected="<limit>")
+        elif joint.axis and joint.axis.limit and not optional:
+            _verify_limit(joint, joint.axis.limit, notes)
     _verify_tree(model, links, notes)
     known = links | joints
     for extension in model.extensions:
@@ -123,6 +125,13 @@ def _verify_axis(joint: Joint, axis: Axis, where: Location, notes: Notes) -> Non
     if limit.lower > limit.upper:
         message = f"joint {joint.name!r} has the lower limit {limit.lower:g} above the upper limit {limit.upper:g}"
         notes.report(rules.LOWER_ABOVE_UPPER, message, limit.location, found=f"{limit.lower:g}")
+
+
+def _verify_limit(joint: Joint, limit: Limit, notes: Notes) -> None:
+    missing = [name for name in ("effort", "velocity") if getattr(limit, name) is None]
+    if missing:
+        message = f"the limit of joint {joint.name!r} has no {' and no '.join(missing)}"
+        notes.report(rules.PARTIAL_LIMIT, message, limit.location, expected=f"@{missing[0]}")
 
 
 def _verify_mimic(joint: Joint, joints: set[str], notes: Notes) -> None:

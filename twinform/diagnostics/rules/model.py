@@ -100,6 +100,14 @@ MISSING_LIMIT = Rule(
     example="`<joint name='elbow' type='revolute'>` with parent, child and axis only.",
     better="Write the limits, or make the joint `continuous`.",
 )
+PARTIAL_LIMIT = Rule(
+    name="partial-limit",
+    severity=Severity.ERROR,
+    finds="A joint of URDF 1.0 or 1.1 whose `<limit>` has no effort or no velocity, after passes have run.",
+    matters="urdfdom refuses the file. In a file that is read, the missing attribute itself is reported.",
+    example="`--passes 'fill-limits{effort=100}'` for a joint that lacks the velocity as well.",
+    better="Fill both.",
+)
 LOWER_ABOVE_UPPER = Rule(
     name="lower-above-upper",
     severity=Severity.WARNING,

@@ -1,0 +1,72 @@
+"""The driver: what may be mended on the way, and what the whole reports."""
+
+import pytest
+
+import twinform
+from twinform.compiler import check, plan
+
+_LIMITLESS = b"""<robot name="r">
+  <link name="a"/><link name="b"/><link name="c"/>
+  <joint name="j" type="revolute"><parent link="a"/><child link="b"/></joint>
+  <joint name="k" type="prismatic"><parent link="b"/><child link="c"/><limit lower="0" upper="1"/></joint>
+</robot>"""
+
+
+def test_a_pass_may_fill_limits_that_are_missing() -> None:
+    made = twinform.convert(_LIMITLESS, to="urdf", passes="fill-limits{effort=5 velocity=2}")
+    assert made.text.count('effort="5" velocity="2"') == 2
+    assert not [each for each in made.diagnostics if each.is_error]
+    assert check(made.text.encode()).accepted
+
+
+@pytest.mark.parametrize(
+    ("passes", "rules"),
+    [
+        (None, {"missing-attribute"}),
+        ("check-inertia", {"missing-limit", "partial-limit"}),
+        ("fill-limits{effort=5}", {"partial-limit"}),
+    ],
+)
+def test_limits_that_stay_missing_are_errors(passes: str | None, rules: set[str]) -> None:
+    with pytest.raises(twinform.CompileError) as caught:
+        twinform.convert(_LIMITLESS, to="urdf", passes=passes)
+    assert {each.rule.name for each in caught.value.diagnostics if each.is_error} == rules
+
+
+def test_other_errors_are_never_mended() -> None:
+    with pytest.raises(twinform.CompileError):
+        twinform.convert(_LIMITLESS.replace(b'"c"/>', b'"d"/>', 1), to="sdf", passes="fill-limits{effort=5 velocity=2}")
+
+
+def test_the_plan_is_what_runs() -> None:
+    ran: list[str] = []
+    text = b'<robot name="r"><link name="a"/></robot>'
+    made = twinform.convert(text, to="sdf", passes="check-inertia", watch=lambda name, _: ran.append(name))
+    assert made.document.version == "1.11"
+    document = twinform.loads(text)
+    assert [each.name for each in plan(document, to="sdf", passes="check-inertia")] == ran
+
+
+def test_every_part_of_the_source_is_counted_once() -> None:
+    text = b'<robot name="r"><link name="a"/><transmission name="t"><type>x</type></transmission></robot>'
+    ledger = twinform.convert(text, to="sdf").ledger
+    lost = sum(entry.weight for entry in ledger.entries)
+    assert (ledger.expressed, lost) == (4, 3)
+
+
+def test_without_carriers_parts_are_dropped() -> None:
+    text = b'<robot name="r"><link name="a"/><transmission name="t"/></robot>'
+    made = twinform.convert(text, to="sdf", carriers=False)
+    assert [str(entry.fate) for entry in made.ledger.entries] == ["dropped"]
+    assert "urn:twinform" not in made.text
+
+
+@pytest.mark.parametrize("version", ["1.5", "1.6", "1.7", "1.8", "1.9", "1.10", "1.11", "1.12"])
+def test_sdf_is_written_in_the_version_that_is_asked_for(version: str) -> None:
+    text = b"""<robot name="r"><link name="a"/><link name="b"/>
+      <joint name="j" type="continuous">
+        <parent link="a"/><child link="b"/><origin xyz="1 2 3" rpy="0 0 1"/>
+      </joint></robot>"""
+    made = twinform.convert(text, to="sdf", sdf_version=version).text
+    assert f'<sdf version="{version}">' in made
+    assert check(made.encode(), strict=True).diagnostics == ()
