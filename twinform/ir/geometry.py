@@ -2,98 +2,108 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, SerializerFunctionWrapHandler, model_serializer
 
 from twinform.ir.node import Node, Vector3
 
 Vector2 = tuple[float, float]
 
 
-class Box(Node):
+class ShapeNode(Node):
+    """What all shapes share: their kind is always written out, because it is what tells them apart."""
+
+    kind: str
+
+    @model_serializer(mode="wrap")
+    def _with_kind(self, serialize: SerializerFunctionWrapHandler) -> dict[str, object]:
+        return {"kind": self.kind, **serialize(self)}
+
+
+class Box(ShapeNode):
     """A box about the origin; `size` is its full extent along x, y, z."""
 
-    kind: Literal["box"] = "box"
+    kind: Literal["box"] = "box"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
     size: Vector3 | None = None
 
 
-class Cylinder(Node):
+class Cylinder(ShapeNode):
     """A cylinder about the origin with its axis along z."""
 
-    kind: Literal["cylinder"] = "cylinder"
+    kind: Literal["cylinder"] = "cylinder"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
     radius: float | None = None
     length: float | None = None
 
 
-class Sphere(Node):
+class Sphere(ShapeNode):
     """A sphere about the origin."""
 
-    kind: Literal["sphere"] = "sphere"
+    kind: Literal["sphere"] = "sphere"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
     radius: float | None = None
 
 
-class Capsule(Node):
+class Capsule(ShapeNode):
     """A cylinder along z with half spheres on both ends; `length` is the cylinder's alone."""
 
-    kind: Literal["capsule"] = "capsule"
+    kind: Literal["capsule"] = "capsule"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
     radius: float | None = None
     length: float | None = None
 
 
-class Cone(Node):
+class Cone(ShapeNode):
     """A cone along z, its base at -length/2 and its tip at +length/2."""
 
-    kind: Literal["cone"] = "cone"
+    kind: Literal["cone"] = "cone"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
     radius: float | None = None
     length: float | None = None
 
 
-class Ellipsoid(Node):
+class Ellipsoid(ShapeNode):
     """An ellipsoid about the origin with these semi-axes along x, y, z."""
 
-    kind: Literal["ellipsoid"] = "ellipsoid"
+    kind: Literal["ellipsoid"] = "ellipsoid"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
     radii: Vector3 | None = None
 
 
-class Plane(Node):
+class Plane(ShapeNode):
     """A plane through the origin; `size` is the extent that is drawn."""
 
-    kind: Literal["plane"] = "plane"
+    kind: Literal["plane"] = "plane"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
     normal: Vector3 | None = None
     size: Vector2 | None = None
 
 
-class Mesh(Node):
+class Mesh(ShapeNode):
     """A mesh file, scaled along x, y, z. `submesh` names one part of the file."""
 
-    kind: Literal["mesh"] = "mesh"
+    kind: Literal["mesh"] = "mesh"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
     uri: str | None = None
     scale: Vector3 | None = None
 
 
-class Empty(Node):
+class Empty(ShapeNode):
     """No shape, said explicitly."""
 
-    kind: Literal["empty"] = "empty"
+    kind: Literal["empty"] = "empty"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
 
 
-class Heightmap(Node):
+class Heightmap(ShapeNode):
     """A terrain; its parameters stay as they are written."""
 
-    kind: Literal["heightmap"] = "heightmap"
+    kind: Literal["heightmap"] = "heightmap"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
     uri: str | None = None
 
 
-class Image(Node):
+class Image(ShapeNode):
     """An image that is extruded into boxes; its parameters stay as they are written."""
 
-    kind: Literal["image"] = "image"
+    kind: Literal["image"] = "image"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
     uri: str | None = None
 
 
-class Polyline(Node):
+class Polyline(ShapeNode):
     """An extruded outline; its points stay as they are written."""
 
-    kind: Literal["polyline"] = "polyline"
+    kind: Literal["polyline"] = "polyline"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
     height: float | None = None
 
 

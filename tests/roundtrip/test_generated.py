@@ -1,0 +1,89 @@
+"""What holds for every model, tried on models that Hypothesis makes up."""
+
+from hypothesis import HealthCheck, given, settings
+
+import twinform
+from twinform.compiler import check
+from twinform.compiler.emitting import emit
+from twinform.diagnostics import Notes
+from twinform.ir import Document, Joint, Link, Mesh
+from twinform.ir.frames import FrameGraph
+from twinform.testing import strategies
+
+_SETTINGS = settings(max_examples=50, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+
+
+def _text(document: Document) -> str:
+    notes = Notes()
+    text = emit(document, notes)
+    assert notes.diagnostics == []
+    return text
+
+
+@_SETTINGS
+@given(strategies.robots())
+def test_urdf_to_ir_to_urdf_is_identity(robot: Document) -> None:
+    assert twinform.loads(_text(robot)) == robot
+
+
+@_SETTINGS
+@given(strategies.sdf_models())
+def test_sdf_to_ir_to_sdf_is_identity(model: Document) -> None:
+    assert twinform.loads(_text(model)) == model
+
+
+@_SETTINGS
+@given(strategies.robots())
+def test_json_is_the_same_document(robot: Document) -> None:
+    assert twinform.loads(twinform.convert(_text(robot).encode(), to="json").text) == robot
+
+
+@_SETTINGS
+@given(strategies.robots())
+def test_every_robot_becomes_sdf_that_is_accepted_strictly(robot: Document) -> None:
+    made = twinform.convert(_text(robot).encode(), to="sdf")
+    assert [each.message for each in check(made.text.encode(), strict=True).diagnostics if each.is_error] == []
+
+
+@_SETTINGS
+@given(strategies.sdf_models())
+def test_every_model_becomes_urdf_that_is_accepted(model: Document) -> None:
+    made = twinform.convert(_text(model).encode(), to="urdf")
+    assert [each.message for each in check(made.text.encode()).diagnostics if each.is_error] == []
+
+
+def _places(document: Document, root: str) -> dict[str, tuple[float, ...]]:
+    """Where the visuals of a model are, by their size: link frames may move, shapes may not."""
+    model = document.models[0]
+    graph = FrameGraph(model)
+    found: dict[str, tuple[float, ...]] = {}
+    for link in model.links:
+        for visual in link.visuals:
+            where = graph.resolve(visual.pose, link.name, root)
+            shape = visual.geometry.shape if visual.geometry else None
+            if isinstance(shape, Mesh):
+                continue  # its URI is another one in SDF
+            found[f"{shape!r}"] = tuple(round(value, 6) for value in (*where.apply((0, 0, 0)), *where.apply((1, 2, 3))))
+    return found
+
+
+@_SETTINGS
+@given(strategies.robots())
+def test_shapes_stay_where_they_are_on_the_way_to_sdf(robot: Document) -> None:
+    made = twinform.convert(_text(robot).encode(), to="sdf").document
+    before, after = _places(robot, "link_0"), _places(made, "__model__")
+    assert before.keys() == after.keys()
+    for shape, place in before.items():
+        assert after[shape] == place
+
+
+@_SETTINGS
+@given(strategies.robots())
+def test_links_and_joints_come_back_by_name(robot: Document) -> None:
+    sdf = twinform.convert(_text(robot).encode(), to="sdf").text
+    again = twinform.convert(sdf.encode(), to="urdf").document.models[0]
+
+    def names(parts: tuple[Link, ...] | tuple[Joint, ...]) -> set[str]:
+        return {part.name for part in parts}
+
+    assert names(robot.models[0].links) <= names(again.links)
