@@ -50,16 +50,20 @@ def _convert(text: bytes, sdf_version: str, stages: Stages) -> None:
     notes = Notes(file="robot.urdf")
     with stages.time("parse"):
         root = parse(text, notes)
-    with stages.time("table pass: structure, values, lowering"):
-        data = front_end.lower(root, Context(notes, notes.file, "urdf", (1, 0)))
     with stages.time("XSD of the input"):
-        libxml2_errors(root, "urdf", (1, 0))
+        clean = not libxml2_errors(root, "urdf", (1, 0))
+    with stages.time("table pass: structure, values, lowering"):
+        simple = clean and b"xmlns" not in text
+        context = Context(notes, notes.file, "urdf", (1, 0), clean=clean, simple=simple)
+        data = front_end.lower(root, context)
     with stages.time("pydantic"):
         document = Document.model_validate({**data})
     with stages.time("verify"):
         verify(document, notes)
-    with stages.time("passes, each followed by verify"):
-        document = plan(document, to="sdf", sdf_version=sdf_version).run(document, notes, verify=verify)
+    with stages.time("legalisation passes"):
+        document = plan(document, to="sdf", sdf_version=sdf_version).run(document, notes)
+    with stages.time("verify the result"):
+        verify(document, notes)
     version = written_version(document)
     with stages.time("emit"):
         root = back_end.emit(document, version, {})
