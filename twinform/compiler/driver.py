@@ -1,13 +1,14 @@
 """The way of the data: load, the user's passes, legalisation, back end."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
 from twinform.compiler.emitting import emit
 from twinform.compiler.errors import CompileError
-from twinform.compiler.loading import Checked, check, garbage_collection_paused
+from twinform.compiler.loading import Checked, Reading, garbage_collection_paused, read
+from twinform.compiler.uris import SearchPath
 from twinform.diagnostics import Diagnostic, Ledger, Notes
 from twinform.ir import Document, Format
 from twinform.ir.verify import verify
@@ -31,6 +32,31 @@ class Conversion:
     ledger: Ledger
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Order:
+    """What a conversion is asked for; `passes` are the user's."""
+
+    to: Language
+    sdf_version: str | None = None
+    urdf_version: UrdfVersion = "1.0"
+    passes: Pipeline = field(default_factory=Pipeline)
+    carriers: bool = True
+    model: str | None = None
+
+    def legalisation(self, source: Document) -> Pipeline:
+        """The passes that the target asks for."""
+        if self.to == "json":
+            return Pipeline()
+        own = source.version if source.format is Format.SDF else None
+        version = self.sdf_version or own or DEFAULT_SDF_VERSION
+        target = Target(Format(self.to), version, self.urdf_version, self.carriers, self.model)
+        return Pipeline(legalisation(source.format, source.version, target))
+
+    def plan(self, source: Document) -> Pipeline:
+        """Every pass that a conversion of this document runs, in order: the user's, then those of the target."""
+        return Pipeline((*self.passes, *self.legalisation(source)))
+
+
 def plan(
     source: Document,
     *,
@@ -41,9 +67,16 @@ def plan(
     carriers: bool = True,
     model: str | None = None,
 ) -> Pipeline:
-    """Every pass that a conversion of this document runs, in order: the user's, then those that the target asks for."""
-    users = _pipeline(passes)
-    return Pipeline((*users, *_legalisation(source, to, sdf_version, urdf_version, carriers=carriers, model=model)))
+    """Every pass that `convert` runs on this document."""
+    order = Order(
+        to=to,
+        sdf_version=sdf_version,
+        urdf_version=urdf_version,
+        passes=_pipeline(passes),
+        carriers=carriers,
+        model=model,
+    )
+    return order.plan(source)
 
 
 def convert(
@@ -58,60 +91,71 @@ def convert(
     carriers: bool = True,
     model: str | None = None,
     engine: Engine = "libxml2",
+    paths: Iterable[str | Path] = (),
+    arguments: Mapping[str, str] | None = None,
+    xacro: bool = True,
     watch: Callable[[str, Document], None] | None = None,
 ) -> Conversion:
     """Compile a file, or the bytes of one, into the target's language; `watch` sees the document after each pass.
+
+    `paths`, `arguments` and `xacro` are those of `check`.
 
     Raises:
         CompileError: the source, a pass or the result has an error.
         PipelineError: `passes` is not a pipeline.
     """
-    users = _pipeline(passes)
+    order = Order(
+        to=to,
+        sdf_version=sdf_version,
+        urdf_version=urdf_version,
+        passes=_pipeline(passes),
+        carriers=carriers,
+        model=model,
+    )
+    how = Reading(strict, engine, SearchPath.of(paths), arguments or {}, xacro)
+    return fulfil(order, source, how, name=name, watch=watch)
+
+
+def fulfil(
+    order: Order,
+    source: str | Path | bytes,
+    how: Reading,
+    *,
+    name: str = "",
+    watch: Callable[[str, Document], None] | None = None,
+) -> Conversion:
+    """`convert`, with all that is asked for in one place.
+
+    Raises:
+        CompileError: the source, a pass or the result has an error.
+    """
     with garbage_collection_paused():
-        checked = check(source, name=name, strict=strict, engine=engine)
+        checked = read(source, how, name=name)
         if checked.document is None or not checked.accepted:
             raise CompileError(checked.diagnostics, unreadable=checked.unreadable)
-        legal = _legalisation(checked.document, to, sdf_version, urdf_version, carriers=carriers, model=model)
-        return _run(checked, checked.document, users, legal, to, strict=strict, watch=watch)
+        return _run(checked, checked.document, order, strict=how.strict, watch=watch)
 
 
 def _pipeline(passes: str | Sequence[Pass] | None) -> Pipeline:
     return parse_pipeline(passes) if isinstance(passes, str) else Pipeline(tuple(passes or ()))
 
 
-def _legalisation(
-    source: Document,
-    to: Language,
-    sdf_version: str | None,
-    urdf_version: UrdfVersion,
-    *,
-    carriers: bool,
-    model: str | None,
-) -> Pipeline:
-    if to == "json":
-        return Pipeline()
-    own = source.version if source.format is Format.SDF else None
-    target = Target(Format(to), sdf_version or own or DEFAULT_SDF_VERSION, urdf_version, carriers, model)
-    return Pipeline(legalisation(source.format, source.version, target))
-
-
 def _run(
     checked: Checked,
     document: Document,
-    users: Pipeline,
-    legal: Pipeline,
-    to: Language,
+    order: Order,
     *,
     strict: bool,
     watch: Callable[[str, Document], None] | None,
 ) -> Conversion:
-    notes = Notes(file=checked.path, strict=strict, diagnostics=list(checked.diagnostics))
-    document = users.run(document, notes, watch=watch, verify=verify)
+    notes = Notes(checked.path, strict, list(checked.diagnostics), origins=dict(checked.origins))
+    legal = order.legalisation(document)
+    document = order.passes.run(document, notes, watch=watch, verify=verify)
     if not notes.has_errors and len(legal):
         document = legal.run(document, notes, watch=watch)
         if not notes.has_errors:
             verify(document, notes)
-    text = "" if notes.has_errors else _write(document, to, notes, fit=bool(len(legal)))
+    text = "" if notes.has_errors else _write(document, order.to, notes, fit=bool(len(legal)))
     if notes.has_errors:
         raise CompileError(tuple(notes.diagnostics))
     lost = sum(entry.weight for entry in notes.entries)

@@ -16,6 +16,7 @@ from twinform.diagnostics import Severity
 
 _EXPECT = re.compile(rb"<!--\s*expect:\s*(?P<severity>\w+)\s+(?P<rule>[\w-]+)\s*-->")
 _OTHER: dict[str, Literal["sdf", "urdf"]] = {".urdf": "sdf", ".sdf": "urdf"}
+_SUFFIXES = frozenset({*_OTHER, ".xacro"})
 
 Finding = tuple[int, str, str]
 """line, severity, rule"""
@@ -45,7 +46,7 @@ class Case:
         return Counter(
             (each.location.line, str(each.severity), each.rule.name)
             for each in diagnostics
-            if each.severity > Severity.INFO
+            if each.severity > Severity.INFO and each.location.file in {"", str(self.path)}
         )
 
     def mismatches(self) -> list[str]:
@@ -72,4 +73,4 @@ class Case:
 def cases(folder: Path) -> list[Case]:
     """Every case of a folder, in the order of their names; expected outputs are not cases."""
     files = sorted(folder.rglob("*"))
-    return [Case(path) for path in files if path.suffix in _OTHER and ".expected" not in path.suffixes]
+    return [Case(path) for path in files if path.suffix in _SUFFIXES and ".expected" not in path.suffixes]
