@@ -8,7 +8,7 @@ import click
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
 from twinform.cli.inputs import HowToRead, how_to_read, inputs, reading_options
-from twinform.compiler import Checked, read
+from twinform.compiler import Checked, expand, read
 from twinform.diagnostics import Severity
 from twinform.diagnostics.reporters import REPORTERS, Findings
 
@@ -20,7 +20,9 @@ _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "
 @click.option("--format", "style", type=click.Choice(list(REPORTERS)), default="text", help="How to print findings.")
 @reading_options
 @click.pass_context
-def command(ctx: click.Context, words: tuple[str, ...], style: str, **how: Unpack[HowToRead]) -> None:
+def command(
+    ctx: click.Context, words: tuple[str, ...], style: str, *, expand_includes: bool, **how: Unpack[HowToRead]
+) -> None:
     """Find everything that is wrong with robot models.
 
     IN are URDF, SDF, xacro or JSON files; - is standard input. Arguments of xacro are written NAME:=VALUE. Exit code: 0
@@ -29,6 +31,7 @@ def command(ctx: click.Context, words: tuple[str, ...], style: str, **how: Unpac
     sources, arguments = inputs(words)
     reading = how_to_read(arguments, **how)
     checked = [read(each.content, reading, name=each.name) for each in sources]
+    checked = [expand(each, reading) for each in checked] if expand_includes else checked
     findings = [Findings(each.path, each.diagnostics) for each in checked]
     if style == "text":
         for each in findings:

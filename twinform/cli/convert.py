@@ -60,6 +60,7 @@ def command(
     model: str | None,
     print_pipeline: bool,
     dumps: tuple[str, ...],
+    expand_includes: bool,
     **how: Unpack[HowToRead],
 ) -> None:
     """Compile robot models from one format into the other.
@@ -78,6 +79,7 @@ def command(
         passes=passes,
         carriers=carriers,
         model=model,
+        expand_includes=expand_includes,
     )
     options = Options(order=order, reading=how_to_read(arguments, **how), ledger=ledger, dumps=dumps)
     todo = jobs(sources, out, target)

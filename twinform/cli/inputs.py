@@ -35,6 +35,9 @@ _OPTIONS = (
         default=True,
         help="Whether to expand .xacro files, which evaluates Python expressions in them; expand only what you trust.",
     ),
+    click.option(
+        "--expand-includes", is_flag=True, help="Read the files that includes name, and put them in their place."
+    ),
 )
 
 

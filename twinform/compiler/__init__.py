@@ -3,6 +3,7 @@
 from twinform.compiler.driver import DEFAULT_SDF_VERSION, Conversion, Order, UrdfVersion, convert, fulfil, plan
 from twinform.compiler.errors import CompileError
 from twinform.compiler.files import write_atomically
+from twinform.compiler.includes import expand
 from twinform.compiler.loading import Checked, Reading, check, load, loads, read
 from twinform.compiler.uris import SearchPath, UriError
 
@@ -18,6 +19,7 @@ __all__ = [
     "UriError",
     "check",
     "convert",
+    "expand",
     "fulfil",
     "load",
     "loads",

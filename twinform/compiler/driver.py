@@ -7,6 +7,7 @@ from typing import Literal
 
 from twinform.compiler.emitting import emit
 from twinform.compiler.errors import CompileError
+from twinform.compiler.includes import expand
 from twinform.compiler.loading import Checked, Reading, garbage_collection_paused, read
 from twinform.compiler.uris import SearchPath
 from twinform.diagnostics import Diagnostic, Ledger, Notes
@@ -14,6 +15,7 @@ from twinform.ir import Document, Format
 from twinform.ir.verify import verify
 from twinform.passes import Pass, Pipeline, parse_pipeline
 from twinform.passes.legalise import Target, legalisation
+from twinform.passes.legalise.to_urdf.candidates import wanted_includes
 from twinform.schemas import Engine
 
 Language = Literal["sdf", "urdf", "json"]
@@ -42,6 +44,7 @@ class Order:
     passes: Pipeline = field(default_factory=Pipeline)
     carriers: bool = True
     model: str | None = None
+    expand_includes: bool = False
 
     def legalisation(self, source: Document) -> Pipeline:
         """The passes that the target asks for."""
@@ -94,11 +97,13 @@ def convert(
     paths: Iterable[str | Path] = (),
     arguments: Mapping[str, str] | None = None,
     xacro: bool = True,
+    expand_includes: bool = False,
     watch: Callable[[str, Document], None] | None = None,
 ) -> Conversion:
     """Compile a file, or the bytes of one, into the target's language; `watch` sees the document after each pass.
 
-    `paths`, `arguments` and `xacro` are those of `check`.
+    `paths`, `arguments` and `xacro` are those of `check`. URDF has no includes: for it, those in the model are always
+    expanded.
 
     Raises:
         CompileError: the source, a pass or the result has an error.
@@ -111,6 +116,7 @@ def convert(
         passes=_pipeline(passes),
         carriers=carriers,
         model=model,
+        expand_includes=expand_includes,
     )
     how = Reading(strict, engine, SearchPath.of(paths), arguments or {}, xacro)
     return fulfil(order, source, how, name=name, watch=watch)
@@ -131,6 +137,9 @@ def fulfil(
     """
     with garbage_collection_paused():
         checked = read(source, how, name=name)
+        if order.expand_includes or order.to == "urdf":
+            wanted = None if order.expand_includes else wanted_includes(checked.document, order.model)
+            checked = expand(checked, how, wanted=wanted, carriers=order.carriers)
         if checked.document is None or not checked.accepted:
             raise CompileError(checked.diagnostics, unreadable=checked.unreadable)
         return _run(checked, checked.document, order, strict=how.strict, watch=watch)
@@ -148,14 +157,14 @@ def _run(
     strict: bool,
     watch: Callable[[str, Document], None] | None,
 ) -> Conversion:
-    notes = Notes(checked.path, strict, list(checked.diagnostics), origins=dict(checked.origins))
+    notes = Notes(checked.path, strict, list(checked.diagnostics), list(checked.entries), origins=dict(checked.origins))
     legal = order.legalisation(document)
     document = order.passes.run(document, notes, watch=watch, verify=verify)
     if not notes.has_errors and len(legal):
         document = legal.run(document, notes, watch=watch)
         if not notes.has_errors:
             verify(document, notes)
-    text = "" if notes.has_errors else _write(document, order.to, notes, fit=bool(len(legal)))
+    text = "" if notes.has_errors else _write(document, order.to, notes, fit=checked.mixed or bool(len(legal)))
     if notes.has_errors:
         raise CompileError(tuple(notes.diagnostics))
     lost = sum(entry.weight for entry in notes.entries)

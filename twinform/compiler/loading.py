@@ -20,7 +20,7 @@ from twinform.compiler.parsing import (
 from twinform.compiler.sdf import front_end as sdf
 from twinform.compiler.urdf import front_end as urdf
 from twinform.compiler.uris import SearchPath
-from twinform.diagnostics import Diagnostic, Location, Notes, Origins
+from twinform.diagnostics import Diagnostic, Entry, Location, Notes, Origins
 from twinform.diagnostics.rules import reading, structure
 from twinform.diagnostics.rules import xacro as xacro_rules
 from twinform.ir import Document, count_parts
@@ -56,7 +56,8 @@ class Checked:
     """What `check` found. `unreadable` says that there is no model at all: no file, no XML, or another format.
 
     `tree` is the XML that the document came from, and `origins` lead from its lines to where they were written if it
-    was expanded.
+    was expanded. Where includes were expanded, `included` is the size of their files, `entries` what became of parts of
+    them, and `mixed` says that the files may have been of several versions.
     """
 
     path: str
@@ -65,12 +66,15 @@ class Checked:
     unreadable: bool = False
     tree: XmlElement | None = None
     origins: Mapping[str, Origins] = field(default_factory=dict[str, Origins])
+    included: int = 0
+    entries: tuple[Entry, ...] = ()
+    mixed: bool = False
 
     @property
     def size(self) -> int:
         """How many elements and attributes the source has."""
         if self.tree is not None:
-            return sum(1 + len(element.keys()) for element in self.tree.iter())
+            return self.included + sum(1 + len(element.keys()) for element in self.tree.iter())
         return count_parts(self.document) if self.document else 0
 
     @property
@@ -88,13 +92,21 @@ def check(
     paths: Iterable[str | Path] = (),
     arguments: Mapping[str, str] | None = None,
     xacro: bool = True,
+    expand_includes: bool = False,
 ) -> Checked:
     """Read a file, or the bytes of one, and say everything that is wrong with it.
 
     `paths` are folders in which URIs are looked up. A file whose name ends in `.xacro` is expanded with the
-    `arguments`, which evaluates expressions and reads files that it names; without `xacro` it is refused.
+    `arguments`, which evaluates expressions and reads files that it names; without `xacro` it is refused. The files
+    that includes name are read only where `expand_includes` asks for it.
     """
-    return read(source, Reading(strict, engine, SearchPath.of(paths), arguments or {}, xacro), name=name)
+    how = Reading(strict, engine, SearchPath.of(paths), arguments or {}, xacro)
+    checked = read(source, how, name=name)
+    if not expand_includes:
+        return checked
+    from twinform.compiler.includes import expand  # noqa: PLC0415 - it reads files by functions of this module
+
+    return expand(checked, how)
 
 
 def read(source: str | Path | bytes, how: Reading, *, name: str = "") -> Checked:

@@ -7,9 +7,9 @@ stand there. Findings of severity `info` need not be listed, errors and warnings
 
 import re
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Literal
+from typing import Literal, TypedDict
 
 from twinform.compiler import CompileError, check, convert
 from twinform.diagnostics import Severity
@@ -22,12 +22,20 @@ Finding = tuple[int, str, str]
 """line, severity, rule"""
 
 
+class CheckOptions(TypedDict, total=False):
+    """What `check` is asked for besides the file."""
+
+    paths: tuple[Path, ...]
+    expand_includes: bool
+
+
 @dataclass(frozen=True, slots=True)
 class Case:
     """One case file."""
 
     path: Path
     strict: bool = False
+    options: CheckOptions = field(default_factory=CheckOptions)
 
     @property
     def expected(self) -> Counter[Finding]:
@@ -42,7 +50,7 @@ class Case:
     @property
     def found(self) -> Counter[Finding]:
         """What the compiler reports."""
-        diagnostics = check(self.path, strict=self.strict).diagnostics
+        diagnostics = check(self.path, strict=self.strict, **self.options).diagnostics
         return Counter(
             (each.location.line, str(each.severity), each.rule.name)
             for each in diagnostics
@@ -70,7 +78,11 @@ class Case:
             return "\n".join(f"{each.location.line}: {each.rule.name}" for each in error.diagnostics if each.is_error)
 
 
-def cases(folder: Path) -> list[Case]:
-    """Every case of a folder, in the order of their names; expected outputs are not cases."""
-    files = sorted(folder.rglob("*"))
-    return [Case(path) for path in files if path.suffix in _SUFFIXES and ".expected" not in path.suffixes]
+def cases(folder: Path, *, options: CheckOptions | None = None, below: bool = True) -> list[Case]:
+    """Every case of a folder and those below it, in the order of their names; expected outputs are not cases."""
+    files = sorted(folder.rglob("*") if below else folder.iterdir())
+    return [
+        Case(path, options=options or {})
+        for path in files
+        if path.suffix in _SUFFIXES and ".expected" not in path.suffixes
+    ]
