@@ -4,17 +4,25 @@ from pathlib import Path
 
 import pytest
 
-from twinform.testing import Case, cases
+from twinform.testing import Case, CheckOptions, cases
 
 _CASES = Path(__file__).parent / "cases"
+
+
+_EXPANDED = CheckOptions(expand_includes=True, paths=(_CASES / "includes/parts",))
 
 
 def _name(case: Case) -> str:
     return str(case.path.relative_to(_CASES))
 
 
-@pytest.mark.parametrize("case", cases(_CASES / "check"), ids=_name)
+@pytest.mark.parametrize("case", [*cases(_CASES / "check"), *cases(_CASES / "xacro")], ids=_name)
 def test_check_finds_what_the_case_announces(case: Case) -> None:
+    assert case.mismatches() == []
+
+
+@pytest.mark.parametrize("case", cases(_CASES / "includes", options=_EXPANDED, below=False), ids=_name)
+def test_expanding_includes_finds_what_the_case_announces(case: Case) -> None:
     assert case.mismatches() == []
 
 

@@ -191,6 +191,20 @@ def test_the_xacro_source_makes_the_same_robot() -> None:
     assert first_difference(etree.tostring(_sdf("four_wheels.urdf")), made.encode()) is None
 
 
+def test_one_xacro_source_becomes_the_same_two_files() -> None:
+    for language in ("urdf", "sdf"):
+        from_xacro, from_urdf = (
+            twinform.convert(_EXAMPLES / name, to=language).text
+            for name in ("four_wheels.urdf.xacro", "four_wheels.urdf")
+        )
+        assert first_difference(from_urdf.encode(), from_xacro.encode()) is None
+
+
+def test_an_argument_of_the_xacro_source_takes_the_mast_away() -> None:
+    document = twinform.load(_EXAMPLES / "four_wheels.urdf.xacro", arguments={"with_mast": "false"})
+    assert not any("mast" in link.name for link in document.models[0].links)
+
+
 _POINTS: list[tuple[str, Callable[[Xml], object]]] = [
     ("the IMU is on its link", lambda sdf: _one(sdf, ".//link/sensor[@type='imu']/imu")),
     ("its noise is there", lambda sdf: _one(sdf, ".//sensor[@type='imu']//angular_velocity/x/noise[@type='gaussian']")),

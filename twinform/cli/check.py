@@ -1,39 +1,37 @@
 """`twinform check`."""
 
 from collections import Counter
+from typing import Unpack
 
 import click
 
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
-from twinform.cli.source import open_source
-from twinform.compiler import Checked, check
+from twinform.cli.inputs import HowToRead, how_to_read, inputs, reading_options
+from twinform.compiler import Checked, expand, read
 from twinform.diagnostics import Severity
 from twinform.diagnostics.reporters import REPORTERS, Findings
-from twinform.schemas import Engine
 
 _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 
 
 @click.command("check")
-@click.argument("sources", metavar="IN...", nargs=-1, required=True)
+@click.argument("words", metavar="IN... [NAME:=VALUE...]", nargs=-1, required=True)
 @click.option("--format", "style", type=click.Choice(list(REPORTERS)), default="text", help="How to print findings.")
-@click.option("--strict", is_flag=True, help="Refuse what readers ignore, such as unknown names.")
-@click.option(
-    "--engine",
-    type=click.Choice(["libxml2", "xmlschema"]),
-    default="libxml2",
-    help="The XSD validator; xmlschema is the slow reference.",
-)
+@reading_options
 @click.pass_context
-def command(ctx: click.Context, sources: tuple[str, ...], style: str, engine: Engine, *, strict: bool) -> None:
+def command(
+    ctx: click.Context, words: tuple[str, ...], style: str, *, expand_includes: bool, **how: Unpack[HowToRead]
+) -> None:
     """Find everything that is wrong with robot models.
 
-    IN are URDF, SDF or JSON files; - is standard input. Exit code: 0 without errors, 1 with errors, 2 where a file
-    could not be read.
+    IN are URDF, SDF, xacro or JSON files; - is standard input. Arguments of xacro are written NAME:=VALUE. Exit code: 0
+    without errors, 1 with errors, 2 where a file could not be read.
     """
-    opened = (open_source(each) for each in sources)
-    checked = [check(each.content, name=each.name, strict=strict, engine=engine) for each in opened]
+    sources, arguments = inputs(words)
+    reading = how_to_read(arguments, **how)
+    checked = [read(each.content, reading, name=each.name) for each in sources]
+    checked = [expand(each, reading) for each in checked] if expand_includes else checked
     findings = [Findings(each.path, each.diagnostics) for each in checked]
     if style == "text":
         for each in findings:

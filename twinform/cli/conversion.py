@@ -1,6 +1,6 @@
 """One conversion, as the command line asks for it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import click
@@ -8,27 +8,25 @@ import click
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.findings import show
 from twinform.cli.targets import Job
-from twinform.compiler import CompileError, Conversion, UrdfVersion, check, convert, plan, write_atomically
+from twinform.compiler import CompileError, Conversion, Order, Reading, fulfil, read, write_atomically
 from twinform.diagnostics import Fate, Ledger
 from twinform.diagnostics.reporters import Findings
 from twinform.ir import Document
-from twinform.passes import BrokenPassError, Pipeline
-from twinform.schemas import Engine
+from twinform.passes import BrokenPassError
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Options:
-    """What is the same for every input."""
+    """What is the same for every input; the order is for SDF unless an input's target says otherwise."""
 
-    sdf_version: str | None
-    urdf_version: UrdfVersion
-    passes: Pipeline
+    order: Order
+    reading: Reading
     ledger: Path | None
-    strict: bool
-    carriers: bool
-    model: str | None
-    engine: Engine
     dumps: tuple[str, ...]
+
+    def order_for(self, job: Job) -> Order:
+        """What one input is to become."""
+        return replace(self.order, to=job.target, sdf_version=self.order.sdf_version if job.target == "sdf" else None)
 
 
 def run_conversion(job: Job, options: Options, label: str) -> int:
@@ -41,19 +39,8 @@ def run_conversion(job: Job, options: Options, label: str) -> int:
             click.echo(f"// {job.source.name} after {name}\n{_json(document)}", err=True)
 
     try:
-        conversion = convert(
-            job.source.content,
-            name=job.source.name,
-            to=job.target,
-            sdf_version=options.sdf_version if job.target == "sdf" else None,
-            urdf_version=options.urdf_version,
-            passes=options.passes.passes,
-            strict=options.strict,
-            carriers=options.carriers,
-            model=options.model,
-            engine=options.engine,
-            watch=watch,
-        )
+        source = job.source
+        conversion = fulfil(options.order_for(job), source.content, options.reading, name=source.name, watch=watch)
     except CompileError as error:
         show(Findings(job.source.name, error.diagnostics), on_stderr=True)
         return UNUSABLE if error.unreadable else FINDINGS
@@ -98,20 +85,9 @@ def _summary(ledger: Ledger) -> str:
 
 def print_plan(job: Job, options: Options, label: str) -> int:
     """Print the passes of one conversion; gives its exit code."""
-    checked = check(job.source.content, name=job.source.name, strict=options.strict, engine=options.engine)
+    checked = read(job.source.content, options.reading, name=job.source.name)
     if checked.document is None or not checked.accepted:
         show(Findings(checked.path, checked.diagnostics), on_stderr=True)
         return UNUSABLE if checked.unreadable else FINDINGS
-    version = options.sdf_version if job.target == "sdf" else None
-    passes = options.passes.passes
-    whole = plan(
-        checked.document,
-        to=job.target,
-        sdf_version=version,
-        urdf_version=options.urdf_version,
-        passes=passes,
-        carriers=options.carriers,
-        model=options.model,
-    )
-    click.echo(f"{label}{': ' if label else ''}{whole}")
+    click.echo(f"{label}{': ' if label else ''}{options.order_for(job).plan(checked.document)}")
     return 0

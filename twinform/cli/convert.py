@@ -1,16 +1,17 @@
 """`twinform convert`."""
 
 from pathlib import Path
+from typing import Unpack
 
 import click
 
 from twinform.cli.conversion import Options, print_plan, run_conversion
 from twinform.cli.failure import Unusable
-from twinform.cli.source import open_source
+from twinform.cli.inputs import HowToRead, how_to_read, inputs, reading_options
 from twinform.cli.targets import TARGETS, Target, jobs
-from twinform.compiler import UrdfVersion
+from twinform.compiler import Order, UrdfVersion
 from twinform.passes import Pipeline, PipelineError, RegistryError, parse_pipeline
-from twinform.schemas import Engine, table
+from twinform.schemas import table
 
 
 def _known_version(_ctx: click.Context, _option: click.Parameter, value: str | None) -> str | None:
@@ -30,7 +31,7 @@ def _pipeline(_ctx: click.Context, _option: click.Parameter, value: str | None) 
 
 
 @click.command("convert")
-@click.argument("sources", metavar="IN...", nargs=-1, required=True)
+@click.argument("words", metavar="IN... [NAME:=VALUE...]", nargs=-1, required=True)
 @click.option("-o", "--output", "out", metavar="OUT", help="The file to write, or the directory for several inputs.")
 @click.option("--to", "target", type=click.Choice(TARGETS), help="The format; else OUT's suffix or the other format.")
 @click.option("--sdf-version", metavar="V", callback=_known_version, help="The version of SDF to write.")
@@ -39,16 +40,15 @@ def _pipeline(_ctx: click.Context, _option: click.Parameter, value: str | None) 
 @click.option(
     "--ledger", type=click.Path(path_type=Path), metavar="FILE", help="Where to write what was not expressed."
 )
-@click.option("--strict", is_flag=True, help="Refuse what readers ignore, such as unknown names.")
 @click.option("--carriers/--no-carriers", default=True, help="Whether to keep in our namespace what the target lacks.")
 @click.option("--model", metavar="NAME", help="The model of a world to convert.")
-@click.option("--engine", type=click.Choice(["libxml2", "xmlschema"]), default="libxml2", help="The XSD validator.")
+@reading_options
 @click.option("--print-pipeline", is_flag=True, help="Print every pass that would run, in order, and stop.")
 @click.option("--dump-ir-after", "dumps", metavar="PASS", multiple=True, help="Print the IR after a pass on stderr.")
 @click.pass_context
 def command(
     ctx: click.Context,
-    sources: tuple[str, ...],
+    words: tuple[str, ...],
     out: str | None,
     target: Target | None,
     *,
@@ -56,32 +56,33 @@ def command(
     urdf_version: UrdfVersion,
     passes: Pipeline,
     ledger: Path | None,
-    strict: bool,
     carriers: bool,
     model: str | None,
-    engine: Engine,
     print_pipeline: bool,
     dumps: tuple[str, ...],
+    expand_includes: bool,
+    **how: Unpack[HowToRead],
 ) -> None:
     """Compile robot models from one format into the other.
 
-    IN are URDF, SDF or JSON files; - is standard input. Nothing is written for an input that has an error. Exit code: 0
-    without errors, 1 with errors, 2 where a file could not be read or written.
+    IN are URDF, SDF, xacro or JSON files; - is standard input. Arguments of xacro are written NAME:=VALUE. Nothing is
+    written for an input that has an error. Exit code: 0 without errors, 1 with errors, 2 where a file could not be read
+    or written.
     """
+    sources, arguments = inputs(words)
     if ledger is not None and len(sources) > 1:
         raise click.UsageError("--ledger takes one input")
-    options = Options(
+    order = Order(
+        to="sdf",
         sdf_version=sdf_version,
         urdf_version=urdf_version,
         passes=passes,
-        ledger=ledger,
-        strict=strict,
         carriers=carriers,
         model=model,
-        engine=engine,
-        dumps=dumps,
+        expand_includes=expand_includes,
     )
-    todo = jobs([open_source(source) for source in sources], out, target)
+    options = Options(order=order, reading=how_to_read(arguments, **how), ledger=ledger, dumps=dumps)
+    todo = jobs(sources, out, target)
     if sdf_version is not None and all(job.target != "sdf" for job in todo):
         raise click.UsageError("--sdf-version is for --to sdf")
     run = print_plan if print_pipeline else run_conversion

@@ -38,8 +38,10 @@ def open_source(argument: str) -> Source:
 
 
 def format_of_suffix(name: str) -> str | None:
-    """The format that a file of this name has by custom."""
-    return _SUFFIXES.get(Path(name).suffix.lower())
+    """The format that a file of this name has by custom; `robot.urdf.xacro` is URDF."""
+    path = Path(name)
+    suffix = path.suffix.lower()
+    return _SUFFIXES.get(Path(path.stem).suffix.lower() if suffix == ".xacro" else suffix)
 
 
 def _head(path: Path) -> bytes:

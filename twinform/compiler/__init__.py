@@ -1,20 +1,29 @@
 """The compiler: front ends, back ends and the driver that runs what lies between."""
 
-from twinform.compiler.driver import DEFAULT_SDF_VERSION, Conversion, UrdfVersion, convert, plan
+from twinform.compiler.driver import DEFAULT_SDF_VERSION, Conversion, Order, UrdfVersion, convert, fulfil, plan
 from twinform.compiler.errors import CompileError
 from twinform.compiler.files import write_atomically
-from twinform.compiler.loading import Checked, check, load, loads
+from twinform.compiler.includes import expand
+from twinform.compiler.loading import Checked, Reading, check, load, loads, read
+from twinform.compiler.uris import SearchPath, UriError
 
 __all__ = [
     "DEFAULT_SDF_VERSION",
     "Checked",
     "CompileError",
     "Conversion",
+    "Order",
+    "Reading",
+    "SearchPath",
     "UrdfVersion",
+    "UriError",
     "check",
     "convert",
+    "expand",
+    "fulfil",
     "load",
     "loads",
     "plan",
+    "read",
     "write_atomically",
 ]

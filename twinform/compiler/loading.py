@@ -1,9 +1,9 @@
 """From text to a verified document: parse, read, gate, build the IR."""
 
 import gc
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Callable, Generator, Iterable, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -19,8 +19,10 @@ from twinform.compiler.parsing import (
 )
 from twinform.compiler.sdf import front_end as sdf
 from twinform.compiler.urdf import front_end as urdf
-from twinform.diagnostics import Diagnostic, Location, Notes
+from twinform.compiler.uris import SearchPath
+from twinform.diagnostics import Diagnostic, Entry, Location, Notes, Origins
 from twinform.diagnostics.rules import model, reading, structure
+from twinform.diagnostics.rules import xacro as xacro_rules
 from twinform.ir import Document, count_parts
 from twinform.ir.verify import verify
 from twinform.schemas import Context, Engine, Version, XmlElement, gate, parse_version, print_version, refusals, table
@@ -32,17 +34,34 @@ _ROOTS: dict[str, tuple[str, Callable[[XmlElement, Context], Mapping[str, Any]]]
 _CONSEQUENCES = frozenset(
     {model.MISSING_LIMIT, model.PARTIAL_LIMIT, model.SEVERAL_ROOTS, model.EMPTY_MODEL, model.UNKNOWN_MATERIAL}
 )
+XACRO = ".xacro"
+"""The ending of the names of files that are expanded before they are read."""
 _WITHOUT_VERSION = {"urdf": (1, 0)}
 """The version of a file that declares none."""
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """How files are read.
+
+    `search` are the folders for URIs, `arguments` those of xacro, which `xacro` allows.
+    """
+
+    strict: bool = False
+    engine: Engine = "libxml2"
+    search: SearchPath = field(default_factory=SearchPath.of)
+    arguments: Mapping[str, str] = field(default_factory=dict[str, str])
+    xacro: bool = True
 
 
 @dataclass(frozen=True, slots=True)
 class Checked:
     """What `check` found. `unreadable` says that there is no model at all: no file, no XML, or another format.
 
-    The document may be there in spite of errors; `accepted` says whether it has any.
-
-    `tree` is the XML that the document came from.
+    The document may be there in spite of errors; `accepted` says whether it has any. `tree` is the XML that it came
+    from, and `origins` lead from its lines to where they were written if it was expanded. Where includes were expanded,
+    `included` is the size of their files, `entries` what became of parts of them, and `mixed` says that the files may
+    have been of several versions.
     """
 
     path: str
@@ -50,12 +69,16 @@ class Checked:
     diagnostics: tuple[Diagnostic, ...]
     unreadable: bool = False
     tree: XmlElement | None = None
+    origins: Mapping[str, Origins] = field(default_factory=dict[str, Origins])
+    included: int = 0
+    entries: tuple[Entry, ...] = ()
+    mixed: bool = False
 
     @property
     def size(self) -> int:
         """How many elements and attributes the source has."""
         if self.tree is not None:
-            return sum(1 + len(element.keys()) for element in self.tree.iter())
+            return self.included + sum(1 + len(element.keys()) for element in self.tree.iter())
         return count_parts(self.document) if self.document else 0
 
     @property
@@ -64,17 +87,53 @@ class Checked:
         return not any(diagnostic.is_error for diagnostic in self.diagnostics)
 
 
-def check(source: str | Path | bytes, *, name: str = "", strict: bool = False, engine: Engine = "libxml2") -> Checked:
-    """Read a file, or the bytes of one, and say everything that is wrong with it."""
-    notes = Notes(file=name or ("<bytes>" if isinstance(source, bytes) else str(source)), strict=strict)
+def check(
+    source: str | Path | bytes,
+    *,
+    name: str = "",
+    strict: bool = False,
+    engine: Engine = "libxml2",
+    paths: Iterable[str | Path] = (),
+    arguments: Mapping[str, str] | None = None,
+    xacro: bool = True,
+    expand_includes: bool = False,
+) -> Checked:
+    """Read a file, or the bytes of one, and say everything that is wrong with it.
+
+    `paths` are folders in which URIs are looked up. A file whose name ends in `.xacro` is expanded with the
+    `arguments`, which evaluates expressions and reads files that it names; without `xacro` it is refused. The files
+    that includes name are read only where `expand_includes` asks for it.
+    """
+    how = Reading(strict, engine, SearchPath.of(paths), arguments or {}, xacro)
+    checked = read(source, how, name=name)
+    if not expand_includes:
+        return checked
+    from twinform.compiler.includes import expand  # noqa: PLC0415 - it reads files by functions of this module
+
+    return expand(checked, how)
+
+
+def read(source: str | Path | bytes, how: Reading, *, name: str = "") -> Checked:
+    """`check`, with all that it needs to know in one place."""
+    file = name or ("<bytes>" if isinstance(source, bytes) else str(source))
+    notes = Notes(file=file, strict=how.strict)
     with garbage_collection_paused():
-        return _check(source, notes, engine)
+        return _check(source, notes, how)
 
 
-def _check(source: str | Path | bytes, notes: Notes, engine: Engine) -> Checked:
+def _check(source: str | Path | bytes, notes: Notes, how: Reading) -> Checked:
     try:
+        if not isinstance(source, bytes) and Path(source).suffix.lower() == XACRO:
+            return _check_xacro(Path(source), notes, how)
         text = source if isinstance(source, bytes) else read_bytes(Path(source), notes)
-        document, tree = read_document(text, notes, engine)
+    except UnreadableError:
+        return Checked(notes.file, None, tuple(notes.diagnostics), unreadable=True)
+    return _check_text(text, notes, how)
+
+
+def _check_text(text: bytes, notes: Notes, how: Reading) -> Checked:
+    try:
+        document, tree = read_document(text, notes, how.engine)
     except UnreadableError:
         return Checked(notes.file, None, tuple(notes.diagnostics), unreadable=True)
     if document is not None and not notes.has_errors:
@@ -83,13 +142,40 @@ def _check(source: str | Path | bytes, notes: Notes, engine: Engine) -> Checked:
     return Checked(notes.file, document, found, tree=tree)
 
 
-def load(source: str | Path, *, strict: bool = False, engine: Engine = "libxml2") -> Document:
-    """The document of a file.
+def _check_xacro(path: Path, notes: Notes, how: Reading) -> Checked:
+    """Expand a xacro file and read the text that comes out; findings are reported where their parts were written.
+
+    Raises:
+        UnreadableError: it cannot be expanded, or must not.
+    """
+    from twinform.compiler.xacro.expansion import expand  # noqa: PLC0415 - few files need it
+
+    if not how.xacro:
+        message = "this is a xacro file, and xacro is refused here"
+        notes.report(xacro_rules.XACRO_REFUSED, message, Location(line=1))
+        raise UnreadableError
+    expansion = expand(path, how.arguments, how.search, notes)
+    name = f"{notes.file} (expanded)"
+    notes.origins[name] = expansion.origins
+    checked = _check_text(expansion.text, Notes(name, notes.strict), how)
+    notes.extend(checked.diagnostics)
+    return replace(checked, path=notes.file, diagnostics=tuple(notes.diagnostics), origins=notes.origins)
+
+
+def load(
+    source: str | Path,
+    *,
+    strict: bool = False,
+    engine: Engine = "libxml2",
+    paths: Iterable[str | Path] = (),
+    arguments: Mapping[str, str] | None = None,
+) -> Document:
+    """The document of a file; `paths` and `arguments` are those of `check`.
 
     Raises:
         CompileError: the file has an error; what was found is in its diagnostics.
     """
-    return _document(check(source, strict=strict, engine=engine))
+    return _document(check(source, strict=strict, engine=engine, paths=paths, arguments=arguments))
 
 
 def loads(text: str | bytes, name: str = "<string>", *, strict: bool = False, engine: Engine = "libxml2") -> Document:

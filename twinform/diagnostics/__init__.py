@@ -5,6 +5,7 @@ from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.ledger import Entry, Fate, Ledger
 from twinform.diagnostics.location import NOWHERE, Location, Source
 from twinform.diagnostics.notes import Notes
+from twinform.diagnostics.origins import Origins
 from twinform.diagnostics.rule import Rule, Severity
 
 __all__ = [
@@ -15,6 +16,7 @@ __all__ = [
     "Ledger",
     "Location",
     "Notes",
+    "Origins",
     "Rule",
     "Severity",
     "Source",

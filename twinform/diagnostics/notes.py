@@ -1,11 +1,12 @@
 """What a stage of the compiler writes its findings into."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.ledger import Entry, Fate
 from twinform.diagnostics.location import NOWHERE, Location
+from twinform.diagnostics.origins import Origins
 from twinform.diagnostics.rule import Rule, Severity
 
 MOST = 1000  # a hostile file can hold a hundred thousand mistakes; nobody reads past the first thousand
@@ -15,8 +16,8 @@ MOST = 1000  # a hostile file can hold a hundred thousand mistakes; nobody reads
 class Notes:
     """Collects diagnostics and ledger entries, in the order in which they are made.
 
-    `file` completes the locations, which know only a line and a path. `has_errors` says whether anything here stops a
-    conversion.
+    `file` completes the locations, which know only a line and a path. `origins` lead from the lines of expanded texts
+    to where they were written. `has_errors` says whether anything here stops a conversion.
     """
 
     file: str = ""
@@ -25,6 +26,7 @@ class Notes:
     entries: list[Entry] = field(default_factory=list[Entry])
     left_out: int = 0
     has_errors: bool = False
+    origins: dict[str, Origins] = field(default_factory=dict[str, Origins])
 
     def __post_init__(self) -> None:
         self.has_errors = any(diagnostic.is_error for diagnostic in self.diagnostics)
@@ -46,7 +48,8 @@ class Notes:
         Past the limit, only the first error is still kept.
         """
         severity = severity or rule.severity_in(strict=self.strict)
-        diagnostic = Diagnostic(rule, message, self._complete(location), severity, found, expected, help, related)
+        where = self._complete(location)
+        diagnostic = self._traced(Diagnostic(rule, message, where, severity, found, expected, help, related))
         if len(self.diagnostics) < MOST or (diagnostic.is_error and not self.has_errors):
             self.diagnostics.append(diagnostic)
             self.has_errors = self.has_errors or diagnostic.is_error
@@ -56,12 +59,26 @@ class Notes:
     def extend(self, diagnostics: Iterable[Diagnostic]) -> None:
         """Add diagnostics that another stage has made."""
         for diagnostic in diagnostics:
-            self.diagnostics.append(diagnostic)
+            self.diagnostics.append(self._traced(diagnostic))
             self.has_errors = self.has_errors or diagnostic.is_error
 
     def account(self, fate: Fate, rule: Rule, message: str, location: Location = NOWHERE, weight: int = 1) -> None:
         """Add a ledger entry."""
-        self.entries.append(Entry(fate, rule, message, self._complete(location), weight))
+        self.entries.append(Entry(fate, rule, message, self._origin(self._complete(location)), weight))
 
     def _complete(self, location: Location) -> Location:
         return location if location.file else location._replace(file=self.file)
+
+    def _traced(self, diagnostic: Diagnostic) -> Diagnostic:
+        """The diagnostic with the place where its part was written first, and its place in an expanded text second."""
+        if diagnostic.location.file not in self.origins:
+            return diagnostic
+        where = self._origin(diagnostic.location)
+        related = (diagnostic.location, *map(self._origin, diagnostic.related))
+        return replace(diagnostic, location=where, related=related)
+
+    def _origin(self, location: Location) -> Location:
+        """Where a place in an expanded text was written; any other place itself."""
+        origins = self.origins.get(location.file)
+        place = origins.place(location.line) if origins else None
+        return place._replace(path=location.path) if place else location

@@ -272,14 +272,16 @@ def _pose_text(pose: Any) -> str | None:
 
 
 def _write_in_order(items: list[tuple[Any, Write]], element: XmlElement) -> None:
-    """Write children by the line that they came from; one made by a pass follows the one before it."""
+    """Write children by the line that they came from; one without a line of this file follows the one before it."""
     if len(items) == 1:
         child, write = items[0]
         write(child, element)
         return
     keys: list[int] = []
+    file = next((child.source.file for child, _ in items if child.source), "")
     for child, _ in items:
-        keys.append(child.source.line if child.source else keys[-1] if keys else 0)
+        source = child.source
+        keys.append(source.line if source and source.file == file else keys[-1] if keys else 0)
     for _, (child, write) in sorted(zip(keys, items, strict=True), key=itemgetter(0)):
         write(child, element)
 

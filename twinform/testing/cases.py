@@ -7,18 +7,26 @@ stand there. Findings of severity `info` need not be listed, errors and warnings
 
 import re
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Literal
+from typing import Literal, TypedDict
 
 from twinform.compiler import CompileError, check, convert
 from twinform.diagnostics import Severity
 
 _EXPECT = re.compile(rb"<!--\s*expect:\s*(?P<severity>\w+)\s+(?P<rule>[\w-]+)\s*-->")
 _OTHER: dict[str, Literal["sdf", "urdf"]] = {".urdf": "sdf", ".sdf": "urdf"}
+_SUFFIXES = frozenset({*_OTHER, ".xacro"})
 
 Finding = tuple[int, str, str]
 """line, severity, rule"""
+
+
+class CheckOptions(TypedDict, total=False):
+    """What `check` is asked for besides the file."""
+
+    paths: tuple[Path, ...]
+    expand_includes: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +35,7 @@ class Case:
 
     path: Path
     strict: bool = False
+    options: CheckOptions = field(default_factory=CheckOptions)
 
     @property
     def expected(self) -> Counter[Finding]:
@@ -41,11 +50,11 @@ class Case:
     @property
     def found(self) -> Counter[Finding]:
         """What the compiler reports."""
-        diagnostics = check(self.path, strict=self.strict).diagnostics
+        diagnostics = check(self.path, strict=self.strict, **self.options).diagnostics
         return Counter(
             (each.location.line, str(each.severity), each.rule.name)
             for each in diagnostics
-            if each.severity > Severity.INFO
+            if each.severity > Severity.INFO and each.location.file in {"", str(self.path)}
         )
 
     def mismatches(self) -> list[str]:
@@ -69,7 +78,11 @@ class Case:
             return "\n".join(f"{each.location.line}: {each.rule.name}" for each in error.diagnostics if each.is_error)
 
 
-def cases(folder: Path) -> list[Case]:
-    """Every case of a folder, in the order of their names; expected outputs are not cases."""
-    files = sorted(folder.rglob("*"))
-    return [Case(path) for path in files if path.suffix in _OTHER and ".expected" not in path.suffixes]
+def cases(folder: Path, *, options: CheckOptions | None = None, below: bool = True) -> list[Case]:
+    """Every case of a folder and those below it, in the order of their names; expected outputs are not cases."""
+    files = sorted(folder.rglob("*") if below else folder.iterdir())
+    return [
+        Case(path, options=options or {})
+        for path in files
+        if path.suffix in _SUFFIXES and ".expected" not in path.suffixes
+    ]

@@ -9,6 +9,7 @@ from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Document, Include, Model, Node, Opaque, World, count_parts
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
 from twinform.passes.base import Pass
+from twinform.passes.legalise.to_urdf.candidates import Candidate, candidates
 
 
 class SelectModel(Pass):
@@ -27,7 +28,7 @@ class SelectModel(Pass):
         """The document with one model."""
         if notes.has_errors:
             return document
-        chosen = _choose(list(_candidates(document)), self.model, document.location, notes)
+        chosen = _choose(list(candidates(document)), self.model, document.location, notes)
         if chosen is None or notes.has_errors:
             return document
         model, world = chosen.model, chosen.world
@@ -38,17 +39,6 @@ class SelectModel(Pass):
         return document.model_copy(
             update={"models": (model,), "worlds": (), "lights": (), "includes": (), "opaque": ()}
         )
-
-
-@dataclass(frozen=True, slots=True)
-class _Candidate:
-    model: Model | Include
-    world: World | None = None
-
-    @property
-    def full_name(self) -> str:
-        name = self.model.name or self.model.uri if isinstance(self.model, Include) else self.model.name
-        return f"{self.world.name}::{name}" if self.world else name or ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,18 +58,10 @@ class _Part:
         notes.account(Fate.DROPPED, rules.OUTSIDE_MODEL, message, self.location, self.weight)
 
 
-def _candidates(document: Document) -> Iterator[_Candidate]:
-    for one in (*document.models, *document.includes):
-        yield _Candidate(one)
-    for world in document.worlds:
-        for one in (*world.models, *world.includes):
-            yield _Candidate(one, world)
-
-
-def _choose(candidates: list[_Candidate], name: str | None, where: Location, notes: Notes) -> _Chosen | None:
-    found = [one for one in candidates if name is None or name in (one.model.name, one.full_name)]
+def _choose(among: list[Candidate], name: str | None, where: Location, notes: Notes) -> _Chosen | None:
+    found = [one for one in among if one.answers_to(name)]
     if len(found) != 1:
-        _say_which(candidates, name, len(found), where, notes)
+        _say_which(among, name, len(found), where, notes)
         return None
     model, world = found[0].model, found[0].world
     if isinstance(model, Include):
@@ -89,15 +71,15 @@ def _choose(candidates: list[_Candidate], name: str | None, where: Location, not
     return _Chosen(model, world)
 
 
-def _say_which(candidates: list[_Candidate], name: str | None, count: int, where: Location, notes: Notes) -> None:
-    names = ", ".join(one.full_name for one in candidates) or "none"
-    if not candidates:
+def _say_which(among: list[Candidate], name: str | None, count: int, where: Location, notes: Notes) -> None:
+    names = ", ".join(one.full_name for one in among) or "none"
+    if not among:
         message = "there is no model in the file"
     elif name is None:
         message = f"there are {count} models, and a URDF file holds one robot; choose one of {names}"
     else:
         message = f"{count or 'no'} models are called {name!r}; there are {names}"
-    related = tuple(one.model.location for one in candidates[:5])
+    related = tuple(one.model.location for one in among[:5])
     notes.report(rules.MODEL_NOT_CHOSEN, message, where, found=name, expected=names, related=related)
 
 

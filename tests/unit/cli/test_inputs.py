@@ -1,0 +1,53 @@
+from pathlib import Path
+
+import pytest
+
+from tests.unit.cli.conftest import Run
+
+ROBOT = """\
+<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="r">
+  <xacro:arg name="side" default="left"/>
+  <link name="$(arg side)"/>
+</robot>
+"""
+
+
+@pytest.fixture
+def robot(tmp_path: Path) -> Path:
+    path = tmp_path / "robot.urdf.xacro"
+    path.write_text(ROBOT)
+    return path
+
+
+def test_arguments_of_xacro_follow_the_inputs(run: Run, robot: Path) -> None:
+    done = run("convert", robot, "side:=right", "--to", "urdf")
+    assert done.exit_code == 0
+    assert '<link name="right"/>' in done.stdout
+
+
+def test_a_xacro_file_becomes_the_other_format_under_its_own_name(run: Run, robot: Path) -> None:
+    assert run("convert", robot, "-o", f"{robot.parent}/out/").exit_code == 0
+    assert (robot.parent / "out/robot.sdf").exists()
+
+
+def test_check_takes_arguments_and_warns_of_unused_ones(run: Run, robot: Path) -> None:
+    assert run("check", robot, "side:=right").exit_code == 0
+    assert "unused-argument" in run("check", robot, "sid:=right").stdout
+
+
+def test_no_xacro_refuses_it(run: Run, robot: Path) -> None:
+    done = run("check", "--no-xacro", robot)
+    assert done.exit_code == 2
+    assert "xacro-refused" in done.stdout
+
+
+def test_arguments_without_a_xacro_file_are_wrong_usage(run: Run, folder: Path) -> None:
+    done = run("check", folder / "good.urdf", "side:=right")
+    assert done.exit_code == 2
+    assert "no input is a .xacro file" in done.stderr
+    assert run("check", "side:=right").exit_code == 2
+
+
+def test_a_folder_for_uris_must_be_there(run: Run, robot: Path) -> None:
+    assert run("check", "--path", robot.parent / "none", robot).exit_code == 2
+    assert run("check", "--path", robot.parent, robot).exit_code == 0

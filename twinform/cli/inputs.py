@@ -1,0 +1,78 @@
+"""How the files of a command are read: options that several commands share, and the arguments of xacro."""
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, TypedDict, TypeVar, Unpack
+
+import click
+
+from twinform.cli.source import Source, open_source
+from twinform.compiler import Reading, SearchPath
+from twinform.schemas import Engine
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+_ARGUMENT = re.compile(r"(?P<name>[A-Za-z_][\w.-]*):=(?P<value>.*)", re.DOTALL)
+_OPTIONS = (
+    click.option("--strict", is_flag=True, help="Refuse what readers ignore, such as unknown names."),
+    click.option(
+        "--engine",
+        type=click.Choice(["libxml2", "xmlschema"]),
+        default="libxml2",
+        help="The XSD validator; xmlschema is the slow reference.",
+    ),
+    click.option(
+        "--path",
+        "paths",
+        metavar="DIR",
+        multiple=True,
+        type=click.Path(exists=True, file_okay=False, path_type=Path),
+        help="A folder of models or packages, looked in before those that the environment names; repeatable.",
+    ),
+    click.option(
+        "--xacro/--no-xacro",
+        default=True,
+        help="Whether to expand .xacro files, which evaluates Python expressions in them; expand only what you trust.",
+    ),
+    click.option(
+        "--expand-includes", is_flag=True, help="Read the files that includes name, and put them in their place."
+    ),
+)
+
+
+def reading_options(command: Command) -> Command:
+    """Give a command the options that say how files are read."""
+    for option in reversed(_OPTIONS):
+        command = option(command)
+    return command
+
+
+class HowToRead(TypedDict):
+    """What these options give a command."""
+
+    strict: bool
+    engine: Engine
+    paths: tuple[Path, ...]
+    xacro: bool
+
+
+def how_to_read(arguments: Mapping[str, str], **how: Unpack[HowToRead]) -> Reading:
+    """The options as the compiler takes them."""
+    return Reading(how["strict"], how["engine"], SearchPath.of(how["paths"]), arguments, how["xacro"])
+
+
+def inputs(words: Sequence[str]) -> tuple[list[Source], dict[str, str]]:
+    """The files among the words of a command line, and the `name:=value` arguments for those that are xacro.
+
+    Raises:
+        click.UsageError: there are no files, or arguments that nothing takes.
+    """
+    matches = [_ARGUMENT.fullmatch(word) for word in words]
+    arguments = {match["name"]: match["value"] for match in matches if match}
+    files = [word for word, match in zip(words, matches, strict=True) if not match]
+    if not files:
+        raise click.UsageError("there are arguments of xacro and no input")
+    if arguments and not any(file.lower().endswith(".xacro") for file in files):
+        raise click.UsageError(f"{next(iter(arguments))}:=... is an argument of xacro, and no input is a .xacro file")
+    return [open_source(file) for file in files], arguments

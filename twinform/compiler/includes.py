@@ -1,0 +1,177 @@
+"""Reading the files that includes name, for `passes/includes`, which puts them in their place."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from posixpath import dirname
+from typing import NamedTuple
+
+from twinform.compiler.loading import Checked, Reading, read
+from twinform.compiler.model_config import manifest, model_file
+from twinform.compiler.uris import UriError
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules import files, includes
+from twinform.ir import Document, Format, Include
+from twinform.ir.verify import verify
+from twinform.passes import Pipeline
+from twinform.passes.includes import Included, expand_includes, has_includes
+from twinform.passes.legalise import Target, legalisation
+from twinform.schemas import Version, parse_version, table
+
+_DEEPEST = 32
+_MOST = 10_000
+_NEWEST_WITHOUT_HARM = "1.11"
+"""What URDF becomes where the file around it has no version."""
+
+Wanted = Callable[[Include], bool]
+"""Which of a document's includes are to be expanded."""
+
+
+class _File(NamedTuple):
+    """A file with all its includes expanded: how many files it is made of, and how large these are together."""
+
+    document: Document
+    files: int
+    size: int
+
+
+def expand(checked: Checked, how: Reading, *, wanted: Wanted | None = None, carriers: bool = True) -> Checked:
+    """What was found, with the document's includes expanded; errors among the findings where that cannot be done."""
+    document = checked.document
+    if document is None or not checked.accepted or document.format is not Format.SDF or not has_includes(document):
+        return checked
+    notes = Notes(checked.path, how.strict, list(checked.diagnostics), origins=dict(checked.origins))
+    reader = _Reader(how, notes, carriers)
+    whole = reader.expanded(document, Path(checked.path), (), wanted)
+    if not notes.has_errors:
+        _verify(whole.document, notes)
+    return replace(
+        checked,
+        document=whole.document,
+        diagnostics=tuple(notes.diagnostics),
+        origins=notes.origins,
+        entries=tuple(notes.entries),
+        included=whole.size,
+        mixed=True,
+    )
+
+
+def _verify(document: Document, notes: Notes) -> None:
+    """What only shows when all is in one place; the rest was said when the files were read."""
+    found = Notes(notes.file, notes.strict)
+    verify(document, found)
+    seen = set(notes.diagnostics)
+    notes.extend(each for each in found.diagnostics if each not in seen)
+
+
+@dataclass(slots=True)
+class _Total:
+    files: int = 1
+    size: int = 0
+
+    def add(self, file: _File) -> bool:
+        """Count a file; gives whether there are not too many yet."""
+        self.files += file.files
+        self.size += file.size
+        return self.files <= _MOST
+
+
+@dataclass(slots=True)
+class _Reader:
+    """One run. Every file is read once, whatever includes it."""
+
+    how: Reading
+    notes: Notes
+    carriers: bool
+    files: dict[tuple[Path, str | None], _File | None] = field(
+        default_factory=dict[tuple[Path, str | None], "_File | None"]
+    )
+
+    def expanded(self, document: Document, file: Path, above: tuple[Path, ...], wanted: Wanted | None) -> _File:
+        """A document with its includes expanded; `above` are the files that are being read already."""
+        total = _Total()
+
+        def resolve(include: Include) -> Included | None:
+            path = self._find(include, file, document) if wanted is None or wanted(include) else None
+            found = self._file(include, path, document, (*above, file.resolve())) if path else None
+            if path is None or found is None:
+                return None
+            if not total.add(found):
+                self._report_too_many(include, f"these are more than {_MOST:,} models")
+                return None
+            return Included(found.document, _folder(include, path))
+
+        return _File(expand_includes(document, resolve, self.notes), total.files, total.size)
+
+    def _find(self, include: Include, file: Path, document: Document) -> Path | None:
+        """The file that an include names."""
+        try:
+            path = self.how.search.find(include.uri or "", file)
+        except UriError as error:
+            self.notes.report(error.rule, error.message, include.location.at("uri"), found=include.uri, help=error.help)
+            return None
+        if not path.is_dir():
+            return path
+        config = manifest(path)
+        if config is None:
+            message = f"{include.uri!r} is the folder {str(path)!r}, which has no model.config"
+            self.notes.report(files.BROKEN_MODEL_CONFIG, message, include.location.at("uri"), found=include.uri)
+            return None
+        return model_file(config, _version(document), self.notes)
+
+    def _file(self, include: Include, path: Path, around: Document, above: tuple[Path, ...]) -> _File | None:
+        """An included file, expanded; None where it cannot be, which the notes then say."""
+        real = path.resolve()
+        if real in above:
+            names = " includes ".join(repr(each.name) for each in (*above[above.index(real) :], real))
+            self.notes.report(includes.INCLUDE_CYCLE, names, include.location.at("uri"), found=include.uri)
+            return None
+        if len(above) >= _DEEPEST:
+            self._report_too_many(include, f"it is inside {_DEEPEST} others")
+            return None
+        # what URDF becomes depends on the version around it
+        key = (real, around.version)
+        if key not in self.files:
+            self.files[key] = self._read(path, around, above)
+        return self.files[key]
+
+    def _read(self, path: Path, around: Document, above: tuple[Path, ...]) -> _File | None:
+        checked = read(path, self.how)
+        self.notes.origins.update(checked.origins)
+        self.notes.extend(each for each in checked.diagnostics if each not in self.notes.diagnostics)
+        if checked.document is None or not checked.accepted:
+            return None
+        document = checked.document
+        if document.format is Format.URDF:
+            document = self._as_sdf(document, path, around)
+        inner = self.expanded(document, path, above, None)
+        return inner._replace(size=inner.size + checked.size)
+
+    def _as_sdf(self, document: Document, path: Path, around: Document) -> Document:
+        """A URDF document in the terms of the file that includes it."""
+        version = around.version if around.version in table("sdf").versions else _NEWEST_WITHOUT_HARM
+        target = Target(Format.SDF, version or _NEWEST_WITHOUT_HARM, carriers=self.carriers)
+        own = Notes(str(path), self.how.strict, origins=self.notes.origins)
+        document = Pipeline(legalisation(Format.URDF, document.version, target)).run(document, own)
+        self.notes.extend(own.diagnostics)
+        self.notes.entries.extend(own.entries)
+        return document
+
+    def _report_too_many(self, include: Include, why: str) -> None:
+        message = f"{include.uri!r} is not expanded: {why}"
+        self.notes.report(includes.TOO_MANY_INCLUDES, message, include.location.at("uri"), found=include.uri)
+
+
+def _version(document: Document) -> Version | None:
+    return parse_version(document.version) if document.version in table("sdf").versions else None
+
+
+def _folder(include: Include, path: Path) -> str:
+    """The URI of the folder that the file lies in, as the file that includes it would say it."""
+    uri = (include.uri or "").strip().rstrip("/")
+    if path.name == uri.rpartition("/")[2]:
+        return dirname(uri)
+    if uri.startswith(("http://", "https://")):
+        version = uri.rpartition("/models/")[2].partition("/")[2]
+        return f"{uri}/files" if version else f"{uri}/tip/files"
+    return uri

@@ -1,0 +1,57 @@
+"""ROS packages: folders with a package.xml that says their name."""
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from lxml import etree
+
+_MARK = "package.xml"
+_LARGEST = 2**20
+_DEEPEST = 5
+_SKIPPED = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
+
+
+def is_package(folder: Path, name: str) -> bool:
+    """Whether a folder is the package of this name."""
+    return package_name(folder) == name
+
+
+def package_name(folder: Path) -> str | None:
+    """What the package in a folder calls itself; None where there is none."""
+    manifest = folder / _MARK
+    try:
+        if not manifest.is_file() or manifest.stat().st_size > _LARGEST:
+            return None
+        root = etree.fromstring(manifest.read_bytes(), etree.XMLParser(resolve_entities=False, no_network=True))
+    except (OSError, etree.XMLSyntaxError):
+        return None
+    return (root.findtext("name") or "").strip() or None
+
+
+@dataclass(frozen=True, slots=True)
+class PackageIndex:
+    """The packages below some folders, looked for once and only when one is asked for."""
+
+    found: dict[Path, dict[str, Path]] = field(default_factory=dict[Path, dict[str, Path]])
+
+    def named(self, name: str, root: Path) -> Iterator[Path]:
+        """The package of this name below a folder, if there is one."""
+        if root not in self.found:
+            self.found[root] = dict(_packages_below(root))
+        if name in self.found[root]:
+            yield self.found[root][name]
+
+
+def _packages_below(root: Path) -> Iterator[tuple[str, Path]]:
+    """Every package and its name; a package holds no others."""
+    depth = len(root.parts)
+    for place, folders, files in os.walk(root):
+        here = Path(place)
+        name = package_name(here) if _MARK in files else None
+        if name is not None:
+            yield name, here
+        if name is not None or _SKIPPED.intersection(files) or len(here.parts) - depth >= _DEEPEST:
+            folders.clear()
+        folders[:] = sorted(folder for folder in folders if not folder.startswith("."))

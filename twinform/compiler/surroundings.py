@@ -1,0 +1,26 @@
+"""The folders around a file, in which its neighbours are."""
+
+from pathlib import Path
+
+_HIGHEST = 6
+"""So many folders up: a file in `ws/src/repository/package/urdf/parts` still sees the workspace's sources."""
+_TOPS = (".git", ".hg")
+"""What marks the top of a repository."""
+
+
+def folders_around(file: Path) -> tuple[Path, ...]:
+    """The file's own folder and those above it, up to the top of its repository; never the root of the file system."""
+    found: list[Path] = []
+    folder = file.parent
+    real = folder.resolve()
+    while len(found) <= _HIGHEST and real.parent != real:
+        found.append(folder)
+        if any((real / mark).exists() for mark in _TOPS):
+            break
+        folder, real = _above(folder, real), real.parent
+    return tuple(found)
+
+
+def _above(folder: Path, real: Path) -> Path:
+    """The folder above, in the words in which the file was named as long as they last."""
+    return folder.parent if folder.name not in {"", ".."} else real.parent

@@ -1,0 +1,157 @@
+"""Where the files are that a model names by URI."""
+
+import os
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from posixpath import normpath
+from typing import Self
+from urllib.parse import unquote, urlsplit
+
+from twinform.compiler import fuel
+from twinform.compiler.packages import PackageIndex, is_package
+from twinform.compiler.surroundings import folders_around
+from twinform.diagnostics import Rule
+from twinform.diagnostics.rules import files as rules
+
+_MODEL_VARIABLES = ("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "SDF_PATH", "GAZEBO_MODEL_PATH")
+_MOST_SHOWN = 6
+
+
+class UriError(Exception):
+    """A URI that leads nowhere, or where it must not lead."""
+
+    def __init__(self, rule: Rule, message: str, help: str | None = None) -> None:
+        super().__init__(message)
+        self.rule = rule
+        self.message = message
+        self.help = help
+
+
+@dataclass(frozen=True, slots=True)
+class SearchPath:
+    """The folders in which URIs are looked up.
+
+    `own` comes from the caller and is looked in first; `models` hold a folder for each model, `packages` one for each
+    package, and `workspaces` packages at any depth. The folders around the file that has the URI come last.
+    """
+
+    own: tuple[Path, ...] = ()
+    models: tuple[Path, ...] = ()
+    packages: tuple[Path, ...] = ()
+    workspaces: tuple[Path, ...] = ()
+    fuel: tuple[Path, ...] = ()
+    index: PackageIndex = field(default_factory=PackageIndex, compare=False, repr=False)
+
+    @classmethod
+    def of(cls, own: Iterable[str | Path] = (), environment: Mapping[str, str] = os.environ) -> Self:
+        """The folders given, and those that the variables of Gazebo and ROS name."""
+        ament = tuple(prefix / "share" for prefix in _folders(environment, "AMENT_PREFIX_PATH"))
+        return cls(
+            own=tuple(map(Path, own)),
+            models=tuple(folder for name in _MODEL_VARIABLES for folder in _folders(environment, name)),
+            packages=ament,
+            workspaces=tuple(_folders(environment, "ROS_PACKAGE_PATH")),
+            fuel=fuel.caches(environment),
+        )
+
+    def find(self, uri: str, beside: Path) -> Path:
+        """The file or folder that a URI names, which stands in the file `beside`.
+
+        Raises:
+            UriError: there is none, or it must not be read.
+        """
+        uri = uri.strip()
+        scheme, separator, rest = uri.partition("://")
+        if not separator:
+            return self._plain(uri, beside)
+        match scheme:
+            case "model" | "package":
+                return self._named(uri, rest, beside)
+            case "file":
+                return self._plain(unquote(rest), beside, uri)
+            case "http" | "https":
+                return self._cached(uri)
+            case _:
+                raise UriError(rules.UNRESOLVED_URI, f"{uri!r} has a scheme that is not known: {scheme!r}")
+
+    def package(self, name: str, beside: Path) -> Path:
+        """The folder of a package, as `$(find name)` and `package://name` mean it.
+
+        Raises:
+            UriError: it is not there, or is no name.
+        """
+        return self._named(f"package://{name}", name, beside)
+
+    def _named(self, uri: str, rest: str, beside: Path) -> Path:
+        name, _, inner = normpath(unquote(rest)).partition("/")
+        if name in {"", ".", ".."}:
+            raise UriError(rules.URI_LEAVES_FOLDER, f"{uri!r} leads out of the folders of models and packages")
+        around = folders_around(beside)
+        for folder in self._candidates(name, around):
+            if _exists(folder / inner):
+                self._require_inside(uri, folder / inner, around)
+                return folder / inner
+        raise self._missing(uri, (*self._roots(), *around))
+
+    def _candidates(self, name: str, around: tuple[Path, ...]) -> Iterator[Path]:
+        """Every folder that may be called so, the most likely first."""
+        for root in self._roots():
+            yield root / name
+        for root in (*self.own, *self.workspaces):
+            if root.name == name or is_package(root, name):
+                yield root
+        for folder in around:
+            if folder.name == name or is_package(folder, name):
+                yield folder
+            yield folder / name
+            yield folder / "models" / name
+        for root in (*self.own, *self.workspaces):
+            yield from self.index.named(name, root)
+
+    def _roots(self) -> tuple[Path, ...]:
+        return (*self.own, *self.models, *self.packages, *self.workspaces)
+
+    def _require_inside(self, uri: str, path: Path, around: Iterable[Path]) -> None:
+        real = path.resolve()
+        if not any(real.is_relative_to(root.resolve()) for root in (*self._roots(), *around)):
+            message = f"{uri!r} leads to {str(real)!r}, outside of the folders of models and packages"
+            raise UriError(rules.URI_LEAVES_FOLDER, message, "name the folder with --path DIR if this is meant")
+
+    def _plain(self, path: str, beside: Path, uri: str | None = None) -> Path:
+        """A path: absolute, beside the file, or in one of the folders."""
+        around = folders_around(beside)
+        for root in (beside.parent, *self._roots(), *around, *(folder / "models" for folder in around)):
+            if path and _exists(root / path):
+                return root / path
+        raise self._missing(uri or path, (beside.parent, *self._roots(), *around))
+
+    def _cached(self, uri: str) -> Path:
+        found = fuel.cached(uri, self.fuel)
+        if found is None:
+            host = urlsplit(uri).hostname or "the network"
+            message = f"{uri!r} is not in the local cache of Fuel, and nothing is fetched from {host}"
+            raise UriError(rules.UNRESOLVED_URI, message, _searched(self.fuel, f"run `gz fuel download -u '{uri}'`"))
+        return found
+
+    def _missing(self, uri: str, roots: Iterable[Path]) -> UriError:
+        where = _searched(dict.fromkeys(roots), "name other folders with --path DIR")
+        return UriError(rules.UNRESOLVED_URI, f"{uri!r} is not found", where)
+
+
+def _exists(path: Path) -> bool:
+    try:
+        return path.exists()
+    except OSError:  # a name that is too long, a folder that may not be read
+        return False
+
+
+def _folders(environment: Mapping[str, str], variable: str) -> Iterator[Path]:
+    return (Path(part) for part in environment.get(variable, "").split(os.pathsep) if part)
+
+
+def _searched(folders: Iterable[Path], advice: str) -> str:
+    names = [str(folder) for folder in folders]
+    more = f" and {len(names) - _MOST_SHOWN} more" if len(names) > _MOST_SHOWN else ""
+    looked = f"looked in {', '.join(names[:_MOST_SHOWN])}{more}; " if names else ""
+    return looked + advice

@@ -1,0 +1,1 @@
+"""xacro input: expanded in a process of its own."""

@@ -1,0 +1,55 @@
+"""Rules about xacro, the macro language in which most URDF is written."""
+
+from twinform.diagnostics.rule import Rule, Severity
+
+XACRO_ERROR = Rule(
+    name="xacro-error",
+    severity=Severity.ERROR,
+    finds="A xacro file that cannot be expanded: an undefined property, macro or argument, a missing include or "
+    "package, a bad expression, macros that never end.",
+    matters="There is no model before it is expanded.",
+    example="`<link name='${prefix}_base'/>` where no property is called `prefix`.",
+    better="Mend the line that the message names. Arguments come after the inputs, `prefix:=left`; packages are looked "
+    "for in ROS_PACKAGE_PATH, AMENT_PREFIX_PATH, around the file, and in the folders of `--path DIR`.",
+)
+XACRO_WARNING = Rule(
+    name="xacro-warning",
+    severity=Severity.WARNING,
+    finds="Something that xacro itself warns of, or that the file has it say.",
+    matters="It is often a name that is about to go, or a file that was not found and is left out.",
+    example="`${radians(90)}` in place of `${math.radians(90)}`; `${xacro.warning('no gripper')}`.",
+    better="Follow the message.",
+)
+XACRO_MESSAGE = Rule(
+    name="xacro-message",
+    severity=Severity.INFO,
+    finds="A message that a xacro file writes while it is expanded.",
+    matters="Its author wanted it to be seen.",
+    example="`${xacro.message('two arms')}`",
+    better="Nothing needs doing.",
+)
+XACRO_MISSING = Rule(
+    name="xacro-missing",
+    severity=Severity.ERROR,
+    finds="A xacro file on a machine without xacro.",
+    matters="It cannot be expanded.",
+    example="`twinform check robot.urdf.xacro` after `pip install twinform`.",
+    better="Run `pip install 'twinform[xacro]'`; no ROS is needed.",
+)
+XACRO_REFUSED = Rule(
+    name="xacro-refused",
+    severity=Severity.ERROR,
+    finds="A xacro file where `--no-xacro` refuses them.",
+    matters="Expanding one evaluates Python expressions and reads the files that it names.",
+    example="`twinform check --no-xacro robot.urdf.xacro`",
+    better="Leave `--no-xacro` out for files that you trust, or expand them elsewhere.",
+)
+UNUSED_ARGUMENT = Rule(
+    name="unused-argument",
+    severity=Severity.WARNING,
+    strict=Severity.ERROR,
+    finds="An argument that was given and that the xacro file never looks at.",
+    matters="A misspelt name changes nothing, and xacro does not say so.",
+    example="`twinform check robot.urdf.xacro prefx:=left`",
+    better="Check the name against the `<xacro:arg>` elements.",
+)

@@ -1,0 +1,5 @@
+"""Putting included models in the place of their includes: pure functions from documents to a document."""
+
+from twinform.passes.includes.expand import Included, Resolver, expand_includes, has_includes
+
+__all__ = ["Included", "Resolver", "expand_includes", "has_includes"]

@@ -1,0 +1,170 @@
+"""A document with the models of other files in the place of its includes."""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+from itertools import chain
+from typing import TypeVar
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules import includes as rules
+from twinform.ir import Document, Include, Model, World
+from twinform.passes.includes.merge import merge_into_model, merge_into_world
+from twinform.passes.includes.place import placed_actor, placed_light, placed_model, report_leftovers
+from twinform.passes.includes.relocate import relocate
+from twinform.passes.includes.upgrade import newest, upgrade_document
+
+Holder = TypeVar("Holder", Document, World)
+
+
+@dataclass(frozen=True, slots=True)
+class Included:
+    """The document that an include names, itself expanded, and the URI of the folder that it lies in."""
+
+    document: Document
+    folder: str
+
+
+Resolver = Callable[[Include], Included | None]
+"""Gives the document of an include; None leaves the include where it is."""
+
+
+def has_includes(document: Document) -> bool:
+    """Whether there is any include in a document."""
+    return bool(document.includes) or any(
+        world.includes or any(map(_model_has_includes, world.models)) for world in document.worlds
+    ) or any(map(_model_has_includes, document.models))  # fmt: skip
+
+
+def _model_has_includes(model: Model) -> bool:
+    return bool(model.includes) or any(map(_model_has_includes, model.models))
+
+
+def expand_includes(document: Document, resolve: Resolver, notes: Notes) -> Document:
+    """The document with what its includes name in their place.
+
+    Files of different versions come together in the newest of them: the frames of older ones are said in its words.
+    """
+    found = [resolve(include) for include in _includes(document)]
+    version = newest(document.version, *(each.document.version for each in found if each))
+    document = upgrade_document(document, version)
+    by_identity = {id(include): each for include, each in zip(_includes(document), found, strict=True)}
+    document = _Expansion(by_identity, version, notes).document(document)
+    return document.model_copy(update={"namespaces": _namespaces(document, found)})
+
+
+def _namespaces(document: Document, found: Iterable[Included | None]) -> tuple[tuple[str, str], ...]:
+    """The prefixes of all documents; where they differ, the first counts."""
+    known = dict(document.namespaces)
+    for each in found:
+        for prefix, uri in each.document.namespaces if each else ():
+            if prefix and uri not in known.values():
+                known.setdefault(prefix, uri)
+    return tuple(known.items())
+
+
+def _includes(document: Document) -> Iterator[Include]:
+    yield from document.includes
+    for world in document.worlds:
+        yield from world.includes
+    for model in chain(document.models, *(world.models for world in document.worlds)):
+        yield from _includes_in(model)
+
+
+def _includes_in(model: Model) -> Iterator[Include]:
+    yield from model.includes
+    for nested in model.models:
+        yield from _includes_in(nested)
+
+
+@dataclass(slots=True)
+class _Expansion:
+    """One expansion; `found` has the document of each include by the include's identity, which copies keep."""
+
+    found: dict[int, Included | None]
+    version: str | None
+    notes: Notes
+    ready: dict[int, Document] = field(default_factory=dict[int, Document])
+
+    def document(self, document: Document) -> Document:
+        models = tuple(map(self.model, document.models))
+        worlds = tuple(map(self.world, document.worlds))
+        document = document.model_copy(update={"models": models, "worlds": worlds, "version": self.version})
+        for include, source in self._split(document.includes):
+            if include.merge:
+                self._refuse_merge(include, "the root of a file is no model")
+                continue
+            document = self._beside(document, include, source)
+        return document.model_copy(update={"includes": self._kept(document.includes)})
+
+    def world(self, world: World) -> World:
+        world = world.model_copy(update={"models": tuple(map(self.model, world.models))})
+        for include, source in self._split(world.includes):
+            if include.merge:
+                model = self._model(include, source)
+                world = merge_into_world(world, include, model, self.notes) if model else world
+                continue
+            world = self._beside(world, include, source)
+        return world.model_copy(update={"includes": self._kept(world.includes)})
+
+    def model(self, model: Model) -> Model:
+        if not _model_has_includes(model):
+            return model
+        model = model.model_copy(update={"models": tuple(map(self.model, model.models))})
+        for include, source in self._split(model.includes):
+            included = self._model(include, source)
+            if included is not None and include.merge:
+                model = merge_into_model(model, include, included, self.notes)
+            elif included is not None:
+                nested = placed_model(include, included, self.notes)
+                model = model.model_copy(update={"models": (*model.models, nested)})
+        return model.model_copy(update={"includes": self._kept(model.includes)})
+
+    def _split(self, includes: Iterable[Include]) -> Iterator[tuple[Include, Included]]:
+        for include in includes:
+            source = self.found.get(id(include))
+            if source is not None:
+                yield include, source
+
+    def _kept(self, includes: Iterable[Include]) -> tuple[Include, ...]:
+        return tuple(include for include in includes if self.found.get(id(include)) is None)
+
+    def _ready(self, source: Included) -> Document:
+        """The document of an include in the words and with the paths of this one."""
+        done = self.ready.get(id(source))
+        if done is None:
+            done = relocate(upgrade_document(source.document, self.version), source.folder)
+            self.ready[id(source)] = done
+        return done
+
+    def _beside(self, holder: Holder, include: Include, source: Included) -> Holder:
+        """The world or root with what is included: a model, a light or an actor."""
+        document = self._ready(source)
+        lights = document.lights if not document.models else ()
+        if lights:
+            light = placed_light(include, lights[0])
+            report_leftovers(include, self.notes)
+            return holder.model_copy(update={"lights": (*holder.lights, light)})
+        actor = None if document.models else placed_actor(include, document)
+        if actor is not None:
+            report_leftovers(include, self.notes)
+            return holder.model_copy(update={"opaque": (*holder.opaque, actor)})
+        model = self._model(include, source)
+        if model is None:
+            return holder
+        return holder.model_copy(update={"models": (*holder.models, placed_model(include, model, self.notes))})
+
+    def _model(self, include: Include, source: Included) -> Model | None:
+        models = self._ready(source).models
+        if not models:
+            message = f"{include.uri!r} has no model that could be included here"
+            self.notes.report(rules.INCLUDE_WITHOUT_MODEL, message, include.location, found=include.uri)
+            return None
+        first, *others = models
+        if others:
+            message = f"{include.uri!r} has {len(models)} models; {first.name!r} is taken"
+            self.notes.report(rules.INCLUDE_TAKES_FIRST, message, include.location, found=include.uri)
+        return first
+
+    def _refuse_merge(self, include: Include, why: str) -> None:
+        message = f"{include.uri!r} cannot be merged: {why}"
+        self.notes.report(rules.UNMERGEABLE_INCLUDE, message, include.location, found=include.uri)

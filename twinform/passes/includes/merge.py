@@ -1,0 +1,147 @@
+"""Merging: the contents of an included model become contents of the model or world around the include."""
+
+from dataclasses import dataclass
+from typing import TypeVar
+
+from twinform.diagnostics import Fate, Notes
+from twinform.diagnostics.rules import includes as rules
+from twinform.ir import Axis, Element, Frame, Include, Joint, Link, Model, Node, Pose, World
+from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
+from twinform.ir.transform import Transform
+from twinform.passes.includes.place import placed_model
+from twinform.passes.legalise.to_urdf.nodes import map_elements, map_poses
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+Posed = TypeVar("Posed", Link, Model)
+
+_SETTINGS = ("static", "self_collide", "allow_auto_disable", "enable_wind")
+
+
+def merge_into_model(holder: Model, include: Include, model: Model, notes: Notes) -> Model:
+    """The model with the contents of another; a frame stands for the other's own frame."""
+    model = placed_model(include, model, notes)
+    proxy = _proxy(model, MODEL, notes)
+    if proxy is None:
+        return holder
+    into = _Contents(proxy.name)
+    _account_settings(model, notes)
+    update = {
+        "links": (*holder.links, *(into.posed(link) for link in model.links)),
+        "joints": (*holder.joints, *map(into.joint, model.joints)),
+        "frames": (*holder.frames, proxy, *map(into.frame, model.frames)),
+        "models": (*holder.models, *map(into.posed, model.models)),
+        "includes": (*holder.includes, *model.includes),
+        "plugins": (*holder.plugins, *model.plugins),
+        "opaque": (*holder.opaque, *(part for part in model.opaque if part.element)),
+    }
+    return holder.model_copy(update=update)
+
+
+def merge_into_world(holder: World, include: Include, model: Model, notes: Notes) -> World:
+    """The world with the models, frames and joints of an included model, which must have no links of its own."""
+    if model.links:
+        message = f"{include.uri!r} cannot be merged into a world: it has links"
+        notes.report(rules.UNMERGEABLE_INCLUDE, message, include.location, found=include.uri)
+        return holder
+    model = placed_model(include, model, notes)
+    proxy = _proxy(model, WORLD, notes)
+    if proxy is None:
+        return holder
+    into = _Contents(proxy.name)
+    _account_settings(model, notes)
+    update = {
+        "joints": (*holder.joints, *map(into.joint, model.joints)),
+        "frames": (*holder.frames, proxy, *map(into.frame, model.frames)),
+        "models": (*holder.models, *map(into.posed, model.models)),
+        "plugins": (*holder.plugins, *model.plugins),
+        "opaque": (*holder.opaque, *(part for part in model.opaque if part.element)),
+    }
+    return holder.model_copy(update=update)
+
+
+def _proxy(model: Model, around: str, notes: Notes) -> Frame | None:
+    """The frame that stands for the merged model's own: it moves with its canonical link and is where it was placed."""
+    try:
+        graph = FrameGraph(model)
+        body = graph.body(MODEL, kind="model")
+        placed = Transform.from_pose(model.pose)
+        if model.placement_frame:
+            placed = placed.compose(graph.pose(model.placement_frame, MODEL, kind="frame", base="model").inverse())
+    except FrameError as error:
+        error.report(notes)
+        return None
+    base = model.pose.relative_to if model.pose and model.pose.relative_to else around
+    attached = None if body == MODEL else body
+    return Frame(
+        name=f"_merged__{model.name}__model__", attached_to=attached, pose=placed.to_pose(base), source=model.source
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Contents:
+    """Parts of a model in which another frame stands for the model's own."""
+
+    proxy: str
+
+    def posed(self, node: Posed) -> Posed:
+        """A link or nested model; without a frame of its own its pose was in the model's."""
+        pose = node.pose or Pose()
+        if not pose.relative_to:
+            pose = pose.model_copy(update={"relative_to": self.proxy})
+        if isinstance(node, Model):  # what is inside a nested model has frames of its own
+            return node.model_copy(update={"pose": self._pose(pose)})
+        return self._inside(node.model_copy(update={"pose": pose}))
+
+    def frame(self, frame: Frame) -> Frame:
+        update = {"attached_to": self._name(frame.attached_to or MODEL)}
+        return self._inside(frame.model_copy(update=update))
+
+    def joint(self, joint: Joint) -> Joint:
+        update = {
+            "parent": self._name(joint.parent),
+            "child": self._name(joint.child),
+            "gearbox_reference_body": self._name(joint.gearbox_reference_body),
+            "axis": self._axis(joint.axis),
+            "axis2": self._axis(joint.axis2),
+        }
+        return self._inside(joint.model_copy(update=update))
+
+    def _name(self, name: str | None) -> str | None:
+        return self.proxy if name == MODEL else name
+
+    def _axis(self, axis: Axis | None) -> Axis | None:
+        if axis is None or axis.expressed_in != MODEL:
+            return axis
+        return axis.model_copy(update={"expressed_in": self.proxy})
+
+    def _pose(self, pose: Pose) -> Pose:
+        return pose.model_copy(update={"relative_to": self.proxy}) if pose.relative_to == MODEL else pose
+
+    def _inside(self, node: AnyNode) -> AnyNode:
+        """The node with all poses in it, typed or not."""
+        node = map_poses(node, self._pose)
+        if isinstance(node, Link | Joint) and node.sensors:
+            sensors = tuple(self._opaque(sensor) for sensor in node.sensors)
+            node = node.model_copy(update={"sensors": sensors})
+        return self._opaque(node)
+
+    def _opaque(self, node: AnyNode) -> AnyNode:
+        if not node.opaque:
+            return node
+        return node.model_copy(update={"opaque": map_elements(node.opaque, self._element)})
+
+    def _element(self, element: Element) -> Element:
+        attributes = element.attributes
+        if element.name == "pose" and element.get("relative_to") == MODEL:
+            attributes = tuple((name, self.proxy if name == "relative_to" else value) for name, value in attributes)
+        children = tuple(map(self._element, element.children))
+        return element.model_copy(update={"attributes": attributes, "children": children})
+
+
+def _account_settings(model: Model, notes: Notes) -> None:
+    """What the merged model says of itself as a whole counts no more."""
+    said = [name for name in _SETTINGS if getattr(model, name) is not None]
+    attributes = [part for part in model.opaque if part.element is None]
+    for name in (*said, *(part.name for part in attributes)):
+        message = f"{name} of the merged model {model.name!r} is left out; that of the model around it counts"
+        notes.account(Fate.DROPPED, rules.MERGED_AWAY, message, model.location.at(name))

@@ -1,0 +1,93 @@
+"""What an include makes of the thing that it names: another name, another pose, more plugins."""
+
+from collections.abc import Iterator
+
+from twinform.diagnostics import Fate, Notes
+from twinform.diagnostics.rules import includes as rules
+from twinform.ir import Document, Element, Include, Light, Model, Opaque
+from twinform.passes.legalise.carrier import to_element
+
+_PARAMETERS = "params"
+"""The local name of `<experimental:params>`."""
+
+
+def placed_model(include: Include, model: Model, notes: Notes) -> Model:
+    """The included model where and as the include says; what the include does not say stays."""
+    placement = include.placement_frame or model.placement_frame
+    if include.placement_frame is not None and include.pose is None:
+        message = f"the include of {include.uri!r} has a placement_frame and no pose"
+        notes.report(rules.PLACEMENT_WITHOUT_POSE, message, include.location, found=include.placement_frame)
+    update = {
+        "name": include.name if include.name is not None else model.name,
+        "pose": include.pose if include.pose is not None else model.pose,
+        "static": include.static if include.static is not None else model.static,
+        "placement_frame": placement,
+        "plugins": (*model.plugins, *include.plugins),
+        "opaque": (*model.opaque, *_additions(include, model, notes)),
+        "source": include.source,
+    }
+    return model.model_copy(update=update)
+
+
+def placed_light(include: Include, light: Light) -> Light:
+    """The included light where the include says."""
+    update = {
+        "name": include.name if include.name is not None else light.name,
+        "pose": include.pose if include.pose is not None else light.pose,
+        "source": include.source,
+    }
+    return light.model_copy(update=update)
+
+
+def placed_actor(include: Include, document: Document) -> Opaque | None:
+    """The actor of a document where the include says; None where there is none."""
+    part = next((part for part in document.opaque if part.element and part.element.name == "actor"), None)
+    if part is None or part.element is None:
+        return None
+    actor = part.element
+    if include.name is not None:
+        others = tuple(pair for pair in actor.attributes if pair[0] != "name")
+        actor = actor.model_copy(update={"attributes": (("name", include.name), *others)})
+    if include.pose is not None:
+        others = tuple(child for child in actor.children if child.name != "pose")
+        actor = actor.model_copy(update={"children": (to_element(include.pose, "pose", "sdf"), *others)})
+    plugins = tuple(to_element(plugin, "plugin", "sdf") for plugin in include.plugins)
+    actor = actor.model_copy(update={"children": (*actor.children, *plugins)})
+    return part.model_copy(update={"element": actor, "source": include.source})
+
+
+def _additions(include: Include, model: Model, notes: Notes) -> Iterator[Opaque]:
+    """Parts of an include that are parts of a model too."""
+    for part in include.opaque:
+        name = part.element.name if part.element else ""
+        if part.element is not None and name == "namespace" and not _has_namespace(model):
+            yield Opaque(attribute=("namespace", part.element.text or ""), source=part.source)
+        elif name == "model_state":
+            yield part
+        else:
+            _report_leftover(include, part, notes)
+
+
+def _has_namespace(model: Model) -> bool:
+    return any(part.attribute and part.attribute[0] == "namespace" for part in model.opaque)
+
+
+def report_leftovers(include: Include, notes: Notes) -> None:
+    """Say of all untyped parts of an include that they come to nothing."""
+    for part in include.opaque:
+        _report_leftover(include, part, notes)
+
+
+def _report_leftover(include: Include, part: Opaque, notes: Notes) -> None:
+    where = include.location.at(_local_name(part.element)) if part.element else include.location
+    if part.element is not None and _local_name(part.element) == _PARAMETERS:
+        message = f"the parameters of the include of {include.uri!r} cannot be applied"
+        notes.report(rules.INCLUDE_PARAMETERS, message, where, found=_PARAMETERS)
+        return
+    message = f"{part.name} of the include of {include.uri!r} is left out"
+    notes.report(rules.INCLUDE_LEFTOVER, message, where)
+    notes.account(Fate.DROPPED, rules.INCLUDE_LEFTOVER, message, where, part.weight)
+
+
+def _local_name(element: Element) -> str:
+    return element.name.rpartition("}")[2]

@@ -1,0 +1,58 @@
+"""The models of a file that may become the robot."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from twinform.ir import Document, Include, Model, World
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """A model of the root or of a world, or an include that stands for one."""
+
+    model: Model | Include
+    world: World | None = None
+
+    @property
+    def full_name(self) -> str:
+        """Its name with its world's; an include without a name is called by its URI."""
+        name = self.model.name or self.model.uri if isinstance(self.model, Include) else self.model.name
+        return f"{self.world.name}::{name}" if self.world else name or ""
+
+    def answers_to(self, name: str | None) -> bool:
+        """Whether it may be meant by a name; no name may mean any."""
+        return name is None or name in (self.model.name, self.full_name)
+
+
+def candidates(document: Document) -> Iterator[Candidate]:
+    """All of them, those of the root first."""
+    for one in (*document.models, *document.includes):
+        yield Candidate(one)
+    for world in document.worlds:
+        for one in (*world.models, *world.includes):
+            yield Candidate(one, world)
+
+
+def wanted_includes(document: Document | None, name: str | None) -> Callable[[Include], bool]:
+    """Which includes have to be read to make URDF of the model of this name.
+
+    Those in the model, or the one that stands for it; where nothing answers to the name, all that have no name before
+    they are read. Without a name there must be one candidate only.
+    """
+    among = list(candidates(document)) if document else []
+    found = [one for one in among if one.answers_to(name)]
+    if name is None:
+        found = found if len(found) == 1 else []
+    elif not found:
+        found = [one for one in among if one.model.name is None]
+    wanted = {id(include) for one in found for include in _includes_of(one.model)}
+    return lambda include: id(include) in wanted
+
+
+def _includes_of(model: Model | Include) -> Iterator[Include]:
+    if isinstance(model, Include):
+        yield model
+        return
+    yield from model.includes
+    for nested in model.models:
+        yield from _includes_of(nested)
