@@ -10,7 +10,7 @@ from twinform.compiler.errors import CompileError
 from twinform.compiler.loading import Checked, check, garbage_collection_paused
 from twinform.diagnostics import Diagnostic, Ledger, Notes
 from twinform.ir import Document, Format
-from twinform.ir.verify import verify
+from twinform.ir.verify import verify, verify_again
 from twinform.passes import Pass, Pipeline, parse_pipeline
 from twinform.passes.legalise import Target, legalisation
 from twinform.schemas import Engine
@@ -110,7 +110,7 @@ def _run(
     if not notes.has_errors and len(legal):
         document = legal.run(document, notes, watch=watch)
         if not notes.has_errors:
-            verify(document, notes)
+            verify_again(document, notes)
     text = "" if notes.has_errors else _write(document, to, notes, fit=bool(len(legal)))
     if notes.has_errors:
         raise CompileError(tuple(notes.diagnostics))
