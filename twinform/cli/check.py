@@ -6,7 +6,7 @@ from typing import Unpack
 import click
 
 from twinform.cli.failure import FINDINGS, UNUSABLE
-from twinform.cli.findings import show
+from twinform.cli.findings import notes_option, show
 from twinform.cli.inputs import HowToRead, how_to_read, inputs, reading_options
 from twinform.compiler import Checked, expand, read
 from twinform.diagnostics import Severity
@@ -18,10 +18,17 @@ _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "
 @click.command("check")
 @click.argument("words", metavar="IN... [NAME:=VALUE...]", nargs=-1, required=True)
 @click.option("--format", "style", type=click.Choice(list(REPORTERS)), default="text", help="How to print findings.")
+@notes_option
 @reading_options
 @click.pass_context
 def command(
-    ctx: click.Context, words: tuple[str, ...], style: str, *, expand_includes: bool, **how: Unpack[HowToRead]
+    ctx: click.Context,
+    words: tuple[str, ...],
+    style: str,
+    *,
+    notes: bool,
+    expand_includes: bool,
+    **how: Unpack[HowToRead],
 ) -> None:
     """Find everything that is wrong with robot models.
 
@@ -35,7 +42,7 @@ def command(
     findings = [Findings(each.path, each.diagnostics) for each in checked]
     if style == "text":
         for each in findings:
-            show(each, on_stderr=False)
+            show(each, notes=notes, on_stderr=False)
     else:
         click.echo(REPORTERS[style](findings), nl=False)
     click.echo(_summary(checked), err=True)

@@ -23,6 +23,7 @@ class Options:
     reading: Reading
     ledger: Path | None
     dumps: tuple[str, ...]
+    notes: bool
 
     def order_for(self, job: Job) -> Order:
         """What one input is to become."""
@@ -42,12 +43,12 @@ def run_conversion(job: Job, options: Options, label: str) -> int:
         source = job.source
         conversion = fulfil(options.order_for(job), source.content, options.reading, name=source.name, watch=watch)
     except CompileError as error:
-        show(Findings(job.source.name, error.diagnostics), on_stderr=True)
+        show(Findings(job.source.name, error.diagnostics), notes=options.notes, on_stderr=True)
         return UNUSABLE if error.unreadable else FINDINGS
     except BrokenPassError as error:
         click.echo(f"{job.source.name}: {error}", err=True)
         return FINDINGS
-    show(Findings(job.source.name, conversion.diagnostics), on_stderr=True)
+    show(Findings(job.source.name, conversion.diagnostics), notes=options.notes, on_stderr=True)
     _require_ran(options.dumps, seen)
     _write(conversion, job.path, options.ledger)
     click.echo(f"{label}{': ' if label else ''}{_summary(conversion.ledger)}", err=True)
@@ -87,7 +88,7 @@ def print_plan(job: Job, options: Options, label: str) -> int:
     """Print the passes of one conversion; gives its exit code."""
     checked = read(job.source.content, options.reading, name=job.source.name)
     if checked.document is None or not checked.accepted:
-        show(Findings(checked.path, checked.diagnostics), on_stderr=True)
+        show(Findings(checked.path, checked.diagnostics), notes=options.notes, on_stderr=True)
         return UNUSABLE if checked.unreadable else FINDINGS
     click.echo(f"{label}{': ' if label else ''}{options.order_for(job).plan(checked.document)}")
     return 0

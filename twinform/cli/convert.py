@@ -7,6 +7,7 @@ import click
 
 from twinform.cli.conversion import Options, print_plan, run_conversion
 from twinform.cli.failure import Unusable
+from twinform.cli.findings import notes_option
 from twinform.cli.inputs import HowToRead, how_to_read, inputs, reading_options
 from twinform.cli.targets import TARGETS, Target, jobs
 from twinform.compiler import Order, UrdfVersion
@@ -42,6 +43,7 @@ def _pipeline(_ctx: click.Context, _option: click.Parameter, value: str | None) 
 )
 @click.option("--carriers/--no-carriers", default=True, help="Whether to keep in our namespace what the target lacks.")
 @click.option("--model", metavar="NAME", help="The model of a world to convert.")
+@notes_option
 @reading_options
 @click.option("--print-pipeline", is_flag=True, help="Print every pass that would run, in order, and stop.")
 @click.option("--dump-ir-after", "dumps", metavar="PASS", multiple=True, help="Print the IR after a pass on stderr.")
@@ -60,6 +62,7 @@ def command(
     model: str | None,
     print_pipeline: bool,
     dumps: tuple[str, ...],
+    notes: bool,
     expand_includes: bool,
     **how: Unpack[HowToRead],
 ) -> None:
@@ -81,7 +84,7 @@ def command(
         model=model,
         expand_includes=expand_includes,
     )
-    options = Options(order=order, reading=how_to_read(arguments, **how), ledger=ledger, dumps=dumps)
+    options = Options(order=order, reading=how_to_read(arguments, **how), ledger=ledger, dumps=dumps, notes=notes)
     todo = jobs(sources, out, target)
     if sdf_version is not None and all(job.target != "sdf" for job in todo):
         raise click.UsageError("--sdf-version is for --to sdf")

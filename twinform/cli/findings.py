@@ -20,6 +20,14 @@ def heading(words: str) -> str:
     return words if os.environ.get("NO_COLOR") else click.style(words, bold=True)
 
 
-def show(findings: Findings, *, on_stderr: bool) -> None:
-    """Print the findings of one file for people."""
+notes_option = click.option(
+    "--notes", is_flag=True, help="Print notes too, which say what is legal and yet worth knowing."
+)
+
+
+def show(findings: Findings, *, notes: bool, on_stderr: bool) -> None:
+    """Print the findings of one file for people; notes only where they are asked for."""
+    if not notes:
+        worse = tuple(each for each in findings.diagnostics if each.severity > Severity.INFO)
+        findings = findings._replace(diagnostics=worse)
     click.echo(text([findings], paint), nl=False, err=on_stderr)

@@ -14,7 +14,7 @@ from twinform.diagnostics import Diagnostic, Ledger, Notes
 from twinform.diagnostics.rules.model import MISSING_LIMIT
 from twinform.diagnostics.rules.structure import MISSING_ATTRIBUTE
 from twinform.ir import Document, Format
-from twinform.ir.verify import verify
+from twinform.ir.verify import verify, verify_again
 from twinform.passes import Pass, Pipeline, parse_pipeline
 from twinform.passes.legalise import Target, legalisation
 from twinform.passes.legalise.to_urdf.candidates import wanted_includes
@@ -168,7 +168,7 @@ def _run(
     if not notes.has_errors and len(legal):
         document = legal.run(document, notes, watch=watch)
         if not notes.has_errors:
-            verify(document, notes)
+            verify_again(document, notes)
     text = "" if notes.has_errors else _write(document, order.to, notes, fit=checked.mixed or bool(len(legal)))
     if notes.has_errors:
         raise CompileError(tuple(notes.diagnostics))

@@ -56,6 +56,11 @@ class Notes:
         else:
             self.left_out += 1
 
+    def has(self, rule: Rule, location: Location, least: Severity = Severity.INFO) -> bool:
+        """Whether this rule was reported at this place, at least so severely."""
+        where = self._complete(location)
+        return any(each.rule is rule and each.location == where and each.severity >= least for each in self.diagnostics)
+
     def extend(self, diagnostics: Iterable[Diagnostic]) -> None:
         """Add diagnostics that another stage has made."""
         for diagnostic in diagnostics:

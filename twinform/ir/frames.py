@@ -297,8 +297,19 @@ def _canonical(model: Model) -> str:
 
 
 def _circle(path: list[_Vertex], relation: str) -> FrameError:
-    names = [f"{vertex.kind} {vertex.name!r}" for vertex in path[:6]]
+    """The error for a circle of frames, at the first attribute in the file that makes it one."""
+    places = [_place(vertex, relation) for vertex in path]
+    order = [(not place.path.rpartition("/")[2].startswith("@"), not place.line, place.line) for place in places]
+    first = order.index(min(order))
+    turned = path[first:] + path[:first]
+    names = [f"{vertex.kind} {vertex.name!r}" for vertex in turned[:6]]
     names += ["..."] if len(path) > len(names) else [names[0]]
-    start = path[0]
-    where = start.source.location if start.source else NOWHERE
-    return FrameError(rules.FRAME_CYCLE, f" {relation} ".join(names), where, start.name)
+    return FrameError(rules.FRAME_CYCLE, f" {relation} ".join(names), places[first], turned[0].name)
+
+
+def _place(vertex: _Vertex, relation: str) -> Location:
+    """Where a vertex says what it is relative or attached to; where it stands, if it does not say so."""
+    if relation == "is given relative to" and vertex.pose and vertex.pose.source:
+        return vertex.pose.location.at("@relative_to") if vertex.pose.relative_to else vertex.pose.location
+    where = vertex.source.location if vertex.source else NOWHERE
+    return where.at("@attached_to") if vertex.kind == "frame" and relation == "is attached to" else where

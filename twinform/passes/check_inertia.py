@@ -1,21 +1,15 @@
 """Check that bodies which move have a mass and an inertia that a body can have."""
 
-import math
 from typing import ClassVar
 
 from pydantic import Field
 
-from twinform.diagnostics import Notes
-from twinform.diagnostics.rules.inertia import (
-    IMPOSSIBLE_INERTIA,
-    INDEFINITE_INERTIA,
-    MISSING_INERTIAL,
-    NON_POSITIVE_MASS,
-)
-from twinform.ir import Document, Format, Inertia, Inertial, Link
+from twinform.diagnostics import Notes, Severity
+from twinform.diagnostics.rules.inertia import MISSING_INERTIAL, NON_POSITIVE_MASS
+from twinform.ir import Document, Format, Inertial, Link
+from twinform.ir.verify.inertia import inertia_matrix, report_moments
 from twinform.passes.base import Pass
 from twinform.passes.moving_bodies import moving_bodies
-from twinform.passes.principal_moments import Symmetric, principal_moments
 
 _DEFAULT_MOMENT = {Format.URDF: None, Format.SDF: 1.0}  # URDF has none; the schema reports what is missing there
 _ROUNDING = 1e-15
@@ -55,7 +49,7 @@ class CheckInertia(Pass):
             _check_presence(body, document.format, notes)
             for link in body:
                 if link.inertial and not link.inertial.auto:
-                    _check_inertial(link.name, link.inertial, document.format, self.eps, notes)
+                    _check_inertial(link, link.inertial, document.format, self.eps, notes)
         return document
 
 
@@ -73,48 +67,10 @@ def _check_presence(body: tuple[Link, ...], format_: Format, notes: Notes) -> No
         notes.report(MISSING_INERTIAL, message, first.location, expected="<inertial>", related=related)
 
 
-def _check_inertial(link: str, inertial: Inertial, format_: Format, eps: float, notes: Notes) -> None:
-    mass, matrix = inertial.mass, _matrix(inertial.inertia, format_)
-    if mass is not None and not mass > 0:  # the negation catches what is not a number
-        message = f"the mass of link {link!r} is {mass:g}; it has to be positive"
+def _check_inertial(link: Link, inertial: Inertial, format_: Format, eps: float, notes: Notes) -> None:
+    mass, matrix = inertial.mass, inertia_matrix(inertial.inertia, _DEFAULT_MOMENT[format_])
+    if mass is not None and not mass > 0 and not notes.has(NON_POSITIVE_MASS, inertial.location, Severity.WARNING):
+        message = f"the mass of link {link.name!r}, which moves, is {mass:g}; it has to be positive"
         notes.report(NON_POSITIVE_MASS, message, inertial.location, found=f"{mass:g}", expected="more than 0")
-    if matrix is None or (mass == 0 and not any(matrix)):
-        return
-    if all(map(math.isfinite, matrix)):
-        _check_moments(link, principal_moments(matrix), eps, inertial, notes)
-    else:
-        notes.report(INDEFINITE_INERTIA, f"the inertia of link {link!r} is not finite", inertial.location)
-
-
-def _matrix(inertia: Inertia | None, format_: Format) -> Symmetric | None:
-    """The elements with the format's defaults; None where one has no default."""
-    if inertia is None:
-        return None
-    default = _DEFAULT_MOMENT[format_]
-    xx, yy, zz = (default if value is None else value for value in (inertia.ixx, inertia.iyy, inertia.izz))
-    if xx is None or yy is None or zz is None:
-        return None
-    return xx, yy, zz, inertia.ixy or 0.0, inertia.ixz or 0.0, inertia.iyz or 0.0
-
-
-def _check_moments(
-    link: str, moments: tuple[float, float, float], eps: float, inertial: Inertial, notes: Notes
-) -> None:
-    smallest, middle, largest = moments
-    trace = sum(moments)
-    if smallest <= _ROUNDING * abs(trace):
-        listed = _list(moments)
-        message = f"the inertia of link {link!r} is not positive definite: its principal moments are {listed}"
-        notes.report(INDEFINITE_INERTIA, message, inertial.location, found=listed, expected="all more than 0")
-    elif largest - smallest - middle > eps * trace:
-        listed = _list(moments)
-        message = (
-            f"no body has the principal moments of link {link!r}, {listed}: the last exceeds the sum of the others"
-        )
-        notes.report(
-            IMPOSSIBLE_INERTIA, message, inertial.location, found=listed, expected=f"at most {smallest + middle:.6g}"
-        )
-
-
-def _list(moments: tuple[float, ...]) -> str:
-    return ", ".join(f"{moment:.6g}" for moment in moments)
+    if matrix is not None and (mass != 0 or any(matrix)):
+        report_moments(link, inertial, matrix, eps, notes, least=_ROUNDING)

@@ -12,7 +12,7 @@ below it stand rows, two blanks deeper for each level:
 
 A row is a name (`@` marks an attribute), a count (`1`, `?`, `*`, `+`), a value type or a `&definition` (neither: a
 container), then keys (`default`, `min`, `max`, `enum`, `since`, `until`, `unit`), flags (`any`: free content,
-`deprecated`) and the place in the IR:
+`deprecated`, `expected`: readers want it written although it has a default) and the place in the IR:
 
 * `-> field`: a leaf's value, or a container as a node of its own; where it repeats they make a tuple;
 * `-> field[]`: a tuple even where this version has at most one;
@@ -34,7 +34,7 @@ Version = tuple[int, int]
 _LINE = re.compile(r"(?P<indent> *)(?P<name>@?[\w.]+)(?P<rest>.*)")
 _WORD = re.compile(r'->\s*\S+|\w+=(?:"[^"]*"|\S+)|\S+')
 _COUNTS = frozenset("1?*+")
-_FLAGS = frozenset({"any", "deprecated"})
+_FLAGS = frozenset({"any", "deprecated", "expected"})
 
 
 @dataclass(slots=True)
@@ -56,6 +56,7 @@ class Fact:
     until: Version = (99, 99)
     any: bool = False
     deprecated: bool = False
+    expected: bool = False
     many: bool = False
     rows: list["Fact"] = field(default_factory=list["Fact"])
 

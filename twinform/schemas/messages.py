@@ -22,6 +22,10 @@ class Details(TypedDict, total=False):
     help: str | None
 
 
+_NOT_OF_THE_SCHEMA = (structure.OUT_OF_RANGE, structure.DEPRECATED_ELEMENT)
+"""Rules about what the schema accepts."""
+
+
 @dataclass(slots=True)
 class Context:
     """One run of the table pass over one document.
@@ -48,7 +52,7 @@ class Context:
     def report(self, rule: Rule, element: XmlElement, message: str, step: str = "", **more: Unpack[Details]) -> None:
         """Report at an element, or at a step below it."""
         path = path_of(element) + (f"/{step}" if step else "")
-        self.structural += rule is not structure.OUT_OF_RANGE
+        self.structural += rule not in _NOT_OF_THE_SCHEMA
         self.notes.report(rule, message, Location(self.file, element.sourceline or 0, path), **more)
 
 
@@ -93,10 +97,20 @@ def missing_child(context: Context, element: XmlElement, name: str) -> None:
     context.report(rule, element, f"<{element.tag}> has no <{name}>", expected=f"<{name}>")
 
 
-def missing_attribute(context: Context, element: XmlElement, name: str) -> None:
-    """A required attribute that is not there."""
+def missing_attribute(context: Context, element: XmlElement, name: str, default: str | None) -> None:
+    """A required attribute that is not there, or one that readers want to see although it has a default."""
     message = f"<{element.tag}> has no attribute {name!r}"
+    if default is not None:
+        message += f"; without it, {default!r} is meant"
+        context.report(structure.DEFAULTED_ATTRIBUTE, element, message, expected=f"@{name}")
+        return
     context.report(structure.MISSING_ATTRIBUTE, element, message, expected=f"@{name}")
+
+
+def deprecated(context: Context, element: XmlElement) -> None:
+    """An element on its way out."""
+    message = f"<{element.tag}> is deprecated in {context.format.upper()} {print_version(context.version)}"
+    context.report(structure.DEPRECATED_ELEMENT, element, message, found=str(element.tag))
 
 
 def missing_text(context: Context, element: XmlElement, expected: str) -> None:
@@ -119,6 +133,18 @@ def invalid_value(context: Context, element: XmlElement, step: str, text: str, e
     shown = text if len(text) <= 60 else text[:57] + "..."
     message = f"{subject} is {shown!r}; expected {expected}"
     context.report(structure.INVALID_VALUE, element, message, step, found=text, expected=expected)
+
+
+def mixed_rotation(context: Context, element: XmlElement, count: int) -> None:
+    """A pose whose numbers are not those of the notation that it declares."""
+    notation, degrees = element.get("rotation_format"), element.get("degrees")
+    if notation == "quat_xyzw" and count == 7:
+        message = f"<{element.tag}> is a quaternion and has the attribute 'degrees' {degrees!r}"
+        context.report(structure.INVALID_VALUE, element, message, "@degrees", found=degrees)
+        return
+    need = "seven numbers" if notation == "quat_xyzw" else "six numbers, or the attribute rotation_format='quat_xyzw'"
+    message = f"<{element.tag}> has {count} numbers; expected {need}"
+    context.report(structure.INVALID_VALUE, element, message, found=(element.text or "").strip(), expected=need)
 
 
 def out_of_range(context: Context, element: XmlElement, fact: Fact, value: float) -> None:

@@ -20,6 +20,7 @@ Quick = Callable[[XmlElement, Data], bool]
 GIVE_UP = (ValueError, KeyError, TypeError)
 """What a quick parser raises: bad text, an unknown name, no text at all."""
 
+_VECTORS = frozenset({"vector3", "vector2d", "color", "color4"})
 _BOOLS: dict[str, bool] = {"true": True, "false": False}
 
 
@@ -42,8 +43,6 @@ def quick_parse(row: Fact, types: dict[str, ValueType], version: Version) -> Par
         return {word: word for word in row.enum}.__getitem__
     if row.min is None and row.max is None:
         return parse
-    if row.type != "double":
-        return None
     low = row.min if row.min is not None else float("-inf")
     high = row.max if row.max is not None else float("inf")
 
@@ -53,7 +52,13 @@ def quick_parse(row: Fact, types: dict[str, ValueType], version: Version) -> Par
             return value
         raise ValueError
 
-    return parse_bounded
+    def parse_vector(text: str) -> tuple[float, ...]:
+        values: tuple[float, ...] = parse(text)
+        if low <= min(values) and max(values) <= high:
+            return values
+        raise ValueError
+
+    return parse_vector if row.type in _VECTORS else parse_bounded
 
 
 def quick_attributes(fact: Fact, types: dict[str, ValueType], version: Version) -> Quick | None:
@@ -66,7 +71,7 @@ def quick_attributes(fact: Fact, types: dict[str, ValueType], version: Version) 
         if parse is not None:
             parses[row.name[1:]] = (row.place or "", parse)
     rows = [row for row in fact.attributes if row.exists_in(version)]
-    needed = frozenset(row.place or row.name for row in rows if row.required)
+    needed = frozenset(row.place or row.name for row in rows if row.required or row.expected)
 
     def read(element: XmlElement, node: Data) -> bool:
         found: Data = {}

@@ -83,7 +83,9 @@ class Reader:
         quick = {row.name[1:]: (row.place or "", parse) for row, parse in parses if parse}
         children = {row.name: self._child(row, keep=keep) for row in self._rows(fact.children)}
         present = [row for row in fact.rows if row.exists_in(self.version)]
-        needed_attributes = frozenset(row.name[1:] for row in present if row.is_attribute and row.required)
+        asked = [row for row in present if row.is_attribute and (row.required or row.expected)]
+        needed_attributes = frozenset(row.name[1:] for row in asked)
+        defaults = {row.name[1:]: row.default if row.expected else None for row in asked}
         needed_children = frozenset(row.name for row in present if not row.is_attribute and row.required)
         once = frozenset(row.name for row in self._rows(fact.children) if not row.repeats)
         free, content = fact.any, fact.place if fact.any and keep else None
@@ -106,7 +108,7 @@ class Reader:
                     other_attribute(element, name, text, node, at, context)
             if needed_attributes and not needed_attributes.issubset(element.keys()):
                 for name in sorted(needed_attributes.difference(element.keys())):
-                    messages.missing_attribute(context, element, name)
+                    messages.missing_attribute(context, element, name, defaults[name])
             text = element.text
             if read_text is not None:
                 read_text(element, node, at, context)
@@ -202,6 +204,8 @@ class Reader:
             read = self._hoisted(row)
         else:
             read = self._own_node(row, row.place)
+        if row.deprecated and row.exists_in(self.version):
+            return _deprecated(row, read)
         return read if row.exists_in(self.version) else _late(row, read)
 
     def _inner(self, row: Fact, *, keep: bool) -> Fill:
@@ -350,6 +354,16 @@ def _late(row: Fact, read: ReadChild) -> ReadChild:
         read(child, node, at, place, context)
 
     return read_late
+
+
+def _deprecated(row: Fact, read: ReadChild) -> ReadChild:
+    """The same reader for an element that is on its way out."""
+
+    def read_deprecated(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
+        messages.deprecated(context, child)
+        read(child, node, at, place, context)
+
+    return read_deprecated
 
 
 def _keep(element: XmlElement, node: Data, context: Context, part: Data) -> None:

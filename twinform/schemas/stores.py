@@ -27,6 +27,8 @@ def value_check(row: Fact) -> Callable[[XmlElement, Any, Context], None] | None:
                 messages.invalid_value(context, element, step, value, f"one of {', '.join(row.enum)}")
 
         return check_word
+    if row.type == "pose":
+        return _check_pose
     if row.min is None and row.max is None:
         return None
     low = row.min if row.min is not None else float("-inf")
@@ -41,6 +43,12 @@ def value_check(row: Fact) -> Callable[[XmlElement, Any, Context], None] | None:
             check_number(element, number, context)
 
     return check_number if row.type in _SCALARS else check_vector
+
+
+def _check_pose(element: XmlElement, value: tuple[float, ...], context: Context) -> None:
+    quaternion, degrees = element.get("rotation_format") == "quat_xyzw", element.get("degrees")
+    if len(value) != (7 if quaternion else 6) or (quaternion and (degrees or "").strip().lower() in {"true", "1"}):
+        messages.mixed_rotation(context, element, len(value))
 
 
 def value_store(row: Fact, place: str) -> Store:  # noqa: C901 - six small closures, one of which is chosen

@@ -1,7 +1,8 @@
 """Cases as data: a model file that says itself what the compiler should find in it.
 
 A comment `<!-- expect: severity rule-name -->` stands on the line that the finding is reported at; several of them may
-stand there. Findings of severity `info` need not be listed, errors and warnings must be. Beside `NAME.urdf` may lie
+stand there. Findings of severity `info` need not be listed, but those that are must be there; errors and warnings must
+be listed. Beside `NAME.urdf` may lie
 `NAME.expected.sdf`, or the other way round: what the file becomes.
 """
 
@@ -54,12 +55,13 @@ class Case:
         return Counter(
             (each.location.line, str(each.severity), each.rule.name)
             for each in diagnostics
-            if each.severity > Severity.INFO and each.location.file in {"", str(self.path)}
+            if each.location.file in {"", str(self.path)}
         )
 
     def mismatches(self) -> list[str]:
         """A line for each finding that is missing, and for each that is too many."""
         missing, extra = self.expected - self.found, self.found - self.expected
+        extra = {finding: count for finding, count in extra.items() if finding[1] != str(Severity.INFO)}
         return [
             *(f"{self.path.name}:{line}: expected {severity} {rule}" for line, severity, rule in sorted(missing)),
             *(f"{self.path.name}:{line}: unexpected {severity} {rule}" for line, severity, rule in sorted(extra)),

@@ -4,6 +4,7 @@ import pytest
 
 import twinform
 from twinform.compiler import check, plan
+from twinform.diagnostics import Severity
 
 _LIMITLESS = b"""<robot name="r">
   <link name="a"/><link name="b"/><link name="c"/>
@@ -69,4 +70,5 @@ def test_sdf_is_written_in_the_version_that_is_asked_for(version: str) -> None:
       </joint></robot>"""
     made = twinform.convert(text, to="sdf", sdf_version=version).text
     assert f'<sdf version="{version}">' in made
-    assert check(made.encode(), strict=True).diagnostics == ()
+    found = check(made.encode(), strict=True).diagnostics
+    assert [each.message for each in found if each.severity > Severity.INFO] == []

@@ -5,7 +5,7 @@ from twinform.diagnostics.rule import Rule, Severity
 DANGLING_FRAME = Rule(
     name="dangling-frame",
     severity=Severity.ERROR,
-    finds="A name of a frame (`relative_to`, `attached_to`, `expressed_in`, the ends of a joint) that nothing has.",
+    finds="A name of a frame (`relative_to`, `attached_to`, `expressed_in`, `placement_frame`) that nothing has.",
     matters="The pose cannot be computed, so every reader refuses the model.",
     example="`<pose relative_to='elbow'>` in a model without a link, joint, frame or nested model called `elbow`.",
     better="Name a frame of the same model, or one of a nested model as `model::frame`.",
@@ -19,4 +19,22 @@ FRAME_CYCLE = Rule(
     example="A link with its pose relative to a joint whose own pose is relative to that link, as it is by default.",
     better="Give one of them relative to a frame outside the circle, such as the joint relative to its parent link.",
     references="libsdformat: POSE_RELATIVE_TO_CYCLE, FRAME_ATTACHED_TO_CYCLE",
+)
+AMBIGUOUS_FRAME = Rule(
+    name="ambiguous-frame",
+    severity=Severity.ERROR,
+    finds="A reference to a name that two things of the model have.",
+    matters="Each reader picks another one of them, or refuses the model.",
+    example="`attached_to='arm'` in a model with a link and a joint called `arm`.",
+    better="Rename one of the two.",
+    references="libsdformat: FRAME_ATTACHED_TO_INVALID, POSE_RELATIVE_TO_INVALID",
+)
+UNKNOWN_CANONICAL_LINK = Rule(
+    name="unknown-canonical-link",
+    severity=Severity.ERROR,
+    finds="A `canonical_link` that names no link of the model.",
+    matters="The model's own frame moves with that link; without it the model cannot be placed.",
+    example="`<model name='m' canonical_link='base'>` where the link is called `base_link`.",
+    better="Name a link of the model, or one of a nested model as `model::link`; a frame will not do.",
+    references="libsdformat: MODEL_CANONICAL_LINK_INVALID",
 )

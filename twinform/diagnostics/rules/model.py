@@ -13,7 +13,8 @@ DUPLICATE_NAME = Rule(
 SHARED_NAME = Rule(
     name="shared-name",
     severity=Severity.ERROR,
-    finds="Two things of different kinds in one SDF model, such as a link and a joint, with one name.",
+    finds="Two things of different kinds in one SDF model, such as a link and a joint, with one name. For a visual and "
+    "a collision of one link this is an info: only `gz sdf --check` minds.",
     matters="From SDF 1.7 on every one of them is a frame, and a reference to the name means either.",
     example="`<link name='arm'/>` and `<joint name='arm' ...>` in an SDF model. In URDF it is legal.",
     better="Rename one of them; from URDF, the compiler renames the joint.",
@@ -22,9 +23,11 @@ SHARED_NAME = Rule(
 RESERVED_NAME = Rule(
     name="reserved-name",
     severity=Severity.ERROR,
-    finds="A name that SDF keeps for itself: `world`, or one that begins and ends with two underscores.",
-    matters="References to it mean the world or the model, never the thing that has the name.",
-    example="`<link name='world'/>` in an SDF model.",
+    finds="A name that SDF keeps for itself: `world`, one that begins and ends with two underscores, or from 1.8 on "
+    "one with `::` in it.",
+    matters="References to it mean the world, the model, or something inside of a model, never the thing that has the "
+    "name.",
+    example="`<link name='world'/>` in an SDF model, `<visual name='arm::shell'>`.",
     better="Choose another name.",
     references="SDF 1.7, proposal on frame semantics",
 )
@@ -47,7 +50,7 @@ DANGLING_LINK = Rule(
 SELF_JOINT = Rule(
     name="self-joint",
     severity=Severity.ERROR,
-    finds="A joint that connects a link to itself.",
+    finds="A joint that connects a link to itself, directly or by way of a frame on it, or is one of its own ends.",
     matters="It constrains nothing and has no place in a tree; readers refuse it.",
     example="`<parent link='a'/><child link='a'/>`",
     better="Name the other link.",
@@ -79,16 +82,18 @@ SEVERAL_ROOTS = Rule(
 KINEMATIC_LOOP = Rule(
     name="kinematic-loop",
     severity=Severity.ERROR,
-    finds="A URDF robot in which the joints go round in a circle.",
-    matters="URDF describes a tree; such a robot has no root to begin with.",
+    finds="Joints that go round in a circle: each link is the child of the next one's joint. In SDF it is an info.",
+    matters="URDF describes a tree; such a robot has no root to begin with. In SDF it is allowed and may be meant, but "
+    "not every physics engine can close it.",
     example="a is b's parent and b is a's.",
     better="Cut the loop; in a `<gazebo>` element a `<joint>` can close it for Gazebo.",
 )
 TWO_PARENTS = Rule(
     name="two-parents",
     severity=Severity.ERROR,
-    finds="A URDF link that is the child of more than one joint.",
-    matters="URDF describes a tree: readers keep one of the joints, and not the same one.",
+    finds="A link that is the child of more than one joint. In SDF it is an info: that is how a loop is closed.",
+    matters="URDF describes a tree: readers keep one of the joints, and not the same one. Of the engines behind SDF, "
+    "not every one can close a loop.",
     example="Both rods of a four-bar linkage end in the same coupler link.",
     better="Keep one joint in the tree; in a `<gazebo>` element a `<joint>` can close the loop for Gazebo.",
 )
@@ -127,7 +132,7 @@ ZERO_AXIS = Rule(
 UNKNOWN_LEADER = Rule(
     name="unknown-leader",
     severity=Severity.WARNING,
-    finds="A mimic joint whose leader does not exist, or is the joint itself.",
+    finds="A mimic joint whose leader does not exist, has no axis, or is the joint itself.",
     matters="The joint follows nothing: libsdformat refuses the model, other readers leave the joint free.",
     example="`<mimic joint='left_finger'/>` where no joint is called so.",
     better="Correct the name.",
@@ -157,4 +162,14 @@ EMPTY_MODEL = Rule(
     matters="It has no frame that could move; libsdformat refuses it from SDF 1.7 on.",
     example="`<model name='m'/>`",
     better="Write a link, or make the model static.",
+)
+SEVERAL_AT_TOP = Rule(
+    name="several-at-top",
+    severity=Severity.WARNING,
+    strict=Severity.ERROR,
+    finds="An SDF file with more than one model, light or actor outside of a world.",
+    matters="libsdformat reads the first and says that there was another; Gazebo spawns only that one.",
+    example="`<sdf ...><model name='a'>...</model><model name='b'>...</model></sdf>`",
+    better="Put them into a world, or into files of their own.",
+    references="libsdformat: ELEMENT_INCORRECT_TYPE",
 )

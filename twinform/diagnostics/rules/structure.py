@@ -46,6 +46,25 @@ MISSING_ATTRIBUTE = Rule(
     example="`<limit lower='0' upper='1'/>` in URDF 1.0 has neither effort nor velocity.",
     better="Write the attribute.",
 )
+DEFAULTED_ATTRIBUTE = Rule(
+    name="defaulted-attribute",
+    severity=Severity.WARNING,
+    strict=Severity.ERROR,
+    finds="An attribute that the format requires is not there; it has a default, and it is clear what is meant.",
+    matters="libsdformat refuses the file all the same.",
+    example="`<light name='lamp'>` without `type`, which is `point` by default.",
+    better="Write the attribute.",
+    references="libsdformat: ATTRIBUTE_MISSING",
+)
+DEPRECATED_ELEMENT = Rule(
+    name="deprecated-element",
+    severity=Severity.INFO,
+    finds="An element that this version of the format has, and one of the next will not.",
+    matters="libsdformat warns of it; readers of a later version ignore it.",
+    example="`<thread_pitch>` from SDF 1.10 on; `<screw_thread_pitch>` has taken its place.",
+    better="Write what has taken its place.",
+    references="libsdformat: ELEMENT_DEPRECATED",
+)
 REPEATED_ELEMENT = Rule(
     name="repeated-element",
     severity=Severity.WARNING,
@@ -66,8 +85,10 @@ INVALID_VALUE = Rule(
 OUT_OF_RANGE = Rule(
     name="out-of-range",
     severity=Severity.WARNING,
+    strict=Severity.ERROR,
     finds="A number below the least or above the greatest value that the format allows.",
-    matters="Simulators replace it by a default, refuse the model, or become unstable.",
+    matters="libsdformat refuses some of them (colours above 1, negative friction); simulators replace others by a "
+    "default or become unstable.",
     example="`<mass value='-1'/>`, `<cylinder radius='-0.1' .../>`.",
     better="Write a value in the range.",
 )

@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from twinform.passes.principal_moments import Symmetric, principal_moments
+from twinform.ir.principal_moments import Symmetric, principal_moments
 
 ELEMENTS = st.floats(-1e150, 1e150)
 

@@ -1,0 +1,29 @@
+"""Whether a document makes sense beyond its schema: names, references, trees, axes, shapes, masses.
+
+What is true of both formats is in `names`, `joints`, `tree`, `shapes` and `inertia`; `urdf` and `sdf` say which of it
+is asked of a robot and of a model, and what only they know: materials, scopes, frames, sensors.
+"""
+
+from twinform.diagnostics import Notes
+from twinform.ir.document import Document, Format
+from twinform.ir.verify.sdf import verify_sdf
+from twinform.ir.verify.urdf import verify_robot
+
+__all__ = ["verify", "verify_again"]
+
+
+def verify(document: Document, notes: Notes) -> None:
+    """Report what is wrong with a document, in the order of its parts."""
+    if document.format is Format.SDF:
+        verify_sdf(document, notes)
+        return
+    for model in document.models:
+        verify_robot(model, notes, optional=document.version == "1.2")
+
+
+def verify_again(document: Document, notes: Notes) -> None:
+    """Report the errors in what passes have made; about the source as it was written, all is said already."""
+    found = Notes(file=notes.file, strict=notes.strict)
+    verify(document, found)
+    known = {(each.rule.name, each.location) for each in notes.diagnostics}
+    notes.extend(each for each in found.diagnostics if each.is_error and (each.rule.name, each.location) not in known)

@@ -1,0 +1,94 @@
+"""Masses and inertias that no body has."""
+
+import math
+
+from twinform.diagnostics import Location, Notes, Rule, Severity
+from twinform.diagnostics.rules import inertia as rules
+from twinform.ir.inertial import Inertia, Inertial
+from twinform.ir.link import Link
+from twinform.ir.principal_moments import Symmetric, principal_moments
+
+_ROUNDING = 5e-15
+"""Ten times what a double rounds, as a part of half the trace: libsdformat forgives no more."""
+_DOUBT = 1e-12
+"""Far above what rounding does to the minors of a matrix, as a part of the powers of its trace."""
+
+
+def verify_inertial(link: Link, default: float | None, notes: Notes) -> None:
+    """Report a mass or inertia that libsdformat refuses, or takes and cannot simulate.
+
+    `default` is the moment that the format means where none is written; None where it has none.
+    """
+    inertial = link.inertial
+    if inertial is None:
+        return
+    mass = inertial.mass
+    is_seen = default is None and mass is not None and mass < 0  # the table of URDF has a least value
+    if mass is not None and not is_seen and not 0 < mass < math.inf:  # the negation catches what is not a number
+        message = f"the mass of link {link.name!r} is {mass:g}"
+        severity = Severity.INFO if mass == 0 else None
+        where = inertial.location
+        expected = "finite" if mass > 0 else "more than 0"
+        notes.report(rules.NON_POSITIVE_MASS, message, where, found=f"{mass:g}", expected=expected, severity=severity)
+    matrix = inertia_matrix(inertial.inertia, default)
+    if inertial.auto and not link.collisions:
+        message = f"the inertia of link {link.name!r} is to come from its collisions, and it has none"
+        notes.report(rules.INERTIA_FROM_NOTHING, message, inertial.location, expected="<collision>")
+    if matrix is not None and not inertial.auto and not _is_plain(matrix):
+        report_moments(link, inertial, matrix, _ROUNDING, notes)
+
+
+def inertia_matrix(inertia: Inertia | None, default: float | None) -> Symmetric | None:
+    """The elements with the format's defaults; None where one has no default."""
+    if inertia is None:
+        return None
+    xx, yy, zz = (default if value is None else value for value in (inertia.ixx, inertia.iyy, inertia.izz))
+    if xx is None or yy is None or zz is None:
+        return None
+    return xx, yy, zz, inertia.ixy or 0.0, inertia.ixz or 0.0, inertia.iyz or 0.0
+
+
+def _is_plain(matrix: Symmetric) -> bool:
+    """Whether there is a body with this inertia, without any doubt: a cheap question before the expensive one.
+
+    The second moments of the mass about the three planes are J = trace/2 - I; a body has positive ones in every
+    direction, which the leading minors tell.
+    """
+    ixx, iyy, izz, ixy, ixz, iyz = matrix
+    xx, yy, zz = (iyy + izz - ixx) / 2, (ixx + izz - iyy) / 2, (ixx + iyy - izz) / 2
+    trace = xx + yy + zz
+    minor = xx * yy - ixy * ixy
+    whole = zz * minor - xx * iyz * iyz - yy * ixz * ixz - 2 * ixy * ixz * iyz
+    return xx > _DOUBT * trace and minor > _DOUBT * trace**2 and whole > _DOUBT * trace**3
+
+
+def report_moments(
+    link: Link, inertial: Inertial, matrix: Symmetric, eps: float, notes: Notes, *, least: float | None = None
+) -> None:
+    """Report principal moments below zero, or one that exceeds the sum of the others by more than `eps` of the trace.
+
+    `least` is the part of the trace that each moment has to exceed; where it is None, they may be zero.
+    """
+    if not all(map(math.isfinite, matrix)):
+        _report(rules.INDEFINITE_INERTIA, f"the inertia of link {link.name!r} is not finite", inertial.location, notes)
+        return
+    moments = principal_moments(matrix)
+    smallest, middle, largest = moments
+    trace = abs(sum(moments))
+    listed = ", ".join(f"{moment:.6g}" for moment in moments)
+    if smallest <= least * trace if least is not None else smallest < -eps * trace:
+        message = f"the inertia of link {link.name!r} is not positive definite: its principal moments are {listed}"
+        _report(rules.INDEFINITE_INERTIA, message, inertial.location, notes, listed, "all more than 0")
+    elif largest - smallest - middle > eps * trace:
+        message = (
+            f"no body has the principal moments of link {link.name!r}, {listed}: the last exceeds the sum of the others"
+        )
+        expected = f"at most {smallest + middle:.6g}"
+        _report(rules.IMPOSSIBLE_INERTIA, message, inertial.location, notes, listed, expected)
+
+
+def _report(
+    rule: Rule, message: str, where: Location, notes: Notes, found: str | None = None, expected: str | None = None
+) -> None:
+    if not notes.has(rule, where):  # a pass that is stricter looks again at what `check` has looked at
+        notes.report(rule, message, where, found=found, expected=expected)

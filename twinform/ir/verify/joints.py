@@ -1,0 +1,126 @@
+"""What a joint says of itself: its ends, its axes, their limits, and whom it mimics."""
+
+import math
+from collections.abc import Iterable
+
+from twinform.diagnostics import Location, Notes
+from twinform.diagnostics.rules import joints as rules
+from twinform.diagnostics.rules import model as names
+from twinform.ir.joint import Axis, Joint, Limit
+
+_FREEDOMS = {
+    **dict.fromkeys(("revolute", "continuous", "prismatic", "screw", "planar"), 1),
+    **dict.fromkeys(("gearbox", "universal", "revolute2"), 2),
+}
+"""How many axes a type of joint moves about or along; the others have none."""
+_LIMITED = frozenset({"revolute", "prismatic"})
+_ROUNDING = 1e-3
+"""How far from 1 the length of an axis may be: files write three digits."""
+
+
+def verify_joint(joint: Joint, notes: Notes) -> None:
+    """Report what is wrong with a joint by itself."""
+    if joint.parent is not None and joint.parent == joint.child:
+        message = f"joint {joint.name!r} connects {joint.parent!r} to itself"
+        notes.report(names.SELF_JOINT, message, joint.location, found=joint.parent)
+    freedoms = _FREEDOMS.get(joint.type, 0)
+    axis, axis2 = joint.axis, joint.axis2
+    if axis is not None:
+        _verify_axis(joint, "axis", axis, notes, moves=freedoms > 0)
+    if axis2 is not None:
+        _verify_axis(joint, "axis2", axis2, notes, moves=freedoms > 1)
+    if freedoms and (axis is None or axis.xyz is None):
+        _missing(joint, "axis", notes)
+    if freedoms > 1 and (axis2 is None or axis2.xyz is None):
+        _missing(joint, "axis2", notes)
+
+
+def _missing(joint: Joint, name: str, notes: Notes) -> None:
+    message = f"{joint.type} joint {joint.name!r} has no <{name}>; readers take their default"
+    notes.report(rules.MISSING_AXIS, message, joint.location, expected=f"<{name}>")
+
+
+def _verify_axis(joint: Joint, name: str, axis: Axis, notes: Notes, *, moves: bool) -> None:
+    # where URDF's <limit> stands first, the axis was made there
+    where = axis.location if axis.source and axis.source.step == name else joint.location.at(name)
+    if not moves:
+        message = f"{joint.type} joint {joint.name!r} has an <{name}>, which nothing turns about or slides along"
+        notes.report(rules.UNUSED_AXIS, message, where, found=f"<{name}>")
+        return
+    if axis.xyz is not None:
+        _verify_direction(joint, axis.xyz, where, notes)
+    if axis.limit is not None:
+        _verify_limit(joint, axis.limit, notes)
+
+
+def _verify_direction(joint: Joint, xyz: tuple[float, float, float], where: Location, notes: Notes) -> None:
+    length = xyz[0] * xyz[0] + xyz[1] * xyz[1] + xyz[2] * xyz[2]
+    if length == 1.0:
+        return
+    if not any(xyz):
+        message = f"the axis of joint {joint.name!r} has length zero"
+        notes.report(names.ZERO_AXIS, message, where, found="0 0 0")
+        return
+    length = math.hypot(*xyz)
+    if abs(length - 1) > _ROUNDING:
+        message = f"the axis of joint {joint.name!r} has length {length:.4g}; readers make it 1"
+        notes.report(rules.UNNORMALISED_AXIS, message, where, found=f"{length:.4g}", expected="1")
+
+
+def _verify_limit(joint: Joint, limit: Limit, notes: Notes) -> None:
+    if joint.type == "continuous":
+        if limit.lower or limit.upper:
+            message = f"continuous joint {joint.name!r} has limits, which every reader ignores"
+            notes.report(rules.UNUSED_LIMIT, message, limit.location)
+    elif limit.lower is not None and limit.upper is not None and limit.lower > limit.upper:
+        message = f"joint {joint.name!r} has the lower limit {limit.lower:g} above the upper limit {limit.upper:g}"
+        notes.report(names.LOWER_ABOVE_UPPER, message, limit.location, found=f"{limit.lower:g}")
+    if limit.effort == 0 or limit.velocity == 0:
+        which = " and ".join(word for word in ("effort", "velocity") if getattr(limit, word) == 0)
+        message = f"joint {joint.name!r} has the limit 0 for {which}; a controller that obeys it cannot move it"
+        notes.report(rules.ZERO_LIMIT, message, limit.location, found="0")
+
+
+def verify_limits_there(joint: Joint, notes: Notes, *, optional: bool) -> None:
+    """URDF asks for limits where SDF has none by default, and before 1.2 for effort and velocity in them."""
+    limit = joint.axis.limit if joint.axis else None
+    missing = [name for name in ("effort", "velocity") if limit and getattr(limit, name) is None]
+    if limit and missing and not optional:
+        message = f"the limit of joint {joint.name!r} has no {' and no '.join(missing)}"
+        notes.report(names.PARTIAL_LIMIT, message, limit.location, expected=f"@{missing[0]}")
+    if joint.type in _LIMITED and limit is None:
+        message = f"{joint.type} joint {joint.name!r} has no <limit>"
+        notes.report(names.MISSING_LIMIT, message, joint.location, expected="<limit>")
+
+
+def verify_mimics(joints: Iterable[Joint], notes: Notes) -> None:
+    """Report followers of nothing, and of each other."""
+    followers = [(joint, axis) for joint in joints for axis in (joint.axis, joint.axis2) if axis and axis.mimic]
+    if not followers:
+        return
+    known = {joint.name: joint for joint in joints}
+    leaders: dict[str, str] = {}
+    for joint, axis in followers:
+        mimic = axis.mimic
+        leader = known.get(mimic.joint or "") if mimic else None
+        if mimic is None or (leader is not None and leader is not joint and leader.type in _FREEDOMS):
+            leaders[joint.name] = leader.name if leader else ""
+            continue
+        what = "which is no joint" if leader is None else "itself" if leader is joint else "which has no axis"
+        message = f"joint {joint.name!r} mimics {mimic.joint!r}, {what}"
+        notes.report(names.UNKNOWN_LEADER, message, mimic.location, found=mimic.joint)
+    _report_circles(followers, leaders, notes)
+
+
+def _report_circles(followers: list[tuple[Joint, Axis]], leaders: dict[str, str], notes: Notes) -> None:
+    settled: set[str] = set()
+    for joint, axis in followers:
+        path: list[str] = []
+        name = joint.name
+        while name in leaders and name not in settled and name not in path:
+            path.append(name)
+            name = leaders[name]
+        if name in path and axis.mimic:
+            message = f"joints mimic each other: {', '.join(path[path.index(name) :])}"
+            notes.report(rules.MIMIC_CYCLE, message, axis.mimic.location, found=name)
+        settled.update(path)

@@ -1,0 +1,61 @@
+"""Names: there is one of each in its scope, and none that the format keeps for itself."""
+
+from collections.abc import Iterable
+
+from twinform.diagnostics import Notes, Severity
+from twinform.diagnostics.rules import model as rules
+from twinform.ir.node import Node
+
+Kinds = Iterable[tuple[str, Iterable[Node]]]
+"""What shares a scope: the word for a kind, and the nodes of that kind."""
+
+_REFERRED_TO = frozenset({"link", "joint", "model", "frame"})
+
+
+def name_of(node: Node) -> str:
+    """The name of a node that has one."""
+    return str(node.__dict__["name"])
+
+
+def report_names(kind: str, nodes: Iterable[Node], notes: Notes) -> None:
+    """Report names that are empty, or there twice."""
+    seen: dict[str, Node] = {}
+    for node in nodes:
+        name = name_of(node)
+        if not name and kind in _REFERRED_TO:
+            notes.report(rules.EMPTY_NAME, f"a {kind} has an empty name", node.location)
+        if name in seen:
+            message = f"{kind} {name!r} is there twice"
+            notes.report(rules.DUPLICATE_NAME, message, node.location, found=name, related=(seen[name].location,))
+        seen.setdefault(name, node)
+
+
+def report_scope(kinds: Kinds, shared: Severity, notes: Notes) -> None:
+    """Report names that several kinds of one scope share, beside what is wrong within each kind."""
+    owners: dict[str, tuple[str, Node]] = {}
+    for kind, nodes in kinds:
+        named = [node for node in nodes if node.__dict__["name"] is not None]
+        report_names(kind, named, notes)
+        for node in named:
+            name = name_of(node)
+            other, first = owners.setdefault(name, (kind, node))
+            if other != kind:
+                message = f"{kind} {name!r} has the name of a {other}"
+                related = (first.location,)
+                notes.report(rules.SHARED_NAME, message, node.location, found=name, related=related, severity=shared)
+
+
+def report_reserved(kinds: Kinds, severity: Severity, notes: Notes, *, scoped: bool) -> None:
+    """Report names that SDF keeps for itself; where `scoped`, also those with `::`, which stands between scopes."""
+    for kind, nodes in kinds:
+        for node in nodes:
+            name: str | None = node.__dict__["name"]
+            if name is None or not (name == "world" or "__" in name or "::" in name):
+                continue
+            if name == "world" or (name.startswith("__") and name.endswith("__")):
+                message = f"{kind} {name!r} has a name that SDF keeps for itself"
+            elif scoped and "::" in name:
+                message = f"{kind} {name!r} has '::' in its name, which stands between a model and what is in it"
+            else:
+                continue
+            notes.report(rules.RESERVED_NAME, message, node.location.at("@name"), found=name, severity=severity)

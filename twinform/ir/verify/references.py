@@ -1,0 +1,112 @@
+"""References of SDF by name: whether what is named is there, and is one thing only."""
+
+from collections.abc import Iterable
+
+from twinform.diagnostics import Location, Notes, Rule, Severity
+from twinform.diagnostics.rules import frames as rules
+from twinform.diagnostics.rules import model as joints
+from twinform.ir.joint import Joint
+from twinform.ir.light import Light
+from twinform.ir.link import Link
+from twinform.ir.model import Model
+from twinform.ir.pose import Pose
+from twinform.ir.verify.scope import Scope
+from twinform.ir.world import World
+
+MODEL = "__model__"
+WORLD = "world"
+
+
+class References:
+    """Looks up the references in one model or world; `own` is how its frame is called inside it.
+
+    Where links and joints have a scope each, a reference means one of its own kind: nothing is ambiguous.
+    """
+
+    def __init__(self, holder: Model | World, notes: Notes, *, one_scope: bool) -> None:
+        self.one_scope = one_scope
+        self.scope = Scope(holder)
+        self.own = MODEL if isinstance(holder, Model) else WORLD
+        self.notes = notes
+        self._holder = holder
+
+    def verify(self) -> None:
+        """Report every reference that leads nowhere, or to two things."""
+        holder = self._holder
+        if isinstance(holder, Model):
+            self._model(holder)
+        else:
+            self._lights(holder.lights)
+        for joint in holder.joints:
+            self._joint(joint)
+        for frame in holder.frames:
+            self._frame(frame.attached_to, frame.location.at("@attached_to"))
+            self._pose(frame.pose)
+        for inner in (*holder.models, *holder.includes):
+            self._pose(inner.pose)
+
+    def is_link(self, name: str) -> bool:
+        """Whether a name stands for a link, or for something in an include that was not read."""
+        return self.scope.find(name) in {"link", "unread", "twice"}
+
+    def _model(self, model: Model) -> None:
+        for link in model.links:
+            self._link(link)
+        if model.canonical_link and not self.is_link(model.canonical_link):
+            message = f"the canonical link of model {model.name!r} is {model.canonical_link!r}, which is no link in it"
+            where = model.location.at("@canonical_link")
+            self.notes.report(rules.UNKNOWN_CANONICAL_LINK, message, where, found=model.canonical_link)
+        self._frame(model.placement_frame, model.location.at("@placement_frame"))
+
+    def _link(self, link: Link) -> None:
+        self._pose(link.pose)
+        for visual in link.visuals:
+            self._pose(visual.pose)
+        for collision in link.collisions:
+            self._pose(collision.pose)
+        for sensor in link.sensors:
+            self._pose(sensor.pose)
+        self._lights(link.lights)
+
+    def _lights(self, lights: Iterable[Light]) -> None:
+        for light in lights:
+            self._pose(light.pose)
+
+    def _joint(self, joint: Joint) -> None:
+        self._pose(joint.pose)
+        for end, name in (("parent", joint.parent), ("child", joint.child)):
+            if name is not None and (name != WORLD or self.own == WORLD):
+                self._end(joint, end, name)
+        for axis in (joint.axis, joint.axis2):
+            if axis is not None and axis.expressed_in:
+                self._frame(axis.expressed_in, axis.location.at("xyz/@expressed_in"))
+        reference = joint.gearbox_reference_body
+        if reference and joint.type == "gearbox" and not self.is_link(reference):
+            where = joint.location.at("gearbox_reference_body")
+            message = f"joint {joint.name!r} has the reference body {reference!r}, which is no link"
+            self.notes.report(joints.DANGLING_LINK, message, where, found=reference, severity=Severity.WARNING)
+
+    def _end(self, joint: Joint, end: str, name: str) -> None:
+        where = joint.location.at(end)
+        if name == joint.name and self.scope.find(name) == "joint":
+            message = f"joint {joint.name!r} has itself as its {end}"
+            self.notes.report(joints.SELF_JOINT, message, where, found=name)
+        elif name != self.own:
+            what = f"joint {joint.name!r} has the {end} {name!r}, which is no link or frame of the "
+            self._look_up(joints.DANGLING_LINK, what + ("model" if self.own == MODEL else "world"), where, name)
+
+    def _pose(self, pose: Pose | None) -> None:
+        if pose is not None and pose.relative_to:
+            self._frame(pose.relative_to, pose.location.at("@relative_to"))
+
+    def _frame(self, name: str | None, where: Location) -> None:
+        if name and name != self.own:
+            self._look_up(rules.DANGLING_FRAME, f"there is no frame {name!r}", where, name)
+
+    def _look_up(self, rule: Rule, message: str, where: Location, name: str) -> None:
+        found = self.scope.find(name)
+        if found is None:
+            self.notes.report(rule, message, where, found=name)
+        elif found == "twice" and self.one_scope:
+            message = f"{name!r} is the name of two things, and this may mean either"
+            self.notes.report(rules.AMBIGUOUS_FRAME, message, where, found=name)

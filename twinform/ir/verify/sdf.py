@@ -1,0 +1,181 @@
+"""The rules of SDF: models in models, whose links, joints and frames share one scope of names."""
+
+from twinform.diagnostics import Notes, Severity
+from twinform.diagnostics.rules import frames as frame_rules
+from twinform.diagnostics.rules import model as rules
+from twinform.ir.document import Document
+from twinform.ir.frames import FrameError, FrameGraph
+from twinform.ir.joint import Joint
+from twinform.ir.link import Link
+from twinform.ir.model import Include, Model
+from twinform.ir.pose import Pose
+from twinform.ir.verify.inertia import verify_inertial
+from twinform.ir.verify.joints import verify_joint, verify_mimics
+from twinform.ir.verify.names import Kinds, report_names, report_reserved, report_scope
+from twinform.ir.verify.references import References
+from twinform.ir.verify.sensors import verify_grippers, verify_joint_sensors, verify_sensors
+from twinform.ir.verify.shapes import verify_shapes
+from twinform.ir.verify.tree import report_loops
+from twinform.ir.world import World
+
+_BEFORE_FRAMES = frozenset({"1.2", "1.3", "1.4", "1.5", "1.6"})
+"""Versions in which links and joints were no frames yet: two of one name were bad style only."""
+_BEFORE_SCOPES = _BEFORE_FRAMES | {"1.7"}
+"""Versions in which a name may have `::` in it."""
+_DEFAULT_MOMENT = 1.0
+_ALONE = frozenset({"model", "light"})
+"""What may stand once at the top of a file from 1.8 on; the table pass reports a second one and keeps it as it is."""
+
+
+def verify_sdf(document: Document, notes: Notes) -> None:
+    """Report what is wrong with the worlds and models of an SDF document."""
+    verifier = _Verifier(document.version, notes)
+    verifier.file(document)
+    for world in document.worlds:
+        verifier.world(world)
+    for model in (*document.models, *(model for world in document.worlds for model in world.models)):
+        verifier.model_with_frames(model)
+
+
+class _Verifier:
+    """One run over one document."""
+
+    def __init__(self, version: str | None, notes: Notes) -> None:
+        self.notes = notes
+        self.shared = Severity.WARNING if version in _BEFORE_FRAMES else Severity.ERROR
+        self.frames = version not in _BEFORE_FRAMES
+        self.scoped = version not in _BEFORE_SCOPES
+
+    def world(self, world: World) -> None:
+        before = len(self.notes.diagnostics)
+        names = (("model", world.models), ("light", world.lights), ("frame", world.frames), ("joint", world.joints))
+        kinds = (*names, ("include", world.includes))
+        report_scope(names, self.shared, self.notes)
+        self._reserved((*kinds, ("world", (world,))))
+        self._references(world)
+        for joint in world.joints:
+            self._joint(joint)
+        if self.frames and _names_frames(world):
+            self._resolve(world, before)
+
+    def file(self, document: Document) -> None:
+        """What stands at the top of the file."""
+        report_names("world", document.worlds, self.notes)
+        report_names("model", document.models, self.notes)
+        self._reserved((("model", document.models), ("light", document.lights)))
+        actors = [part for part in document.opaque if part.element and part.element.name == "actor"]
+        alone = (*document.models, *document.lights, *actors)
+        if len(alone) > 1 and not any(part.element and part.element.name in _ALONE for part in document.opaque):
+            message = f"the file has {len(alone)} models, lights and actors outside of a world; readers take the first"
+            self.notes.report(rules.SEVERAL_AT_TOP, message, alone[1].location, related=(alone[0].location,))
+        for model in document.models:
+            self._at_top(model)
+
+    def _at_top(self, model: Model) -> None:
+        """A model that stands in no world has nothing around it to be relative to."""
+        if model.pose is not None and model.pose.relative_to:
+            message = f"the pose of model {model.name!r} names a frame, and there is nothing around a model at the top"
+            where = model.pose.location.at("@relative_to")
+            self.notes.report(frame_rules.DANGLING_FRAME, message, where, found=model.pose.relative_to)
+
+    def model_with_frames(self, model: Model) -> None:
+        before = len(self.notes.diagnostics)
+        self.model(model)
+        if self.frames:
+            self._resolve(model, before)
+
+    def model(self, model: Model) -> None:
+        notes = self.notes
+        kinds = (("link", model.links), ("joint", model.joints), ("frame", model.frames), ("model", model.models))
+        report_scope(kinds, self.shared, notes)
+        self._reserved((*kinds, ("include", model.includes)))
+        references = self._references(model)
+        for link in model.links:
+            self._link(link, model)
+        for joint in model.joints:
+            self._joint(joint)
+        report_loops(model.joints, notes, Severity.INFO)
+        if not model.includes:
+            verify_mimics(model.joints, notes)
+        verify_joint_sensors(model, notes)
+        verify_grippers(model, references.is_link, notes)
+        if not (model.links or model.models or model.includes or model.static):
+            notes.report(rules.EMPTY_MODEL, f"model {model.name!r} has no link", model.location, expected="<link>")
+        for nested in model.models:
+            self.model(nested)
+
+    def _joint(self, joint: Joint) -> None:
+        verify_joint(joint, self.notes)
+        if joint.child == "world":
+            message = f"joint {joint.name!r} has the child 'world'"
+            self.notes.report(rules.WORLD_CHILD, message, joint.location.at("child"))
+
+    def _link(self, link: Link, model: Model) -> None:
+        kinds = (("visual", link.visuals), ("collision", link.collisions), ("sensor", link.sensors))
+        for kind, nodes in kinds:
+            report_names(kind, [node for node in nodes if node.name], self.notes)
+        self._reserved((*kinds, ("light", link.lights)))
+        self._siblings(link)
+        verify_inertial(link, _DEFAULT_MOMENT, self.notes)
+        verify_shapes(link, self.notes, geometry_is_required=False)
+        if link.sensors:
+            verify_sensors(link, model, self.notes)
+
+    def _siblings(self, link: Link) -> None:
+        """A visual and a collision of one name: good everywhere but for `gz sdf --check`."""
+        visuals = {visual.name: visual for visual in link.visuals if visual.name}
+        for collision in link.collisions:
+            if collision.name in visuals:
+                message = f"collision {collision.name!r} has the name of a visual"
+                related = (visuals[collision.name].location,)
+                self.notes.report(
+                    rules.SHARED_NAME, message, collision.location, related=related, severity=Severity.INFO
+                )
+
+    def _reserved(self, kinds: Kinds) -> None:
+        report_reserved(kinds, self.shared, self.notes, scoped=self.scoped)
+
+    def _references(self, holder: Model | World) -> References:
+        references = References(holder, self.notes, one_scope=self.frames)
+        references.verify()
+        return references
+
+    def _resolve(self, holder: Model | World, before: int) -> None:
+        """Report frames that go round in a circle, where all names lead somewhere, and what they resolve to."""
+        if any(each.is_error for each in self.notes.diagnostics[before:]):
+            return
+        seen: set[str] = set()
+        try:
+            graph = FrameGraph(holder)
+            problems = list(graph.problems())
+        except FrameError as error:
+            graph, problems = None, [error]
+        for problem in problems:
+            # a name that leads nowhere is in an include, or was reported where it stands
+            if problem.rule is frame_rules.FRAME_CYCLE and problem.found not in seen:
+                problem.report(self.notes)
+                seen.add(problem.found)
+        if graph is not None and not problems:
+            self._ends(holder, graph)
+
+    def _ends(self, holder: Model | World, graph: FrameGraph) -> None:
+        """Report joints that connect a link to itself by way of a frame."""
+        links = {link.name for link in holder.links} if isinstance(holder, Model) else set[str]()
+        for joint in holder.joints:
+            parent, child = joint.parent, joint.child
+            if not parent or not child or parent == child or (parent in links and child in links):
+                continue
+            body = graph.body(parent)
+            if body == graph.body(child) and (body in links or "::" in body):
+                message = f"joint {joint.name!r} connects {body!r} to itself: {parent!r} and {child!r} are both on it"
+                self.notes.report(rules.SELF_JOINT, message, joint.location, found=body)
+
+
+def _names_frames(world: World) -> bool:
+    """Whether anything in the world is relative to something else: what is inside of models is looked at there."""
+    placed: tuple[Model | Include, ...] = (*world.models, *world.includes)
+    return bool(world.frames or world.joints) or any(_is_relative(each.pose) for each in placed)
+
+
+def _is_relative(pose: Pose | None) -> bool:
+    return pose is not None and bool(pose.relative_to)

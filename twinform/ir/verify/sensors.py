@@ -1,0 +1,99 @@
+"""Sensors and grippers of SDF: whether they are what they say, and whether what they name is there."""
+
+from collections.abc import Callable, Iterator
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules import bodies as rules
+from twinform.ir.element import Opaque
+from twinform.ir.link import Link
+from twinform.ir.model import Model
+from twinform.ir.sensor import Sensor
+
+_CAMERAS = (
+    "boundingbox", "boundingbox_camera", "camera", "depth", "depth_camera", "multicamera", "rgbd", "rgbd_camera",
+    "segmentation", "segmentation_camera", "stereocamera", "thermal", "thermal_camera", "wide_angle_camera",
+    "wideanglecamera",
+)  # fmt: skip
+_RAYS = ("gpu_lidar", "gpu_ray", "lidar", "ray")
+_CONTENT = {
+    **{type_: frozenset({"camera"}) for type_ in _CAMERAS},
+    **{type_: frozenset({"lidar", "ray"}) for type_ in _RAYS},
+    **{
+        type_: frozenset({type_})
+        for type_ in ("air_pressure", "air_speed", "altimeter", "contact", "force_torque", "imu", "logical_camera")
+    },
+    **{type_: frozenset({"transceiver"}) for type_ in ("wireless_receiver", "wireless_transmitter")},
+    **{type_: frozenset({type_}) for type_ in ("magnetometer", "rfid", "rfidtag", "sonar")},
+    "gps": frozenset({"gps", "navsat"}),
+    "navsat": frozenset({"gps", "navsat"}),
+}
+"""Which element holds the parameters of each type of sensor; other types may have any."""
+_PARAMETERS = frozenset[str]().union(*_CONTENT.values())
+_DEFAULT = "__default__"
+"""What SDF takes for the name of a collision that is not written."""
+
+
+def verify_sensors(link: Link, model: Model, notes: Notes) -> None:
+    """Report sensors of a link that are not what they say."""
+    for sensor in link.sensors:
+        _verify_content(sensor, notes)
+        if sensor.type == "force_torque":
+            message = f"sensor {sensor.name!r} measures the force in a joint, and is on link {link.name!r}"
+            notes.report(rules.MISPLACED_SENSOR, message, sensor.location, found="force_torque")
+        if sensor.type == "contact":
+            _verify_contact(sensor, model, notes)
+
+
+def verify_joint_sensors(model: Model, notes: Notes) -> None:
+    """The same for the sensors of joints."""
+    for joint in model.joints:
+        for sensor in joint.sensors:
+            _verify_content(sensor, notes)
+
+
+def _verify_content(sensor: Sensor, notes: Notes) -> None:
+    allowed = _CONTENT.get(sensor.type or "")
+    if allowed is None:
+        return
+    for part in sensor.opaque:
+        name = part.element.name if part.element and not part.at else ""
+        if name in _PARAMETERS and name not in allowed:
+            message = f"sensor {sensor.name!r} is of the type {sensor.type!r} and has <{name}>"
+            expected = " or ".join(f"<{one}>" for one in sorted(allowed))
+            notes.report(rules.SENSOR_MISMATCH, message, part.location, found=f"<{name}>", expected=expected)
+
+
+def _verify_contact(sensor: Sensor, model: Model, notes: Notes) -> None:
+    known: set[str] | None = None
+    for part, name in _texts(sensor.opaque, "contact", "collision"):
+        if known is None:
+            known = {one.name or "" for each in _all_models(model) for link in each.links for one in link.collisions}
+        if name.rpartition("::")[2] not in known and name != _DEFAULT and not _has_includes(model):
+            message = f"contact sensor {sensor.name!r} looks at the collision {name!r}, which does not exist"
+            notes.report(rules.UNKNOWN_COLLISION, message, part.location, found=name)
+
+
+def verify_grippers(model: Model, is_link: Callable[[str], bool], notes: Notes) -> None:
+    """Report grippers whose links do not exist."""
+    for word in ("gripper_link", "palm_link"):
+        for part, name in _texts(model.opaque, "gripper", word):
+            if not is_link(name):
+                message = f"<{word}> of a gripper names {name!r}, which is no link of model {model.name!r}"
+                notes.report(rules.UNKNOWN_GRIPPER_LINK, message, part.location, found=name)
+
+
+def _texts(parts: tuple[Opaque, ...], outer: str, inner: str) -> Iterator[tuple[Opaque, str]]:
+    """The texts of the `inner` children of the parts that are an `outer` element."""
+    for part in parts:
+        if part.element and part.element.name == outer:
+            yield from ((part, child.text or "") for child in part.element.children if child.name == inner)
+
+
+def _all_models(model: Model) -> Iterator[Model]:
+    yield model
+    for nested in model.models:
+        yield from _all_models(nested)
+
+
+def _has_includes(model: Model) -> bool:
+    return any(each.includes for each in _all_models(model))

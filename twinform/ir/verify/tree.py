@@ -1,0 +1,40 @@
+"""How links hang together: which joints give a link a second parent, and which go round in a circle."""
+
+from collections.abc import Iterable
+
+from twinform.diagnostics import Notes, Severity
+from twinform.diagnostics.rules import model as rules
+from twinform.ir.joint import Joint
+
+
+def report_loops(joints: Iterable[Joint], notes: Notes, severity: Severity | None = None) -> dict[str, Joint]:
+    """Report second parents and circles; give the first joint of each child."""
+    parents: dict[str, Joint] = {}
+    for joint in joints:
+        if joint.child is None:
+            continue
+        first = parents.setdefault(joint.child, joint)
+        if first is not joint:
+            message = f"link {joint.child!r} is the child of joint {first.name!r} and of joint {joint.name!r}"
+            related = (first.location,)
+            notes.report(rules.TWO_PARENTS, message, joint.location, related=related, severity=severity)
+    for joint in _circles(parents):
+        message = f"joint {joint.name!r} closes a circle of joints through link {joint.child!r}"
+        notes.report(rules.KINEMATIC_LOOP, message, joint.location, severity=severity)
+    return parents
+
+
+def _circles(parents: dict[str, Joint]) -> list[Joint]:
+    """One joint of each circle; every link is walked over once."""
+    settled: set[str] = set()
+    found: list[Joint] = []
+    for start in parents:
+        path: dict[str, Joint] = {}
+        link = start
+        while link in parents and link not in settled and link not in path:
+            path[link] = parents[link]
+            link = parents[link].parent or ""
+        if link in path and path[link].parent != link:  # a joint of one link with itself has a rule of its own
+            found.append(path[link])
+        settled.update(path)
+    return found

@@ -1,0 +1,92 @@
+"""The rules of URDF, which describes one tree."""
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules import bodies
+from twinform.diagnostics.rules import joints as joint_rules
+from twinform.diagnostics.rules import model as rules
+from twinform.ir.joint import Joint
+from twinform.ir.material import Material
+from twinform.ir.model import Model
+from twinform.ir.verify.inertia import verify_inertial
+from twinform.ir.verify.joints import verify_joint, verify_limits_there, verify_mimics
+from twinform.ir.verify.names import report_names
+from twinform.ir.verify.shapes import verify_shapes
+from twinform.ir.verify.tree import report_loops
+
+
+def verify_robot(model: Model, notes: Notes, *, optional: bool) -> None:
+    """Report what is wrong with a robot; `optional` says whether limits may lack effort and velocity."""
+    for kind, nodes in (("link", model.links), ("joint", model.joints)):
+        report_names(kind, nodes, notes)
+    _report_materials(model, notes)
+    links = {link.name for link in model.links}
+    for joint in model.joints:
+        _verify_joint(joint, links, notes)
+        verify_limits_there(joint, notes, optional=optional)
+    verify_mimics(model.joints, notes)
+    for link in model.links:
+        verify_inertial(link, None, notes)
+        verify_shapes(link, notes, geometry_is_required=True)
+    _verify_tree(model, links, notes)
+    known = links | {joint.name for joint in model.joints}
+    for extension in model.extensions:
+        if extension.reference and extension.reference not in known:
+            where = extension.location.at("@reference")
+            message = f"<gazebo> refers to {extension.reference!r}, which is neither a link nor a joint"
+            notes.report(rules.UNKNOWN_REFERENCE, message, where, found=extension.reference)
+
+
+def _verify_joint(joint: Joint, links: set[str], notes: Notes) -> None:
+    for end, name in (("parent", joint.parent), ("child", joint.child)):
+        if name is not None and name not in links:
+            message = f"joint {joint.name!r} has the {end} {name!r}, which is no link"
+            notes.report(rules.DANGLING_LINK, message, joint.location.at(end), found=name)
+    verify_joint(joint, notes)
+    for part in joint.opaque:
+        if part.element and part.element.name == "dynamics" and not part.element.attributes:
+            message = f"<dynamics> of joint {joint.name!r} says neither damping nor friction"
+            notes.report(joint_rules.EMPTY_DYNAMICS, message, part.location, expected="damping or friction")
+
+
+def _verify_tree(model: Model, links: set[str], notes: Notes) -> None:
+    if not links:
+        notes.report(rules.NO_LINKS, f"robot {model.name!r} has no link", model.location, expected="<link>")
+        return
+    parents = report_loops([joint for joint in model.joints if joint.child in links], notes)
+    roots = list({link.name: link for link in model.links if link.name not in parents}.values())
+    if len(roots) > 1:
+        names = ", ".join(repr(link.name) for link in roots[:5])
+        message = f"robot {model.name!r} has {len(roots)} root links: {names}{', ...' if len(roots) > 5 else ''}"
+        related = tuple(link.location for link in roots[2:5])
+        notes.report(rules.SEVERAL_ROOTS, message, roots[1].location, related=related)
+
+
+def _report_materials(model: Model, notes: Notes) -> None:
+    report_names("material", [material for material in model.materials if material.name], notes)
+    for material in model.materials:
+        if _is_bare(material):
+            message = f"the shared material {material.name!r} has neither a colour nor a texture"
+            notes.report(bodies.BARE_MATERIAL, message, material.location, expected="<color> or <texture>")
+    defined = {material.name: material for material in model.materials if material.name}
+    used = [visual.material for link in model.links for visual in link.visuals if visual.material]
+    for material in used:
+        if material.name is None:
+            message = "the material of a visual has no name"
+            notes.report(bodies.UNNAMED_MATERIAL, message, material.location, expected="@name")
+        elif material.name and not _is_bare(material):
+            _report_conflict(material, defined.setdefault(material.name, material), notes)
+    for material in used:
+        if material.name and _is_bare(material) and material.name not in defined:
+            message = f"material {material.name!r} is not defined"
+            notes.report(rules.UNKNOWN_MATERIAL, message, material.location, found=material.name)
+
+
+def _is_bare(material: Material) -> bool:
+    return not (material.color or material.texture)
+
+
+def _report_conflict(material: Material, first: Material, notes: Notes) -> None:
+    if (material.color, material.texture) != (first.color, first.texture):
+        message = f"material {material.name!r} has another look here than where it was first defined"
+        related = (first.location,)
+        notes.report(bodies.CONFLICTING_MATERIAL, message, material.location, found=material.name, related=related)
