@@ -19,9 +19,10 @@ from twinform.compiler.parsing import (
 )
 from twinform.compiler.sdf import front_end as sdf
 from twinform.compiler.urdf import front_end as urdf
+from twinform.compiler.urdf.extensions import check_extensions
 from twinform.diagnostics import Diagnostic, Location, Notes
 from twinform.diagnostics.rules import reading, structure
-from twinform.ir import Document, count_parts
+from twinform.ir import Document, Format, count_parts
 from twinform.ir.verify import verify
 from twinform.schemas import Context, Engine, Version, XmlElement, gate, parse_version, print_version, refusals, table
 
@@ -74,6 +75,8 @@ def _check(source: str | Path | bytes, notes: Notes, engine: Engine) -> Checked:
         return Checked(notes.file, None, tuple(notes.diagnostics), unreadable=True)
     if document is not None:
         verify(document, notes)
+        if document.format is Format.URDF:
+            check_extensions(document, notes)
     return Checked(notes.file, document, tuple(notes.diagnostics), tree=tree)
 
 

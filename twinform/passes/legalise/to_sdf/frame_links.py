@@ -4,7 +4,7 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf
-from twinform.ir import Collision, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual, count_parts
+from twinform.ir import Collision, Element, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual
 from twinform.passes.legalise.carrier import carry, to_element
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.to_sdf.name_shapes import name_all
@@ -18,7 +18,8 @@ class FrameLinks(ModelPass):
     Changes: 1. the joint becomes a frame attached to its parent, with the joint's origin; 2. the link becomes a frame
     attached to that one; 3. visuals, collisions, sensors and lights move to the nearest link above that stays a link,
     and are posed in the link's frame as before. Joints below keep the link's name as their parent.
-    Never touches: links with mass; a link fixed to the world, which has no link above.
+    Never touches: links with mass; a link fixed to the world, which has no link above; one whose joint has a sensor,
+    which would have no place.
     Diagnostics: none; ledger entries under `frame-link` for what a frame cannot have.
     """
 
@@ -35,6 +36,7 @@ class FrameLinks(ModelPass):
             and joint.parent in links
             and joint.child in links
             and is_massless(links[joint.child])
+            and not joint.sensors
         }
         if not moved:
             return model
@@ -42,6 +44,7 @@ class FrameLinks(ModelPass):
         for name in moved:
             guests.setdefault(_anchor(name, moved), []).append(links[name])
         frames = [frame for joint in moved.values() for frame in self._frames(joint, links[joint.child or ""], notes)]
+        model = self._keep_physics(model, list(moved.values()), notes)
         return model.model_copy(
             update={
                 "links": tuple(
@@ -56,21 +59,32 @@ class FrameLinks(ModelPass):
         pose = joint.pose.model_copy(update={"relative_to": None}) if joint.pose else None
         if pose == Pose():
             pose = None
-        mount = Frame(name=joint.name, attached_to=joint.parent, pose=pose, opaque=joint.opaque, source=joint.source)
+        mount = Frame(
+            name=joint.name, attached_to=joint.parent, pose=pose, opaque=_carriers(joint), source=joint.source
+        )
         body = Frame(name=link.name, attached_to=joint.name, source=link.source, opaque=_carriers(link))
         return self._rest_of_joint(mount, joint, notes), self._rest_of_link(body, link, notes)
 
     def _rest_of_joint(self, frame: Frame, joint: Joint, notes: Notes) -> Frame:
-        if joint.axis is None and not joint.sensors:
+        if joint.axis is None:
             return frame
-        whole = to_element(joint, "joint", "urdf")
+        whole = to_element(joint.model_copy(update={"opaque": ()}), "joint", "urdf")
         rest = [Opaque(element=child) for child in whole.children if child.name not in {"origin", "parent", "child"}]
-        if joint.sensors:
-            message = f"the sensors of joint {joint.name!r} have no joint to be on"
-            notes.report(to_sdf.FRAME_LINK, message, joint.location)
-            weight = sum(count_parts(sensor) for sensor in joint.sensors)
-            notes.account(Fate.DROPPED, to_sdf.FRAME_LINK, message, joint.location, weight)
         return self._keep(frame, rest, f"the axis of the fixed joint {joint.name!r} has no use", notes)
+
+    def _keep_physics(self, model: Model, joints: list[Joint], notes: Notes) -> Model:
+        """What `<gazebo>` says of the physics of a joint that becomes a frame: it is carried in such an element."""
+        kept: list[Opaque] = []
+        for joint in joints:
+            parts = [part.element for part in joint.opaque if part.element and part not in _carriers(joint)]
+            if not parts:
+                continue
+            element = Element(name="gazebo", attributes=(("reference", joint.name),), children=tuple(parts))
+            message = f"joint {joint.name!r} becomes a frame, which has no <{parts[0].name}>"
+            fate = Fate.CARRIED if self.carriers else Fate.DROPPED
+            notes.account(fate, to_sdf.FRAME_LINK, message, joint.location, element.weight)
+            kept.append(Opaque(element=element))
+        return carry(model, kept, "urdf") if self.carriers else model
 
     def _rest_of_link(self, frame: Frame, link: Link, notes: Notes) -> Frame:
         flags = [
@@ -107,9 +121,9 @@ def _anchor(name: str, moved: dict[str, Joint]) -> str:
     return name
 
 
-def _carriers(link: Link) -> tuple[Opaque, ...]:
-    """What a frame can hold of a link's opaque parts: those that only our own reader understands."""
-    return tuple(part for part in link.opaque if part.element is not None and part.element.name.startswith("{"))
+def _carriers(node: Link | Joint) -> tuple[Opaque, ...]:
+    """What a frame can hold of a node's opaque parts: those that only our own reader understands."""
+    return tuple(part for part in node.opaque if part.element is not None and part.element.name.startswith("{"))
 
 
 def _host(link: Link, guests: list[Link], notes: Notes) -> Link:
