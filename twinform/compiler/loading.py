@@ -19,11 +19,12 @@ from twinform.compiler.parsing import (
 )
 from twinform.compiler.sdf import front_end as sdf
 from twinform.compiler.urdf import front_end as urdf
+from twinform.compiler.urdf.extensions import check_extensions
 from twinform.compiler.uris import SearchPath
 from twinform.diagnostics import Diagnostic, Entry, Location, Notes, Origins
 from twinform.diagnostics.rules import model, reading, structure
 from twinform.diagnostics.rules import xacro as xacro_rules
-from twinform.ir import Document, count_parts
+from twinform.ir import Document, Format, count_parts
 from twinform.ir.verify import verify
 from twinform.schemas import Context, Engine, Version, XmlElement, gate, parse_version, print_version, refusals, table
 
@@ -138,6 +139,8 @@ def _check_text(text: bytes, notes: Notes, how: Reading) -> Checked:
         return Checked(notes.file, None, tuple(notes.diagnostics), unreadable=True)
     if document is not None and not notes.has_errors:
         verify(document, notes)
+        if document.format is Format.URDF:
+            check_extensions(document, notes)
     found = tuple(sorted(notes.diagnostics, key=lambda each: each.location.line))
     return Checked(notes.file, document, found, tree=tree)
 

@@ -61,6 +61,11 @@ class Notes:
         where = self._complete(location)
         return any(each.rule is rule and each.location == where and each.severity >= least for each in self.diagnostics)
 
+    def extend_new(self, diagnostics: Iterable[Diagnostic]) -> None:
+        """Add those whose rule was not reported at their place before."""
+        known = {(each.rule.name, each.location) for each in self.diagnostics}
+        self.extend(each for each in diagnostics if (each.rule.name, each.location) not in known)
+
     def extend(self, diagnostics: Iterable[Diagnostic]) -> None:
         """Add diagnostics that another stage has made."""
         for diagnostic in diagnostics:

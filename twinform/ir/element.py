@@ -3,20 +3,17 @@
 from collections.abc import Iterator
 from typing import Self
 
-from pydantic import BaseModel, ConfigDict
-
 from twinform.ir.sourced import Sourced
 
 Attributes = tuple[tuple[str, str], ...]
 
 
-class Element(BaseModel):
+class Element(Sourced):
     """A subtree without a typed form. Names are in Clark notation, `{namespace}name`, where they have a namespace.
 
     `text` is the text before the first child and `tail` the text after the end tag, both stripped; `None` where blank.
+    Only what stands in free content, such as `<gazebo>`, knows where it was written.
     """
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
     name: str
     attributes: Attributes = ()

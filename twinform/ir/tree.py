@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from functools import cache
-from typing import Any, TypeVar, get_args
+from typing import Any, Self, TypeVar, get_args
 
 from twinform.ir.element import Element, Opaque
 from twinform.ir.node import Node
@@ -21,6 +21,8 @@ def node_fields(kind: type[Node]) -> tuple[str, ...]:
 def _holds_nodes(annotation: Any, kind: type[Node]) -> bool:
     if isinstance(annotation, type):
         return issubclass(annotation, Node)
+    if annotation is Self:
+        return True
     return any(_holds_nodes(argument, kind) for argument in get_args(annotation))
 
 

@@ -31,11 +31,14 @@ ReadChild = Callable[[XmlElement, Data, str, int, Context], None]
 """Reads a child: (child, node, path from the node to the parent, place among its like, context)"""
 
 
-def element_data(element: XmlElement, context: Context) -> Data:
-    """The subtree as data for the IR's `Element`."""
+def element_data(element: XmlElement, context: Context, above: Source | None = None) -> Data:
+    """The subtree as data for the IR's `Element`, with sources below the one that is given."""
     tag = str(element.tag)
     note_namespaces(element, context)
     data: Data = {"name": tag}
+    if above is not None:
+        line, key = element.sourceline or 0, element.get("name")
+        above = data["source"] = _locate(Source, (context.file, line, above, tag, key))
     if element.attrib:
         data["attributes"] = tuple(element.items())
     if element.text and not element.text.isspace():
@@ -43,7 +46,7 @@ def element_data(element: XmlElement, context: Context) -> Data:
     if element.tail and not element.tail.isspace():
         data["tail"] = element.tail.strip()
     if len(element):
-        data["children"] = tuple([element_data(child, context) for child in element])
+        data["children"] = tuple([element_data(child, context, above) for child in element])
     return data
 
 
@@ -69,9 +72,15 @@ class Reader:
             self.fills[name] = self._fill(definition, keep=True)
             self.checks[name] = self._fill(definition, keep=False)
 
-    def read(self, element: XmlElement, context: Context, definition: str | None = None) -> Data:
-        """The data of the node that an element makes; it is the format's root where no definition is named."""
-        source = Source(context.file, element.sourceline or 0, None, str(element.tag), element.get("name"))
+    def read(
+        self, element: XmlElement, context: Context, definition: str | None = None, source: Source | None = None
+    ) -> Data:
+        """The data of the node that an element makes; it is the format's root where no definition is named.
+
+        `source` is where the element was written, if not where it stands.
+        """
+        if source is None:
+            source = Source(context.file, element.sourceline or 0, None, str(element.tag), element.get("name"))
         node: Data = {"source": source}
         self.fills[definition or self.table.root](element, node, "", context)
         return node
@@ -145,7 +154,7 @@ class Reader:
 
         def other_child(child: XmlElement, node: Data, at: str, context: Context) -> None:
             if content is not None:
-                node.setdefault(content, []).append(element_data(child, context))
+                node.setdefault(content, []).append(element_data(child, context, node.get("source")))
                 return
             if not free and (read_text is not None or str(child.tag)[0] != "{"):
                 messages.unknown_element(context, child, children)

@@ -5,11 +5,15 @@ is asked of a robot and of a model, and what only they know: materials, scopes, 
 """
 
 from twinform.diagnostics import Notes
+from twinform.diagnostics.rules.bodies import UNKNOWN_COLLISION, UNKNOWN_GRIPPER_LINK
 from twinform.ir.document import Document, Format
 from twinform.ir.verify.sdf import verify_sdf
 from twinform.ir.verify.urdf import verify_robot
 
 __all__ = ["verify", "verify_again"]
+
+_OF_SDF = (UNKNOWN_COLLISION, UNKNOWN_GRIPPER_LINK)
+"""What may be said in the `<gazebo>` elements of URDF about names that are there only in SDF."""
 
 
 def verify(document: Document, notes: Notes) -> None:
@@ -22,8 +26,10 @@ def verify(document: Document, notes: Notes) -> None:
 
 
 def verify_again(document: Document, notes: Notes) -> None:
-    """Report the errors in what passes have made; about the source as it was written, all is said already."""
+    """Report what is wrong with what passes have made: errors, and what cannot be seen in URDF.
+
+    About the source as it was written, all is said already.
+    """
     found = Notes(file=notes.file, strict=notes.strict)
     verify(document, found)
-    known = {(each.rule.name, each.location) for each in notes.diagnostics}
-    notes.extend(each for each in found.diagnostics if each.is_error and (each.rule.name, each.location) not in known)
+    notes.extend_new(each for each in found.diagnostics if each.is_error or each.rule in _OF_SDF)

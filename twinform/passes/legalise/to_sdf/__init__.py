@@ -29,7 +29,7 @@ def to_sdf(version: str, *, carriers: bool) -> tuple[Pass, ...]:
     named_frames = parse_version(version) >= _NAMED_FRAMES
     return (
         CarryUrdf(carriers=carriers),  # before anything of SDF comes in
-        FoldGazebo(),
+        FoldGazebo(carriers=carriers),
         WorldLink(carriers=carriers),
         UniqueNames(carriers=carriers),
         NameShapes(),

@@ -4,7 +4,7 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf
-from twinform.ir import Model, Node, Opaque, Pose, map_children
+from twinform.ir import GazeboExtension, Model, Node, Opaque, Pose, map_children
 from twinform.passes.legalise.carrier import carry, is_carrier, unpack
 from twinform.passes.legalise.model_pass import ModelPass
 
@@ -29,6 +29,8 @@ class CarryUrdf(ModelPass):
         return self._sweep(model, notes)
 
     def _sweep(self, node: AnyNode, notes: Notes) -> AnyNode:
+        if isinstance(node, GazeboExtension):  # the next pass knows what may stand in it
+            return node
         node = map_children(node, lambda child: self._sweep(child, notes))
         pose: Pose | None = node.__dict__.get("pose")
         if not node.opaque and not (pose and pose.opaque):

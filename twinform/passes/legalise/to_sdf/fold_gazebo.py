@@ -2,35 +2,28 @@
 
 from collections import defaultdict
 from collections.abc import Callable, Iterable
+from functools import partial
 from typing import Any, ClassVar, TypeVar
 
-from lxml import etree
-
-from twinform.diagnostics import Fate, Location, Notes
+from twinform.diagnostics import Fate, Location, Notes, Rule, Severity
 from twinform.diagnostics.rules import structure, to_sdf
-from twinform.ir import (
-    Axis,
-    Collision,
-    Dynamics,
-    Element,
-    GazeboExtension,
-    Joint,
-    Link,
-    Material,
-    Model,
-    Node,
-    Opaque,
-    Script,
-    Surface,
-    Visual,
-)
-from twinform.passes.legalise.carrier import carry, from_xml
+from twinform.ir import Element, GazeboExtension, Joint, Link, Model, Node, Opaque
+from twinform.passes.legalise.carrier import carry
 from twinform.passes.legalise.model_pass import ModelPass
-from twinform.passes.legalise.to_sdf.gazebo_tags import JOINT_TAGS, LINK_TAGS, SCRIPT_URI, Tag, value_text
-from twinform.schemas import Context, element_xml, format_value, reader, table
+from twinform.passes.legalise.to_sdf.gazebo_content import read_content
+from twinform.passes.legalise.to_sdf.gazebo_fields import (
+    set_collision,
+    set_joint_fields,
+    set_link_fields,
+    set_model_fields,
+    set_visual,
+)
+from twinform.passes.legalise.to_sdf.gazebo_merging import merge
+from twinform.passes.legalise.to_sdf.gazebo_parts import with_axis, with_mass
+from twinform.passes.legalise.to_sdf.gazebo_sorting import Blob, Sorter, is_part_of_axis, lacks_shapes, place_of
+from twinform.passes.legalise.to_sdf.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
 
 AnyNode = TypeVar("AnyNode", bound=Node)
-_Read = tuple[Tag, object]
 
 
 class FoldGazebo(ModelPass):
@@ -38,32 +31,181 @@ class FoldGazebo(ModelPass):
 
     Changes: 1. tags with a meaning of their own (`mu1`, `material`, `turnGravityOff`, ...) set the field that they
     mean, in every visual or collision of the link where they are about shapes; 2. `<visual>` and `<collision>` put
-    their children into every visual or collision of the link; 3. all else is read as SDF at the place of the
-    reference: sensors, plugins, lights, joints, poses.
+    their children into every visual or collision of the link, and so does a `<material>` with elements in it; 3. all
+    else is read as SDF at the place of the reference: sensors, plugins, lights, joints, poses; an `<axis>` or
+    `<physics>` adds to what is there; 4. what means nothing where it stands is carried, or dropped with `carriers`
+    false.
     Never touches: what the link, joint or model says already; the other one stays, with `gazebo-conflict`.
     Diagnostics: `gazebo-conflict`, `gazebo-tag-without-target`, and those of reading SDF.
     """
 
     name: ClassVar[str] = "fold-gazebo"
+    carriers: bool = True
 
     def run_model(self, model: Model, notes: Notes) -> Model:
         """The model without extensions."""
         if not model.extensions:
             return model
-        links, joints = {link.name for link in model.links}, {joint.name for joint in model.joints}
+        found = Notes(file=notes.file, strict=notes.strict)
+        changed = _Fold(model, found, carriers=self.carriers).run()
+        notes.extend_new(found.diagnostics)  # `check` has folded before, to see what is wrong
+        notes.entries.extend(found.entries)
+        return changed
+
+
+class _Fold:
+    """One run over one model."""
+
+    def __init__(self, model: Model, notes: Notes, *, carriers: bool) -> None:
+        self.robot = model
+        self.notes = notes
+        self.carriers = carriers
+        self.links = {link.name for link in model.links}
+        self.joints = {joint.name for joint in model.joints}
+        self.kept: list[Opaque] = []
+
+    def run(self) -> Model:
         groups: dict[str, list[GazeboExtension]] = defaultdict(list)
-        for extension in model.extensions:
+        for extension in self.robot.extensions:
             groups[extension.reference or ""].append(extension)
-        fold = _Fold(model.name, notes)
-        changed = model.model_copy(
+            self._shell(extension)
+        model = self.robot.model_copy(
             update={
                 "extensions": (),
-                "links": tuple(_each(model.links, groups, fold.link)),
-                "joints": tuple(_each(model.joints, groups, lambda joint, found: fold.joint(joint, found, links))),
+                "links": tuple(_each(self.robot.links, groups, self._link)),
+                "joints": tuple(_each(self.robot.joints, groups, self._joint)),
             }
         )
-        lost = [one for name, found in groups.items() if name and name not in links | joints for one in found]
-        return fold.lost(fold.model(changed, groups.get("", [])), lost)
+        for name, found in groups.items():
+            if name and name not in self.links | self.joints:
+                for extension in found:  # so that a corrected name finds it again
+                    self._keep(extension, extension.content, to_sdf.URDF_ONLY, f"<gazebo> refers to {name!r}: nothing")
+        model = self._model(model, groups[""]) if "" in groups else model
+        return carry(model, self.kept, "urdf") if self.carriers else model
+
+    def _shell(self, extension: GazeboExtension) -> None:
+        """Attributes and text of the element itself, and an element without content, which nothing comes of."""
+        for part in extension.opaque:
+            rule = structure.UNKNOWN_ATTRIBUTE if part.attribute else structure.STRAY_TEXT
+            if not (part.attribute and part.attribute[0].startswith("{")):
+                self.notes.report(rule, f"{part.name} of <gazebo> means nothing", part.location, found=part.name)
+        if extension.opaque or not extension.content:
+            self._keep(extension, (), to_sdf.URDF_ONLY, "this <gazebo> says nothing about the model")
+
+    def _link(self, link: Link, extensions: list[GazeboExtension]) -> Link:
+        elsewhere = {**MODEL_TAGS, **({} if link.name in self.joints else JOINT_TAGS)}
+        sorter = self._sort(extensions, LINK_TAGS, elsewhere, shapes=True, idle=partial(lacks_shapes, link))
+        if link.name in self.joints:
+            sorter.forget(JOINT_TAGS)
+        link = set_link_fields(link, sorter.values)
+        visuals = tuple(set_visual(visual, sorter.values) for visual in link.visuals)
+        collisions = tuple(set_collision(collision, sorter.values) for collision in link.collisions)
+        link = link.model_copy(update={"visuals": visuals, "collisions": collisions})
+        for blob in sorter.blobs:
+            link = self._into_shapes(link, blob)
+        return self._merge(link, "link", sorter.rest)
+
+    def _joint(self, joint: Joint, extensions: list[GazeboExtension]) -> Joint:
+        if joint.name in self.links:  # the link of that name has taken everything but the tags for joints
+            extensions = [_only(extension, JOINT_TAGS) for extension in extensions]
+        if joint.type == "floating":  # it is no joint in SDF
+            for extension in extensions:
+                self._misplaced(extension, list(extension.content), f"the floating joint {joint.name!r}")
+            return joint
+        elsewhere = {**MODEL_TAGS, **LINK_TAGS}
+        sorter = self._sort(extensions, JOINT_TAGS, elsewhere, unfit=is_part_of_axis if joint.type == "fixed" else None)
+        joint = set_joint_fields(joint, sorter.values)
+        return self._merge(joint, "joint", sorter.rest)
+
+    def _model(self, model: Model, extensions: list[GazeboExtension]) -> Model:
+        sorter = self._sort(extensions, MODEL_TAGS, {**LINK_TAGS, **JOINT_TAGS})
+        links, joints = len(model.links), len(model.joints)
+        model = self._merge(set_model_fields(model, sorter.values), "model", sorter.rest)
+        return model.model_copy(
+            update={
+                "links": (*model.links[:links], *map(with_mass, model.links[links:])),
+                "joints": (*model.joints[:joints], *map(with_axis, model.joints[joints:])),
+            }
+        )
+
+    def _sort(
+        self,
+        extensions: list[GazeboExtension],
+        tags: dict[str, Any],
+        elsewhere: dict[str, Any],
+        *,
+        shapes: bool = False,
+        unfit: Callable[[Element], bool] | None = None,
+        idle: Callable[[Element], bool] | None = None,
+    ) -> Sorter:
+        """The content of extensions by what it means; what means nothing here is reported and kept."""
+        sorter = Sorter(tags, elsewhere, self.notes, shapes=shapes, unfit=unfit, idle=idle)
+        for extension in extensions:
+            sorter.sort(extension)
+        for extension, elements in sorter.misplaced:
+            self._misplaced(extension, elements, f"{extension.reference!r}" if extension.reference else "the model")
+        for extension, elements in sorter.ignored:
+            message = ", ".join(f"<{element.name}>" for element in elements)
+            self._keep(extension, elements, to_sdf.URDF_ONLY, f"{message} has nothing to do here: no link is merged")
+        for extension, elements in sorter.without_use:
+            names = ", ".join(f"<{element.name}>" for element in elements)
+            message = f"{names} is about shapes, and link {extension.reference!r} has none of the kind"
+            where, rule = place_of(elements[0], extension), to_sdf.GAZEBO_TAG_WITHOUT_TARGET
+            self.notes.report(rule, message, where, found=elements[0].name, severity=Severity.INFO)
+            self._keep(extension, elements, rule, message)
+        return sorter
+
+    def _misplaced(self, extension: GazeboExtension, elements: list[Element], target: str) -> None:
+        for element in elements:
+            message = f"<{element.name}> in a <gazebo> for {target} means nothing"
+            where = place_of(element, extension)
+            self.notes.report(to_sdf.GAZEBO_TAG_WITHOUT_TARGET, message, where, found=element.name)
+        if elements:
+            names = ", ".join(f"<{element.name}>" for element in elements)
+            message = f"{names} means nothing for {target}"
+            self._keep(extension, elements, to_sdf.GAZEBO_TAG_WITHOUT_TARGET, message)
+
+    def _keep(self, extension: GazeboExtension, elements: Iterable[Element], rule: Rule, message: str) -> None:
+        """Carry a part of an extension in an element like its own."""
+        content = tuple(elements)
+        attributes = [part.attribute for part in extension.opaque if part.attribute] if not content else []
+        text = " ".join(part.text for part in extension.opaque if part.text) if not content else ""
+        if extension.reference is not None:
+            attributes.insert(0, ("reference", extension.reference))
+        element = Element(name="gazebo", attributes=tuple(attributes), text=text or None, children=content)
+        fate = Fate.CARRIED if self.carriers else Fate.DROPPED
+        where = place_of(content[0], extension) if content else extension.location
+        self.notes.account(fate, rule, message, where, max(1, element.weight - 1))
+        self.kept.append(Opaque(element=element))
+
+    def _into_shapes(self, link: Link, blob: Blob) -> Link:
+        """Each child of the blob goes into every shape of its kind, in place of what is there."""
+        field = "visuals" if blob.kind == "visual" else "collisions"
+        inside = blob.extension.model_copy(update={"content": blob.content})
+        extra = read_content(blob.kind, link.name, self.robot.name, [inside], self.notes)
+        replaced: list[str] = []
+        changed = tuple(merge(shape, extra, replaced, replace=True) for shape in getattr(link, field))
+        for name in dict.fromkeys(replaced):
+            self._conflict(link, name, "the one in <gazebo>", blob.where)
+        return link.model_copy(update={field: changed})
+
+    def _merge(self, node: AnyNode, kind: str, extensions: list[GazeboExtension]) -> AnyNode:
+        """The node with the SDF in the extensions read into it."""
+        content = [extension for extension in extensions if extension.content]
+        if not content:
+            return node
+        name = str(node.__dict__["name"]) if kind != "model" else self.robot.name
+        conflicts: list[str] = []
+        merged = merge(node, read_content(kind, name, self.robot.name, content, self.notes), conflicts)
+        for field in conflicts:
+            where = next((e.location for x in content for e in x.content if e.name == field), content[0].location)
+            self._conflict(node, field, "the first one", where)
+        return merged
+
+    def _conflict(self, node: Node, field: str, winner: str, where: Location) -> None:
+        message = f"<gazebo> says {field!r} of {node.__dict__['name']!r} again; {winner} stays"
+        self.notes.report(to_sdf.GAZEBO_CONFLICT, message, where, found=field)
+        self.notes.account(Fate.DROPPED, to_sdf.GAZEBO_CONFLICT, message, where)
 
 
 def _each(
@@ -73,198 +215,5 @@ def _each(
         yield fold(node, groups[node.name]) if node.name in groups else node
 
 
-class _Fold:
-    """One run over one model."""
-
-    def __init__(self, model: str, notes: Notes) -> None:
-        self.robot = model
-        self.notes = notes
-
-    def link(self, link: Link, extensions: list[GazeboExtension]) -> Link:
-        tags, blobs, rest = self._sort(extensions, LINK_TAGS, {"visual", "collision"})
-        link = _set_link_fields(link, [read for read in tags if read[0].target == "link"])
-        visuals = tuple(_set_visual(visual, tags) for visual in link.visuals)
-        collisions = tuple(_set_collision(collision, tags) for collision in link.collisions)
-        link = link.model_copy(update={"visuals": visuals, "collisions": collisions})
-        for blob in blobs:
-            link = self._into_shapes(link, blob)
-        return self._merge(link, "link", rest)
-
-    def joint(self, joint: Joint, extensions: list[GazeboExtension], links: set[str]) -> Joint:
-        if joint.name in links:  # the link of that name has taken everything but the tags for joints
-            extensions = [_only(extension, JOINT_TAGS) for extension in extensions]
-        tags, _, rest = self._sort(extensions, JOINT_TAGS, set())
-        springs = {tag.field: value for tag, value in tags if tag.target == "dynamics"}
-        if springs:
-            axis = joint.axis or Axis()
-            dynamics = (axis.dynamics or Dynamics()).model_copy(update=springs)
-            joint = joint.model_copy(update={"axis": axis.model_copy(update={"dynamics": dynamics})})
-        physics = [(tag.field, value) for tag, value in tags if tag.target == "physics"]
-        if physics:
-            joint = joint.model_copy(update={"opaque": (*joint.opaque, _physics(physics))})
-        return self._merge(joint, "joint", rest)
-
-    def model(self, model: Model, extensions: list[GazeboExtension]) -> Model:
-        if not extensions:
-            return model
-        misplaced = {**LINK_TAGS, **JOINT_TAGS}
-        rest: list[GazeboExtension] = []
-        for extension in extensions:
-            for element in extension.content:
-                if element.name in misplaced:
-                    model = self._misplaced(model, element, extension.location)
-            rest.append(_without(extension, misplaced))
-        return self._merge(model, "model", rest)
-
-    def lost(self, model: Model, extensions: list[GazeboExtension]) -> Model:
-        """What refers to nothing is carried, so that a corrected name finds it again."""
-        for extension in extensions:
-            element = _gazebo(extension)
-            message = f"<gazebo> refers to {extension.reference!r}, which does not exist"
-            self.notes.account(Fate.CARRIED, to_sdf.URDF_ONLY, message, extension.location, element.weight)
-            model = carry(model, [Opaque(element=element)], "urdf")
-        return model
-
-    def _misplaced(self, model: Model, element: Element, where: Location) -> Model:
-        message = f"<{element.name}> in a <gazebo> without reference means nothing"
-        self.notes.report(to_sdf.GAZEBO_TAG_WITHOUT_TARGET, message, where, found=element.name)
-        self.notes.account(Fate.CARRIED, to_sdf.GAZEBO_TAG_WITHOUT_TARGET, message, where, element.weight)
-        return carry(model, [Opaque(element=Element(name="gazebo", children=(element,)))], "urdf")
-
-    def _sort(
-        self, extensions: list[GazeboExtension], tags: dict[str, Tag], shapes: set[str]
-    ) -> tuple[list[_Read], list[tuple[Element, GazeboExtension]], list[GazeboExtension]]:
-        """Tags with their values, blobs for shapes, and extensions with all that is left."""
-        read: list[_Read] = []
-        blobs: list[tuple[Element, GazeboExtension]] = []
-        rest: list[GazeboExtension] = []
-        for extension in extensions:
-            for element in extension.content:
-                if element.name in tags and not element.children:
-                    read.extend(self._read(element, tags[element.name], extension.location))
-                elif element.name in shapes:
-                    blobs.append((element, extension))
-            plain = {name for name in tags if not any(e.name == name and e.children for e in extension.content)}
-            rest.append(_without(extension, plain | shapes))
-        return read, blobs, rest
-
-    def _read(self, element: Element, tag: Tag, where: Location) -> Iterable[_Read]:
-        text = value_text(element)
-        try:
-            yield tag, tag.read(text)
-        except ValueError:
-            message = f"<{element.name}> in <gazebo> is {text!r}; expected a value of its type"
-            self.notes.report(structure.INVALID_VALUE, message, where.at(element.name), found=text)
-
-    def _into_shapes(self, link: Link, blob: tuple[Element, GazeboExtension]) -> Link:
-        """Each child of a `<visual>` or `<collision>` goes into every shape of its kind, in place of what is there."""
-        element, extension = blob
-        field, kind = ("visuals", "visual") if element.name == "visual" else ("collisions", "collision")
-        extra = self._read_as(kind, kind, [extension.model_copy(update={"content": element.children})])
-        changed = tuple(_overlay(shape, extra) for shape in getattr(link, field))
-        return link.model_copy(update={field: changed})
-
-    def _merge(self, node: AnyNode, kind: str, extensions: list[GazeboExtension]) -> AnyNode:
-        """The node with the SDF in the extensions read into it."""
-        content = [extension for extension in extensions if extension.content or extension.opaque]
-        if not content:
-            return node
-        update: dict[str, Any] = {}
-        for field, value in self._read_as(kind, str(node.__dict__["name"]), content).items():
-            mine = getattr(node, field)
-            if isinstance(mine, tuple):
-                update[field] = (*mine, *value)
-            elif mine is None:
-                update[field] = value
-            else:
-                self._conflict(node, field, content[0].location)
-        return node.model_copy(update=update) if update else node
-
-    def _conflict(self, node: Node, field: str, where: Location) -> None:
-        message = f"<gazebo> says {field!r} of {getattr(node, 'name', '?')!r} again; the first one stays"
-        self.notes.report(to_sdf.GAZEBO_CONFLICT, message, where, found=field)
-        self.notes.account(Fate.DROPPED, to_sdf.GAZEBO_CONFLICT, message, where)
-
-    def _read_as(self, kind: str, name: str, extensions: list[GazeboExtension]) -> dict[str, Any]:
-        """The fields that the content of extensions sets when it is read as the inside of an SDF element."""
-        robot = etree.Element("robot", {"name": self.robot})
-        xml = etree.SubElement(robot, "gazebo", {"name": name, **_REQUIRED.get(kind, {})})
-        for tag in _REQUIRED_CHILDREN.get(kind, ()):
-            etree.SubElement(xml, tag).text = name
-        for extension in extensions:
-            for element in extension.content:
-                for made in element_xml(element, xml).iter():
-                    made.sourceline = extension.location.line  # pyright: ignore[reportAttributeAccessIssue] - it can be set
-        context = Context(self.notes, self.notes.file, "sdf", table("sdf").newest)
-        data = reader("sdf", context.version).read(xml, context, kind)
-        fields = set(data) - {"source", "name", "type", "parent", "child"}
-        if self.notes.has_errors or not fields:
-            return {}
-        base: dict[str, Any] = {"name": name, **_REQUIRED.get(kind, {})}
-        node = _NODES[kind].model_validate({**base, **{field: data[field] for field in fields}})
-        return {field: getattr(node, field) for field in fields}
-
-
-_REQUIRED = {"joint": {"type": "fixed"}}
-_REQUIRED_CHILDREN = {"joint": ("parent", "child")}
-_NODES: dict[str, type[Node]] = {"link": Link, "joint": Joint, "model": Model, "visual": Visual, "collision": Collision}
-
-
-def _without(extension: GazeboExtension, names: Iterable[str]) -> GazeboExtension:
-    left = tuple(element for element in extension.content if element.name not in names)
-    return extension.model_copy(update={"content": left})
-
-
 def _only(extension: GazeboExtension, names: Iterable[str]) -> GazeboExtension:
     return extension.model_copy(update={"content": tuple(e for e in extension.content if e.name in names)})
-
-
-def _gazebo(extension: GazeboExtension) -> Element:
-    attributes = (("reference", extension.reference),) if extension.reference is not None else ()
-    return Element(name="gazebo", attributes=attributes, children=extension.content)
-
-
-def _set_link_fields(link: Link, tags: list[_Read]) -> Link:
-    update: dict[str, object] = {tag.field: value for tag, value in tags if tag.field != "velocity_decay"}
-    decay = [value for tag, value in tags if tag.field == "velocity_decay"]
-    if decay:
-        text = format_value(decay[0])
-        parts = (Element(name="linear", text=text), Element(name="angular", text=text))
-        update["opaque"] = (*link.opaque, Opaque(element=Element(name="velocity_decay", children=parts)))
-    return link.model_copy(update=update) if update else link
-
-
-def _set_visual(visual: Visual, tags: list[_Read]) -> Visual:
-    names = [str(value) for tag, value in tags if tag.target == "visual" and value]
-    if not names:
-        return visual
-    script = Script(uris=(SCRIPT_URI,), name=names[-1])
-    material = (visual.material or Material()).model_copy(update={"script": script})
-    return visual.model_copy(update={"material": material})
-
-
-def _set_collision(collision: Collision, tags: list[_Read]) -> Collision:
-    own = {tag.field: value for tag, value in tags if tag.target == "collision"}
-    surface = {tag.field: value for tag, value in tags if tag.target == "surface"}
-    if surface:
-        own["surface"] = (collision.surface or Surface()).model_copy(update=surface)
-    return collision.model_copy(update=own) if own else collision
-
-
-def _overlay(shape: AnyNode, extra: dict[str, Any]) -> AnyNode:
-    update = dict(extra)
-    if "opaque" in update:
-        update["opaque"] = (*shape.opaque, *update["opaque"])
-    return shape.model_copy(update=update)
-
-
-def _physics(values: list[tuple[str, object]]) -> Opaque:
-    """The `<physics>` of a joint from paths below it and their values."""
-    root = etree.Element("physics")
-    for path, value in values:
-        holder = root
-        for step in path.split("/"):
-            found = holder.find(step)
-            holder = found if found is not None else etree.SubElement(holder, step)
-        holder.text = format_value(value)
-    return Opaque(element=from_xml(root))

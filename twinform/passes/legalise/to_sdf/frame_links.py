@@ -4,7 +4,7 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf
-from twinform.ir import Collision, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual
+from twinform.ir import Collision, Element, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual
 from twinform.passes.legalise.carrier import carry, to_element
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.to_sdf.name_shapes import name_all
@@ -18,7 +18,8 @@ class FrameLinks(ModelPass):
     Changes: 1. the joint becomes a frame attached to its parent, with the joint's origin; 2. the link becomes a frame
     attached to that one; 3. visuals, collisions, sensors and lights move to the nearest link above that stays a link,
     and are posed in the link's frame as before. Joints below keep the link's name as their parent.
-    Never touches: links with mass; a link fixed to the world, which has no link above; a joint with a sensor.
+    Never touches: links with mass; a link fixed to the world, which has no link above; one whose joint has a sensor,
+    which would have no place.
     Diagnostics: none; ledger entries under `frame-link` for what a frame cannot have.
     """
 
@@ -32,10 +33,10 @@ class FrameLinks(ModelPass):
             joint.child: joint
             for joint in model.joints
             if joint.type == "fixed"
-            and not joint.sensors
             and joint.parent in links
             and joint.child in links
             and is_massless(links[joint.child])
+            and not joint.sensors
         }
         if not moved:
             return model
@@ -43,6 +44,7 @@ class FrameLinks(ModelPass):
         for name in moved:
             guests.setdefault(_anchor(name, moved), []).append(links[name])
         frames = [frame for joint in moved.values() for frame in self._frames(joint, links[joint.child or ""], notes)]
+        model = self._keep_physics(model, list(moved.values()), notes)
         return model.model_copy(
             update={
                 "links": tuple(
@@ -57,10 +59,9 @@ class FrameLinks(ModelPass):
         pose = joint.pose.model_copy(update={"relative_to": None}) if joint.pose else None
         if pose == Pose():
             pose = None
-        own = _carriers(joint)
-        mount = Frame(name=joint.name, attached_to=joint.parent, pose=pose, opaque=own, source=joint.source)
-        rest = [part for part in joint.opaque if part not in own]
-        mount = self._keep(mount, rest, f"the fixed joint {joint.name!r} has no body to act on", "sdf", notes)
+        mount = Frame(
+            name=joint.name, attached_to=joint.parent, pose=pose, opaque=_carriers(joint), source=joint.source
+        )
         body = Frame(name=link.name, attached_to=joint.name, source=link.source, opaque=_carriers(link))
         return self._rest_of_joint(mount, joint, notes), self._rest_of_link(body, link, notes)
 
@@ -69,7 +70,21 @@ class FrameLinks(ModelPass):
             return frame
         whole = to_element(joint.model_copy(update={"opaque": ()}), "joint", "urdf")
         rest = [Opaque(element=child) for child in whole.children if child.name not in {"origin", "parent", "child"}]
-        return self._keep(frame, rest, f"the axis of the fixed joint {joint.name!r} has no use", "urdf", notes)
+        return self._keep(frame, rest, f"the axis of the fixed joint {joint.name!r} has no use", notes)
+
+    def _keep_physics(self, model: Model, joints: list[Joint], notes: Notes) -> Model:
+        """What `<gazebo>` says of the physics of a joint that becomes a frame: it is carried in such an element."""
+        kept: list[Opaque] = []
+        for joint in joints:
+            parts = [part.element for part in joint.opaque if part.element and part not in _carriers(joint)]
+            if not parts:
+                continue
+            element = Element(name="gazebo", attributes=(("reference", joint.name),), children=tuple(parts))
+            message = f"joint {joint.name!r} becomes a frame, which has no <{parts[0].name}>"
+            fate = Fate.CARRIED if self.carriers else Fate.DROPPED
+            notes.account(fate, to_sdf.FRAME_LINK, message, joint.location, element.weight)
+            kept.append(Opaque(element=element))
+        return carry(model, kept, "urdf") if self.carriers else model
 
     def _rest_of_link(self, frame: Frame, link: Link, notes: Notes) -> Frame:
         flags = [
@@ -84,14 +99,14 @@ class FrameLinks(ModelPass):
             return frame
         bare = Link(name=link.name, inertial=link.inertial)
         rest = [Opaque(element=child) for child in to_element(bare, "link", "urdf").children]
-        return self._keep(frame, rest, f"the frame {link.name!r} has no inertia", "urdf", notes)
+        return self._keep(frame, rest, f"the frame {link.name!r} has no inertia", notes)
 
-    def _keep(self, frame: Frame, rest: list[Opaque], message: str, dialect: str, notes: Notes) -> Frame:
+    def _keep(self, frame: Frame, rest: list[Opaque], message: str, notes: Notes) -> Frame:
         for part in rest:
             notes.account(
                 Fate.CARRIED if self.carriers else Fate.DROPPED, to_sdf.FRAME_LINK, message, frame.location, part.weight
             )
-        return carry(frame, rest, dialect) if self.carriers else frame
+        return carry(frame, rest, "urdf") if self.carriers else frame
 
 
 def is_massless(link: Link) -> bool:
@@ -107,7 +122,7 @@ def _anchor(name: str, moved: dict[str, Joint]) -> str:
 
 
 def _carriers(node: Link | Joint) -> tuple[Opaque, ...]:
-    """What a frame can hold of the opaque parts of a link or joint: those of other namespaces, our own among them."""
+    """What a frame can hold of a node's opaque parts: those that only our own reader understands."""
     return tuple(part for part in node.opaque if part.element is not None and part.element.name.startswith("{"))
 
 

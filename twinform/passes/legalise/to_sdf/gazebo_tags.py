@@ -13,7 +13,7 @@ from twinform.schemas import parse_value
 class Tag(NamedTuple):
     """Where a tag's value goes: into a field of what `target` names, after `read`."""
 
-    target: Literal["surface", "collision", "visual", "link", "dynamics", "physics", "ignored"]
+    target: Literal["surface", "collision", "visual", "link", "model", "dynamics", "physics", "ignored"]
     field: str
     read: Callable[[str], object]
 
@@ -36,13 +36,17 @@ def _count(text: str) -> object:
     return parse_value("int", text)
 
 
+TRUE = frozenset({"true", "yes", "1"})
+FALSE = frozenset({"false", "no", "0"})
+
+
 def _truth(text: str) -> bool:
-    return text.lower() in {"true", "yes", "1"}
+    return text.lower() in TRUE
 
 
 def _gravity(text: str) -> bool:
     """turnGravityOff: only these words leave gravity on."""
-    return text.lower() in {"false", "no", "0"}
+    return text.lower() in FALSE
 
 
 LINK_TAGS = {
@@ -75,6 +79,11 @@ JOINT_TAGS = {
     "disableFixedJointLumping": Tag("ignored", "", str),
 }
 """Fixed joints are never lumped here, so the two tags that prevent it have nothing to do."""
+
+MODEL_TAGS = {"static": Tag("model", "static", _truth)}
+
+TRUTHS = frozenset({_truth, _gravity})
+"""The readers of words that mean true or false."""
 
 SCRIPT_URI = "file://media/materials/scripts/gazebo.material"
 """Where Gazebo Classic keeps the materials that `<material>` names."""

@@ -50,6 +50,8 @@ class UrdfJoints(ModelPass):
                 return self._fixed(joint, notes)
             case "revolute" | "prismatic" | "continuous":
                 return self._moving(joint, notes)
+            case "ball" | "universal" | "revolute2" | "screw" | "gearbox":
+                return joint  # SDF's own, from a <gazebo> element
             case _:
                 message = f"joint {joint.name!r} is {joint.type!r}, which SDF has no joint for"
                 notes.report(to_sdf.JOINT_TYPE_UNSUPPORTED, message, joint.location.at("@type"), found=joint.type)

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from twinform.ir import Dynamics, Element, GazeboExtension, Joint, Link, Model, Opaque
 from twinform.ir.frames import WORLD
-from twinform.passes.legalise.carrier import to_element
+from twinform.passes.legalise.carrier import is_carrier, to_element, unpack
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper, made_fields
 from twinform.schemas import format_value, table
@@ -21,6 +21,7 @@ _PHYSICS_TAGS = {
     "ode/implicit_spring_damper": "implicitSpringDamper",
     "provide_feedback": "provideFeedback",
 }
+_KEPT_APART = frozenset({"preserveFixedJoint", "disableFixedJointLumping"})
 _NOT_VERBATIM = frozenset({"physics", "frame"})
 """A second `<physics>` would be a second one in Gazebo too; `<frame>` in links and joints went with SDF 1.7."""
 
@@ -47,8 +48,9 @@ class ExtendGazebo(ToUrdfPass):
             content, left = _link_content(link)
             links.append(left)
             extensions.extend(_extension(link, content))
+        kept = _kept_apart(model)
         for joint in model.joints:
-            content, left = _joint_content(joint, names, with_mass)
+            content, left = _joint_content(joint, names, with_mass if joint.name not in kept else set())
             joints.append(left)
             extensions.extend(_extension(joint, content))
         extensions.extend(_model_extensions(model))
@@ -115,6 +117,14 @@ def _joint_content(joint: Joint, links: set[str], with_mass: set[str]) -> tuple[
         content += to_element(Joint(name="", type="fixed", sensors=joint.sensors), "joint", "sdf").children
     content += _verbatim(joint.opaque, "joint")
     return content, joint.model_copy(update={"sensors": (), "opaque": _rest(joint.opaque, "joint")})
+
+
+def _kept_apart(model: Model) -> set[str]:
+    """The joints for which a carried `<gazebo>` says already whether libsdformat may merge their links."""
+    carried = [piece.element for part in model.opaque if is_carrier(part, "urdf") for piece in unpack(part)]
+    extensions = [element for element in carried if element is not None and element.name == "gazebo"]
+    said = [each for each in extensions if any(child.name in _KEPT_APART for child in each.children)]
+    return {element.get("reference") or "" for element in said}
 
 
 def _springs(joint: Joint) -> tuple[list[Element], Joint]:

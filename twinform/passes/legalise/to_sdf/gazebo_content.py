@@ -1,0 +1,49 @@
+"""What stands in `<gazebo>` elements as plain SDF, read at the place that they refer to."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Any
+
+from lxml import etree
+
+from twinform.diagnostics import Notes
+from twinform.ir import Collision, GazeboExtension, Joint, Link, Model, Node, Visual
+from twinform.schemas import Context, element_xml, reader, table
+
+_REQUIRED = {"joint": {"type": "fixed"}}
+_REQUIRED_CHILDREN = {"joint": ("parent", "child")}
+_NODES: dict[str, type[Node]] = {"link": Link, "joint": Joint, "model": Model, "visual": Visual, "collision": Collision}
+_GIVEN = frozenset({"source", "name", "type", "parent", "child"})
+"""Fields that are there because the reader asks for them."""
+
+
+def read_content(
+    kind: str, name: str, robot: str, extensions: Iterable[GazeboExtension], notes: Notes
+) -> dict[str, Any]:
+    """The fields that the content of extensions sets when it is read as the inside of an SDF element of a kind."""
+    xml = etree.SubElement(etree.Element("robot", {"name": robot}), kind, {"name": name, **_REQUIRED.get(kind, {})})
+    for tag in _REQUIRED_CHILDREN.get(kind, ()):
+        etree.SubElement(xml, tag).text = name
+    listed = list(extensions)
+    for extension in listed:
+        for element in extension.content:
+            element_xml(element, xml)
+    found = Notes(file=notes.file, strict=notes.strict)
+    context = Context(found, notes.file, "sdf", table("sdf").newest)
+    data = reader("sdf", context.version).read(xml, context, kind, listed[0].source)
+    _report(found, f"{kind}[@name='{name}']", name if kind != "model" else "", notes)
+    fields = set(data) - _GIVEN
+    if notes.has_errors or not fields:
+        return {}
+    base: dict[str, Any] = {"name": name, **_REQUIRED.get(kind, {})}
+    node = _NODES[kind].model_validate({**base, **{field: data[field] for field in fields}})
+    return {field: getattr(node, field) for field in fields}
+
+
+def _report(found: Notes, step: str, reference: str, notes: Notes) -> None:
+    """Say what was found in terms of the file: what was read as the element of `step` stands in a `<gazebo>`."""
+    own = f"gazebo[@reference='{reference}']" if reference else "gazebo"
+    for each in found.diagnostics:
+        path = each.location.path.replace(step, own, 1)
+        where = each.location._replace(path=path)
+        notes.extend([replace(each, location=where)])

@@ -1,0 +1,84 @@
+"""The values of `<gazebo>` tags go where they mean something."""
+
+from collections.abc import Iterable
+from typing import Any
+
+from lxml import etree
+
+from twinform.ir import (
+    Axis,
+    Collision,
+    Dynamics,
+    Element,
+    Joint,
+    Link,
+    Material,
+    Model,
+    Opaque,
+    Script,
+    Surface,
+    Visual,
+)
+from twinform.passes.legalise.carrier import from_xml
+from twinform.passes.legalise.to_sdf.gazebo_tags import SCRIPT_URI, Tag
+from twinform.schemas import format_value
+
+Values = Iterable[tuple[Tag, Any]]
+
+
+def set_model_fields(model: Model, values: Values) -> Model:
+    """The model with what tags say of it."""
+    return model.model_copy(update={tag.field: value for tag, value in values})
+
+
+def set_link_fields(link: Link, values: Values) -> Link:
+    """The link with what tags say of it as a whole."""
+    said = {tag.field: value for tag, value in values if tag.target == "link"}
+    update: dict[str, object] = {field: value for field, value in said.items() if field != "velocity_decay"}
+    if "velocity_decay" in said:
+        text = format_value(said["velocity_decay"])
+        parts = (Element(name="linear", text=text), Element(name="angular", text=text))
+        update["opaque"] = (*link.opaque, Opaque(element=Element(name="velocity_decay", children=parts)))
+    return link.model_copy(update=update) if update else link
+
+
+def set_visual(visual: Visual, values: Values) -> Visual:
+    """The visual with the material that a tag names."""
+    names = [str(value) for tag, value in values if tag.target == "visual" and value]
+    if not names:
+        return visual
+    script = Script(uris=(SCRIPT_URI,), name=names[-1])
+    material = (visual.material or Material()).model_copy(update={"script": script})
+    return visual.model_copy(update={"material": material})
+
+
+def set_collision(collision: Collision, values: Values) -> Collision:
+    """The collision with the surface that tags describe."""
+    own = {tag.field: value for tag, value in values if tag.target == "collision"}
+    surface = {tag.field: value for tag, value in values if tag.target == "surface"}
+    if surface:
+        own["surface"] = (collision.surface or Surface()).model_copy(update=surface)
+    return collision.model_copy(update=own) if own else collision
+
+
+def set_joint_fields(joint: Joint, values: Values) -> Joint:
+    """The joint with the springs and the physics that tags describe."""
+    springs = {tag.field: value for tag, value in values if tag.target == "dynamics"}
+    if springs:
+        axis = joint.axis or Axis()
+        dynamics = (axis.dynamics or Dynamics()).model_copy(update=springs)
+        joint = joint.model_copy(update={"axis": axis.model_copy(update={"dynamics": dynamics})})
+    physics = [(tag.field, value) for tag, value in values if tag.target == "physics"]
+    return joint.model_copy(update={"opaque": (*joint.opaque, _physics(physics))}) if physics else joint
+
+
+def _physics(values: list[tuple[str, object]]) -> Opaque:
+    """The `<physics>` of a joint from paths below it and their values."""
+    root = etree.Element("physics")
+    for path, value in values:
+        holder = root
+        for step in path.split("/"):
+            found = holder.find(step)
+            holder = found if found is not None else etree.SubElement(holder, step)
+        holder.text = format_value(value)
+    return Opaque(element=from_xml(root))

@@ -1,0 +1,74 @@
+"""Two descriptions of one thing put together, field by field."""
+
+from collections.abc import Mapping
+from typing import Any, TypeVar
+
+from twinform.ir import Element, Node, Opaque
+from twinform.ir.tree import node_fields
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+_ABOUT = frozenset({"source", "spelling"})
+_WHOLE = frozenset({"inertial", "geometry", "pose"})
+"""What makes sense only as it was written."""
+_ONCE = frozenset({"physics"})
+"""Elements without a typed form that may stand once."""
+
+
+def merge(mine: AnyNode, fields: Mapping[str, Any], conflicts: list[str], *, replace: bool = False) -> AnyNode:
+    """The node with more fields. Where both say something, mine stays, or goes with `replace`; `conflicts` names it."""
+    update: dict[str, Any] = {}
+    lists = node_fields(type(mine))
+    for field, value in fields.items():
+        old = mine.__dict__.get(field)
+        if field in _ABOUT:
+            continue
+        if field == "opaque":
+            update[field] = _join(mine.opaque, value)
+        elif isinstance(old, tuple) and field in lists:
+            update[field] = (*old, *value)
+        elif old is None:
+            update[field] = value
+        elif isinstance(old, Node) and type(old) is type(value) and field not in _WHOLE:
+            update[field] = merge(old, written(value), conflicts, replace=replace)
+        elif old != value:
+            conflicts.append(field)
+            update[field] = value if replace else old
+    more: Mapping[str, str] = fields.get("spelling") or {}
+    spelling = {**more, **(mine.spelling or {})}
+    return mine.model_copy(update={**update, "spelling": spelling or None})
+
+
+def written(node: Node) -> dict[str, Any]:
+    """The fields that a node says something in."""
+    return {name: value for name, value in node.__dict__.items() if value is not None and value != ()}
+
+
+def _join(mine: tuple[Opaque, ...], more: tuple[Opaque, ...]) -> tuple[Opaque, ...]:
+    joined = list(mine)
+    for part in more:
+        place = next((i for i, old in enumerate(joined) if _is_the_same(old, part)), None)
+        element = joined[place].element if place is not None else None
+        if place is None or element is None or part.element is None:
+            joined.append(part)
+        else:
+            joined[place] = joined[place].model_copy(update={"element": merge_elements(element, part.element)})
+    return tuple(joined)
+
+
+def _is_the_same(old: Opaque, new: Opaque) -> bool:
+    if old.element is None or new.element is None or old.at != new.at:
+        return False
+    return old.element.name == new.element.name and old.element.name in _ONCE
+
+
+def merge_elements(mine: Element, more: Element) -> Element:
+    """The element with the children of another one that it lacks, all the way down."""
+    children = list(mine.children)
+    for child in more.children:
+        place = next((i for i, old in enumerate(children) if old.name == child.name), None)
+        if place is None:
+            children.append(child)
+        else:
+            children[place] = merge_elements(children[place], child)
+    return mine.model_copy(update={"children": tuple(children)})

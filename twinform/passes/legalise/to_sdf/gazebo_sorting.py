@@ -1,0 +1,172 @@
+"""The content of `<gazebo>` elements, sorted by what is to be done with it."""
+
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple
+
+from twinform.diagnostics import Fate, Location, Notes, Severity
+from twinform.diagnostics.rules import structure, to_sdf
+from twinform.ir import Element, GazeboExtension, Link
+from twinform.passes.legalise.to_sdf.gazebo_tags import FALSE, LINK_TAGS, TRUE, TRUTHS, Tag, value_text
+
+_TOUCHED = frozenset({"surface", "collision"})
+_OF_AXES = frozenset({"axis", "axis2", "springReference", "springStiffness"})
+
+
+class Blob(NamedTuple):
+    """What goes into every visual or collision of a link."""
+
+    kind: str
+    content: tuple[Element, ...]
+    extension: GazeboExtension
+    where: Location
+
+
+class _Value(NamedTuple):
+    tag: Tag
+    value: object
+    element: Element
+    where: Location
+
+
+def place_of(element: Element, extension: GazeboExtension) -> Location:
+    """Where an element of an extension stands; where the extension does, if a pass has made the element."""
+    return element.location if element.source else extension.location
+
+
+def is_part_of_axis(element: Element) -> bool:
+    """Whether it is about an axis, which a fixed joint has not."""
+    return element.name in _OF_AXES
+
+
+def lacks_shapes(link: Link, element: Element) -> bool:
+    """Whether it is about visuals or collisions, of which the link has none."""
+    if element.name in {"visual", "collision"}:
+        return not (link.visuals if element.name == "visual" else link.collisions)
+    tag = LINK_TAGS.get(element.name)
+    if tag is None:
+        return False
+    return (tag.target == "visual" and not link.visuals) or (tag.target in _TOUCHED and not link.collisions)
+
+
+class Sorter:
+    """Takes the content of the extensions of one link, joint or model, one after the other.
+
+    `tags` are those that mean something here, `elsewhere` those that do at another kind of reference. What is `unfit`
+    means nothing here either; what is `idle` would, if there were anything for it to act on.
+    """
+
+    def __init__(
+        self,
+        tags: dict[str, Tag],
+        elsewhere: Iterable[str],
+        notes: Notes,
+        *,
+        shapes: bool = False,
+        unfit: Callable[[Element], bool] | None = None,
+        idle: Callable[[Element], bool] | None = None,
+    ) -> None:
+        self._tags = tags
+        self._elsewhere = frozenset(elsewhere)
+        self._notes = notes
+        self._shapes = shapes
+        self._unfit = unfit
+        self._idle = idle
+        self._read: dict[tuple[str, str], _Value] = {}
+        self.blobs: list[Blob] = []
+        self.rest: list[GazeboExtension] = []
+        self.misplaced: list[tuple[GazeboExtension, list[Element]]] = []
+        self.ignored: list[tuple[GazeboExtension, list[Element]]] = []
+        self.without_use: list[tuple[GazeboExtension, list[Element]]] = []
+
+    @property
+    def values(self) -> list[tuple[Tag, Any]]:
+        """The tags that were there and what they say."""
+        return [(read.tag, read.value) for read in self._read.values()]
+
+    def forget(self, names: Iterable[str]) -> None:
+        """Leave out of the rest what somebody else takes."""
+        gone = frozenset(names)
+        self.rest = [_with(extension, [e for e in extension.content if e.name not in gone]) for extension in self.rest]
+
+    def sort(self, extension: GazeboExtension) -> None:
+        """Take the content of an extension."""
+        rest: list[Element] = []
+        misplaced: list[Element] = []
+        ignored: list[Element] = []
+        without_use: list[Element] = []
+        for element in extension.content:
+            tag = self._tags.get(element.name)
+            if element.name in self._elsewhere or (self._unfit and self._unfit(element)):
+                misplaced.append(element)
+            elif self._idle and self._idle(element):
+                without_use.append(element)
+            elif self._is_blob(element):
+                self._blob(element, extension)
+            elif tag is None or element.children:
+                rest.append(element)
+            elif tag.target == "ignored":
+                ignored.append(element)
+            else:
+                self._value(tag, element, place_of(element, extension))
+        self.rest.append(_with(extension, rest))
+        sorted_out = ((self.misplaced, misplaced), (self.ignored, ignored), (self.without_use, without_use))
+        for place, elements in sorted_out:
+            if elements:
+                place.append((extension, elements))
+
+    def _is_blob(self, element: Element) -> bool:
+        return self._shapes and (
+            element.name in {"visual", "collision"} or (element.name == "material" and bool(element.children))
+        )
+
+    def _blob(self, element: Element, extension: GazeboExtension) -> None:
+        where = place_of(element, extension)
+        if element.name == "material":
+            self.blobs.append(Blob("visual", (element,), extension, where))
+            return
+        self._extra_attributes(element, where, ())
+        if element.text:
+            message = f"text {element.text[:40]!r} in <{element.name}> of <gazebo>"
+            self._notes.report(structure.STRAY_TEXT, message, where, found=element.text[:40])
+            self._notes.account(Fate.DROPPED, structure.STRAY_TEXT, message, where)
+        self.blobs.append(Blob(element.name, element.children, extension, where))
+
+    def _value(self, tag: Tag, element: Element, where: Location) -> None:
+        self._extra_attributes(element, where, ("value",))
+        text = value_text(element)
+        try:
+            value = tag.read(text)
+        except ValueError:
+            message = f"<{element.name}> in <gazebo> is {text!r}; expected a value of its type"
+            self._notes.report(structure.INVALID_VALUE, message, where, found=text)
+            return
+        if tag.read in TRUTHS and text.lower() not in TRUE | FALSE:
+            message = f"<{element.name}> in <gazebo> is {text!r}, which Gazebo takes for {str(value).lower()}"
+            expected = "true or false"
+            warning = Severity.ERROR if self._notes.strict else Severity.WARNING
+            self._notes.report(structure.INVALID_VALUE, message, where, found=text, expected=expected, severity=warning)
+        self._set(_Value(tag, value, element, where))
+
+    def _set(self, read: _Value) -> None:
+        """The last one counts, as in libsdformat."""
+        key = (read.tag.target, read.tag.field)
+        before = self._read.get(key)
+        if before is not None and before.value != read.value:
+            message = f"<{read.element.name}> in <gazebo> says another value than before; the last one stays"
+            related = (before.where,)
+            self._notes.report(
+                to_sdf.GAZEBO_CONFLICT, message, read.where, found=value_text(read.element), related=related
+            )
+            self._notes.account(Fate.DROPPED, to_sdf.GAZEBO_CONFLICT, message, before.where, before.element.weight)
+        self._read[key] = read
+
+    def _extra_attributes(self, element: Element, where: Location, known: tuple[str, ...]) -> None:
+        for name, value in element.attributes:
+            if name not in known:
+                message = f"{name!r} is not an attribute of <{element.name}> in <gazebo>"
+                self._notes.report(structure.UNKNOWN_ATTRIBUTE, message, where.at(f"@{name}"), found=value)
+                self._notes.account(Fate.DROPPED, structure.UNKNOWN_ATTRIBUTE, message, where.at(f"@{name}"))
+
+
+def _with(extension: GazeboExtension, content: list[Element]) -> GazeboExtension:
+    return extension.model_copy(update={"content": tuple(content)})
