@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from twinform.diagnostics import Notes
 from twinform.ir import Frame, Joint, Pose, World
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
-from twinform.passes.legalise.to_urdf.nodes import map_poses
+from twinform.passes.legalise.nodes import map_poses
 
 _INSIDE = "::"
 
