@@ -56,7 +56,7 @@ def examine(path: Path, name: str) -> Examined:
     if isinstance(checked, str):
         found = replace(found, faults=(checked,))
     elif checked.document is None or not checked.accepted:
-        faults = _without_line(checked.diagnostics)
+        faults = without_line(checked.diagnostics)
         found = replace(found, refused_by=rules_of(checked.diagnostics), faults=faults)
     else:
         found = _converted(path, checked.document, replace(found, accepted=True))
@@ -68,7 +68,7 @@ def _checked(path: Path) -> Checked | str:
     try:
         return twinform.check(path)
     except Exception as error:  # noqa: BLE001 - every exception is a fault to report
-        return _fault(error)
+        return fault(error)
 
 
 def _converted(path: Path, document: Document, found: Examined) -> Examined:
@@ -79,10 +79,10 @@ def _converted(path: Path, document: Document, found: Examined) -> Examined:
             for robot in robots(document):
                 twinform.convert(path, to="urdf", model=robot)
     except twinform.CompileError as error:
-        faults = (*found.faults, *_without_line(error.diagnostics))
+        faults = (*found.faults, *without_line(error.diagnostics))
         return replace(found, not_converted_by=rules_of(error.diagnostics), faults=faults)
     except Exception as error:  # noqa: BLE001 - every other exception is a fault to report
-        return replace(found, faults=(*found.faults, _fault(error)))
+        return replace(found, faults=(*found.faults, fault(error)))
     return replace(found, converted=True)
 
 
@@ -105,7 +105,7 @@ def _written_again(path: Path, data: bytes, document: Document, found: Examined)
     except twinform.CompileError as error:
         return replace(found, difference=f"not written: {_short(str(error))}")
     except Exception as error:  # noqa: BLE001 - every other exception is a fault to report
-        return replace(found, faults=(*found.faults, _fault(error)))
+        return replace(found, faults=(*found.faults, fault(error)))
     return replace(found, identical=difference is None, difference=_short(difference or ""))
 
 
@@ -114,7 +114,8 @@ def rules_of(diagnostics: Iterable[Diagnostic]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(diagnostic.rule.name for diagnostic in diagnostics if diagnostic.is_error))
 
 
-def _without_line(diagnostics: Iterable[Diagnostic]) -> tuple[str, ...]:
+def without_line(diagnostics: Iterable[Diagnostic]) -> tuple[str, ...]:
+    """A broken promise where none of the errors has a line."""
     errors = [diagnostic for diagnostic in diagnostics if diagnostic.is_error]
     if any(error.location.line > 0 for error in errors):
         return ()
@@ -122,7 +123,8 @@ def _without_line(diagnostics: Iterable[Diagnostic]) -> tuple[str, ...]:
     return (f"refused without a line: {messages or 'no error is reported'}",)
 
 
-def _fault(error: Exception) -> str:
+def fault(error: Exception) -> str:
+    """A broken promise: an exception, and where it was raised."""
     where = traceback.extract_tb(error.__traceback__)[-1]
     return f"{type(error).__name__}: {_short(str(error))} ({Path(where.filename).name}:{where.lineno})"
 

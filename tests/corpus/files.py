@@ -3,7 +3,7 @@
 import csv
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cache
@@ -67,15 +67,24 @@ def models() -> tuple[CorpusFile, ...]:
     return tuple(file for file in corpus_files() if file.kind in {Kind.URDF, Kind.SDF})
 
 
+def xacro_files() -> tuple[CorpusFile, ...]:
+    """Those that the compiler expands before it reads them; a file in xacro under another name is not one of them."""
+    return tuple(file for file in corpus_files() if file.path.suffix == ".xacro")
+
+
 def chunks(*kinds: Kind) -> dict[str, tuple[CorpusFile, ...]]:
     """The models of some kinds, or all, in portions of one repository, so that test processes can share them evenly."""
-    wanted = [file for file in models() if not kinds or file.kind in kinds]
-    portions: dict[str, tuple[CorpusFile, ...]] = {}
+    return portions([file for file in models() if not kinds or file.kind in kinds])
+
+
+def portions(wanted: Iterable[CorpusFile]) -> dict[str, tuple[CorpusFile, ...]]:
+    """Some files in portions of one repository."""
+    found: dict[str, tuple[CorpusFile, ...]] = {}
     for repository, group in groupby(wanted, key=lambda file: file.repository):
         files = tuple(group)
-        portions |= {f"{repository}-{i}": files[i : i + _PORTION] for i in range(0, len(files), _PORTION)}
+        found |= {f"{repository}-{i}": files[i : i + _PORTION] for i in range(0, len(files), _PORTION)}
     # without a corpus one empty portion stays, for the test to skip with its reason
-    return portions or {"none": ()}
+    return found or {"none": ()}
 
 
 def _is_model(path: Path, name: str, rows: Mapping[str, Mapping[str, str]]) -> bool:

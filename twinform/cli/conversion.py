@@ -51,7 +51,7 @@ def run_conversion(job: Job, options: Options, label: str) -> int:
     show(Findings(job.source.name, conversion.diagnostics), notes=options.notes, on_stderr=True)
     _require_ran(options.dumps, seen)
     _write(conversion, job.path, options.ledger)
-    click.echo(f"{label}{': ' if label else ''}{_summary(conversion.ledger)}", err=True)
+    click.echo(f"{label}{': ' if label else ''}{summary(conversion.ledger)}", err=True)
     return 0
 
 
@@ -80,7 +80,8 @@ def _write(conversion: Conversion, path: Path | None, ledger: Path | None) -> No
         raise Unusable(f"cannot write {error.filename or path}: {error.strerror}") from error
 
 
-def _summary(ledger: Ledger) -> str:
+def summary(ledger: Ledger) -> str:
+    """How much was expressed, and how much met each other fate."""
     return ", ".join([f"expressed {ledger.expressed}", *(f"{fate} {ledger.count(fate)}" for fate in Fate)])
 
 

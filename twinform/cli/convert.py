@@ -9,6 +9,8 @@ from twinform.cli.conversion import Options, print_plan, run_conversion
 from twinform.cli.failure import Unusable
 from twinform.cli.findings import notes_option
 from twinform.cli.inputs import HowToRead, how_to_read, inputs, reading_options
+from twinform.cli.source import Source
+from twinform.cli.splitting import run_split
 from twinform.cli.targets import TARGETS, Target, jobs
 from twinform.compiler import Order, UrdfVersion
 from twinform.passes import Pipeline, PipelineError, RegistryError, parse_pipeline
@@ -44,6 +46,11 @@ def _pipeline(_ctx: click.Context, _option: click.Parameter, value: str | None) 
 @click.option("--carriers/--no-carriers", default=True, help="Whether to keep in our namespace what the target lacks.")
 @click.option("--model", metavar="NAME", help="The model of a world to convert.")
 @notes_option
+@click.option(
+    "--split",
+    is_flag=True,
+    help="Write each model of a world as URDF into the directory OUT, and an SDF that includes them.",
+)
 @reading_options
 @click.option("--print-pipeline", is_flag=True, help="Print every pass that would run, in order, and stop.")
 @click.option("--dump-ir-after", "dumps", metavar="PASS", multiple=True, help="Print the IR after a pass on stderr.")
@@ -60,6 +67,7 @@ def command(
     ledger: Path | None,
     carriers: bool,
     model: str | None,
+    split: bool,
     print_pipeline: bool,
     dumps: tuple[str, ...],
     notes: bool,
@@ -85,8 +93,25 @@ def command(
         expand_includes=expand_includes,
     )
     options = Options(order=order, reading=how_to_read(arguments, **how), ledger=ledger, dumps=dumps, notes=notes)
+    if split:
+        ctx.exit(run_split(_only(sources), options, _folder(out, target, model)))
     todo = jobs(sources, out, target)
     if sdf_version is not None and all(job.target != "sdf" for job in todo):
         raise click.UsageError("--sdf-version is for --to sdf")
     run = print_plan if print_pipeline else run_conversion
     ctx.exit(max(run(job, options, label=job.source.name if len(todo) > 1 else "") for job in todo))
+
+
+def _only(sources: list[Source]) -> Source:
+    if len(sources) > 1:
+        raise click.UsageError("--split takes one input")
+    return sources[0]
+
+
+def _folder(out: str | None, target: Target | None, model: str | None) -> Path:
+    """The directory that a world is split into."""
+    if out is None or out == "-" or (Path(out).exists() and not Path(out).is_dir()):
+        raise click.UsageError("--split needs -o DIRECTORY")
+    if target not in {None, "urdf"} or model is not None:
+        raise click.UsageError("--split makes URDF of every model; leave --to and --model out")
+    return Path(out)

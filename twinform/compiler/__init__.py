@@ -2,9 +2,10 @@
 
 from twinform.compiler.driver import DEFAULT_SDF_VERSION, Conversion, Order, UrdfVersion, convert, fulfil, plan
 from twinform.compiler.errors import CompileError
-from twinform.compiler.files import write_atomically
+from twinform.compiler.files import write_all_atomically, write_atomically
 from twinform.compiler.includes import expand
 from twinform.compiler.loading import Checked, Reading, check, load, loads, read
+from twinform.compiler.splitting import Split, split
 from twinform.compiler.uris import SearchPath, UriError
 
 __all__ = [
@@ -15,6 +16,7 @@ __all__ = [
     "Order",
     "Reading",
     "SearchPath",
+    "Split",
     "UrdfVersion",
     "UriError",
     "check",
@@ -25,5 +27,7 @@ __all__ = [
     "loads",
     "plan",
     "read",
+    "split",
+    "write_all_atomically",
     "write_atomically",
 ]

@@ -17,7 +17,7 @@ from twinform.ir import Document, Format
 from twinform.ir.verify import verify, verify_again
 from twinform.passes import Pass, Pipeline, parse_pipeline
 from twinform.passes.legalise import Target, legalisation
-from twinform.passes.legalise.to_urdf.candidates import wanted_includes
+from twinform.passes.legalise.candidates import wanted_includes
 from twinform.schemas import Engine
 
 Language = Literal["sdf", "urdf", "json"]

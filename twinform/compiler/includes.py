@@ -113,11 +113,13 @@ class _Reader:
         if not path.is_dir():
             return path
         config = manifest(path)
-        if config is None:
-            message = f"{include.uri!r} is the folder {str(path)!r}, which has no model.config"
-            self.notes.report(files.BROKEN_MODEL_CONFIG, message, include.location.at("uri"), found=include.uri)
-            return None
-        return model_file(config, _version(document), self.notes)
+        if config is not None:
+            return model_file(config, _version(document), self.notes)
+        usual = path / "model.sdf"
+        rule = files.MISSING_MODEL_CONFIG if usual.is_file() else files.BROKEN_MODEL_CONFIG
+        message = f"{include.uri!r} is the folder {str(path)!r}, which has no model.config"
+        self.notes.report(rule, message, include.location.at("uri"), found=include.uri)
+        return usual if usual.is_file() else None
 
     def _file(self, include: Include, path: Path, around: Document, above: tuple[Path, ...]) -> _File | None:
         """An included file, expanded; None where it cannot be, which the notes then say."""

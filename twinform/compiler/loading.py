@@ -212,6 +212,8 @@ def read_document(text: bytes, notes: Notes, engine: Engine) -> tuple[Document |
         message = f"the root element is <{root.tag}>; expected <robot> or <sdf>"
         notes.report(reading.UNKNOWN_ROOT, message, where, found=str(root.tag), expected="robot or sdf")
         raise UnreadableError
+    if b"<xacro:" in text:
+        _report_macros(root, notes)
     format_, lower = _ROOTS[str(root.tag)]
     context = Context(notes, notes.file, format_, _declared_version(root, format_, notes))
     errors = refusals(root, context, engine)
@@ -239,6 +241,15 @@ def _verify_what_is_there(data: Mapping[str, Any], notes: Notes) -> Document | N
     verify(document, found)
     notes.extend(each for each in found.diagnostics if each.rule not in _CONSEQUENCES)
     return document
+
+
+def _report_macros(root: XmlElement, notes: Notes) -> None:
+    macros = [element for element in root.iter() if str(element.tag).partition("}")[0].endswith("xacro")]
+    if macros:
+        where = Location(line=macros[0].sourceline or 0, path=f"/{root.tag}")
+        count = f"{len(macros)} element{'' if len(macros) == 1 else 's'} of xacro"
+        message = f"{count} will not be expanded: the name of the file does not end in .xacro"
+        notes.report(xacro_rules.UNEXPANDED_XACRO, message, where, found="xacro")
 
 
 def _declared_version(root: XmlElement, format_: str, notes: Notes) -> Version:

@@ -85,7 +85,9 @@ class SearchPath:
 
     def _named(self, uri: str, rest: str, beside: Path) -> Path:
         name, _, inner = normpath(unquote(rest)).partition("/")
-        if name in {"", ".", ".."}:
+        if name in {"", "."}:
+            raise UriError(rules.UNRESOLVED_URI, f"{uri!r} names no model or package")
+        if name == "..":
             raise UriError(rules.URI_LEAVES_FOLDER, f"{uri!r} leads out of the folders of models and packages")
         around = folders_around(beside)
         for folder in self._candidates(name, around):

@@ -141,6 +141,16 @@ def test_an_older_world_is_raised_to_the_version_of_what_it_includes(folder: Pat
     assert twinform.convert(path, to="sdf", expand_includes=True).document.version == "1.9"
 
 
+def test_a_model_in_a_model_needs_a_version_that_has_them(folder: Path) -> None:
+    path = folder / "holder.sdf"
+    path.write_text(
+        '<sdf version="1.4"><model name="m"><link name="l"/><include><uri>old</uri></include></model></sdf>'
+    )
+    result = twinform.convert(path, to="sdf", expand_includes=True)
+    assert (result.document.version, result.ledger.entries) == ("1.5", ())
+    assert "<use_parent_model_frame>true</use_parent_model_frame>" in result.text
+
+
 def test_a_urdf_file_is_converted_on_the_way(folder: Path) -> None:
     result = twinform.convert(
         _world(folder, "<include><uri>robot.urdf</uri><name>r</name></include>"), to="sdf", expand_includes=True

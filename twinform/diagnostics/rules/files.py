@@ -29,3 +29,12 @@ BROKEN_MODEL_CONFIG = Rule(
     example="`<sdf version='1.9'>modle.sdf</sdf>`",
     better="Write `<sdf version='...'>model.sdf</sdf>` with the name of the file beside it.",
 )
+MISSING_MODEL_CONFIG = Rule(
+    name="missing-model-config",
+    severity=Severity.WARNING,
+    strict=Severity.ERROR,
+    finds="An included folder with a `model.sdf` and no `model.config` beside it.",
+    matters="`model.sdf` is what is meant, and is taken; Gazebo refuses the folder.",
+    example="`<uri>model://crate</uri>` where the folder `crate` has only `model.sdf`.",
+    better="Write a model.config that names it, or include the file: `model://crate/model.sdf`.",
+)

@@ -53,3 +53,12 @@ UNUSED_ARGUMENT = Rule(
     example="`twinform check robot.urdf.xacro prefx:=left`",
     better="Check the name against the `<xacro:arg>` elements.",
 )
+UNEXPANDED_XACRO = Rule(
+    name="unexpanded-xacro",
+    severity=Severity.WARNING,
+    strict=Severity.ERROR,
+    finds="Elements of xacro in a file whose name does not end in `.xacro`.",
+    matters="The file is read as it is, and the macros are not: the robot is not the one that is meant.",
+    example="`<xacro:wheel side='left'/>` in `robot.urdf`.",
+    better="Call the file `robot.urdf.xacro`, or expand it first.",
+)

@@ -15,6 +15,10 @@ from twinform.passes.includes.upgrade import newest, upgrade_document
 
 Holder = TypeVar("Holder", Document, World)
 
+_NESTED_MODELS = "1.5"
+_NAMED_FRAMES = "1.7"
+"""The versions of SDF since which there are these."""
+
 
 @dataclass(frozen=True, slots=True)
 class Included:
@@ -45,11 +49,20 @@ def expand_includes(document: Document, resolve: Resolver, notes: Notes) -> Docu
     Files of different versions come together in the newest of them: the frames of older ones are said in its words.
     """
     found = [resolve(include) for include in _includes(document)]
-    version = newest(document.version, *(each.document.version for each in found if each))
+    version = newest(document.version, *(each.document.version for each in found if each), *_needs(document))
     document = upgrade_document(document, version)
     by_identity = {id(include): each for include, each in zip(_includes(document), found, strict=True)}
     document = _Expansion(by_identity, version, notes).document(document)
     return document.model_copy(update={"namespaces": _namespaces(document, found)})
+
+
+def _needs(document: Document) -> Iterator[str]:
+    """The versions that have what includes in models become: models in models, and frames for merged ones."""
+    inner = [include for model in _models(document) for include in _includes_in(model)]
+    if inner:
+        yield _NESTED_MODELS
+    if any(include.merge for include in inner):
+        yield _NAMED_FRAMES
 
 
 def _namespaces(document: Document, found: Iterable[Included | None]) -> tuple[tuple[str, str], ...]:
@@ -66,8 +79,12 @@ def _includes(document: Document) -> Iterator[Include]:
     yield from document.includes
     for world in document.worlds:
         yield from world.includes
-    for model in chain(document.models, *(world.models for world in document.worlds)):
+    for model in _models(document):
         yield from _includes_in(model)
+
+
+def _models(document: Document) -> Iterator[Model]:
+    return chain(document.models, *(world.models for world in document.worlds))
 
 
 def _includes_in(model: Model) -> Iterator[Include]:

@@ -9,7 +9,7 @@ from twinform.ir import Axis, Element, Frame, Include, Joint, Link, Model, Node,
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.includes.place import placed_model
-from twinform.passes.legalise.to_urdf.nodes import map_elements, map_poses
+from twinform.passes.legalise.nodes import map_elements, map_poses
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 Posed = TypeVar("Posed", Link, Model)

@@ -6,7 +6,7 @@ from posixpath import normpath
 from typing import TypeVar
 
 from twinform.ir import Document, Element, Heightmap, Image, Include, Material, Mesh, Node, Script, map_children
-from twinform.passes.legalise.to_urdf.nodes import map_elements
+from twinform.passes.legalise.nodes import map_elements
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 

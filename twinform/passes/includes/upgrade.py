@@ -4,7 +4,7 @@ from typing import TypeVar
 
 from twinform.ir import Axis, Document, Joint, Model, Pose, World
 from twinform.ir.frames import MODEL
-from twinform.passes.legalise.to_urdf.nodes import map_poses
+from twinform.passes.legalise.nodes import map_poses
 from twinform.schemas import Version, parse_version, table
 
 _RELATIVE_TO = (1, 7)

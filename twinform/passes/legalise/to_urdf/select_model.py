@@ -9,7 +9,7 @@ from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Document, Include, Model, Node, Opaque, World, count_parts
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
 from twinform.passes.base import Pass
-from twinform.passes.legalise.to_urdf.candidates import Candidate, candidates
+from twinform.passes.legalise.candidates import Candidate, candidates
 
 
 class SelectModel(Pass):
