@@ -40,6 +40,12 @@ def is_carrier(part: Opaque, dialect: str) -> bool:
     return part.element is not None and part.element.name == f"{{{NAMESPACE}}}{dialect}"
 
 
+def is_ours(part: Opaque) -> bool:
+    """Whether an opaque part is of our own namespace: a carrier, or a mark."""
+    name = part.element.name if part.element else part.attribute[0] if part.attribute else ""
+    return name.startswith(f"{{{NAMESPACE}}}")
+
+
 def unpack(part: Opaque) -> tuple[Opaque, ...]:
     """The pieces in a carrier: the inverse of what `carry` packs."""
     element = part.element

@@ -1,12 +1,15 @@
 """Parts that only URDF knows go into carriers."""
 
+from collections.abc import Iterator
+from functools import cache
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf
 from twinform.ir import GazeboExtension, Model, Node, Opaque, Pose, map_children
-from twinform.passes.legalise.carrier import carry, is_carrier, unpack
+from twinform.passes.legalise.carrier import carry, is_carrier, is_ours, unpack
 from twinform.passes.legalise.model_pass import ModelPass
+from twinform.schemas import Fact, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -16,7 +19,8 @@ class CarryUrdf(ModelPass):
 
     Changes: 1. opaque elements, attributes and text of URDF (transmissions, ros2_control, other tools' elements) become
     carriers; 2. parts of an origin, which is a plain text in SDF, are carried by what has the origin; 3. carriers of
-    SDF become opaque parts of SDF again. With `carriers` false, the parts of the first two are dropped.
+    SDF that add to what the model says become parts of it again; the others stay, for nothing may be said twice. With
+    `carriers` false, the parts of the first two are dropped.
     Never touches: typed fields.
     Diagnostics: none; every part has a ledger entry under `urdf-only`.
     """
@@ -35,13 +39,16 @@ class CarryUrdf(ModelPass):
         pose: Pose | None = node.__dict__.get("pose")
         if not node.opaque and not (pose and pose.opaque):
             return node
-        update: dict[str, object] = {"opaque": ()}
-        pieces = [part for part in node.opaque if not is_carrier(part, "sdf")]
-        update["opaque"] = tuple(piece for part in node.opaque if is_carrier(part, "sdf") for piece in unpack(part))
+        pieces = [part for part in node.opaque if not is_ours(part)]
+        ours = tuple(piece for part in node.opaque if is_ours(part) for piece in _unpacked(part) if self._keeps(piece))
+        update: dict[str, object] = {"opaque": ours}
         if pose and pose.opaque:
             pieces += [_inside("origin", part) for part in pose.opaque]
             update["pose"] = pose.model_copy(update={"opaque": ()})
         return self._carry(node.model_copy(update=update), pieces, notes) if not isinstance(node, Pose) else node
+
+    def _keeps(self, part: Opaque) -> bool:
+        return self.carriers or not is_ours(part)
 
     def _carry(self, node: AnyNode, pieces: list[Opaque], notes: Notes) -> AnyNode:
         fate = Fate.CARRIED if self.carriers else Fate.DROPPED
@@ -49,6 +56,27 @@ class CarryUrdf(ModelPass):
             message = f"{piece.name} is not a part of SDF"
             notes.account(fate, to_sdf.URDF_ONLY, message, piece.location, max(1, piece.weight))
         return carry(node, pieces, "urdf") if self.carriers else node
+
+
+def _unpacked(part: Opaque) -> tuple[Opaque, ...]:
+    """What is in a carrier of SDF, if the model does not say it already in words of its own; else the carrier."""
+    pieces = unpack(part) if is_carrier(part, "sdf") else ()
+    fit = all(piece.element and piece.element.name not in _typed_in_sdf() for piece in pieces)
+    return pieces if pieces and fit else (part,)
+
+
+@cache
+def _typed_in_sdf() -> frozenset[str]:
+    """Elements that a typed field of the IR stands for; whole shapes are listed there beside what URDF could say."""
+    definitions = table("sdf").definitions.values()
+    placed = {row.name for definition in definitions for row in _rows(definition) if row.place}
+    return frozenset(placed - {"visual", "collision"})
+
+
+def _rows(fact: Fact) -> Iterator[Fact]:
+    for row in fact.rows:
+        yield row
+        yield from _rows(row)
 
 
 def _inside(step: str, part: Opaque) -> Opaque:

@@ -22,7 +22,8 @@ class RetargetSdf(Pass):
     def run(self, document: Document, notes: Notes) -> Document:
         """The document in terms of SDF."""
         kept = tuple((prefix, uri) for prefix, uri in document.namespaces if prefix not in {"", PREFIX})
-        carriers = any(entry.fate is Fate.CARRIED for entry in notes.entries)
+        carried = any(entry.fate is Fate.CARRIED for entry in notes.entries)
+        carriers = carried or (PREFIX, NAMESPACE) in document.namespaces
         return document.model_copy(
             update={
                 "format": Format.SDF,

@@ -5,7 +5,7 @@ from typing import ClassVar
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf
 from twinform.ir import Joint, Link, Model, Opaque, count_parts
-from twinform.passes.legalise.carrier import carry, to_element
+from twinform.passes.legalise.carrier import carry, is_ours, to_element
 from twinform.passes.legalise.model_pass import ModelPass
 
 
@@ -29,7 +29,8 @@ class WorldLink(ModelPass):
         links = tuple(link for link in model.links if link is not world)
         joints = tuple(_on_model(joint) for joint in model.joints)
         model = model.model_copy(update={"links": links, "joints": joints})
-        return self._keep_body(model, world, notes) if count_parts(world) > 2 else model
+        body = world.model_copy(update={"opaque": tuple(part for part in world.opaque if not is_ours(part))})
+        return self._keep_body(model, body, notes) if count_parts(body) > 2 else model
 
     def _keep_body(self, model: Model, world: Link, notes: Notes) -> Model:
         message = "the link 'world' has a body, which SDF's world cannot have"
