@@ -19,6 +19,8 @@ from twinform.schemas import XmlElement, parse_version, table, writer
 NAMESPACE = "urn:twinform:1"
 PREFIX = "tf"
 
+Attributes = tuple[tuple[str, str], ...]
+
 AnyNode = TypeVar("AnyNode", bound=Node)
 
 
@@ -28,9 +30,9 @@ def carry(node: AnyNode, pieces: Iterable[Opaque], dialect: str) -> AnyNode:
     return node.model_copy(update={"opaque": (*node.opaque, *carriers)}) if carriers else node
 
 
-def pack(pieces: Iterable[Opaque], dialect: str) -> tuple[Opaque, ...]:
-    """A carrier for each of the pieces."""
-    return tuple([Opaque(element=_carrier(piece, dialect)) for piece in pieces])
+def pack(pieces: Iterable[Opaque], dialect: str, about: Attributes = ()) -> tuple[Opaque, ...]:
+    """A carrier for each of the pieces; `about` are more attributes of the carriers."""
+    return tuple([Opaque(element=_carrier(piece, dialect, about)) for piece in pieces])
 
 
 def is_carrier(part: Opaque, dialect: str) -> bool:
@@ -70,8 +72,8 @@ def from_xml(xml: XmlElement) -> Element:
     )
 
 
-def _carrier(piece: Opaque, dialect: str) -> Element:
-    attributes: list[tuple[str, str]] = [("at", piece.at)] if piece.at else []
+def _carrier(piece: Opaque, dialect: str, about: Attributes) -> Element:
+    attributes = [*about, ("at", piece.at)] if piece.at else [*about]
     if piece.attribute is not None:
         attributes += [("attribute", piece.attribute[0]), ("value", piece.attribute[1])]
     if piece.text is not None:

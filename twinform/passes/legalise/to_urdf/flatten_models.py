@@ -7,9 +7,9 @@ from typing import ClassVar, TypeVar
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Axis, Element, Frame, Joint, Link, Model, Node, Pose, count_parts
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
+from twinform.passes.legalise.nodes import map_elements, map_poses, piece
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper, mark_made
-from twinform.passes.legalise.to_urdf.nodes import map_elements, map_poses, piece
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 _FRAME_ATTRIBUTES = frozenset({"relative_to", "frame"})

@@ -7,9 +7,9 @@ from twinform.diagnostics import Fate
 from twinform.diagnostics.rules import to_sdf as shared_rules
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Axis, Joint, Limit, Mimic, Model, Node, Opaque
+from twinform.passes.legalise.nodes import text_piece
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper, mark_made
-from twinform.passes.legalise.to_urdf.nodes import text_piece
 from twinform.schemas import format_value
 
 AnyNode = TypeVar("AnyNode", bound=Node)

@@ -1,17 +1,32 @@
 """In URDF the frame of a link is the frame of its joint."""
 
-import math
 from dataclasses import dataclass
+from functools import partial
 from typing import ClassVar, TypeVar
 
+from twinform.diagnostics import NOWHERE
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Collision, Inertial, Joint, Light, Link, Model, Node, Pose, Sensor, Visual, count_parts
+from twinform.ir import (
+    Collision,
+    Element,
+    Inertial,
+    Joint,
+    Light,
+    Link,
+    Model,
+    Node,
+    Opaque,
+    Pose,
+    Sensor,
+    Visual,
+    count_parts,
+)
 from twinform.ir.frames import WORLD, FrameGraph, Kind
-from twinform.ir.transform import Transform
+from twinform.passes.legalise.element_poses import ElementPoses
+from twinform.passes.legalise.nodes import pose_piece
+from twinform.passes.legalise.notation import in_radians
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.element_poses import ElementPoses
 from twinform.passes.legalise.to_urdf.keeper import Keeper, made_fields, mark_made
-from twinform.passes.legalise.to_urdf.nodes import pose_piece
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 AnyPosed = TypeVar("AnyPosed", Inertial, Visual, Collision, Sensor, Light)
@@ -60,7 +75,7 @@ class _Rebase:
         """The link and all in it in the frame of its joint."""
         offset = self.graph.pose(link.name, self.base[0], base=self.base[1])
         still = offset.is_identity
-        elements = ElementPoses(self.graph, self.name, self.base, self.keeper)
+        elements = ElementPoses(self.graph, self.name, self.base, partial(_keep_element_pose, self.keeper))
         update: dict[str, object] = {
             "inertial": link.inertial and self._move(link.inertial, "inertial", still=still),
             "visuals": tuple(self._move(visual, "visual", still=still) for visual in link.visuals),
@@ -73,7 +88,7 @@ class _Rebase:
 
     def joint(self, joint: Joint) -> Joint:
         """The joint with its sensors in its own frame."""
-        elements = ElementPoses(self.graph, self.name, self.base, self.keeper, "joint")
+        elements = ElementPoses(self.graph, self.name, self.base, partial(_keep_element_pose, self.keeper), "joint")
         moved = tuple(elements.sensor(self._move(one, "sensor", still=True), one.pose) for one in joint.sensors)
         return joint.model_copy(update={"sensors": moved}) if moved else joint
 
@@ -115,17 +130,9 @@ def _is_plain(pose: Pose) -> bool:
     return not (pose.relative_to or pose.degrees or pose.quat_xyzw or pose.rotation_format or pose.opaque)
 
 
-def in_radians(transform: Transform, relative_to: str | None = None) -> Pose:
-    """The pose as URDF writes it: numbers that were read stay, angles are in radians."""
-    written = transform.notation
-    if written is None:
-        return transform.to_pose(relative_to)
-    rpy = written.rpy
-    if written.quat_xyzw is not None:
-        rpy = transform.rpy()
-    elif written.degrees and rpy is not None:
-        rpy = (math.radians(rpy[0]), math.radians(rpy[1]), math.radians(rpy[2]))
-    return Pose(xyz=written.xyz, rpy=rpy, relative_to=relative_to, source=written.source)
+def _keep_element_pose(keeper: Keeper, message: str, pose: Element) -> tuple[Element, ...]:
+    kept = keeper.keep(Node(), [Opaque(element=pose)], rules.MOVED_FRAME, message, NOWHERE)
+    return tuple(part.element for part in kept.opaque if part.element)
 
 
 def _place_joint(joint: Joint, graph: FrameGraph, base: _Base, keeper: Keeper) -> Joint:

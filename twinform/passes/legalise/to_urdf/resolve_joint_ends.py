@@ -2,13 +2,12 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics.rules import model as model_rules
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Joint, Model, Opaque, Pose
+from twinform.ir import Joint, Model
 from twinform.ir.frames import WORLD, FrameGraph
+from twinform.passes.legalise.joint_ends import named_ends, report_self_joint, resolve_ends
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
-from twinform.passes.legalise.to_urdf.nodes import text_piece
 
 
 class ResolveJointEnds(ToUrdfPass):
@@ -33,21 +32,11 @@ class ResolveJointEnds(ToUrdfPass):
 
 
 def _resolve(joint: Joint, links: set[str], graph: FrameGraph, keeper: Keeper) -> Joint:
-    changed: dict[str, object] = {}
-    pieces: list[Opaque] = []
-    for end, name in (("parent", joint.parent), ("child", joint.child)):
-        if name is not None and name not in links:
-            changed[end] = graph.body(name, source=joint.source)
-            pieces.append(text_piece(end, name))
-    if not changed:
+    resolved, pieces = resolve_ends(joint, links, graph)
+    if not pieces:
         return joint
-    if "child" in changed and not (joint.pose and joint.pose.relative_to):
-        changed["pose"] = (joint.pose or Pose()).model_copy(update={"relative_to": joint.child})
-    resolved = joint.model_copy(update=changed)
     if resolved.parent == resolved.child:
-        message = f"both ends of joint {joint.name!r} move with link {resolved.child!r}"
-        keeper.notes.report(model_rules.SELF_JOINT, message, joint.location, found=joint.child)
+        report_self_joint(joint, resolved, keeper.notes)
         return joint
-    ends = " and ".join(repr(part.element.text) for part in pieces if part.element)
-    message = f"joint {joint.name!r} connects the links that {ends} moves with"
+    message = f"joint {joint.name!r} connects the links that {named_ends(pieces)} moves with"
     return keeper.keep(resolved, pieces, rules.JOINT_END, message, joint.location)

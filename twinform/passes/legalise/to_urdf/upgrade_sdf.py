@@ -4,9 +4,9 @@ from typing import ClassVar
 
 from twinform.ir import Axis, Joint, Model, Pose
 from twinform.ir.frames import MODEL
+from twinform.passes.legalise.nodes import map_poses
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
-from twinform.passes.legalise.to_urdf.nodes import map_poses
 from twinform.schemas import Version
 
 _RELATIVE_TO = (1, 7)

@@ -1,20 +1,22 @@
 """Poses in parts that have no typed form: projectors, particle emitters, cameras of a sensor."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 
-from twinform.diagnostics import NOWHERE, Notes
-from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Element, Node, Opaque, Pose, Sensor
+from twinform.diagnostics import Notes
+from twinform.ir import Element, Opaque, Pose, Sensor
 from twinform.ir.frames import FrameGraph, Kind
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import to_element
-from twinform.passes.legalise.to_urdf.keeper import Keeper
-from twinform.passes.legalise.to_urdf.nodes import map_elements
+from twinform.passes.legalise.nodes import map_elements
 from twinform.schemas import Context, element_xml, reader, table
 
 _FRAME_ATTRIBUTES = ("relative_to", "frame")
 """How a pose names its frame, since SDF 1.7 and before."""
+
+Keep = Callable[[str, Element], tuple[Element, ...]]
+"""What is written beside the moved pose for the one that stood there: (a message, the pose)"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +26,7 @@ class ElementPoses:
     graph: FrameGraph
     holder: str
     base: tuple[str, Kind]
-    keeper: Keeper
+    keep: Keep
     kind: Kind = "link"
 
     def parts(self, parts: tuple[Opaque, ...], *, still: bool) -> tuple[Opaque, ...]:
@@ -51,27 +53,24 @@ class ElementPoses:
     def _move(self, element: Element, holder: Transform, *, moves: bool) -> Element:
         """An element whose own pose is in the moved frame, or else relative to `holder` where it names another one."""
         children = tuple(
-            child if child.name == "pose" else self._move(child, holder, moves=False) for child in element.children
+            child if child.name == "pose" or child.name[0] == "{" else self._move(child, holder, moves=False)
+            for child in element.children
         )
         pose = element.find("pose")
         names_frame = pose is not None and _frame_of(pose) is not None
         if not names_frame and not (moves and (pose is not None or element.name in _posed())):
             return element.model_copy(update={"children": children}) if children != element.children else element
-        read = Pose() if pose is None else _read(pose)
+        read = Pose() if pose is None else read_pose(pose)
         in_base = self._resolve(read)
         made = to_element(holder.inverse().compose(in_base).to_pose(), "pose", "sdf")
         children = tuple(made if child is pose else child for child in children)
         if pose is None:
             return element.model_copy(update={"children": (made, *children)})
-        return element.model_copy(update={"children": (*children, *self._keep(element, pose))})
+        message = f"the pose of <{element.name}> of {self.kind} {self.holder!r} is in another frame"
+        return element.model_copy(update={"children": (*children, *self.keep(message, pose))})
 
     def _resolve(self, pose: Pose | None) -> Transform:
         return self.graph.resolve(pose, self.holder, self.base[0], kind=self.kind, base=self.base[1])
-
-    def _keep(self, element: Element, pose: Element) -> tuple[Element, ...]:
-        message = f"the pose of <{element.name}> of {self.kind} {self.holder!r} is in another frame"
-        kept = self.keeper.keep(Node(), [Opaque(element=pose)], rules.MOVED_FRAME, message, NOWHERE)
-        return tuple(part.element for part in kept.opaque if part.element)
 
 
 @cache
@@ -87,10 +86,15 @@ def _frame_of(pose: Element) -> str | None:
 
 
 def _names_frame(element: Element) -> bool:
-    return any(each.name == "pose" and _frame_of(each) for each in element.walk())
+    """Whether a pose in the element names its frame; what is carried in it does not count."""
+    if element.name[0] == "{":
+        return False
+    own = element.name == "pose" and _frame_of(element) is not None
+    return own or any(map(_names_frame, element.children))
 
 
-def _read(element: Element) -> Pose:
+def read_pose(element: Element) -> Pose:
+    """The pose that an element says; SDF before 1.7 calls its frame `frame`."""
     context = Context(Notes(), "", "sdf", table("sdf").newest)
     pose = Pose.model_validate(reader("sdf", context.version).read(element_xml(element), context, "pose"))
     return pose.model_copy(update={"relative_to": _frame_of(element), "opaque": ()})
