@@ -6,8 +6,9 @@ from twinform.diagnostics.rules import model as model_rules
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Axis, Element, Joint, Model, Opaque
 from twinform.ir.frames import FrameGraph
+from twinform.passes.legalise.marks import mark_made
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper, mark_made
+from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.schemas import format_value
 
 _MOVES = frozenset({"revolute", "continuous", "prismatic"})
