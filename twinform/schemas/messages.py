@@ -28,9 +28,9 @@ class Context:
 
     `tolerated` holds the elements, and the attributes and texts of elements, that are reported and kept although the
     schema does not have them: the gate looks at the document without them. `#text` is the text in an element,
-    `#tail` the one that follows it. `outside` lists those of other versions, and `replaced` the words of other versions:
-    the attribute or text that one stands in, and one that the gate sees in its place. `header` holds what the root
-    element says about the document rather than about its node.
+    `#tail` the one that follows it. `replaced` holds the words of other versions: the attribute or text that one stands
+    in, and a word that the gate sees in its place. `outside` lists elements and attributes of other versions. `header`
+    holds what the root element says about the document rather than about its node.
     """
 
     notes: Notes

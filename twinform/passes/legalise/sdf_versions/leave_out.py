@@ -5,7 +5,7 @@ from typing import Any, ClassVar
 from twinform.diagnostics import Location
 from twinform.diagnostics.rules import sdf_versions as rules
 from twinform.diagnostics.rules import to_sdf as shared_rules
-from twinform.ir import Collision, Document, Element, Node, Opaque, Visual
+from twinform.ir import Collision, Document, Element, Node, Opaque, Visual, node_fields
 from twinform.passes.legalise.sdf_versions.base import VersionPass, is_foreign
 from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms, is_version_carrier
 from twinform.passes.legalise.sdf_versions.definitions import definition_of
@@ -45,8 +45,7 @@ class _Net:
         """A node whose element can hold carriers, with all that was left over in it."""
         changed, left = self.node(node, form)
         for each in left:
-            pieces, weight = node_pieces(node, each)
-            changed = self._carry(changed, pieces, each, weight)
+            changed = self._carry(changed, node_pieces(node, each), each)
         return changed
 
     def node(self, node: Any, form: Shape) -> tuple[Any, list[Leftover]]:
@@ -59,15 +58,7 @@ class _Net:
             span = form.kinds.get(getattr(value, "kind", "")) or form.fields.get(field)
             if span is None:
                 continue
-            row = span.row(self.version)
-            if isinstance(value, tuple) and isinstance(value[0], Node):
-                kept, over = self._many(field, value, span, row)
-            elif row is None:
-                kept, over = _blank(node, field), [Leftover((field,), value, span.terms(self.version))]
-            elif isinstance(value, Node) and (row.reference not in self.whole or span.is_split):
-                kept, over = self._inner(field, value, span, row)
-            else:
-                continue
+            kept, over = self._field(node, field, value, span)
             if kept is not value:
                 update[field] = kept
             left += over
@@ -75,6 +66,16 @@ class _Net:
         if over or parts is not node.opaque:
             update["opaque"] = parts
         return (node.model_copy(update=update) if update else node), left + over
+
+    def _field(self, node: Node, field: str, value: Any, span: Span) -> tuple[Any, list[Leftover]]:
+        row = span.row(self.version)
+        if field in node_fields(type(node)) and not isinstance(value, Node):
+            return self._many(field, value, span, row)
+        if row is None:
+            return type(node).model_fields[field].default, [Leftover((field,), value, span.terms(self.version))]
+        if isinstance(value, Node) and (row.reference not in self.whole or span.is_split):
+            return self._inner(field, value, span, row)
+        return value, []
 
     def _inner(self, field: str, value: Any, span: Span, row: Fact) -> tuple[Any, list[Leftover]]:
         form = span.shape(row)
@@ -112,7 +113,7 @@ class _Net:
                 return known.terms(self.version, index)
         return None
 
-    def _carry(self, node: Any, pieces: list[Opaque], left: Leftover, weight: int) -> Any:
+    def _carry(self, node: Any, pieces: list[Opaque], left: Leftover) -> Any:
         called = left.called(pieces)
         where = left.location if left.location.line else node.location
         message = f"SDF {print_version(self.version)} does not have {called}"
@@ -120,7 +121,7 @@ class _Net:
         if left.terms.since is not None:
             rule = shared_rules.OLDER_VERSION
             self.keeper.notes.report(rule, message, where, found=called)
-        return self.keeper.keep(node, pieces, left.terms, rule, message, where, weight)
+        return self.keeper.keep(node, pieces, left.terms, rule, message, where, left.weight)
 
 
 class _Elements:
@@ -230,7 +231,3 @@ class _Elements:
         if terms.since is not None:
             self.keeper.notes.report(rule, message, where, found=called)
         return list(self.keeper.keep_element(piece, terms, rule, message, where))
-
-
-def _blank(node: Node, field: str) -> Any:
-    return type(node).model_fields[field].default

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import cast
 
 from twinform.diagnostics import NOWHERE, Location
 from twinform.ir import Element, Node, Opaque, count_parts
@@ -19,7 +19,7 @@ class Leftover:
     """A field's value, found by the fields from the node that carries it; or an untyped part, where there are none."""
 
     fields: tuple[str, ...]
-    value: Any
+    value: object
     terms: Terms
 
     def inside(self, field: str, tag: str) -> "Leftover":
@@ -30,30 +30,38 @@ class Leftover:
         return Leftover((field, *self.fields), self.value, self.terms)
 
     @property
+    def first(self) -> object:
+        """The value, or the first of several; there is one where a field of several nodes lost one."""
+        return cast("tuple[object, ...]", self.value)[0] if isinstance(self.value, tuple) else self.value
+
+    @property
     def location(self) -> Location:
         """Where it was written, if it knows."""
-        first = self.value[0] if isinstance(self.value, tuple) and self.value else self.value
+        first = self.first
         return first.location if isinstance(first, Node | Opaque) else NOWHERE
 
     def called(self, pieces: list[Opaque]) -> str:
         """What to call it in a message."""
         names = [f"the attribute {piece.attribute[0]!r}" if piece.attribute else piece.name for piece in pieces]
-        first = self.value[0] if isinstance(self.value, tuple) and self.value else None
-        name = getattr(first, "name", None)
+        name = getattr(self.first, "name", None) if isinstance(self.first, Node) else None
         return " and ".join(dict.fromkeys(names)) + (f" {name!r}" if name else "")
 
+    @property
+    def weight(self) -> int:
+        """How many elements and attributes it stands for."""
+        first = self.first
+        if isinstance(first, Opaque):
+            return max(1, first.weight)
+        return count_parts(first) if isinstance(first, Node) else 1
 
-def node_pieces(node: Node, left: Leftover) -> tuple[list[Opaque], int]:
-    """The pieces of a leftover, and how many elements and attributes they stand for."""
+
+def node_pieces(node: Node, left: Leftover) -> list[Opaque]:
+    """The pieces of a leftover of a node."""
     if isinstance(left.value, Opaque):
-        return [left.value.model_copy(update={"source": None})], max(1, left.value.weight)
+        return [left.value.model_copy(update={"source": None})]
     bare = _with_only(node, left.fields, left.value)
     definition = definition_of(node) or ""
-    element = to_element(bare, definition, "sdf", definition)
-    pieces = list(_pieces(element, "", len(left.fields) - 1))
-    nodes = left.value if isinstance(left.value, tuple) else (left.value,)
-    weight = sum(count_parts(one) if isinstance(one, Node) else 1 for one in nodes)
-    return pieces, weight
+    return list(_pieces(to_element(bare, definition, "sdf", definition), "", len(left.fields) - 1))
 
 
 def _with_only(node: Node, fields: tuple[str, ...], value: object) -> Node:

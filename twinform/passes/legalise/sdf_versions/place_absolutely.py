@@ -17,6 +17,7 @@ from twinform.ir import (
     Link,
     Model,
     Opaque,
+    Pose,
     Sensor,
     Visual,
     World,
@@ -123,12 +124,7 @@ class _Placer:
         written = node.pose
         made = None if where == Transform() and relative_to is None else where.to_pose(relative_to)
         if made is not None:
-            zeros = (
-                {"xyz": made.xyz or _ORIGIN}
-                if made.quat_xyzw
-                else {"xyz": made.xyz or _ORIGIN, "rpy": made.rpy or _ORIGIN}
-            )
-            made = made.model_copy(update={**zeros, "source": written.source if written else None})
+            made = _in_full(made).model_copy(update={"source": written.source if written else None})
         changed = node.model_copy(update={"pose": made})
         pieces, gone = ([pose_piece(written)], ()) if written else ([], ("pose",))
         called = getattr(node, "name", None)
@@ -170,9 +166,9 @@ class _Poses:
         """The link, which is posed in the model, and all in it."""
         update: dict[str, Any] = {}
         for field in _IN_LINKS:
-            parts = getattr(link, field)
+            parts: tuple[Any, ...] = getattr(link, field)
             if parts:
-                update[field] = tuple(map(self.resolved, parts))
+                update[field] = tuple([self.resolved(part) for part in parts])
         if link.inertial is not None:
             update["inertial"] = self.resolved(link.inertial)
         elements = self.elements()
@@ -201,6 +197,14 @@ class _Poses:
         self.placer.keeper.account(rules.OTHER_WORDS, message, NOWHERE, 1 + len(pose.attributes))
         carriers = version_carriers([Opaque(element=pose)], Terms(since=_NAMES, instead="pose"))
         return tuple(part.element for part in carriers if part.element) if self.placer.keeper.carriers else ()
+
+
+def _in_full(pose: Pose) -> Pose:
+    """The pose with the zeros that the text of SDF has in any case."""
+    update: dict[str, object] = {"xyz": pose.xyz or _ORIGIN}
+    if pose.quat_xyzw is None:
+        update["rpy"] = pose.rpy or _ORIGIN
+    return pose.model_copy(update=update)
 
 
 def _sensors(written: tuple[Sensor, ...], moved: tuple[Sensor, ...], elements: ElementPoses) -> tuple[Sensor, ...]:

@@ -7,7 +7,7 @@ from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Document, Element, Model, Node, Opaque, World, map_children, walk
 from twinform.passes.legalise.carrier import NAMESPACE
-from twinform.passes.legalise.sdf_versions.absorb import absorb
+from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb
 from twinform.passes.legalise.sdf_versions.base import VersionPass, is_foreign
 from twinform.passes.legalise.sdf_versions.carriers import DIALECT, Keeper, carried, is_version_carrier, terms_of
 from twinform.passes.legalise.sdf_versions.comparison import same, without_carriers
@@ -15,7 +15,6 @@ from twinform.passes.legalise.sdf_versions.steps import backward
 from twinform.schemas import Version, parse_version
 
 AnyNode = TypeVar("AnyNode", bound=Node)
-Holder = TypeVar("Holder", Model, World)
 _ITSELF = "."
 
 
@@ -36,25 +35,37 @@ class PutBack(VersionPass):
         """The document with its parts."""
         if not _has_carriers(document):
             return document
-        return map_children(restored_itself(document, self.number), partial(self._child, keeper))
+        try:
+            own = restored_itself(document, self.number)
+        except CarrierError as error:
+            _report_unfit(document, "the file", error, keeper.notes)
+            own = document
+        return map_children(own, partial(self._child, keeper))
 
     def _child(self, keeper: Keeper, node: AnyNode) -> AnyNode:
-        if isinstance(node, Model):
-            return self._unless_stale(node, "models", keeper)
-        if isinstance(node, World):
-            return self._unless_stale(node, "worlds", keeper)
-        return restored(node, self.number)
-
-    def _unless_stale(self, node: Holder, field: str, keeper: Keeper) -> Holder:
-        made = restored(node, self.number)
-        older = self.number < parse_version(self.source)  # whose parts stand for nothing else
-        if made is node or older or same(self._again(made, field), self._again(without_carriers(node), field)):
+        called = f"{type(node).__name__.lower()} {getattr(node, 'name', '')!r}"
+        try:
+            made = restored(node, self.number)
+        except CarrierError as error:
+            _report_unfit(node, called, error, keeper.notes)
+            return node
+        if made is node or self._means_the_same(made, node):
             return made
-        message = f"{field[:-1]} {node.name!r} was edited since parts of it were left out for SDF {self.source}"
-        keeper.notes.report(rules.STALE_CARRIER, message, node.location, found=node.name)
+        message = f"{called} was edited since parts of it were left out for SDF {self.source}"
+        keeper.notes.report(rules.STALE_CARRIER, message, node.location, found=called)
         return node
 
-    def _again(self, node: "Model | World", field: str) -> Document:
+    def _means_the_same(self, made: Node, node: Node) -> bool:
+        """Whether a restored model or world says in the file's version what the file says there."""
+        if self.number < parse_version(self.source):  # parts that are gone stand for nothing else
+            return True
+        if isinstance(node, Model):
+            return same(self._again(made, "models"), self._again(without_carriers(node), "models"))
+        if isinstance(node, World):
+            return same(self._again(made, "worlds"), self._again(without_carriers(node), "worlds"))
+        return True
+
+    def _again(self, node: Node, field: str) -> Document:
         """What a node says in the words of the file's version."""
         notes = Notes()
         document = Document.model_validate({"format": "sdf", "version": self.version}).model_copy(
@@ -63,6 +74,11 @@ class PutBack(VersionPass):
         for step in backward(self.number, parse_version(self.source)):
             document = step.run(document, notes)
         return without_carriers(document)
+
+
+def _report_unfit(node: Node, called: str, error: CarrierError, notes: Notes) -> None:
+    message = f"a carrier in {called} does not fit there: {error}"
+    notes.report(rules.STALE_CARRIER, message, node.location, found=str(error))
 
 
 def restored(node: AnyNode, version: Version) -> AnyNode:

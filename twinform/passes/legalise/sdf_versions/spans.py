@@ -40,7 +40,7 @@ class Span:
         return len({row.reference for _, _, row in self.rows}) > 1
 
     def shape(self, row: Fact) -> "Shape":
-        """What it may hold, where `row` is that of the version; with what it may in others, if it is another thing there."""
+        """What it may hold by the row of a version, and by those of others where it is another thing there."""
         if not self.is_split:
             return shape_of(row)
         merged = Shape(shape_of(row).fact)
@@ -54,7 +54,7 @@ class Span:
 
 @dataclass(slots=True)
 class Shape:
-    """What an element may hold: by name (`@` for attributes), by field of the IR, and by kind for fields of one of many."""
+    """What an element may hold: by name (`@` for attributes), by field of the IR, and by kind for one of several."""
 
     fact: Fact
     names: dict[str, Span] = field(default_factory=dict[str, Span])

@@ -7,6 +7,7 @@ from twinform.diagnostics.rules import to_sdf
 from twinform.ir import Model, Node, Opaque, Pose, map_children
 from twinform.passes.legalise.carrier import carry, is_carrier, unpack
 from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.legalise.sdf_versions.carriers import is_version_carrier
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -17,7 +18,7 @@ class CarryUrdf(ModelPass):
     Changes: 1. opaque elements, attributes and text of URDF (transmissions, ros2_control, other tools' elements) become
     carriers; 2. parts of an origin, which is a plain text in SDF, are carried by what has the origin; 3. carriers of
     SDF become opaque parts of SDF again. With `carriers` false, the parts of the first two are dropped.
-    Never touches: typed fields.
+    Never touches: typed fields; carriers between versions of SDF.
     Diagnostics: none; every part has a ledger entry under `urdf-only`.
     """
 
@@ -34,8 +35,10 @@ class CarryUrdf(ModelPass):
         if not node.opaque and not (pose and pose.opaque):
             return node
         update: dict[str, object] = {"opaque": ()}
-        pieces = [part for part in node.opaque if not is_carrier(part, "sdf")]
-        update["opaque"] = tuple(piece for part in node.opaque if is_carrier(part, "sdf") for piece in unpack(part))
+        stays = [part for part in node.opaque if is_version_carrier(part)]
+        pieces = [part for part in node.opaque if not is_carrier(part, "sdf") and part not in stays]
+        unpacked = [piece for part in node.opaque if is_carrier(part, "sdf") for piece in unpack(part)]
+        update["opaque"] = (*unpacked, *stays)
         if pose and pose.opaque:
             pieces += [_inside("origin", part) for part in pose.opaque]
             update["pose"] = pose.model_copy(update={"opaque": ()})

@@ -9,7 +9,6 @@ from twinform.ir.frames import WORLD
 from twinform.passes.base import Pass
 from twinform.passes.legalise.carrier import NAMESPACE, PREFIX
 from twinform.passes.legalise.marks import mark_made, without_marks
-from twinform.passes.legalise.to_urdf.base import sdf_version
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.passes.legalise.to_urdf.map_geometry import UrdfVersion
 from twinform.passes.legalise.to_urdf.remainder import Words, take_remainder, urdf_words
@@ -38,7 +37,7 @@ class CarryTheRest(Pass):
         """The document in terms of URDF."""
         if notes.has_errors:
             return document
-        keeper = Keeper(notes, self.carriers, sdf_version(document))
+        keeper = Keeper(notes, self.carriers)
         models = tuple(_finish(model, document, keeper) for model in document.models)
         if not self.carriers:
             models = tuple(without_marks(model) for model in models)

@@ -7,18 +7,16 @@ from typing import TypeVar
 from twinform.diagnostics import Fate, Location, Notes, Rule
 from twinform.ir import Node, Opaque
 from twinform.passes.legalise.carrier import carry
-from twinform.schemas import Version
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
 
 @dataclass(frozen=True, slots=True)
 class Keeper:
-    """Where the parts go in one run; `version` is that of the SDF file."""
+    """Where the parts go in one run."""
 
     notes: Notes
     carriers: bool
-    version: Version
 
     def keep(
         self,
