@@ -15,15 +15,13 @@ _ABOUT = frozenset({"source", "spelling", "namespaces", "format", "kind", "versi
 @cache
 def node_fields(kind: type[Node]) -> tuple[str, ...]:
     """The fields of a class of nodes that may hold nodes."""
-    return tuple(name for name, field in kind.model_fields.items() if _holds_nodes(field.annotation, kind))
+    return tuple(name for name, field in kind.model_fields.items() if _holds_nodes(field.annotation))
 
 
-def _holds_nodes(annotation: Any, kind: type[Node]) -> bool:
+def _holds_nodes(annotation: Any) -> bool:
     if isinstance(annotation, type):
         return issubclass(annotation, Node)
-    if annotation is Self:
-        return True
-    return any(_holds_nodes(argument, kind) for argument in get_args(annotation))
+    return annotation is Self or any(map(_holds_nodes, get_args(annotation)))
 
 
 def children_of(node: Node) -> Iterator[Node]:

@@ -39,7 +39,10 @@ _FLAGS = frozenset({"any", "deprecated", "expected"})
 
 @dataclass(slots=True)
 class Fact:
-    """One row: an element or, where the name begins with `@`, an attribute."""
+    """One row: an element or, where the name begins with `@`, an attribute.
+
+    `elsewhere` holds the words that only other versions have among its `enum`, with the row of one of them.
+    """
 
     name: str
     count: str = "1"
@@ -49,6 +52,7 @@ class Fact:
     kind: str | None = None
     default: str | None = None
     enum: tuple[str, ...] = ()
+    elsewhere: dict[str, "Fact"] = field(default_factory=dict[str, "Fact"])
     min: float | None = None
     max: float | None = None
     unit: str | None = None
@@ -152,6 +156,7 @@ def table(format: str) -> Table:
             if definition.name in definitions:
                 raise ValueError(f"{file.name}: {definition.name} is defined twice")
             definitions[definition.name] = definition
+            _note_other_words(definition)
     return Table(format, versions, root, definitions)
 
 
@@ -214,6 +219,15 @@ def _set(fact: Fact, key: str, value: str, where: str) -> None:
             fact.enum = tuple(value.split("|"))
         case _:
             raise ValueError(f"{where}: {key!r} is not a key of a facts table")
+
+
+def _note_other_words(fact: Fact) -> None:
+    """Tell each row of the words that rows of the same name have in other versions."""
+    for row in fact.rows:
+        if row.enum:
+            others = (other for other in fact.rows if other.name == row.name)
+            row.elsewhere = {word: other for other in others for word in other.enum if word not in row.enum}
+        _note_other_words(row)
 
 
 def in_version(fact: Fact, version: Version) -> Fact:

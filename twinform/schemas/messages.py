@@ -32,9 +32,9 @@ class Context:
 
     `tolerated` holds the elements, and the attributes and texts of elements, that are reported and kept although the
     schema does not have them: the gate looks at the document without them. `#text` is the text in an element,
-    `#tail` the one that follows it. `outside` lists those
-    of other versions. `header` holds what the root element says about the document rather than about its
-    node.
+    `#tail` the one that follows it. `replaced` holds the words of other versions: the attribute or text that one stands
+    in, and a word that the gate sees in its place. `outside` lists elements and attributes of other versions. `header`
+    holds what the root element says about the document rather than about its node.
     """
 
     notes: Notes
@@ -42,6 +42,7 @@ class Context:
     format: str
     version: Version
     tolerated: list[tuple[XmlElement, str | None]] = field(default_factory=list[tuple[XmlElement, str | None]])
+    replaced: list[tuple[XmlElement, str, str]] = field(default_factory=list[tuple[XmlElement, str, str]])
     structural: int = 0
     namespaces: dict[str, str] = field(default_factory=dict[str, str])
     clean: bool = False
@@ -84,11 +85,25 @@ def outside_version(context: Context, element: XmlElement, fact: Fact) -> None:
     context.outside.append((element, fact))
     context.tolerated.append((element, name[1:] if fact.is_attribute else None))
     what = f"the attribute {name[1:]!r}" if fact.is_attribute else f"<{name}>"
+    message = f"{what} {_when(context, fact)}"
+    context.report(structure.OUTSIDE_VERSION, element, message, name if fact.is_attribute else "", found=name)
+
+
+def word_outside_version(context: Context, element: XmlElement, fact: Fact, word: str) -> None:
+    """A word that only other versions have here."""
+    step = fact.name if fact.is_attribute else ""
+    context.replaced.append((element, step[1:] or "#text", fact.enum[0]))
+    subject = f"{step[1:]!r} of <{element.tag}>" if step else f"<{element.tag}>"
+    message = f"{word!r} as {subject} {_when(context, fact.elsewhere[word])}"
+    context.report(structure.OUTSIDE_VERSION, element, message, step, found=word, expected=", ".join(fact.enum))
+
+
+def _when(context: Context, fact: Fact) -> str:
+    """When a part came or went, for one that is not in the declared version."""
     when = f"came with {context.format.upper()} {print_version(fact.since)}"
     if fact.until < context.version:
         when = f"went after {context.format.upper()} {print_version(fact.until)}"
-    message = f"{what} {when}; the file declares {print_version(context.version)}"
-    context.report(structure.OUTSIDE_VERSION, element, message, name if fact.is_attribute else "", found=name)
+    return f"{when}; the file declares {print_version(context.version)}"
 
 
 def missing_child(context: Context, element: XmlElement, name: str) -> None:

@@ -16,15 +16,19 @@ Store = Callable[[XmlElement, Data, Any, Context], None]
 _SCALARS = frozenset({"double", "int", "uint"})
 
 
-def value_check(row: Fact) -> Callable[[XmlElement, Any, Context], None] | None:
+def value_check(row: Fact) -> Callable[[XmlElement, Any, Context], None] | None:  # noqa: C901 - four small closures, one of which is chosen
     """What is asked of a value beyond its type."""
     if row.enum:
         allowed = frozenset(row.enum)
 
         def check_word(element: XmlElement, value: str, context: Context) -> None:
-            if value not in allowed:
-                step = row.name if row.is_attribute else ""
-                messages.invalid_value(context, element, step, value, f"one of {', '.join(row.enum)}")
+            if value in allowed:
+                return
+            if value in row.elsewhere:
+                messages.word_outside_version(context, element, row, value)
+                return
+            step = row.name if row.is_attribute else ""
+            messages.invalid_value(context, element, step, value, f"one of {', '.join(row.enum)}")
 
         return check_word
     if row.type == "pose":

@@ -5,7 +5,6 @@ for as well because the two are independent readings of the same facts: where th
 """
 
 import copy
-from collections.abc import Iterable
 from functools import cache
 from itertools import islice
 from threading import local
@@ -57,8 +56,8 @@ def gate(
     """
     if errors is None:
         errors = refusals(root, context, engine)
-    if errors and context.tolerated:
-        errors = refusals(_without(root, context.tolerated), context, engine)
+    if errors and (context.tolerated or context.replaced):
+        errors = refusals(_without(root, context), context, engine)
     explained = _lines_with_faults(context) if errors else set[int]()
     for error in errors:
         if error.line not in explained and not context.notes.left_out:
@@ -123,14 +122,23 @@ def _lines_with_faults(context: Context) -> set[int]:
     return lines | {0} if lines else lines
 
 
-def _without(root: XmlElement, tolerated: Iterable[tuple[XmlElement, str | None]]) -> XmlElement:
+def _without(root: XmlElement, context: Context) -> XmlElement:
     """A copy of the tree that lacks what was reported and kept."""
     whole = copy.deepcopy(root)
-    doomed = {element for element, _ in tolerated}
+    doomed = {element for element, _ in context.tolerated} | {element for element, _, _ in context.replaced}
     copies = {element: twin for element, twin in zip(root.iter(), whole.iter(), strict=True) if element in doomed}
-    for element, part in tolerated:
+    for element, part, word in context.replaced:
+        _replace(copies[element], part, word)
+    for element, part in context.tolerated:
         _remove(copies[element], part)
     return whole
+
+
+def _replace(element: XmlElement, part: str, word: str) -> None:
+    if part == "#text":
+        element.text = word
+    else:
+        element.set(part, word)
 
 
 def _remove(element: XmlElement, part: str | None) -> None:

@@ -105,9 +105,9 @@ OUTSIDE_VERSION = Rule(
     name="outside-version",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
-    finds="An element or attribute that the format has, but not in the version that the file declares.",
+    finds="An element, attribute or word that the format has, but not in the version that the file declares.",
     matters="Readers of that version ignore it; newer ones may read it in another way than it was meant.",
-    example="`<capsule>` in an SDF 1.6 file: it came with 1.8.",
+    example="`<capsule>` in an SDF 1.6 file: it came with 1.8. A joint of type `fixed` in SDF 1.4: it came with 1.5.",
     better="Declare the version that has it, or write what the declared version has.",
 )
 UNKNOWN_VERSION = Rule(

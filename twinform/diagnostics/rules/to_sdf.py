@@ -104,13 +104,3 @@ OLDER_VERSION = Rule(
     example="`mimic` before 1.11, `capsule` before 1.8.",
     better="Ask for a newer `--sdf-version` if the simulator reads it.",
 )
-VERSION_CHANGE_UNSUPPORTED = Rule(
-    name="version-change-unsupported",
-    severity=Severity.ERROR,
-    finds="An SDF file that was asked for in another version of SDF.",
-    matters="Names, defaults and frames mean different things in different versions; with another number alone, the "
-    "file "
-    "would say another robot.",
-    example="`twinform convert model-1_6.sdf --to sdf --sdf-version 1.9`",
-    better="Leave the version out; the file keeps its own.",
-)

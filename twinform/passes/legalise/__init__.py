@@ -5,7 +5,6 @@ from typing import Literal
 
 from twinform.ir import Format
 from twinform.passes.base import Pass
-from twinform.passes.legalise.keep_version import KeepVersion
 
 __all__ = ["Target", "legalisation"]
 
@@ -27,11 +26,13 @@ class Target:
 
 def legalisation(source: Format, version: str | None, target: Target) -> tuple[Pass, ...]:
     """Every pass that a document of `source` in `version` needs before the target's back end can write it."""
-    if source is target.format:
-        return (
-            (KeepVersion(version=target.sdf_version),) if source is Format.SDF and version != target.sdf_version else ()
-        )
     # imported here: a conversion goes one way only, and each way has many passes
+    if source is target.format:
+        if source is Format.URDF or version == target.sdf_version:
+            return ()
+        from twinform.passes.legalise.sdf_versions import change_version  # noqa: PLC0415
+
+        return change_version(version, target.sdf_version, carriers=target.carriers)
     if target.format is Format.SDF:
         from twinform.passes.legalise.to_sdf import to_sdf  # noqa: PLC0415
 

@@ -23,9 +23,7 @@ def piece(node: Node, tag: str) -> Opaque:
 
 
 def pose_piece(pose: Pose) -> Opaque:
-    """A pose as it was written; where SDF before 1.7 calls its frame `frame`, it stays so."""
-    if any(part.attribute and part.attribute[0] == "frame" for part in pose.opaque):
-        pose = pose.model_copy(update={"relative_to": None})
+    """A pose as it was written."""
     return piece(pose, "pose")
 
 

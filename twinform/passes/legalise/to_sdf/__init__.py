@@ -1,10 +1,9 @@
 """From the terms of URDF to those of SDF: the passes, in order."""
 
 from twinform.passes.base import Pass
-from twinform.passes.legalise.to_sdf.absolute_poses import AbsolutePoses
+from twinform.passes.legalise.sdf_versions import lower_version
 from twinform.passes.legalise.to_sdf.bodies import UrdfBodies
 from twinform.passes.legalise.to_sdf.carry_urdf import CarryUrdf
-from twinform.passes.legalise.to_sdf.fit_version import FitVersion
 from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo
 from twinform.passes.legalise.to_sdf.frame_links import FrameLinks
 from twinform.passes.legalise.to_sdf.joints import UrdfJoints
@@ -14,19 +13,12 @@ from twinform.passes.legalise.to_sdf.retarget import RetargetSdf
 from twinform.passes.legalise.to_sdf.shared_materials import SharedMaterials
 from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
 from twinform.passes.legalise.to_sdf.world_link import WorldLink
-from twinform.schemas import parse_version
 
 __all__ = ["to_sdf"]
-
-_AXES_IN_JOINTS = (1, 5)
-"""The version since which an axis is in the frame of its joint."""
-_NAMED_FRAMES = (1, 7)
-"""The version since which poses may name the frame that they are in."""
 
 
 def to_sdf(version: str, *, carriers: bool) -> tuple[Pass, ...]:
     """The passes that make SDF of a version out of a URDF document."""
-    named_frames = parse_version(version) >= _NAMED_FRAMES
     return (
         CarryUrdf(carriers=carriers),  # before anything of SDF comes in
         FoldGazebo(carriers=carriers),
@@ -38,11 +30,6 @@ def to_sdf(version: str, *, carriers: bool) -> tuple[Pass, ...]:
         UrdfJoints(carriers=carriers),
         UrdfBodies(),
         MeshUris(),
-        FitVersion(version=version, carriers=carriers),
-        *(
-            ()
-            if named_frames
-            else (AbsolutePoses(carriers=carriers, axes_in_model=parse_version(version) < _AXES_IN_JOINTS),)
-        ),
+        *lower_version(None, version, carriers=carriers),
         RetargetSdf(version=version),
     )

@@ -7,7 +7,6 @@ from twinform.ir import Document, Model
 from twinform.ir.frames import FrameError
 from twinform.passes.base import Pass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
-from twinform.schemas import Version, parse_version, table
 
 
 class ToUrdfPass(Pass):
@@ -22,7 +21,7 @@ class ToUrdfPass(Pass):
         """The document with its model passed through."""
         if notes.has_errors:
             return document
-        keeper = Keeper(notes, self.carriers, sdf_version(document))
+        keeper = Keeper(notes, self.carriers)
         try:
             models = tuple(self.run_model(model, keeper) for model in document.models)
         except FrameError as error:
@@ -34,9 +33,3 @@ class ToUrdfPass(Pass):
     @abstractmethod
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model after the pass."""
-
-
-def sdf_version(document: Document) -> Version:
-    """The version that the document declares; the newest where there is no such version."""
-    facts = table("sdf")
-    return parse_version(document.version) if document.version in facts.versions else facts.newest

@@ -9,9 +9,10 @@ from twinform.ir import GazeboExtension, Joint, Link, Model, Pose, count_parts
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import to_element
+from twinform.passes.legalise.marks import mark_made
 from twinform.passes.legalise.nodes import map_poses, unique_name
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper, mark_made
+from twinform.passes.legalise.to_urdf.keeper import Keeper
 
 
 class BuildTree(ToUrdfPass):

@@ -8,8 +8,8 @@ from twinform.ir import Document, Format, Joint, Link, Model, Node, Opaque
 from twinform.ir.frames import WORLD
 from twinform.passes.base import Pass
 from twinform.passes.legalise.carrier import NAMESPACE, PREFIX
-from twinform.passes.legalise.to_urdf.base import sdf_version
-from twinform.passes.legalise.to_urdf.keeper import MADE, Keeper, mark_made
+from twinform.passes.legalise.marks import mark_made, without_marks
+from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.passes.legalise.to_urdf.map_geometry import UrdfVersion
 from twinform.passes.legalise.to_urdf.remainder import Words, take_remainder, urdf_words
 
@@ -37,7 +37,7 @@ class CarryTheRest(Pass):
         """The document in terms of URDF."""
         if notes.has_errors:
             return document
-        keeper = Keeper(notes, self.carriers, sdf_version(document))
+        keeper = Keeper(notes, self.carriers)
         models = tuple(_finish(model, document, keeper) for model in document.models)
         if not self.carriers:
             models = tuple(without_marks(model) for model in models)
@@ -105,22 +105,3 @@ class _Rest:
             message = f"{path} of {of} is {text}, and numbers in URDF are finite"
             self.keeper.notes.report(rules.UNSAYABLE_NUMBER, message, node.location, found=text)
         return kept
-
-
-def without_marks(model: Model) -> Model:
-    """The model without the marks of the passes."""
-    return _clean(model)
-
-
-def _clean(node: AnyNode) -> AnyNode:
-    update: dict[str, object] = {}
-    for name, value in node.__dict__.items():
-        if name == "opaque":
-            kept = tuple(part for part in node.opaque if part.attribute is None or part.attribute[0] != MADE)
-            if len(kept) != len(node.opaque):
-                update[name] = kept
-        elif isinstance(value, Node):
-            update[name] = _clean(value)
-        elif isinstance(value, tuple) and value and isinstance(value[0], Node):
-            update[name] = tuple(_clean(one) for one in value)  # pyright: ignore[reportUnknownVariableType, reportUnknownArgumentType]
-    return node.model_copy(update=update) if update else node

@@ -6,8 +6,9 @@ from twinform.diagnostics.rules import model as model_rules
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Axis, Element, Joint, Model, Opaque
 from twinform.ir.frames import FrameGraph
+from twinform.passes.legalise.marks import mark_made
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper, mark_made
+from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.schemas import format_value
 
 _MOVES = frozenset({"revolute", "continuous", "prismatic"})
@@ -49,11 +50,11 @@ def _express(joint: Joint, graph: FrameGraph, keeper: Keeper) -> Joint:
     made = axis.model_copy(update={"xyz": (x + 0.0, y + 0.0, z + 0.0), "expressed_in": None})
     turned = joint.model_copy(update={"axis": made})
     message = f"the axis of joint {joint.name!r} is expressed in {axis.expressed_in!r}"
-    return keeper.keep(turned, [_written(axis, keeper)], rules.AXIS_FRAME, message, axis.location)
+    return keeper.keep(turned, [_written(axis)], rules.AXIS_FRAME, message, axis.location)
 
 
-def _written(axis: Axis, keeper: Keeper) -> Opaque:
-    """The axis as it stands in the file; before SDF 1.7 it could not name its frame."""
-    attributes = (("expressed_in", axis.expressed_in or ""),) if keeper.version >= (1, 7) else ()
+def _written(axis: Axis) -> Opaque:
+    """The axis as it stands in SDF."""
+    attributes = (("expressed_in", axis.expressed_in or ""),)
     text = format_value(axis.xyz) if axis.xyz is not None else None
     return Opaque(at="axis", element=Element(name="xyz", attributes=attributes, text=text))

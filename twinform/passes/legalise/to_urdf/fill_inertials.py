@@ -4,8 +4,9 @@ from typing import ClassVar
 
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Inertia, Inertial, Link, Model
+from twinform.passes.legalise.marks import mark_made
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper, mark_made
+from twinform.passes.legalise.to_urdf.keeper import Keeper
 
 _UNIT = {"ixx": 1.0, "ixy": 0.0, "ixz": 0.0, "iyy": 1.0, "iyz": 0.0, "izz": 1.0}
 """SDF's defaults, kg m^2."""

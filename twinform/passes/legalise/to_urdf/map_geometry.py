@@ -17,9 +17,10 @@ from twinform.ir import (
     Visual,
     count_parts,
 )
+from twinform.passes.legalise.marks import mark_made
 from twinform.passes.legalise.nodes import piece, text_piece
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper, mark_made
+from twinform.passes.legalise.to_urdf.keeper import Keeper
 
 UrdfVersion = Literal["1.0", "1.1", "1.2"]
 Sayable = frozenset[type[Node]]

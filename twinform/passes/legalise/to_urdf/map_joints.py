@@ -7,9 +7,10 @@ from twinform.diagnostics import Fate
 from twinform.diagnostics.rules import to_sdf as shared_rules
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Axis, Joint, Limit, Mimic, Model, Node, Opaque
+from twinform.passes.legalise.marks import mark_made
 from twinform.passes.legalise.nodes import text_piece
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper, mark_made
+from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.schemas import format_value
 
 AnyNode = TypeVar("AnyNode", bound=Node)

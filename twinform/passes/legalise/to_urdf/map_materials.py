@@ -4,9 +4,10 @@ from typing import ClassVar
 
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Color, Element, GazeboExtension, Link, Material, Model, Visual
+from twinform.passes.legalise.marks import mark_made
 from twinform.passes.legalise.nodes import text_piece, unique_name
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper, mark_made
+from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.passes.legalise.to_urdf.map_geometry import package_uri
 from twinform.schemas import format_value
 

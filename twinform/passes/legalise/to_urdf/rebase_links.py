@@ -23,10 +23,11 @@ from twinform.ir import (
 )
 from twinform.ir.frames import WORLD, FrameGraph, Kind
 from twinform.passes.legalise.element_poses import ElementPoses
+from twinform.passes.legalise.marks import made_fields, mark_made
 from twinform.passes.legalise.nodes import pose_piece
 from twinform.passes.legalise.notation import in_radians
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper, made_fields, mark_made
+from twinform.passes.legalise.to_urdf.keeper import Keeper
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 AnyPosed = TypeVar("AnyPosed", Inertial, Visual, Collision, Sensor, Light)

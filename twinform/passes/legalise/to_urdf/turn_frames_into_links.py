@@ -5,9 +5,10 @@ from typing import ClassVar
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Frame, Joint, Link, Model, Pose, count_parts
 from twinform.ir.frames import MODEL, FrameGraph
+from twinform.passes.legalise.marks import made_fields, mark_made
 from twinform.passes.legalise.nodes import piece, unique_name
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper, made_fields, mark_made
+from twinform.passes.legalise.to_urdf.keeper import Keeper
 
 
 class TurnFramesIntoLinks(ToUrdfPass):

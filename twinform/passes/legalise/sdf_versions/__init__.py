@@ -1,0 +1,51 @@
+"""From one version of SDF to another, step by step."""
+
+from twinform.passes.base import Pass
+from twinform.passes.legalise.sdf_versions.leave_out import LeaveOut
+from twinform.passes.legalise.sdf_versions.put_back import PutBack
+from twinform.passes.legalise.sdf_versions.set_version import SetVersion
+from twinform.passes.legalise.sdf_versions.steps import backward, forward
+from twinform.passes.legalise.sdf_versions.write_plain_poses import WritePlainPoses
+from twinform.schemas import Version, parse_version, print_version, table
+
+__all__ = ["change_version", "lower_version", "raise_version", "raise_words"]
+
+_ANY_POSE: Version = (1, 9)
+"""Since this version a pose that comes out of a carrier may be in any notation."""
+
+
+def change_version(declared: str | None, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
+    """The passes from the version that a file declares to the one asked for."""
+    old = known_version(declared)
+    if parse_version(old) < parse_version(asked):
+        steps = raise_version(old, asked, carriers=carriers)
+    else:
+        back = PutBack(version=asked, source=old, carriers=carriers)
+        steps = (back, *lower_version(old, asked, carriers=carriers))
+    return (*steps, SetVersion(version=asked))
+
+
+def raise_version(declared: str | None, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
+    """The passes that say an older file in newer words, with what it carries."""
+    old, new = parse_version(known_version(declared)), parse_version(asked)
+    plain = (WritePlainPoses(version=asked, carriers=carriers),) if new < _ANY_POSE else ()
+    back = PutBack(version=asked, source=print_version(old), carriers=carriers)
+    return (*forward(old, new), back, *plain, LeaveOut(version=asked, carriers=carriers))
+
+
+def raise_words(declared: str | None, *, carriers: bool = True) -> tuple[Pass, ...]:
+    """The same for the newest version, with the file's own names and with the parts that only older versions have."""
+    old, newest = known_version(declared), table("sdf").versions[-1]
+    back = PutBack(version=newest, source=old, carriers=carriers)
+    return (*forward(parse_version(old), parse_version(newest), names=False), back)
+
+
+def lower_version(declared: str | None, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
+    """The passes that say a newer file in older words."""
+    return tuple(backward(parse_version(known_version(declared)), parse_version(asked), carriers=carriers))
+
+
+def known_version(declared: str | None) -> str:
+    """The version that a file is read as: the newest where it declares none that exists."""
+    versions = table("sdf").versions
+    return declared if declared in versions else versions[-1]

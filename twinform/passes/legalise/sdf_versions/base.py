@@ -1,0 +1,90 @@
+"""The shape of the passes between versions of SDF."""
+
+from abc import abstractmethod
+from collections.abc import Callable
+from typing import TypeVar
+
+from twinform.diagnostics import Notes
+from twinform.ir import Document, Element, Model, Node, World, map_children
+from twinform.ir.frames import FrameError
+from twinform.passes.base import Pass
+from twinform.passes.legalise.nodes import map_elements
+from twinform.passes.legalise.sdf_versions.carriers import Keeper
+from twinform.schemas import Version, parse_version
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+
+class VersionPass(Pass):
+    """A pass on the way to `version`. After an error there is nothing left to do.
+
+    `carriers` says whether parts that this version lacks travel in carriers or only into the ledger.
+    """
+
+    version: str
+    carriers: bool = True
+
+    def run(self, document: Document, notes: Notes) -> Document:
+        """The document in other words."""
+        if notes.has_errors:
+            return document
+        try:
+            return self.change(document, Keeper(notes, self.carriers))
+        except FrameError as error:
+            error.report(notes)
+            return document
+
+    @abstractmethod
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document after the pass."""
+
+    @property
+    def number(self) -> Version:
+        """The version that is asked for, as a pair of numbers."""
+        return parse_version(self.version)
+
+
+def map_models(node: AnyNode, change: Callable[[Model], Model]) -> AnyNode:
+    """The node with every model in it changed, from the inside out; `node` itself is not."""
+
+    def visit(child: Node) -> Node:
+        if isinstance(child, World | Model):
+            child = map_models(child, change)
+        return change(child) if isinstance(child, Model) else child
+
+    return map_children(node, visit)
+
+
+def map_worlds(document: Document, change: Callable[[World], World]) -> Document:
+    """The document with every world changed."""
+    worlds = tuple(map(change, document.worlds))
+    same = all(new is old for new, old in zip(worlds, document.worlds, strict=True))
+    return document if same else document.model_copy(update={"worlds": worlds})
+
+
+def map_nodes(node: AnyNode, change: Callable[[Node], Node]) -> AnyNode:
+    """The node with every node below it changed, from the inside out; `node` itself is not."""
+    return map_children(node, lambda child: change(map_nodes(child, change)))
+
+
+def map_own_elements(node: AnyNode, change: Callable[[Element], Element]) -> AnyNode:
+    """The node with its untyped elements changed; those of other namespaces and of carriers are left alone."""
+    if not any(part.element for part in node.opaque):
+        return node
+    parts = map_elements(node.opaque, lambda element: element if is_foreign(element) else change(element))
+    same = all(new.element is old.element for new, old in zip(parts, node.opaque, strict=True))
+    return node if same else node.model_copy(update={"opaque": parts})
+
+
+def map_inside(element: Element, change: Callable[[Element], Element]) -> Element:
+    """The element with all below it changed, from the inside out, and then itself; plugins are left alone."""
+    if element.name == "plugin" or is_foreign(element):
+        return element
+    children = tuple(map_inside(child, change) for child in element.children)
+    same = all(new is old for new, old in zip(children, element.children, strict=True))
+    return change(element if same else element.model_copy(update={"children": children}))
+
+
+def is_foreign(element: Element) -> bool:
+    """Whether it is of another namespace, such as that of the carriers."""
+    return element.name[0] == "{"

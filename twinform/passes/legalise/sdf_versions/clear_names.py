@@ -1,0 +1,112 @@
+"""Since 1.7 links, joints and frames are all frames, and share one scope."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import ClassVar, TypeVar
+
+from twinform.diagnostics import Fate, Notes
+from twinform.diagnostics.rules import to_sdf as rules
+from twinform.ir import Document, Frame, Joint, Link, Model, Pose, World
+from twinform.passes.legalise.nodes import map_poses, unique_name
+from twinform.passes.legalise.sdf_versions.base import VersionPass, map_models, map_worlds
+from twinform.passes.legalise.sdf_versions.carriers import Keeper
+
+Named = TypeVar("Named", Link, Joint, Frame)
+_RESERVED = "world"
+
+
+class ClearNames(VersionPass):
+    """Give links, joints and frames names that nothing else in the model has.
+
+    Changes: 1. a link with the name of a nested model, a joint with that of a link, a frame with that of any of them
+    gets `_link`, `_joint` or `_frame` behind it, as libsdformat has it; 2. so does one with a name that SDF keeps for
+    itself. What names it follows: joints and poses the link, poses alone the frame.
+    Never touches: names inside plugins and sensors, which only they understand.
+    Diagnostics: `renamed`; in the ledger `renamed` as approximated.
+    """
+
+    name: ClassVar[str] = "clear-names"
+
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document with one name for each thing."""
+        document = map_models(document, lambda model: _clear(model, keeper.notes))
+        return map_worlds(document, lambda world: _clear_world(world, keeper.notes))
+
+
+@dataclass(frozen=True, slots=True)
+class _Scope:
+    """One model's new names."""
+
+    links: dict[str, str]
+    joints: dict[str, str]
+    frames: dict[str, str]
+    notes: Notes
+
+    def pose(self, pose: Pose) -> Pose:
+        """A pose follows a link that is called otherwise now, or else a frame."""
+        name = pose.relative_to or ""
+        renamed = self.links.get(name) or (name not in self.joints and self.frames.get(name)) or name
+        return pose if renamed == name else pose.model_copy(update={"relative_to": renamed})
+
+    def joint(self, joint: Joint) -> Joint:
+        """A joint follows its links."""
+        update = {
+            end: self.links[name]
+            for end, name in (("parent", joint.parent), ("child", joint.child))
+            if name != _RESERVED and name in self.links
+        }
+        return joint.model_copy(update=update) if update else joint
+
+    def rename(self, node: Named, names: dict[str, str]) -> Named:
+        """The node with its new name."""
+        if node.name not in names:
+            return node
+        kind = type(node).__name__.lower()
+        message = f"{kind} {node.name!r} is called {names[node.name]!r} where names are shared"
+        self.notes.report(rules.RENAMED, message, node.location, found=node.name)
+        self.notes.account(Fate.APPROXIMATED, rules.RENAMED, message, node.location)
+        return node.model_copy(update={"name": names[node.name]})
+
+
+def _clear(model: Model, notes: Notes) -> Model:
+    taken = {node.name for node in (*model.models, *model.links, *model.joints, *model.frames)}
+    owned = {nested.name for nested in model.models}
+    links = _clashes(model.links, "link", owned, taken)
+    owned |= {link.name for link in model.links}
+    joints = _clashes(model.joints, "joint", owned, taken)
+    owned |= {joint.name for joint in model.joints}
+    frames = _clashes(model.frames, "frame", owned, taken)
+    if not links and not joints and not frames:
+        return model
+    scope = _Scope(links, joints, frames, notes)
+    inside = map_poses(model, scope.pose).model_copy(update={"pose": model.pose, "models": model.models})
+    return inside.model_copy(
+        update={
+            "links": tuple(scope.rename(link, links) for link in inside.links),
+            "joints": tuple(scope.joint(scope.rename(joint, joints)) for joint in inside.joints),
+            "frames": tuple(scope.rename(frame, frames) for frame in inside.frames),
+        }
+    )
+
+
+def _clear_world(world: World, notes: Notes) -> World:
+    taken = {node.name for node in (*world.models, *world.joints)}
+    joints = _clashes(world.joints, "joint", {model.name for model in world.models}, taken)
+    if not joints:
+        return world
+    scope = _Scope({}, joints, {}, notes)
+    return world.model_copy(update={"joints": tuple(scope.rename(joint, joints) for joint in world.joints)})
+
+
+def _clashes(nodes: Iterable[Named], suffix: str, owned: set[str], taken: set[str]) -> dict[str, str]:
+    """New names for the nodes that have the name of another kind, or a reserved one."""
+    renamed: dict[str, str] = {}
+    for node in nodes:
+        if node.name in owned or _is_reserved(node.name):
+            renamed[node.name] = unique_name(f"{node.name.strip('_')}_{suffix}", taken)
+            taken.add(renamed[node.name])
+    return renamed
+
+
+def _is_reserved(name: str) -> bool:
+    return name == _RESERVED or (name.startswith("__") and name.endswith("__"))

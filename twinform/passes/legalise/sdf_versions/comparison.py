@@ -1,0 +1,65 @@
+"""What a document says, apart from what it carries and from the order of things that have none."""
+
+from typing import Any
+
+from twinform.ir import Element, Node, Opaque, map_children
+from twinform.passes.legalise.sdf_versions.carriers import carried, is_version_carrier
+
+
+def without_carriers(node: Any) -> Any:
+    """The node without carriers of other versions, all the way down."""
+    parts = tuple(_bare(part) for part in node.opaque if not is_version_carrier(part))
+    if len(parts) != len(node.opaque) or any(new is not old for new, old in zip(parts, node.opaque, strict=True)):
+        node = node.model_copy(update={"opaque": parts})
+    return map_children(node, without_carriers)
+
+
+def _bare(part: Opaque) -> Opaque:
+    if part.element is None:
+        return part
+    element = _bare_element(part.element)
+    return part if element is part.element else part.model_copy(update={"element": element})
+
+
+def _bare_element(element: Element) -> Element:
+    children = tuple(
+        _bare_element(child) for child in element.children if not is_version_carrier(Opaque(element=child))
+    )
+    same = len(children) == len(element.children) and all(
+        new is old for new, old in zip(children, element.children, strict=True)
+    )
+    return element if same else element.model_copy(update={"children": children})
+
+
+def comparable(node: Any) -> Any:
+    """The node with unlike untyped parts in one order, whatever order they stand in."""
+    if len(node.opaque) > 1 or any(part.element for part in node.opaque):
+        parts = sorted((_sorted(part) for part in node.opaque), key=_place)
+        node = node.model_copy(update={"opaque": tuple(parts)})
+    return map_children(node, comparable)
+
+
+def _place(part: Opaque) -> tuple[str, ...]:
+    """Where a part goes: by its own name, or by that of what it carries."""
+    if not is_version_carrier(part):
+        return (part.at, part.name, "", "")
+    said = part.element.get("at") if part.element else None
+    return (part.at, part.name, said or "", " ".join(piece.name for piece in carried(part)))
+
+
+def _sorted(part: Opaque) -> Opaque:
+    return part if part.element is None else part.model_copy(update={"element": _sorted_element(part.element)})
+
+
+def _sorted_element(element: Element) -> Element:
+    attributes = tuple(sorted(element.attributes))
+    if element.name == "plugin":  # only it knows what its order means
+        return element.model_copy(update={"attributes": attributes})
+    children = sorted(map(_sorted_element, element.children), key=lambda child: child.name)
+    return element.model_copy(update={"attributes": attributes, "children": tuple(children)})
+
+
+def same(one: Node, other: Node) -> bool:
+    """Whether two nodes say the same; something that is not a number is like itself here."""
+    one, other = comparable(one), comparable(other)
+    return one == other or one.model_dump_json() == other.model_dump_json()

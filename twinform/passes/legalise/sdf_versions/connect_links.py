@@ -1,0 +1,73 @@
+"""Before 1.8 a joint is between links."""
+
+from functools import partial
+from typing import ClassVar
+
+from twinform.diagnostics.rules import sdf_versions as rules
+from twinform.ir import Document, Joint, Model, Opaque, World, count_parts
+from twinform.ir.frames import WORLD, FrameGraph
+from twinform.passes.legalise.joint_ends import named_ends, report_self_joint, resolve_ends
+from twinform.passes.legalise.nodes import pose_piece
+from twinform.passes.legalise.sdf_versions.base import VersionPass, map_models, map_worlds
+from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms
+
+_SINCE = (1, 8)
+
+
+class ConnectLinks(VersionPass):
+    """Let every joint connect the links that the frames at its ends move with.
+
+    Changes: a parent or child that is a frame or a model. The joint stays where it is.
+    Never touches: an end that only the file of an include knows.
+    Diagnostics: `self-joint` where both ends move with one link; in the ledger `other-words`.
+    """
+
+    name: ClassVar[str] = "connect-links"
+
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document with joints between links."""
+        document = map_models(document, partial(_in_model, keeper))
+        return map_worlds(document, partial(_in_world, keeper))
+
+
+def _in_model(keeper: Keeper, model: Model) -> Model:
+    links = {WORLD, *(link.name for link in model.links)}
+    if all(joint.parent in links and joint.child in links for joint in model.joints):
+        return model
+    return model.model_copy(update={"joints": _connect(model, links, keeper)})
+
+
+def _in_world(keeper: Keeper, world: World) -> World:
+    if not world.joints:
+        return world
+    return world.model_copy(update={"joints": _connect(world, {WORLD}, keeper)})
+
+
+def _connect(holder: Model | World, links: set[str], keeper: Keeper) -> tuple[Joint, ...]:
+    graph = FrameGraph(holder)
+    if holder.includes:  # names that only their files know may be links
+        ends = {end for joint in holder.joints for end in (joint.parent, joint.child) if end}
+        links |= {end for end in ends if not graph.knows(end)}
+    return tuple(_resolve(joint, links, graph, keeper) for joint in holder.joints)
+
+
+def _resolve(joint: Joint, links: set[str], graph: FrameGraph, keeper: Keeper) -> Joint:
+    resolved, pieces = resolve_ends(joint, links, graph)
+    if not pieces:
+        return joint
+    if resolved.parent == resolved.child:
+        report_self_joint(joint, resolved, keeper.notes)
+        return joint
+    message = f"joint {joint.name!r} connects the links that {named_ends(pieces)} moves with"
+    gone: tuple[str, ...] = ()
+    weight = len(pieces)
+    if resolved.pose is not joint.pose:
+        gone = ("pose",) if joint.pose is None else ()
+        pieces = [*pieces, *_written(joint)]
+        weight += count_parts(joint.pose) if joint.pose else 0
+    terms = Terms(since=_SINCE, without=gone)
+    return keeper.keep(resolved, pieces, terms, rules.OTHER_WORDS, message, joint.location, weight)
+
+
+def _written(joint: Joint) -> list[Opaque]:
+    return [pose_piece(joint.pose)] if joint.pose else []

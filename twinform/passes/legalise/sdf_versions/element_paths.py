@@ -1,0 +1,63 @@
+"""Taking elements out of untyped trees and putting them in elsewhere."""
+
+from twinform.ir import Element
+
+
+def take(element: Element, path: tuple[str, ...]) -> tuple[Element, Element | None]:
+    """The element without the first one at a path below it, and that one; what held it stays, even if it is empty."""
+    found = element.find(path[0])
+    if found is None:
+        return element, None
+    if len(path) == 1:
+        return without(element, found), found
+    inner, taken = take(found, path[1:])
+    return (replace(element, found, inner), taken) if taken is not None else (element, None)
+
+
+def put(element: Element, path: tuple[str, ...], made: Element) -> Element:
+    """The element with another one put into the element at a path below it, which is made where it is missing."""
+    if not path:
+        return element.model_copy(update={"children": (*element.children, made)})
+    found = element.find(path[0])
+    if found is None:
+        inner = put(Element(name=path[0]), path[1:], made)
+        return element.model_copy(update={"children": (*element.children, inner)})
+    return replace(element, found, put(found, path[1:], made))
+
+
+def replace(element: Element, old: Element, new: Element) -> Element:
+    """The element with one of its children replaced."""
+    return element.model_copy(update={"children": tuple(new if child is old else child for child in element.children)})
+
+
+def without(element: Element, child: Element) -> Element:
+    """The element without one of its children."""
+    return element.model_copy(update={"children": tuple(each for each in element.children if each is not child)})
+
+
+def has(element: Element, path: tuple[str, ...]) -> bool:
+    """Whether there is an element at a path below it."""
+    found: Element | None = element
+    for name in path:
+        found = found.find(name) if found is not None else None
+    return found is not None
+
+
+def attribute_into_child(element: Element, name: str) -> Element:
+    """The element with one of its attributes as a child with the same text."""
+    value = element.get(name)
+    if value is None or element.find(name) is not None:
+        return element
+    attributes = tuple(pair for pair in element.attributes if pair[0] != name)
+    return element.model_copy(
+        update={"attributes": attributes, "children": (*element.children, Element(name=name, text=value))}
+    )
+
+
+def child_into_attribute(element: Element, name: str) -> Element:
+    """The inverse of `attribute_into_child`."""
+    child = element.find(name)
+    if child is None or element.get(name) is not None or child.attributes or child.children:
+        return element
+    attributes = (*element.attributes, (name, child.text or ""))
+    return without(element, child).model_copy(update={"attributes": attributes})

@@ -1,0 +1,48 @@
+"""In which frame an axis is, as the versions say it."""
+
+from functools import partial
+from typing import ClassVar
+
+from twinform.ir import Axis, Document, Joint
+from twinform.ir.frames import MODEL
+from twinform.passes.legalise.sdf_versions.base import VersionPass
+from twinform.passes.legalise.sdf_versions.carriers import Keeper
+from twinform.passes.map_joints import map_joints
+
+_BY_NAME = (1, 7)
+"""Since this version an axis names its frame."""
+
+
+class NameAxisFrames(VersionPass):
+    """Say that an axis is in the model frame: by `use_parent_model_frame` from 1.5 on, by `expressed_in` from 1.7 on.
+
+    Changes: 1. every axis of a file before 1.5 (`source`), where all are in the model frame; 2. from 1.7 on, those with
+    `use_parent_model_frame` true.
+    Never touches: `use_parent_model_frame` false, which 1.7 does not have.
+    """
+
+    name: ClassVar[str] = "name-axis-frames"
+    source_before_1_5: bool = False
+
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document with axes in the words of the version."""
+        named = self.number >= _BY_NAME
+        return map_joints(document, partial(_joint, always=self.source_before_1_5, named=named))
+
+
+def _joint(joint: Joint, *, always: bool, named: bool) -> Joint:
+    update: dict[str, object] = {}
+    for field in ("axis", "axis2"):
+        axis: Axis | None = getattr(joint, field)
+        if axis is not None and axis.expressed_in is None and _in_model(axis, always=always):
+            said = (
+                {"expressed_in": MODEL, "use_parent_model_frame": None} if named else {"use_parent_model_frame": True}
+            )
+            update[field] = axis.model_copy(update=said)
+    return joint.model_copy(update=update) if update else joint
+
+
+def _in_model(axis: Axis, *, always: bool) -> bool:
+    if axis.use_parent_model_frame is None:
+        return always
+    return axis.use_parent_model_frame

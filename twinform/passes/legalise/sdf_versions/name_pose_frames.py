@@ -1,0 +1,50 @@
+"""Since 1.7 a pose names its frame `relative_to`."""
+
+from functools import partial
+from typing import ClassVar
+
+from twinform.ir import Document, Element, Opaque, Pose, map_children
+from twinform.passes.legalise.sdf_versions.base import AnyNode, VersionPass, map_inside, map_own_elements
+from twinform.passes.legalise.sdf_versions.carriers import Keeper
+
+_OLD = "frame"
+_NEW = "relative_to"
+
+
+class NamePoseFrames(VersionPass):
+    """Call the frame of a pose `relative_to`, which SDF 1.5 and 1.6 call `frame`.
+
+    Changes: every pose, those in untyped elements too.
+    Never touches: an empty name, which means nothing; the pose of a model at the root of the file, which names no frame
+    in newer versions.
+    """
+
+    name: ClassVar[str] = "name-pose-frames"
+
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document with poses in the words of 1.7."""
+        models = tuple(_renamed_in(model).model_copy(update={"pose": model.pose}) for model in document.models)
+        rest = map_children(document.model_copy(update={"models": ()}), _renamed_in)
+        return rest.model_copy(update={"models": models})
+
+
+def _renamed_in(node: AnyNode) -> AnyNode:
+    node = map_children(node, _renamed_in)
+    if isinstance(node, Pose):
+        return _pose(node)
+    return map_own_elements(node, partial(map_inside, change=_element))
+
+
+def _pose(pose: Pose) -> Pose:
+    found = next((part for part in pose.opaque if part.attribute and part.attribute[0] == _OLD), None)
+    if found is None or not found.attribute or not found.attribute[1] or pose.relative_to is not None:
+        return pose
+    rest: tuple[Opaque, ...] = tuple(part for part in pose.opaque if part is not found)
+    return pose.model_copy(update={_NEW: found.attribute[1], "opaque": rest})
+
+
+def _element(element: Element) -> Element:
+    if element.name != "pose" or not element.get(_OLD) or element.get(_NEW) is not None:
+        return element
+    attributes = tuple((_NEW if name == _OLD else name, value) for name, value in element.attributes)
+    return element.model_copy(update={"attributes": attributes})

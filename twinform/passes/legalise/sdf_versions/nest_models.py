@@ -1,0 +1,184 @@
+"""Since 1.8 a name like `arm::hand` is that of a hand in a nested model."""
+
+from dataclasses import dataclass, field
+from typing import ClassVar, TypeVar
+
+from twinform.diagnostics import Fate, Notes
+from twinform.diagnostics.rules import sdf_versions as rules
+from twinform.ir import Axis, Document, Frame, Joint, Link, Model, Pose
+from twinform.ir.frames import MODEL, WORLD, FrameGraph
+from twinform.passes.legalise.nodes import map_poses
+from twinform.passes.legalise.sdf_versions.base import VersionPass, map_models
+from twinform.passes.legalise.sdf_versions.carriers import Keeper
+
+Named = TypeVar("Named", Link, Joint, Frame)
+_SCOPE = "::"
+
+
+class NestModels(VersionPass):
+    """Make nested models of links, joints and frames that were flattened into the model with scoped names.
+
+    Changes: 1. `arm::hand` becomes `hand` in a model `arm`, whose frame is that of `arm::__model__` where there is one
+    and else that of the model around it; everything stays where it is; 2. what names them does so too. A joint between
+    one of them and a part of another model stays outside, with `_` for `::` in its name.
+    Diagnostics: in the ledger `other-words`.
+    """
+
+    name: ClassVar[str] = "nest-models"
+
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document without scoped names."""
+        return map_models(document, lambda model: _nest(model, keeper.notes))
+
+
+@dataclass(slots=True)
+class _Inner:
+    """What goes into one nested model."""
+
+    name: str
+    links: list[Link] = field(default_factory=list[Link])
+    joints: list[Joint] = field(default_factory=list[Joint])
+    frames: list[Frame] = field(default_factory=list[Frame])
+    own: Frame | None = None
+
+    @property
+    def prefix(self) -> str:
+        return self.name + _SCOPE
+
+    def strip(self, name: str | None) -> str | None:
+        """A name of the outer model as one of this."""
+        return name.removeprefix(self.prefix) if name else name
+
+    def holds(self, name: str | None) -> bool:
+        """Whether a name of the outer model is one of this."""
+        return bool(name) and (name or "").startswith(self.prefix)
+
+    def joint_is_inside(self, joint: Joint) -> bool:
+        ends = (joint.parent, joint.child)
+        return all(end == WORLD or self.holds(end) for end in ends)
+
+    def pose(self, pose: Pose) -> Pose:
+        if not self.holds(pose.relative_to):
+            return pose
+        return pose.model_copy(update={"relative_to": self.strip(pose.relative_to)})
+
+
+def _nest(model: Model, notes: Notes) -> Model:
+    named = (*model.links, *model.joints, *model.frames)
+    if not any(_SCOPE in node.name for node in named):
+        return model
+    graph = FrameGraph(model)
+    inner = {name: _Inner(name) for node in named if (name := _first(node.name))}
+    links, joints, frames = list[Link](), list[Joint](), list[Frame]()
+    for link in model.links:
+        (inner[name].links if (name := _first(link.name)) else links).append(link)
+    for joint in model.joints:
+        name = _first(joint.name)
+        if name and inner[name].joint_is_inside(joint):
+            inner[name].joints.append(joint)
+        else:
+            joints.append(joint.model_copy(update={"name": joint.name.replace(_SCOPE, "_")}) if name else joint)
+    for frame in model.frames:
+        name = _first(frame.name)
+        if not name:
+            frames.append(frame)
+        elif frame.name == f"{name}{_SCOPE}{MODEL}":
+            inner[name].own = frame
+        else:
+            inner[name].frames.append(frame)
+    made = [_model(each, model, graph, notes) for each in inner.values() if each.links or each.joints or each.frames]
+    there = tuple(_merged(nested, made) for nested in model.models)
+    new = tuple(nested for nested in made if nested.name not in {each.name for each in model.models})
+    update = {"links": tuple(links), "joints": tuple(joints), "frames": tuple(frames), "models": (*there, *new)}
+    return model.model_copy(update=update)
+
+
+def _first(name: str) -> str:
+    """The model that a scoped name begins with."""
+    return name.partition(_SCOPE)[0] if _SCOPE in name else ""
+
+
+def _model(inner: _Inner, around: Model, graph: FrameGraph, notes: Notes) -> Model:
+    own, base = inner.own, MODEL
+    pose = canonical = None
+    if own is not None:
+        base = own.name
+        pose = own.pose
+        if own.attached_to and not (pose and pose.relative_to) and not inner.holds(own.attached_to):
+            pose = (pose or Pose()).model_copy(update={"relative_to": own.attached_to})
+        elif inner.holds(own.attached_to) or (pose and inner.holds(pose.relative_to)):
+            pose = graph.pose(own.name, MODEL, kind="frame").to_pose()
+        canonical = inner.strip(own.attached_to) if inner.holds(own.attached_to) else None
+    nested = Model(
+        name=inner.name,
+        pose=pose,
+        canonical_link=canonical,
+        links=tuple(_link(link, inner, base, graph) for link in inner.links),
+        joints=tuple(_joint(joint, inner, graph) for joint in inner.joints),
+        frames=tuple(_frame(frame, inner, base, graph) for frame in inner.frames),
+        source=next((node.source for node in (*inner.links, *inner.frames, *inner.joints)), around.source),
+    )
+    message = f"{len(nested.links)} links, {len(nested.joints)} joints and {len(nested.frames)} frames of model "
+    message += f"{around.name!r} are in its nested model {inner.name!r}"
+    notes.account(Fate.APPROXIMATED, rules.OTHER_WORDS, message, nested.location, 0)
+    return _nest(nested, notes)
+
+
+def _link(link: Link, inner: _Inner, base: str, graph: FrameGraph) -> Link:
+    pose = link.pose
+    if not inner.holds(pose.relative_to if pose else None) and (base != MODEL or (pose and pose.relative_to)):
+        pose = graph.pose(link.name, base, base="frame").to_pose()
+    inside = map_poses(link.model_copy(update={"pose": None}), inner.pose)
+    return inside.model_copy(update={"name": inner.strip(link.name), "pose": inner.pose(pose) if pose else None})
+
+
+def _frame(frame: Frame, inner: _Inner, base: str, graph: FrameGraph) -> Frame:
+    pose, held = frame.pose, inner.holds(frame.attached_to)
+    around = (pose.relative_to if pose else None) or frame.attached_to
+    if not inner.holds(around):
+        pose = graph.pose(frame.name, base, kind="frame", base="frame").to_pose(MODEL)
+    attached = inner.strip(frame.attached_to) if held else None
+    update = {
+        "name": inner.strip(frame.name),
+        "attached_to": attached,
+        "pose": inner.pose(pose) if pose else None,
+    }
+    return frame.model_copy(update=update)
+
+
+def _joint(joint: Joint, inner: _Inner, graph: FrameGraph) -> Joint:
+    pose = joint.pose
+    if pose is not None and pose.relative_to and not inner.holds(pose.relative_to):
+        pose = graph.pose(joint.name, joint.child or "", kind="joint").to_pose()
+    inside = map_poses(joint.model_copy(update={"pose": None}), inner.pose)
+    update: dict[str, object] = {
+        "name": inner.strip(joint.name),
+        "pose": inner.pose(pose) if pose else None,
+        "axis": _axis(joint, joint.axis, inner, graph),
+        "axis2": _axis(joint, joint.axis2, inner, graph),
+        "parent": inner.strip(joint.parent),
+        "child": inner.strip(joint.child),
+        "gearbox_reference_body": inner.strip(joint.gearbox_reference_body),
+    }
+    return inside.model_copy(update=update)
+
+
+def _axis(joint: Joint, axis: Axis | None, inner: _Inner, graph: FrameGraph) -> Axis | None:
+    """The axis with the name of its frame, or turned into the joint where that is outside."""
+    if axis is None or not axis.expressed_in:
+        return axis
+    if inner.holds(axis.expressed_in):
+        return axis.model_copy(update={"expressed_in": inner.strip(axis.expressed_in)})
+    if axis.expressed_in == MODEL and inner.own is None:
+        return axis
+    turn = graph.pose(axis.expressed_in, joint.name, kind="frame", base="joint")
+    return axis.model_copy(update={"xyz": turn.rotate(axis.xyz or (0.0, 0.0, 1.0)), "expressed_in": None})
+
+
+def _merged(nested: Model, made: list[Model]) -> Model:
+    """A nested model that was there already, with what was found of it in the model around it."""
+    found = next((each for each in made if each.name == nested.name), None)
+    if found is None:
+        return nested
+    update = {name: (*getattr(nested, name), *getattr(found, name)) for name in ("links", "joints", "frames", "models")}
+    return nested.model_copy(update=update)
