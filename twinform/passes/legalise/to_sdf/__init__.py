@@ -35,8 +35,8 @@ def to_sdf(version: str, *, carriers: bool) -> tuple[Pass, ...]:
         NameShapes(),
         SharedMaterials(carriers=carriers),
         FrameLinks(carriers=carriers),
-        UrdfJoints(carriers=carriers),
         UrdfBodies(),
+        UrdfJoints(carriers=carriers),
         MeshUris(),
         FitVersion(version=version, carriers=carriers),
         *(
