@@ -11,10 +11,13 @@ below it stand rows, two blanks deeper for each level:
       pose             ?  &pose                        -> pose
 
 A row is a name (`@` marks an attribute), a count (`1`, `?`, `*`, `+`), a value type or a `&definition` (neither: a
-container), then keys, flags and the place in the IR. Keys are `default`, `min`, `max`, `enum`, `since`, `until`, `unit`,
-`dialect` (whose word it is where it is not the format's) and `also` (words of dialects beside those of `enum`). Flags are
-`any` (free content), `deprecated`, `expected` (readers want it written although it has a default) and `aside` (readers of
-the robot itself skip it). Places are:
+container), then keys, flags and the place in the IR.
+
+Keys are `default`, `min`, `max`, `enum`, `since`, `until`, `unit`, `dialect` (whose word it is where it is not the
+format's) and `also` (words of dialects beside those of `enum`). Flags are `any` (free content), `deprecated`,
+`expected` (readers want it written although it has a default) and `aside` (readers of the robot itself skip it).
+
+Places are:
 
 * `-> field`: a leaf's value, or a container as a node of its own; where it repeats they make a tuple;
 * `-> field[]`: a tuple even where this version has at most one;
