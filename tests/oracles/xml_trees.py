@@ -90,7 +90,8 @@ def _parse_leniently(data: bytes) -> XmlElement:
     try:
         return etree.fromstring(data, _parser())
     except etree.XMLSyntaxError:
-        return etree.fromstring(data, _parser(recover=True))
+        # a declaration without its bracket leaves libxml2 with no element at all
+        return etree.fromstring(b"<" + data if data.startswith(b"?xml") else data, _parser(recover=True))
 
 
 def _has_unbound_prefix(root: XmlElement) -> bool:

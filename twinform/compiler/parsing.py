@@ -9,20 +9,13 @@ from typing import cast
 
 from lxml import etree
 
+from twinform.compiler.malformed import LOST_BRACKET, first_fatal, repaired, with_bracket
 from twinform.diagnostics import Location, Notes
 from twinform.diagnostics.rules import reading
 from twinform.schemas import XmlElement
 
 LARGEST = 64 * 2**20
 """The largest file, in bytes. The largest real one that we know has 2 MB; a chain of 10,000 links has 15."""
-
-_REPAIRS = {
-    "ERR_UNKNOWN_VERSION": "write <?xml version='1.0'?>",
-    "ERR_HYPHEN_IN_COMMENT": "write no '--' inside a comment",
-    "NS_ERR_UNDEFINED_NAMESPACE": "declare the prefix on the root element with xmlns:prefix='...'",
-    "ERR_RESERVED_XML_NAME": "move <?xml ...?> to the very beginning of the file",
-}
-"""What libxml2 recovers from without any doubt about the tree, and what the author should do instead."""
 
 
 class UnreadableError(Exception):
@@ -78,18 +71,24 @@ def _parser(*, recover: bool) -> etree.XMLParser:
 
 
 def _recover(text: bytes, notes: Notes, error: etree.XMLSyntaxError) -> XmlElement:
+    whole = with_bracket(text)
+    if whole is not None:
+        line = text[: text.index(b"?xml")].count(b"\n") + 1
+        message = "not well-formed XML, repaired: the '<' of the XML declaration is missing"
+        notes.report(reading.REPAIRED_XML, message, Location(line=line, path="/"), help=LOST_BRACKET)
+        text = whole
     parser = _parser(recover=True)
     root = cast("XmlElement | None", etree.fromstring(text, parser))  # None for what has no element at all
-    fatal = [entry for entry in parser.error_log if entry.type_name not in _REPAIRS]
-    if root is None or fatal:
-        line, column = error.position
-        where = Location(line=fatal[0].line if fatal else line, path="/")
-        message = fatal[0].message if fatal else error.msg or "not XML"
-        notes.report(reading.NOT_WELL_FORMED, f"not well-formed XML: {message} (column {column})", where)
+    log = list(parser.error_log)
+    flaw = first_fatal(log, text)
+    if root is None or flaw is not None:
+        line, column, message, hint = flaw or (error.position[0], error.position[1], error.msg or "not XML", None)
+        words = f"not well-formed XML: {message} (column {column})"
+        notes.report(reading.NOT_WELL_FORMED, words, Location(line=line, path="/"), help=hint)
         raise UnreadableError from error
-    for entry in parser.error_log:
-        message, hint = f"not well-formed XML, repaired: {entry.message}", _REPAIRS[entry.type_name]
-        notes.report(reading.REPAIRED_XML, message, Location(line=entry.line, path="/"), help=hint)
+    for line, _, message, hint in repaired(log):
+        words = f"not well-formed XML, repaired: {message}"
+        notes.report(reading.REPAIRED_XML, words, Location(line=line, path="/"), help=hint)
     _declare_prefixes(root)
     return root
 

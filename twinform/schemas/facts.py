@@ -11,8 +11,13 @@ below it stand rows, two blanks deeper for each level:
       pose             ?  &pose                        -> pose
 
 A row is a name (`@` marks an attribute), a count (`1`, `?`, `*`, `+`), a value type or a `&definition` (neither: a
-container), then keys (`default`, `min`, `max`, `enum`, `since`, `until`, `unit`), flags (`any`: free content,
-`deprecated`, `expected`: readers want it written although it has a default) and the place in the IR:
+container), then keys, flags and the place in the IR.
+
+Keys are `default`, `min`, `max`, `enum`, `since`, `until`, `unit`, `dialect` (whose word it is where it is not the
+format's) and `also` (words of dialects beside those of `enum`). Flags are `any` (free content), `deprecated`,
+`expected` (readers want it written although it has a default) and `aside` (readers of the robot itself skip it).
+
+Places are:
 
 * `-> field`: a leaf's value, or a container as a node of its own; where it repeats they make a tuple;
 * `-> field[]`: a tuple even where this version has at most one;
@@ -34,7 +39,7 @@ Version = tuple[int, int]
 _LINE = re.compile(r"(?P<indent> *)(?P<name>@?[\w.]+)(?P<rest>.*)")
 _WORD = re.compile(r'->\s*\S+|\w+=(?:"[^"]*"|\S+)|\S+')
 _COUNTS = frozenset("1?*+")
-_FLAGS = frozenset({"any", "deprecated", "expected"})
+_FLAGS = frozenset({"any", "aside", "deprecated", "expected"})
 
 
 @dataclass(slots=True)
@@ -56,11 +61,14 @@ class Fact:
     min: float | None = None
     max: float | None = None
     unit: str | None = None
+    dialect: str | None = None
+    also: tuple[tuple[str, str], ...] = ()
     since: Version = (0, 0)
     until: Version = (99, 99)
     any: bool = False
     deprecated: bool = False
     expected: bool = False
+    aside: bool = False
     many: bool = False
     rows: list["Fact"] = field(default_factory=list["Fact"])
 
@@ -209,7 +217,7 @@ def _fact(name: str, words: list[str], where: str) -> Fact:
 
 def _set(fact: Fact, key: str, value: str, where: str) -> None:
     match key:
-        case "default" | "unit":
+        case "default" | "unit" | "dialect":
             setattr(fact, key, value)
         case "min" | "max":
             setattr(fact, key, float(value.split(maxsplit=1)[0]))  # of a vector, all components have one bound
@@ -217,6 +225,9 @@ def _set(fact: Fact, key: str, value: str, where: str) -> None:
             setattr(fact, key, parse_version(value))
         case "enum":
             fact.enum = tuple(value.split("|"))
+        case "also":
+            pairs = [word.partition(":") for word in value.split("|")]
+            fact.also = tuple((word, dialect) for word, _, dialect in pairs)
         case _:
             raise ValueError(f"{where}: {key!r} is not a key of a facts table")
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 from typing import TypedDict, Unpack
 
-from twinform.diagnostics import Location, Notes, Rule
+from twinform.diagnostics import Location, Notes, Rule, Severity
 from twinform.diagnostics.rules import structure
 from twinform.schemas.facts import Fact, Version, print_version
 from twinform.schemas.xml import XmlElement, path_of
@@ -14,16 +14,19 @@ _ESSENTIAL = frozenset({"parent", "child"})
 """Elements without which no reader, not even the most forgiving, makes sense of the file."""
 
 
+_BEYOND_THE_XSD = frozenset(
+    {structure.OUT_OF_RANGE.name, structure.DEPRECATED_ELEMENT.name, structure.DEFAULTED_ATTRIBUTE.name}
+)
+"""Findings that no XSD refuses a document for."""
+
+
 class Details(TypedDict, total=False):
     """What a finding may say beside its message."""
 
     found: str | None
     expected: str | None
     help: str | None
-
-
-_NOT_OF_THE_SCHEMA = (structure.OUT_OF_RANGE, structure.DEPRECATED_ELEMENT)
-"""Rules about what the schema accepts."""
+    severity: Severity | None
 
 
 @dataclass(slots=True)
@@ -33,8 +36,9 @@ class Context:
     `tolerated` holds the elements, and the attributes and texts of elements, that are reported and kept although the
     schema does not have them: the gate looks at the document without them. `#text` is the text in an element,
     `#tail` the one that follows it. `replaced` holds the words of other versions: the attribute or text that one stands
-    in, and a word that the gate sees in its place. `outside` lists elements and attributes of other versions. `header`
-    holds what the root element says about the document rather than about its node.
+    in, and a word that the gate sees in its place. `outside` lists elements and attributes of other versions. `aside`
+    is true inside of what the readers of the robot itself skip: nothing there is an error. `header` holds what the root
+    element says about the document rather than about its node.
     """
 
     notes: Notes
@@ -47,13 +51,16 @@ class Context:
     namespaces: dict[str, str] = field(default_factory=dict[str, str])
     clean: bool = False
     simple: bool = False
+    aside: bool = False
     outside: list[tuple[XmlElement, Fact]] = field(default_factory=list[tuple[XmlElement, Fact]])
     header: dict[str, object] = field(default_factory=dict[str, object])
 
     def report(self, rule: Rule, element: XmlElement, message: str, step: str = "", **more: Unpack[Details]) -> None:
         """Report at an element, or at a step below it."""
         path = path_of(element) + (f"/{step}" if step else "")
-        self.structural += rule not in _NOT_OF_THE_SCHEMA
+        if self.aside and rule.severity is Severity.ERROR and not self.notes.strict:
+            more["severity"] = Severity.WARNING
+        self.structural += rule.name not in _BEYOND_THE_XSD
         self.notes.report(rule, message, Location(self.file, element.sourceline or 0, path), **more)
 
 
@@ -122,6 +129,40 @@ def missing_attribute(context: Context, element: XmlElement, name: str, default:
     context.report(structure.MISSING_ATTRIBUTE, element, message, expected=f"@{name}")
 
 
+_DIALECTS = {
+    "bullet": "Bullet reads it",
+    "drake": "Drake reads it",
+    "exporter": "exporters write it, and nobody reads it",
+    "isaac": "Isaac Gym reads it",
+    "mujoco": "MuJoCo reads it",
+    "nasa": "NASA's tools read it",
+    "old": "it was proposed in the early days of ROS, and hardly anybody reads it",
+    "pal": "PAL Robotics' controllers read it",
+}
+
+
+def dialect_element(context: Context, element: XmlElement, dialect: str) -> None:
+    """An element of somebody's dialect."""
+    context.tolerated.append((element, None))
+    message = f"<{element.tag}> is not {context.format.upper()}; {_DIALECTS[dialect]}"
+    context.report(structure.DIALECT, element, message, found=dialect)
+
+
+def dialect_attribute(context: Context, element: XmlElement, name: str, dialect: str) -> None:
+    """An attribute of somebody's dialect."""
+    context.tolerated.append((element, name))
+    message = f"{name!r} of <{element.tag}> is not {context.format.upper()}; {_DIALECTS[dialect]}"
+    context.report(structure.DIALECT, element, message, f"@{name}", found=dialect)
+
+
+def dialect_word(context: Context, element: XmlElement, step: str, word: str, dialect: str) -> None:
+    """A value of somebody's dialect, which stands where the schema has a list of words."""
+    message = (
+        f"{step[1:]!r} of <{element.tag}> is {word!r}, which is not {context.format.upper()}; {_DIALECTS[dialect]}"
+    )
+    context.report(structure.DIALECT, element, message, step, found=word)
+
+
 def deprecated(context: Context, element: XmlElement) -> None:
     """An element on its way out."""
     message = f"<{element.tag}> is deprecated in {context.format.upper()} {print_version(context.version)}"
@@ -153,6 +194,7 @@ def invalid_value(context: Context, element: XmlElement, step: str, text: str, e
 def mixed_rotation(context: Context, element: XmlElement, count: int) -> None:
     """A pose whose numbers are not those of the notation that it declares."""
     notation, degrees = element.get("rotation_format"), element.get("degrees")
+    context.structural -= 1  # an XSD does not see it
     if notation == "quat_xyzw" and count == 7:
         message = f"<{element.tag}> is a quaternion and has the attribute 'degrees' {degrees!r}"
         context.report(structure.INVALID_VALUE, element, message, "@degrees", found=degrees)

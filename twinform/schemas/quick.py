@@ -34,6 +34,7 @@ def quick_parse(row: Fact, types: dict[str, ValueType], version: Version) -> Par
         or row.type is None
         or row.fills_tuple
         or not row.exists_in(version)
+        or row.dialect
     ):
         return None
     if row.type == "bool":

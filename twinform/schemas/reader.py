@@ -182,12 +182,14 @@ class Reader:
     def _attribute(self, row: Fact, *, keep: bool) -> ReadAttribute:
         value_type = self.types[row.type or "string"]
         parse, check = value_type.parse, value_check(row)
-        late, name = not row.exists_in(self.version), row.name[1:]
+        late, name, dialect = not row.exists_in(self.version), row.name[1:], row.dialect
         store = value_store(row, row.place) if keep and row.place else None
 
         def read(element: XmlElement, text: str, node: Data, at: str, context: Context) -> None:
             if late:
                 messages.outside_version(context, element, row)
+            if dialect:
+                messages.dialect_attribute(context, element, name, dialect)
             try:
                 value = parse(text)
             except ValueError:
@@ -215,6 +217,10 @@ class Reader:
             read = self._own_node(row, row.place)
         if row.deprecated and row.exists_in(self.version):
             return _deprecated(row, read)
+        if row.dialect:
+            return _of_dialect(row.dialect, _aside(read))
+        if row.aside:
+            return _aside(read)
         return read if row.exists_in(self.version) else _late(row, read)
 
     def _inner(self, row: Fact, *, keep: bool) -> Fill:
@@ -363,6 +369,27 @@ def _late(row: Fact, read: ReadChild) -> ReadChild:
         read(child, node, at, place, context)
 
     return read_late
+
+
+def _aside(read: ReadChild) -> ReadChild:
+    """The same reader for an element that is no business of those who read the robot: its faults are theirs alone."""
+
+    def read_aside(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
+        before, context.aside = context.aside, True
+        read(child, node, at, place, context)
+        context.aside = before
+
+    return read_aside
+
+
+def _of_dialect(dialect: str, read: ReadChild) -> ReadChild:
+    """The same reader for an element that only some readers know."""
+
+    def read_dialect(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
+        messages.dialect_element(context, child, dialect)
+        read(child, node, at, place, context)
+
+    return read_dialect
 
 
 def _deprecated(row: Fact, read: ReadChild) -> ReadChild:

@@ -16,21 +16,10 @@ Store = Callable[[XmlElement, Data, Any, Context], None]
 _SCALARS = frozenset({"double", "int", "uint"})
 
 
-def value_check(row: Fact) -> Callable[[XmlElement, Any, Context], None] | None:  # noqa: C901 - four small closures, one of which is chosen
+def value_check(row: Fact) -> Callable[[XmlElement, Any, Context], None] | None:
     """What is asked of a value beyond its type."""
     if row.enum:
-        allowed = frozenset(row.enum)
-
-        def check_word(element: XmlElement, value: str, context: Context) -> None:
-            if value in allowed:
-                return
-            if value in row.elsewhere:
-                messages.word_outside_version(context, element, row, value)
-                return
-            step = row.name if row.is_attribute else ""
-            messages.invalid_value(context, element, step, value, f"one of {', '.join(row.enum)}")
-
-        return check_word
+        return _word_check(row)
     if row.type == "pose":
         return _check_pose
     if row.min is None and row.max is None:
@@ -47,6 +36,21 @@ def value_check(row: Fact) -> Callable[[XmlElement, Any, Context], None] | None:
             check_number(element, number, context)
 
     return check_number if row.type in _SCALARS else check_vector
+
+
+def _word_check(row: Fact) -> Callable[[XmlElement, Any, Context], None]:
+    allowed, dialects = frozenset(row.enum), dict(row.also)
+
+    def check(element: XmlElement, value: str, context: Context) -> None:
+        if value in dialects:
+            messages.dialect_word(context, element, row.name, value, dialects[value])
+        elif value in row.elsewhere:
+            messages.word_outside_version(context, element, row, value)
+        elif value not in allowed:
+            step = row.name if row.is_attribute else ""
+            messages.invalid_value(context, element, step, value, f"one of {', '.join(row.enum)}")
+
+    return check
 
 
 def _check_pose(element: XmlElement, value: tuple[float, ...], context: Context) -> None:

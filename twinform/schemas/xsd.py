@@ -138,7 +138,7 @@ class _Generator:
         return not fact.any and any(row.name == "@name" and row.required for row in self._present(fact.attributes))
 
     def _present(self, rows: list[Fact]) -> list[Fact]:
-        return [row for row in rows if row.exists_in(self.version)]
+        return [row for row in rows if row.exists_in(self.version) and row.dialect is None]
 
 
 def _allow_foreign(group: XmlElement, **counts: str) -> None:

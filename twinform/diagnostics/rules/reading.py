@@ -17,7 +17,7 @@ NOT_WELL_FORMED = Rule(
     finds="Text that is not XML, in a way that no reader can mend with certainty.",
     matters="The parser cannot tell what was meant; what it would guess may be another robot.",
     example="An end tag that does not match, an attribute without quotes, a file cut off in the middle.",
-    better="Mend the line that the message names.",
+    better="Mend the line that the message names, as its help says.",
     references="XML 1.0, section 2.1",
 )
 REPAIRED_XML = Rule(
@@ -26,7 +26,8 @@ REPAIRED_XML = Rule(
     strict=Severity.ERROR,
     finds="A breach of the rules of XML that has one meaning only, and that the parsers of ROS and Gazebo let pass.",
     matters="Those two read the file, every other XML tool refuses it.",
-    example="`--` inside a comment, `<?xml version='0.0'?>`, `<?xml` after a blank line, a prefix without `xmlns:`.",
+    example="`--` inside a comment, `<?xml version='0.0'?>`, `<?xml` after a blank line or without its `<`, "
+    "a prefix without `xmlns:`.",
     better="Follow the message; the output of a conversion is well formed in any case.",
     references="XML 1.0, sections 2.5 and 2.8; Namespaces in XML 1.0, section 5",
 )

@@ -6,7 +6,7 @@ UNKNOWN_ELEMENT = Rule(
     name="unknown-element",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
-    finds="An element that no version of the format has at this place.",
+    finds="An element that no version of the format has at this place, nor any dialect that is known here.",
     matters="Every reader ignores it without a word, so a misspelt tag looks as if it worked.",
     example="`<joint ...><limits lower='0' upper='1'/></joint>`: the tag is `<limit>`.",
     better="Correct the name, or move what belongs to another tool into a namespace of its own (`<my:limits "
@@ -20,6 +20,15 @@ UNKNOWN_ATTRIBUTE = Rule(
     matters="Every reader ignores it without a word, so a misspelt attribute leaves its default in place.",
     example="`<limit min='0' max='1'/>`: the attributes are `lower` and `upper`.",
     better="Correct the name, or give it a namespace prefix.",
+)
+DIALECT = Rule(
+    name="dialect",
+    severity=Severity.INFO,
+    strict=Severity.ERROR,
+    finds="An element, attribute or value that is not in the format, and that is known from a program that reads it.",
+    matters="That program acts on it, every other reader ignores it. It is kept as it is, and carried in a conversion.",
+    example="`<contact>` in a link for Bullet, `<mujoco>` for MuJoCo, `<frame>` for Drake, `<joint type='spherical'>`.",
+    better="Nothing needs doing where that program is used; for others, say it in their own words as well.",
 )
 MISSING_ELEMENT = Rule(
     name="missing-element",

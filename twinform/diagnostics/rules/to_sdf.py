@@ -77,8 +77,17 @@ JOINT_TYPE_UNSUPPORTED = Rule(
     severity=Severity.ERROR,
     finds="A joint type that the target has no word for and that cannot be expressed by others yet.",
     matters="Left out or replaced, the robot would move in another way.",
-    example="`planar` from URDF; `ball`, `universal`, `revolute2`, `screw` and `gearbox` from SDF.",
+    example="`ball`, `universal`, `revolute2`, `screw` and `gearbox` from SDF.",
     better="Write the joint as a chain of revolute and prismatic ones.",
+)
+JOINT_CHAIN = Rule(
+    name="joint-chain",
+    severity=Severity.INFO,
+    finds="A joint that the target says by several joints with links between them: a `planar` one.",
+    matters="It moves the same way, but has three coordinates by three names. The links between have no mass, which "
+    "engines with one body for each link do not like.",
+    example="`<joint name='base' type='planar'>` becomes `base_x`, `base_y` and `base`.",
+    better="Nothing needs doing: our way back makes it one joint again.",
 )
 GAZEBO_TAG_WITHOUT_TARGET = Rule(
     name="gazebo-tag-without-target",

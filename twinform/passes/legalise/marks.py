@@ -8,7 +8,7 @@ from twinform.passes.legalise.carrier import NAMESPACE
 AnyNode = TypeVar("AnyNode", bound=Node)
 
 MADE = f"{{{NAMESPACE}}}made"
-"""The attribute that lists the fields of a node that were not in the SDF file; `.` is the whole node."""
+"""The attribute that lists the fields of a node that were not in the source; `.` is the whole node."""
 
 
 def mark_made(node: AnyNode, *fields: str) -> AnyNode:

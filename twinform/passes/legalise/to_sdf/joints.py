@@ -1,28 +1,36 @@
 """Joints of URDF as SDF says them."""
 
-from typing import ClassVar
+from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import Fate, Notes
+from twinform.diagnostics import Fate, Notes, Rule
 from twinform.diagnostics.rules import to_sdf
 from twinform.ir import Axis, Joint, Limit, Link, Model, Opaque
 from twinform.passes.legalise.carrier import carry, to_element
+from twinform.passes.legalise.marks import mark_made
 from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.legalise.to_sdf.planar import planar_chain
+from twinform.passes.legalise.to_sdf.unique_names import free_name
 from twinform.schemas import format_value
 
 _X = (1.0, 0.0, 0.0)
 """URDF's default axis; SDF's is z."""
 _OF_FIXED = frozenset({"axis", "limit", "dynamics", "mimic"})
+_BESIDE_AXIS = frozenset({"limit", "dynamics", "mimic"})
+Made = TypeVar("Made", Link, Joint)
 
 
 class UrdfJoints(ModelPass):
     """Say the types, default axes and default limits of URDF in SDF's terms.
 
-    Changes: 1. a `fixed` joint loses its axis, limits and the like, which are carried; 2. a `continuous` joint loses
+    Changes: 1. a `fixed` or `ball` joint loses its axis, limits and the like, which are carried; what Bullet calls
+    `spherical` is a `ball`; 2. a `continuous` joint loses
     lower and upper limit, which URDF ignores; 3. a joint that moves gets its axis written, 1 0 0 where URDF leaves it
     out; 4. a revolute or prismatic joint gets its limits written, 0 where URDF leaves them out; 5. a `floating` joint
-    goes, and its child link is posed where it was; 6. limits of acceleration and jerk, which SDF lacks, are carried.
+    goes, and its child link is posed where it was; 6. limits of acceleration and jerk, which SDF lacks, are carried;
+    7. a `planar` joint becomes two sliding joints and a turning one, with two links without mass between them, all of
+    them marked so that they become one again.
     Never touches: names, origins, parents, children.
-    Diagnostics: `joint-type-unsupported` for `planar`; ledger entries under `urdf-only` and `no-joint`.
+    Diagnostics: `joint-chain`; ledger entries under `urdf-only` and `no-joint`.
     """
 
     name: ClassVar[str] = "urdf-joints"
@@ -35,7 +43,36 @@ class UrdfJoints(ModelPass):
         links = model.links
         if free:
             links = tuple(self._free(link, free[link.name], notes) if link.name in free else link for link in links)
-        return model.model_copy(update={"joints": joints, "links": links})
+        model = model.model_copy(update={"joints": joints, "links": links})
+        return self._unfold(model, notes) if any(joint.type == "planar" for joint in joints) else model
+
+    def _unfold(self, model: Model, notes: Notes) -> Model:
+        """The model with a chain in the place of each planar joint."""
+        taken = {node.name for node in (*model.links, *model.joints, *model.frames)}
+        links: dict[str | None, tuple[Link, ...]] = {}
+        joints: list[Joint] = []
+        for joint in model.joints:
+            if joint.type != "planar":
+                joints.append(joint)
+                continue
+            words = ("x", "x_link", "y", "y_link")
+            first, first_link, second, second_link = (free_name(f"{joint.name}_{word}", taken) for word in words)
+            chain = planar_chain(joint, (first, first_link, second, second_link))
+            links[joint.child] = tuple(self._made(link) for link in chain.links)
+            slide, shift, turn = chain.joints
+            joints += [self._made(slide), self._made(shift), self._was_planar(turn, joint, notes)]
+        every = tuple(one for link in model.links for one in (*links.get(link.name, ()), link))
+        return model.model_copy(update={"links": every, "joints": tuple(joints)})
+
+    def _made(self, node: Made) -> Made:
+        return mark_made(node, ".") if self.carriers else node
+
+    def _was_planar(self, turn: Joint, joint: Joint, notes: Notes) -> Joint:
+        message = f"planar joint {joint.name!r} is two sliding joints and a turning one in SDF, with links without mass"
+        notes.report(to_sdf.JOINT_CHAIN, message, joint.location.at("@type"), found="planar")
+        rest = [child for child in to_element(joint, "joint", "urdf").children if child.name in _BESIDE_AXIS]
+        pieces = [Opaque(attribute=("type", "planar")), *(Opaque(element=child) for child in rest)]
+        return self._keep(turn, pieces, f"planar joint {joint.name!r} is a chain of joints", notes, to_sdf.JOINT_CHAIN)
 
     def _free(self, link: Link, joint: Joint, notes: Notes) -> Link:
         message = f"joint {joint.name!r} leaves link {link.name!r} free, which needs no joint in SDF"
@@ -47,22 +84,24 @@ class UrdfJoints(ModelPass):
     def _joint(self, joint: Joint, notes: Notes) -> Joint:
         match joint.type:
             case "fixed":
-                return self._fixed(joint, notes)
+                return self._without_axis(joint, notes)
             case "revolute" | "prismatic" | "continuous":
                 return self._moving(joint, notes)
-            case "ball" | "universal" | "revolute2" | "screw" | "gearbox":
+            case "ball" | "spherical":
+                return self._without_axis(joint.model_copy(update={"type": "ball"}), notes)
+            case "planar" | "universal" | "revolute2" | "screw" | "gearbox":
                 return joint  # SDF's own, from a <gazebo> element
             case _:
                 message = f"joint {joint.name!r} is {joint.type!r}, which SDF has no joint for"
                 notes.report(to_sdf.JOINT_TYPE_UNSUPPORTED, message, joint.location.at("@type"), found=joint.type)
                 return joint
 
-    def _fixed(self, joint: Joint, notes: Notes) -> Joint:
+    def _without_axis(self, joint: Joint, notes: Notes) -> Joint:
         if joint.axis is None:
             return joint
         rest = [child for child in to_element(joint, "joint", "urdf").children if child.name in _OF_FIXED]
         kept = joint.model_copy(update={"axis": None})
-        message = f"the fixed joint {joint.name!r} does not move"
+        message = f"the {joint.type} joint {joint.name!r} has no axis"
         return self._keep(kept, [Opaque(element=child) for child in rest], message, notes)
 
     def _moving(self, joint: Joint, notes: Notes) -> Joint:
@@ -78,9 +117,11 @@ class UrdfJoints(ModelPass):
         joint = joint.model_copy(update={"axis": axis.model_copy(update=update)})
         return self._keep(joint, rest, f"SDF has no place for these limits of joint {joint.name!r}", notes)
 
-    def _keep(self, joint: Joint, rest: list[Opaque], message: str, notes: Notes) -> Joint:
+    def _keep(
+        self, joint: Joint, rest: list[Opaque], message: str, notes: Notes, rule: Rule = to_sdf.URDF_ONLY
+    ) -> Joint:
         for part in rest:
-            notes.account(self._fate(), to_sdf.URDF_ONLY, f"{message}: {part.name}", joint.location, part.weight)
+            notes.account(self._fate(), rule, f"{message}: {part.name}", joint.location, part.weight)
         return carry(joint, rest, "urdf") if self.carriers else joint
 
     def _fate(self) -> Fate:

@@ -29,9 +29,9 @@ class UniqueNames(ModelPass):
         """The model with one name for each thing."""
         names = {link.name for link in model.links}
         taken = names | {joint.name for joint in model.joints}
-        links = {name: _free(f"{name.strip('_')}_link", taken) for name in sorted(names) if _reserved(name)}
+        links = {name: free_name(f"{name.strip('_')}_link", taken) for name in sorted(names) if _reserved(name)}
         clashes = [joint.name for joint in model.joints if joint.name in names or _reserved(joint.name)]
-        joints = {name: _free(f"{name.strip('_')}_joint", taken) for name in clashes}
+        joints = {name: free_name(f"{name.strip('_')}_joint", taken) for name in clashes}
         if not links and not joints:
             return model
         return model.model_copy(
@@ -75,7 +75,7 @@ def _reserved(name: str) -> bool:
     return name == "world" or (name.startswith("__") and name.endswith("__"))
 
 
-def _free(name: str, taken: set[str]) -> str:
+def free_name(name: str, taken: set[str]) -> str:
     """The name, or the first numbered one that is free; it is taken from then on."""
     candidate, number = name, 1
     while candidate in taken:

@@ -7,6 +7,7 @@ from twinform.passes.legalise.to_urdf.express_axes import ExpressAxes
 from twinform.passes.legalise.to_urdf.extend_gazebo import ExtendGazebo
 from twinform.passes.legalise.to_urdf.fill_inertials import FillInertials
 from twinform.passes.legalise.to_urdf.flatten_models import FlattenModels
+from twinform.passes.legalise.to_urdf.fold_planar_joints import FoldPlanarJoints
 from twinform.passes.legalise.to_urdf.map_geometry import MapGeometry, UrdfVersion
 from twinform.passes.legalise.to_urdf.map_joints import MapJoints
 from twinform.passes.legalise.to_urdf.map_materials import MapMaterials
@@ -27,6 +28,7 @@ def to_urdf(*, model: str | None = None, urdf_version: UrdfVersion = "1.0", carr
         SelectModel(model=model),
         UpgradeSdf(carriers=carriers),
         FlattenModels(carriers=carriers),
+        FoldPlanarJoints(carriers=carriers),
         FillInertials(carriers=carriers),
         ResolveJointEnds(carriers=carriers),
         ExpressAxes(carriers=carriers),

@@ -7,6 +7,9 @@ from typing import TypeVar
 from twinform.diagnostics import Fate, Location, Notes, Rule
 from twinform.ir import Node, Opaque
 from twinform.passes.legalise.carrier import carry
+from twinform.passes.legalise.marks import MADE, made_fields, mark_made
+
+__all__ = ["MADE", "Keeper", "made_fields", "mark_made"]
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 

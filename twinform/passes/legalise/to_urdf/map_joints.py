@@ -15,7 +15,7 @@ from twinform.schemas import format_value
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
-_TYPES = frozenset({"fixed", "revolute", "continuous", "prismatic", "floating"})
+_TYPES = frozenset({"fixed", "revolute", "continuous", "prismatic", "floating", "planar"})
 _UNBOUNDED = 1e16
 """What stands for infinity, as it does in SDF before 1.10: rad, m, N m, N, rad/s or m/s."""
 
@@ -45,7 +45,7 @@ def _map(joint: Joint, keeper: Keeper) -> Joint:
         message = f"joint {joint.name!r} is called continuous, which is revolute without limits in most of SDF"
         piece = Opaque(attribute=("type", "continuous"))
         joint = keeper.keep(joint, [piece], rules.SDF_ONLY, message, joint.location)
-    if joint.axis is None or joint.type in {"fixed", "floating"}:
+    if joint.axis is None or joint.type in {"fixed", "floating", "planar"}:
         return joint
     joint = _map_mimic(joint, joint.axis, keeper)
     axis = joint.axis or Axis()
