@@ -7,6 +7,7 @@ from twinform.diagnostics import Location, Notes
 from twinform.diagnostics.rules import joints as rules
 from twinform.diagnostics.rules import model as names
 from twinform.ir.joint import Axis, Joint, Limit
+from twinform.ir.node import Vector3
 
 _FREEDOMS = {
     **dict.fromkeys(("revolute", "continuous", "prismatic", "screw", "planar"), 1),
@@ -41,22 +42,24 @@ def _missing(joint: Joint, name: str, notes: Notes) -> None:
 
 
 def _verify_axis(joint: Joint, name: str, axis: Axis, notes: Notes, *, moves: bool) -> None:
-    # where URDF's <limit> stands first, the axis was made there
-    where = axis.location if axis.source and axis.source.step == name else joint.location.at(name)
     if not moves:
         message = f"{joint.type} joint {joint.name!r} has an <{name}>, which nothing turns about or slides along"
-        notes.report(rules.UNUSED_AXIS, message, where, found=f"<{name}>")
+        notes.report(rules.UNUSED_AXIS, message, _place(joint, name, axis), found=f"<{name}>")
         return
     if axis.xyz is not None:
-        _verify_direction(joint, axis.xyz, where, notes)
+        x, y, z = axis.xyz
+        if x * x + y * y + z * z != 1.0:
+            _verify_length(joint, axis.xyz, _place(joint, name, axis), notes)
     if axis.limit is not None:
         _verify_limit(joint, axis.limit, notes)
 
 
-def _verify_direction(joint: Joint, xyz: tuple[float, float, float], where: Location, notes: Notes) -> None:
-    length = xyz[0] * xyz[0] + xyz[1] * xyz[1] + xyz[2] * xyz[2]
-    if length == 1.0:
-        return
+def _place(joint: Joint, name: str, axis: Axis) -> Location:
+    """Where the axis is written. Where URDF's <limit> stands first, the axis was made there."""
+    return axis.location if axis.source and axis.source.step == name else joint.location.at(name)
+
+
+def _verify_length(joint: Joint, xyz: Vector3, where: Location, notes: Notes) -> None:
     if not any(xyz):
         message = f"the axis of joint {joint.name!r} has length zero"
         notes.report(names.ZERO_AXIS, message, where, found="0 0 0")

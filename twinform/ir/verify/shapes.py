@@ -6,7 +6,14 @@ from twinform.ir.geometry import Geometry, Plane
 from twinform.ir.link import Link
 from twinform.ir.visual import Collision, Visual
 
-_SIZES = ("size", "radius", "length", "radii", "scale")
+_ROUND = ("radius", "length")
+_SIZES = {
+    "box": ("size",),
+    "sphere": ("radius",),
+    "ellipsoid": ("radii",),
+    "mesh": ("scale",),
+    **dict.fromkeys(("cylinder", "capsule", "cone"), _ROUND),
+}
 
 
 def verify_shapes(link: Link, notes: Notes, *, geometry_is_required: bool) -> None:
@@ -46,8 +53,8 @@ def _verify_sizes(geometry: Geometry, kind: str, link: Link, notes: Notes) -> No
         if shape.normal is not None and not any(shape.normal):
             _flat(f"the normal of a plane of link {link.name!r} has length zero", shape.location, notes)
         return
-    for name in _SIZES:
-        value = values.get(name)
+    for name in _SIZES.get(shape.kind, ()):
+        value = values[name]
         if value is not None and (0.0 in value if isinstance(value, tuple) else value == 0.0):
             message = f"the {name} of a {kind} of link {link.name!r}, a {shape.kind}, is zero"
             _flat(message, shape.location, notes)
