@@ -5,7 +5,34 @@ from typing import Any, ClassVar
 from twinform.diagnostics import Location
 from twinform.diagnostics.rules import sdf_versions as rules
 from twinform.diagnostics.rules import to_sdf as shared_rules
-from twinform.ir import Collision, Document, Element, Node, Opaque, Visual, node_fields
+from twinform.ir import (
+    Axis,
+    Box,
+    Collision,
+    Cylinder,
+    Document,
+    Dynamics,
+    Element,
+    Frame,
+    Geometry,
+    Inertia,
+    Inertial,
+    Joint,
+    Limit,
+    Link,
+    Material,
+    Mesh,
+    Model,
+    Node,
+    Opaque,
+    Pose,
+    Sphere,
+    Surface,
+    Visual,
+    node_fields,
+    walk,
+)
+from twinform.passes.legalise.carrier import is_ours
 from twinform.passes.legalise.sdf_versions.base import VersionPass, is_foreign
 from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms, is_version_carrier
 from twinform.passes.legalise.sdf_versions.definitions import definition_of
@@ -13,6 +40,13 @@ from twinform.passes.legalise.sdf_versions.leftovers import Leftover, node_piece
 from twinform.passes.legalise.sdf_versions.spans import Shape, Span, shape, shape_of, whole
 from twinform.schemas import Fact, Version, print_version
 
+_PLAIN_SINCE = (1, 8)
+_PLAIN = frozenset(
+    {Document, Model, Link, Joint, Axis, Limit, Dynamics, Pose, Inertial, Inertia, Visual, Collision, Geometry, Box}
+    | {Cylinder, Sphere, Mesh, Material, Surface, Frame}
+)
+_LATE = ("auto", "degrees", "rotation_format", "screw_thread_pitch", "thread_pitch", "use_parent_model_frame")
+"""Fields of these nodes that not all versions since 1.8 have."""
 _ABOUT = frozenset({"source", "spelling", "opaque", "kind"})
 
 
@@ -29,7 +63,17 @@ class LeaveOut(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with what the version has."""
+        if self.number >= _PLAIN_SINCE and all(map(_is_plain, walk(document))):
+            return document
         return _Net(keeper, self.number).whole_node(document, shape("sdf"))
+
+
+def _is_plain(node: Node) -> bool:
+    """Whether a node says nothing that any version since 1.8 lacks, as nearly all of a robot does."""
+    if type(node) not in _PLAIN or any(not is_ours(part) for part in node.opaque):
+        return False
+    values = node.__dict__
+    return all(values.get(field) is None for field in _LATE)
 
 
 class _Net:
