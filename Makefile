@@ -12,7 +12,7 @@ SYNCED := .venv/.synced
 ORACLES := .venv/.oracles
 DEMO := out/demo
 
-.PHONY: help sync fmt generate lint wheel test demo corpus oracle bench clean
+.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle bench clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -73,6 +73,9 @@ demo: $(SYNCED) ## the rover to SDF and back, with what is found and what is los
 
 corpus: $(SYNCED) ## every real file through the compiler; writes docs/reference/corpus.md
 	$(BIN)/python -m benchmarks.corpus
+
+versions: $(ORACLES) ## every SDF file in older versions and back, some before Drake; writes docs/reference/versions.md
+	$(BIN)/python -m benchmarks.versions
 
 oracle: $(ORACLES) ## Drake, libsdformat and urdfdom judge the conversions; writes docs/reference/oracle.md
 	$(BIN)/python -m benchmarks.oracle

@@ -37,6 +37,9 @@ _CONSEQUENCES = frozenset(
 )
 XACRO = ".xacro"
 """The ending of the names of files that are expanded before they are read."""
+_OLD_ROOT = "gazebo"
+_OLD_ROOT_VERSIONS = frozenset({"1.2"})
+"""What the root of SDF was called, and the versions of these that are known; 1.0 is another language."""
 _WITHOUT_VERSION = {"urdf": (1, 0)}
 """The version of a file that declares none."""
 
@@ -207,6 +210,10 @@ def read_document(text: bytes, notes: Notes, engine: Engine) -> tuple[Document |
         return _from_json(text, notes), None
     root = parse(text, notes)
     namespace = strip_default_namespace(root)
+    if root.tag == _OLD_ROOT and root.get("version") in _OLD_ROOT_VERSIONS:
+        message = f"the root of SDF {root.get('version')} is <{_OLD_ROOT}>; read, and written, as <sdf>"
+        notes.report(reading.OLD_ROOT, message, Location(line=root.sourceline or 0, path=f"/{root.tag}"))
+        root.tag = "sdf"
     if root.tag not in _ROOTS:
         where = Location(line=root.sourceline or 0, path=f"/{root.tag}")
         message = f"the root element is <{root.tag}>; expected <robot> or <sdf>"

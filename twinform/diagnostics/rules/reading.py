@@ -45,7 +45,15 @@ UNKNOWN_ROOT = Rule(
     name="unknown-root",
     severity=Severity.ERROR,
     finds="A document whose root element is neither `robot` nor `sdf`.",
-    matters="It is another format, or a dialect older than SDF 1.3 whose root was `gazebo`.",
+    matters="It is another format, or a dialect older than SDF 1.2, whose root was `gazebo`.",
     example="`<gazebo version='1.0'>`, `<model>` of a model.config, `<COLLADA>`.",
-    better="Name the model file itself; bring a file of Gazebo before 1.3 up to date with Gazebo Classic's own tool.",
+    better="Name the model file itself; bring a file of SDF before 1.2 up to date with Gazebo Classic's own tool.",
+)
+OLD_ROOT = Rule(
+    name="old-root",
+    severity=Severity.WARNING,
+    finds="A file of SDF 1.2, whose root element was still called `gazebo`.",
+    matters="Most readers look for `sdf` and refuse the file.",
+    example="`<gazebo version='1.2'>`",
+    better="Call the root `sdf`; it is read and written as that, and in a newer version when asked for.",
 )

@@ -165,6 +165,8 @@ class _Verifier:
             parent, child = joint.parent, joint.child
             if not parent or not child or parent == child or (parent in links and child in links):
                 continue
+            if not (graph.knows(parent) and graph.knows(child)):  # it is in an include
+                continue
             body = graph.body(parent)
             if body == graph.body(child) and (body in links or "::" in body):
                 message = f"joint {joint.name!r} connects {body!r} to itself: {parent!r} and {child!r} are both on it"

@@ -3,15 +3,18 @@
 from twinform.passes.base import Pass
 from twinform.passes.legalise.sdf_versions.leave_out import LeaveOut
 from twinform.passes.legalise.sdf_versions.put_back import PutBack
+from twinform.passes.legalise.sdf_versions.rename_states import RenameStates
 from twinform.passes.legalise.sdf_versions.set_version import SetVersion
 from twinform.passes.legalise.sdf_versions.steps import backward, forward
 from twinform.passes.legalise.sdf_versions.write_plain_poses import WritePlainPoses
 from twinform.schemas import Version, parse_version, print_version, table
 
-__all__ = ["change_version", "lower_version", "raise_version", "raise_words"]
+__all__ = ["change_version", "known_version", "lower_version", "raise_version", "raise_words"]
 
 _ANY_POSE: Version = (1, 9)
 """Since this version a pose that comes out of a carrier may be in any notation."""
+_NAMED_STATES: Version = (1, 12)
+"""Since this version states have names of their own."""
 
 
 def change_version(declared: str | None, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
@@ -28,9 +31,13 @@ def change_version(declared: str | None, asked: str, *, carriers: bool = True) -
 def raise_version(declared: str | None, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
     """The passes that say an older file in newer words, with what it carries."""
     old, new = parse_version(known_version(declared)), parse_version(asked)
-    plain = (WritePlainPoses(version=asked, carriers=carriers),) if new < _ANY_POSE else ()
     back = PutBack(version=asked, source=print_version(old), carriers=carriers)
-    return (*forward(old, new), back, *plain, LeaveOut(version=asked, carriers=carriers))
+    after: list[Pass] = []  # what came back may be in newer or older words
+    if new < _ANY_POSE:
+        after.append(WritePlainPoses(version=asked, carriers=carriers))
+    if new >= _NAMED_STATES:
+        after.append(RenameStates(version=asked, carriers=carriers))
+    return (*forward(old, new), back, *after, LeaveOut(version=asked, carriers=carriers))
 
 
 def raise_words(declared: str | None, *, carriers: bool = True) -> tuple[Pass, ...]:

@@ -2,8 +2,10 @@
 
 from typing import Any
 
-from twinform.ir import Element, Node, Opaque, map_children
+from twinform.ir import Element, Node, Opaque, map_children, node_fields
 from twinform.passes.legalise.sdf_versions.carriers import carried, is_version_carrier
+
+_ABOUT = frozenset({"source", "spelling"})
 
 
 def without_carriers(node: Any) -> Any:
@@ -32,11 +34,21 @@ def _bare_element(element: Element) -> Element:
 
 
 def comparable(node: Any) -> Any:
-    """The node with unlike untyped parts in one order, whatever order they stand in."""
+    """The node with unlike untyped parts in one order, whatever order they stand in, and without empty nodes."""
     if len(node.opaque) > 1 or any(part.element for part in node.opaque):
         parts = sorted((_sorted(part) for part in node.opaque), key=_place)
         node = node.model_copy(update={"opaque": tuple(parts)})
-    return map_children(node, comparable)
+    node = map_children(node, comparable)
+    empty = [name for name in node_fields(type(node)) if _says_nothing(getattr(node, name))]
+    return node.model_copy(update=dict.fromkeys(empty)) if empty else node
+
+
+def _says_nothing(value: object) -> bool:
+    """Whether it is a node of which nothing would be written."""
+    if not isinstance(value, Node):
+        return False
+    fields = type(value).model_fields
+    return all(getattr(value, name) == field.default for name, field in fields.items() if name not in _ABOUT)
 
 
 def _place(part: Opaque) -> tuple[str, ...]:

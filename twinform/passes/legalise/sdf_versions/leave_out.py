@@ -5,34 +5,7 @@ from typing import Any, ClassVar
 from twinform.diagnostics import Location
 from twinform.diagnostics.rules import sdf_versions as rules
 from twinform.diagnostics.rules import to_sdf as shared_rules
-from twinform.ir import (
-    Axis,
-    Box,
-    Collision,
-    Cylinder,
-    Document,
-    Dynamics,
-    Element,
-    Frame,
-    Geometry,
-    Inertia,
-    Inertial,
-    Joint,
-    Limit,
-    Link,
-    Material,
-    Mesh,
-    Model,
-    Node,
-    Opaque,
-    Pose,
-    Sphere,
-    Surface,
-    Visual,
-    node_fields,
-    walk,
-)
-from twinform.passes.legalise.carrier import is_ours
+from twinform.ir import Collision, Document, Element, Node, Opaque, Pose, Visual, node_fields
 from twinform.passes.legalise.sdf_versions.base import VersionPass, is_foreign
 from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms, is_version_carrier
 from twinform.passes.legalise.sdf_versions.definitions import definition_of
@@ -40,14 +13,8 @@ from twinform.passes.legalise.sdf_versions.leftovers import Leftover, node_piece
 from twinform.passes.legalise.sdf_versions.spans import Shape, Span, shape, shape_of, whole
 from twinform.schemas import Fact, Version, print_version
 
-_PLAIN_SINCE = (1, 8)
-_PLAIN = frozenset(
-    {Document, Model, Link, Joint, Axis, Limit, Dynamics, Pose, Inertial, Inertia, Visual, Collision, Geometry, Box}
-    | {Cylinder, Sphere, Mesh, Material, Surface, Frame}
-)
-_LATE = ("auto", "degrees", "rotation_format", "screw_thread_pitch", "thread_pitch", "use_parent_model_frame")
-"""Fields of these nodes that not all versions since 1.8 have."""
-_ABOUT = frozenset({"source", "spelling", "opaque", "kind"})
+_OF_KINDS = "shape"
+"""The field that holds one of several kinds of node."""
 
 
 class LeaveOut(VersionPass):
@@ -63,17 +30,7 @@ class LeaveOut(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with what the version has."""
-        if self.number >= _PLAIN_SINCE and all(map(_is_plain, walk(document))):
-            return document
         return _Net(keeper, self.number).whole_node(document, shape("sdf"))
-
-
-def _is_plain(node: Node) -> bool:
-    """Whether a node says nothing that any version since 1.8 lacks, as nearly all of a robot does."""
-    if type(node) not in _PLAIN or any(not is_ours(part) for part in node.opaque):
-        return False
-    values = node.__dict__
-    return all(values.get(field) is None for field in _LATE)
 
 
 class _Net:
@@ -96,16 +53,18 @@ class _Net:
         """The node without what the version lacks, and that; the last of several comes first."""
         update: dict[str, Any] = {}
         left: list[Leftover] = []
-        for field, value in node.__dict__.items():
-            if value is None or value == () or field in _ABOUT:
+        values = node.__dict__
+        for field in form.lacking(self.version):
+            value = values[field]
+            if value is None or value == () or _is_plain_pose(value):
                 continue
-            span = form.kinds.get(getattr(value, "kind", "")) or form.fields.get(field)
-            if span is None:
-                continue
+            span = form.kinds[value.kind] if field == _OF_KINDS else form.fields[field]
             kept, over = self._field(node, field, value, span)
             if kept is not value:
                 update[field] = kept
             left += over
+        if not node.opaque:
+            return (node.model_copy(update=update) if update else node), left
         parts, over = self.elements.parts(node, form)
         if over or parts is not node.opaque:
             update["opaque"] = parts
@@ -275,3 +234,14 @@ class _Elements:
         if terms.since is not None:
             self.keeper.notes.report(rule, message, where, found=called)
         return list(self.keeper.keep_element(piece, terms, rule, message, where))
+
+
+def _is_plain_pose(value: object) -> bool:
+    """Whether it is a pose that every version can say, which is nearly every one."""
+    return (
+        isinstance(value, Pose)
+        and not value.opaque
+        and value.relative_to is None
+        and value.degrees is None
+        and value.rotation_format is None
+    )

@@ -1,7 +1,7 @@
 """Since 1.8 a name like `arm::hand` is that of a hand in a nested model."""
 
 from dataclasses import dataclass, field
-from typing import ClassVar, TypeVar
+from typing import ClassVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import sdf_versions as rules
@@ -11,12 +11,11 @@ from twinform.passes.legalise.nodes import map_poses
 from twinform.passes.legalise.sdf_versions.base import VersionPass, map_models
 from twinform.passes.legalise.sdf_versions.carriers import Keeper
 
-Named = TypeVar("Named", Link, Joint, Frame)
 _SCOPE = "::"
 
 
 class NestModels(VersionPass):
-    """Make nested models of links, joints and frames that were flattened into the model with scoped names.
+    """Make nested models of links, joints, frames and models that were flattened into the model with scoped names.
 
     Changes: 1. `arm::hand` becomes `hand` in a model `arm`, whose frame is that of `arm::__model__` where there is one
     and else that of the model around it; everything stays where it is; 2. what names them does so too. A joint between
@@ -39,11 +38,16 @@ class _Inner:
     links: list[Link] = field(default_factory=list[Link])
     joints: list[Joint] = field(default_factory=list[Joint])
     frames: list[Frame] = field(default_factory=list[Frame])
+    models: list[Model] = field(default_factory=list[Model])
     own: Frame | None = None
 
     @property
     def prefix(self) -> str:
         return self.name + _SCOPE
+
+    @property
+    def holds_anything(self) -> bool:
+        return bool(self.links or self.joints or self.frames or self.models)
 
     def strip(self, name: str | None) -> str | None:
         """A name of the outer model as one of this."""
@@ -64,7 +68,7 @@ class _Inner:
 
 
 def _nest(model: Model, notes: Notes) -> Model:
-    named = (*model.links, *model.joints, *model.frames)
+    named = (*model.links, *model.joints, *model.frames, *model.models)
     if not any(_SCOPE in node.name for node in named):
         return model
     graph = FrameGraph(model)
@@ -86,9 +90,13 @@ def _nest(model: Model, notes: Notes) -> Model:
             inner[name].own = frame
         else:
             inner[name].frames.append(frame)
-    made = [_model(each, model, graph, notes) for each in inner.values() if each.links or each.joints or each.frames]
-    there = tuple(_merged(nested, made) for nested in model.models)
-    new = tuple(nested for nested in made if nested.name not in {each.name for each in model.models})
+    models = [nested for nested in model.models if not _first(nested.name)]
+    for nested in model.models:
+        if name := _first(nested.name):
+            inner[name].models.append(nested)
+    made = [_model(each, model, graph, notes) for each in inner.values() if each.holds_anything]
+    there = tuple(_merged(nested, made) for nested in models)
+    new = tuple(nested for nested in made if nested.name not in {each.name for each in models})
     update = {"links": tuple(links), "joints": tuple(joints), "frames": tuple(frames), "models": (*there, *new)}
     return model.model_copy(update=update)
 
@@ -116,7 +124,8 @@ def _model(inner: _Inner, around: Model, graph: FrameGraph, notes: Notes) -> Mod
         links=tuple(_link(link, inner, base, graph) for link in inner.links),
         joints=tuple(_joint(joint, inner, graph) for joint in inner.joints),
         frames=tuple(_frame(frame, inner, base, graph) for frame in inner.frames),
-        source=next((node.source for node in (*inner.links, *inner.frames, *inner.joints)), around.source),
+        models=tuple(_inner_model(nested, inner, base, graph) for nested in inner.models),
+        source=next((each.source for each in (*inner.links, *inner.frames, *inner.joints)), around.source),
     )
     message = f"{len(nested.links)} links, {len(nested.joints)} joints and {len(nested.frames)} frames of model "
     message += f"{around.name!r} are in its nested model {inner.name!r}"
@@ -130,6 +139,15 @@ def _link(link: Link, inner: _Inner, base: str, graph: FrameGraph) -> Link:
         pose = graph.pose(link.name, base, base="frame").to_pose()
     inside = map_poses(link.model_copy(update={"pose": None}), inner.pose)
     return inside.model_copy(update={"name": inner.strip(link.name), "pose": inner.pose(pose) if pose else None})
+
+
+def _inner_model(model: Model, inner: _Inner, base: str, graph: FrameGraph) -> Model:
+    pose = model.pose
+    if not inner.holds(pose.relative_to if pose else None) and (base != MODEL or (pose and pose.relative_to)):
+        where = graph.pose(model.name, base, kind="model", base="frame")
+        pose = where.to_pose()  # of the model's own frame, which a placement frame would move
+        model = model.model_copy(update={"placement_frame": None})
+    return model.model_copy(update={"name": inner.strip(model.name), "pose": inner.pose(pose) if pose else None})
 
 
 def _frame(frame: Frame, inner: _Inner, base: str, graph: FrameGraph) -> Frame:

@@ -1,5 +1,6 @@
 """What the table of SDF says about when parts came and went, by their names and by their fields in the IR."""
 
+from collections.abc import Container
 from dataclasses import dataclass, field
 from functools import cache
 
@@ -60,6 +61,16 @@ class Shape:
     names: dict[str, Span] = field(default_factory=dict[str, Span])
     fields: dict[str, Span] = field(default_factory=dict[str, Span])
     kinds: dict[str, Span] = field(default_factory=dict[str, Span])
+    _lacking: dict[Version, tuple[str, ...]] = field(default_factory=dict[Version, tuple[str, ...]])
+
+    def lacking(self, version: Version) -> tuple[str, ...]:
+        """The fields of which a version may lack something, at any depth."""
+        if version not in self._lacking:
+            found = [name for name, span in self.fields.items() if not _has_all(span, whole(version), version)]
+            if not all(_has_all(span, whole(version), version) for span in self.kinds.values()):
+                found.append(next(iter(self.kinds.values())).rows[0][2].place or "")
+            self._lacking[version] = tuple(found)
+        return self._lacking[version]
 
 
 def _both(mine: Shape, theirs: Shape) -> list[tuple[dict[str, Span], dict[str, Span]]]:
@@ -115,11 +126,13 @@ def whole(version: Version) -> frozenset[str]:
     return frozenset(found)
 
 
-def _is_whole(form: Shape, found: set[str], version: Version) -> bool:
-    for span in form.names.values():
-        row = span.row(version)
-        if row is None or span.is_split or span.repetition(version):
-            return False
-        if row.reference not in found if row.reference else not _is_whole(shape_of(row), found, version):
-            return False
-    return True
+def _is_whole(form: Shape, found: Container[str], version: Version) -> bool:
+    return all(_has_all(span, found, version) for span in form.names.values())
+
+
+def _has_all(span: Span, found: Container[str], version: Version) -> bool:
+    """Whether a version has a part and, by the definitions that were found to be whole, everything in it."""
+    row = span.row(version)
+    if row is None or span.is_split or span.repetition(version):
+        return False
+    return row.reference in found if row.reference else _is_whole(shape_of(row), found, version)

@@ -1,0 +1,68 @@
+"""One SDF model in other versions, before Drake; runs in a worker process, since Drake may take it down."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import twinform
+from benchmarks import drake
+from tests.corpus.files import ROOT, CorpusFile, Kind, corpus_files
+from tests.corpus.versions import NEWEST
+
+OUT = ROOT / "out" / "versions"
+VERSIONS = ("1.11", "1.6")
+"""What Drake is given: the newest version that it reads, and one without named frames."""
+_EVERY = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """A model in two versions: the verdict, and its cause where they are not the same."""
+
+    name: str
+    way: str
+    verdict: str
+    cause: str = ""
+
+
+def sample() -> list[CorpusFile]:
+    """SDF models that libsdformat takes without an error, one of a few."""
+    good = [file for file in corpus_files() if file.kind is Kind.SDF and file.row.get("libsdformat12") == "ok"]
+    return good[::_EVERY]
+
+
+def judge(file: CorpusFile) -> list[Comparison]:
+    """The model as it is, and in other versions; no exception comes out of it."""
+    try:
+        source = drake.load(file.path)
+    except Exception:  # noqa: BLE001 - Drake raises bare RuntimeError and SystemExit for every fault
+        return [Comparison(file.name, "the file", "not read by Drake")]
+    return [_compare(file, source, version) for version in VERSIONS]
+
+
+def _compare(file: CorpusFile, source: drake.Samples, version: str) -> Comparison:
+    way = f"the file and the same in {version}"
+    try:
+        path = _written(file, version)
+    except twinform.CompileError as error:
+        return Comparison(file.name, way, "refused", error.diagnostics[0].message)
+    try:
+        result = drake.load(path, reference=source["reference"])
+    except Exception as error:  # noqa: BLE001 - as above
+        return Comparison(file.name, way, "result not read by Drake", _cause(str(error)))
+    found = drake.compare(source, result)
+    return Comparison(file.name, way, f"same ({found.judge})" if found.judge else "different", found.cause)
+
+
+def _cause(message: str) -> str:
+    """What Drake says, without the name of the file."""
+    return message.strip().partition("\n")[0].rpartition("error: ")[2][:160]
+
+
+def _written(file: CorpusFile, version: str) -> Path:
+    """The file in the newest version and from there in this one, which goes over every step that there is."""
+    newest = twinform.convert(file.path, to="sdf", sdf_version=NEWEST).text
+    text = twinform.convert(newest.encode(), to="sdf", sdf_version=version, name=file.name).text
+    output = OUT / f"{file.name}.{version}.sdf"
+    output.parent.mkdir(parents=True, exist_ok=True)
+    output.write_text(text, encoding="utf-8")
+    return output

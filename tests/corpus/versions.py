@@ -1,0 +1,81 @@
+"""One real file in other versions of SDF, and back."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import twinform
+from tests.corpus.examine import rules_of
+from tests.corpus.ir_difference import first_difference
+from twinform.diagnostics import Fate, Ledger
+from twinform.ir import Document
+from twinform.passes.legalise.sdf_versions import known_version
+from twinform.passes.legalise.sdf_versions.comparison import comparable, without_carriers
+
+NEWEST = "1.12"
+
+
+@dataclass(frozen=True, slots=True)
+class Trip:
+    """A file in the newest version, in an older one and in the newest again.
+
+    `refused_by` are the rules of the errors on the way; `difference` is the first one between the two newest, and
+    `accounted` says whether a ledger speaks of anything that does not come back. `stale` says that carriers were not
+    trusted although nobody touched the file; `unclean` that the older file has parts that its version does not have.
+    """
+
+    name: str
+    version: str
+    refused_by: tuple[str, ...] = ()
+    difference: str = ""
+    accounted: bool = False
+    stale: bool = False
+    unclean: str = ""
+
+    @property
+    def arrived(self) -> bool:
+        """Whether it came to its end."""
+        return not self.refused_by
+
+
+def there_and_back(path: Path, name: str, version: str) -> Trip | None:
+    """Write a file in the newest version, then in `version`, then in the newest again; None where it is refused."""
+    if not twinform.check(path).accepted:
+        return None
+    try:
+        newest = twinform.convert(path, to="sdf", sdf_version=NEWEST)
+        older = twinform.convert(newest.text.encode(), to="sdf", sdf_version=version, name=name)
+        again = twinform.convert(older.text.encode(), to="sdf", sdf_version=NEWEST, name=name)
+    except twinform.CompileError as error:
+        return Trip(name, version, refused_by=rules_of(error.diagnostics))
+    return Trip(
+        name,
+        version,
+        difference=first_difference(_read(newest.text), _read(again.text)) or "",
+        accounted=any(map(_is_lossy, (newest.ledger, older.ledger, again.ledger))),
+        stale=any(found.rule.name == "stale-carrier" for found in again.diagnostics),
+        unclean=_outside(older.text),
+    )
+
+
+def upgraded_difference(older: Path, newer: Path) -> str | None:
+    """The first difference between a file and an older one of the same model, said in its version.
+
+    Raises:
+        CompileError: one of them is refused.
+    """
+    there = twinform.load(newer)
+    here = twinform.convert(older, to="sdf", sdf_version=known_version(there.version)).text
+    return first_difference(comparable(without_carriers(twinform.loads(here))), comparable(there))
+
+
+def _read(text: str) -> Document:
+    return comparable(twinform.loads(text))
+
+
+def _is_lossy(ledger: Ledger) -> bool:
+    return any(entry.fate is not Fate.CARRIED for entry in ledger.entries)
+
+
+def _outside(text: str) -> str:
+    found = twinform.check(text.encode()).diagnostics
+    return next((each.message for each in found if each.rule.name == "outside-version"), "")
