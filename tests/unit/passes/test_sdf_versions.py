@@ -53,7 +53,7 @@ def said(text: str, path: str) -> list[str]:
     return [str(each) for each in found]  # pyright: ignore[reportUnknownArgumentType, reportUnknownVariableType] - texts
 
 
-UP = [
+UP: list[tuple[str, str, str, list[str]]] = [
     # 1.4: time steps
     ("1.3", physics("<update_rate>50</update_rate>"), "//physics/real_time_update_rate/text()", ["50"]),
     ("1.3", physics("<ode><solver><dt>0.1</dt></solver></ode>"), "//physics/max_step_size/text()", ["0.1"]),
@@ -157,7 +157,7 @@ FRAMED = model(
     f"<visual name='v'><pose relative_to='__model__'>0 0 0 0 0 0</pose>{BOX}</visual></link>"
 )
 QUARTER = "0 0 1.5707963267948966"
-OLDER = [
+OLDER: list[tuple[str, str, str, list[str]]] = [
     # 1.11 and before
     ("1.10", arm("revolute", "<axis><xyz>1 0 0</xyz><mimic joint='k'/></axis>").replace(
         "</model>", joint("revolute", "<axis/>", name="k") + "</model>"), "//axis/mimic", []),

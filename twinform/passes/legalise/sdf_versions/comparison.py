@@ -1,14 +1,15 @@
 """What a document says, apart from what it carries and from the order of things that have none."""
 
-from typing import Any
+from typing import TypeVar
 
 from twinform.ir import Element, Node, Opaque, map_children, node_fields
 from twinform.passes.legalise.sdf_versions.carriers import carried, is_version_carrier
 
+AnyNode = TypeVar("AnyNode", bound=Node)
 _ABOUT = frozenset({"source", "spelling"})
 
 
-def without_carriers(node: Any) -> Any:
+def without_carriers(node: AnyNode) -> AnyNode:
     """The node without carriers of other versions, all the way down."""
     parts = tuple(_bare(part) for part in node.opaque if not is_version_carrier(part))
     if len(parts) != len(node.opaque) or any(new is not old for new, old in zip(parts, node.opaque, strict=True)):
@@ -33,7 +34,7 @@ def _bare_element(element: Element) -> Element:
     return element if same else element.model_copy(update={"children": children})
 
 
-def comparable(node: Any) -> Any:
+def comparable(node: AnyNode) -> AnyNode:
     """The node with unlike untyped parts in one order, whatever order they stand in, and without empty nodes."""
     if len(node.opaque) > 1 or any(part.element for part in node.opaque):
         parts = sorted((_sorted(part) for part in node.opaque), key=_place)

@@ -171,10 +171,10 @@ class _Poses:
                 update[field] = tuple([self.resolved(part) for part in parts])
         if link.inertial is not None:
             update["inertial"] = self.resolved(link.inertial)
-        elements = self.elements()
         if link.sensors:
-            update["sensors"] = _sensors(link.sensors, update["sensors"], elements)
-        update["opaque"] = elements.parts(link.opaque, still=True)
+            update["sensors"] = _sensors(link.sensors, update["sensors"], self.elements())
+        if link.opaque:
+            update["opaque"] = self.elements().parts(link.opaque, still=True)
         link = link.model_copy(update=update)
         if link.pose is None or link.pose.relative_to is None:
             return link
