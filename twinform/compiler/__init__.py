@@ -1,10 +1,11 @@
 """The compiler: front ends, back ends and the driver that runs what lies between."""
 
-from twinform.compiler.driver import DEFAULT_SDF_VERSION, Conversion, Order, UrdfVersion, convert, fulfil, plan
+from twinform.compiler.driver import Conversion, convert, fulfil, plan
 from twinform.compiler.errors import CompileError
 from twinform.compiler.files import write_all_atomically, write_atomically
 from twinform.compiler.includes import expand
 from twinform.compiler.loading import Checked, Reading, check, load, loads, read
+from twinform.compiler.orders import DEFAULT_SDF_VERSION, Order, UrdfVersion
 from twinform.compiler.splitting import Split, split
 from twinform.compiler.uris import SearchPath, UriError
 

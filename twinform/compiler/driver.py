@@ -1,29 +1,24 @@
 """The way of the data: load, the user's passes, legalisation, back end."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
+from twinform.compiler.crossing import cross
 from twinform.compiler.emitting import emit
 from twinform.compiler.errors import CompileError
 from twinform.compiler.includes import expand
 from twinform.compiler.loading import Checked, Reading, garbage_collection_paused, read
+from twinform.compiler.orders import Language, Order, UrdfVersion
 from twinform.compiler.uris import SearchPath
 from twinform.diagnostics import Diagnostic, Ledger, Notes
 from twinform.diagnostics.rules.model import MISSING_LIMIT
 from twinform.diagnostics.rules.structure import MISSING_ATTRIBUTE
-from twinform.ir import Document, Format
+from twinform.ir import Document
 from twinform.ir.verify import verify, verify_again
 from twinform.passes import Pass, Pipeline, parse_pipeline
-from twinform.passes.legalise import Target, legalisation
 from twinform.passes.legalise.candidates import wanted_includes
 from twinform.schemas import Engine
-
-Language = Literal["sdf", "urdf", "json"]
-UrdfVersion = Literal["1.0", "1.1", "1.2"]
-DEFAULT_SDF_VERSION = "1.11"
-"""The version of Gazebo Harmonic, the newest long-term release, and the first that can say `mimic`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,38 +31,12 @@ class Conversion:
     ledger: Ledger
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Order:
-    """What a conversion is asked for; `passes` are the user's."""
-
-    to: Language
-    sdf_version: str | None = None
-    urdf_version: UrdfVersion = "1.0"
-    passes: Pipeline = field(default_factory=Pipeline)
-    carriers: bool = True
-    model: str | None = None
-    expand_includes: bool = False
-
-    def legalisation(self, source: Document) -> Pipeline:
-        """The passes that the target asks for."""
-        if self.to == "json":
-            return Pipeline()
-        own = source.version if source.format is Format.SDF else None
-        version = self.sdf_version or own or DEFAULT_SDF_VERSION
-        target = Target(Format(self.to), version, self.urdf_version, self.carriers, self.model)
-        return Pipeline(legalisation(source.format, source.version, target))
-
-    def plan(self, source: Document) -> Pipeline:
-        """Every pass that a conversion of this document runs, in order: the user's, then those of the target."""
-        return Pipeline((*self.passes, *self.legalisation(source)))
-
-
 def plan(
     source: Document,
     *,
     to: Language,
     sdf_version: str | None = None,
-    urdf_version: UrdfVersion = "1.0",
+    urdf_version: UrdfVersion | None = None,
     passes: str | Sequence[Pass] | None = None,
     carriers: bool = True,
     model: str | None = None,
@@ -90,7 +59,7 @@ def convert(
     to: Language,
     name: str = "",
     sdf_version: str | None = None,
-    urdf_version: UrdfVersion = "1.0",
+    urdf_version: UrdfVersion | None = None,
     passes: str | Sequence[Pass] | None = None,
     strict: bool = False,
     carriers: bool = True,
@@ -139,12 +108,13 @@ def fulfil(
     """
     with garbage_collection_paused():
         checked = read(source, how, name=name)
+        said = checked.document
         if checked.accepted and (order.expand_includes or order.to == "urdf"):
             wanted = None if order.expand_includes else wanted_includes(checked.document, order.model)
             checked = expand(checked, how, wanted=wanted, carriers=order.carriers)
         if checked.document is None or not (checked.accepted or (order.passes and _may_be_mended(checked))):
             raise CompileError(checked.diagnostics, unreadable=checked.unreadable)
-        return _run(checked, checked.document, order, strict=how.strict, watch=watch)
+        return _run(checked, checked.document, said, order, strict=how.strict, watch=watch)
 
 
 def _pipeline(passes: str | Sequence[Pass] | None) -> Pipeline:
@@ -154,27 +124,50 @@ def _pipeline(passes: str | Sequence[Pass] | None) -> Pipeline:
 def _run(
     checked: Checked,
     document: Document,
+    said: Document | None,
     order: Order,
     *,
     strict: bool,
     watch: Callable[[str, Document], None] | None,
 ) -> Conversion:
+    """The rest of the way of a document that was read; `said` is what it was before its includes were expanded."""
     kept = [each for each in checked.diagnostics if not each.is_error]
     notes = Notes(checked.path, strict, kept, list(checked.entries), origins=dict(checked.origins))
-    legal = order.legalisation(document)
-    document = order.passes.run(document, notes, watch=watch, verify=verify if checked.accepted else None)
+    changed = order.passes.run(document, notes, watch=watch, verify=verify if checked.accepted else None)
     if not checked.accepted:
-        verify(document, notes)
-    if not notes.has_errors and len(legal):
-        document = legal.run(document, notes, watch=watch)
-        if not notes.has_errors:
-            verify_again(document, notes)
-    text = "" if notes.has_errors else _write(document, order.to, notes, fit=checked.mixed or bool(len(legal)))
+        verify(changed, notes)
+    source = changed if changed is not document or said is None else said
+    text = ""
+    if not notes.has_errors:
+        document, text = _written(changed, source, order, notes, watch, fit=checked.mixed)
     if notes.has_errors:
         raise CompileError(tuple(notes.diagnostics))
     lost = sum(entry.weight for entry in notes.entries)
     ledger = Ledger(max(0, checked.size - lost), tuple(notes.entries))
     return Conversion(text, document, tuple(notes.diagnostics), ledger)
+
+
+def _written(
+    document: Document,
+    source: Document,
+    order: Order,
+    notes: Notes,
+    watch: Callable[[str, Document], None] | None,
+    *,
+    fit: bool,
+) -> tuple[Document, str]:
+    """What a document becomes, and its text."""
+    if order.to == "json":
+        return document, document.model_dump_json(indent=2, exclude_defaults=True) + "\n"
+    if order.to != document.format:
+        crossing = cross(document, source, order, notes, watch)
+        return crossing.document, crossing.text
+    legal = order.legalisation(document)
+    if len(legal):
+        document = legal.run(document, notes, watch=watch)
+        if not notes.has_errors:
+            verify_again(document, notes)
+    return document, "" if notes.has_errors else emit(document, notes, fit=fit or bool(len(legal)))
 
 
 def _may_be_mended(checked: Checked) -> bool:
@@ -184,9 +177,3 @@ def _may_be_mended(checked: Checked) -> bool:
         each.rule is MISSING_LIMIT or (each.rule is MISSING_ATTRIBUTE and each.location.path.endswith("/limit"))
         for each in errors
     )
-
-
-def _write(document: Document, to: Language, notes: Notes, *, fit: bool) -> str:
-    if to == "json":
-        return document.model_dump_json(indent=2, exclude_defaults=True) + "\n"
-    return emit(document, notes, fit=fit)

@@ -34,11 +34,25 @@ def emit(document: Document, notes: Notes, *, fit: bool = False) -> str:
     Where the document was not read in this version, `fit` leaves out what other versions have and this one has not, and
     accounts for it.
     """
-    version = written_version(document)
-    named = {prefix or None: uri for prefix, uri in document.namespaces}
-    default = named.pop(None, None)
-    root = _BACK_ENDS[document.format](document, version, named)
-    _validate(root, document.format, version, notes, fit=fit)
+    return serialised(valid_tree(document, notes, fit=fit), document)
+
+
+def valid_tree(document: Document, notes: Notes, *, fit: bool = False) -> XmlElement:
+    """The XML of a document, validated; `emit` says how."""
+    root = document_tree(document)
+    _validate(root, document.format, written_version(document), notes, fit=fit)
+    return root
+
+
+def document_tree(document: Document) -> XmlElement:
+    """The XML of a document, its names without a default namespace."""
+    named = {prefix or None: uri for prefix, uri in document.namespaces if prefix}
+    return _BACK_ENDS[document.format](document, written_version(document), named)
+
+
+def serialised(root: XmlElement, document: Document) -> str:
+    """The text of a document whose XML this is."""
+    default = dict(document.namespaces).get("")
     if default is not None:
         root = _in_namespace(root, default)
     etree.indent(root, "  ")

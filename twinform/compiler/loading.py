@@ -235,6 +235,18 @@ def read_document(text: bytes, notes: Notes, engine: Engine) -> tuple[Document |
     return Document.model_validate(data), root
 
 
+def lower_tree(root: XmlElement, notes: Notes) -> Document:
+    """The document of a tree that we have written ourselves; errors in the notes where it is not valid after all."""
+    format_, lower = _ROOTS[str(root.tag)]
+    context = Context(notes, notes.file, format_, _declared_version(root, format_, notes))
+    errors = refusals(root, context, "libxml2")
+    context.clean = not errors
+    data = lower(root, context)
+    if errors:
+        gate(root, context, "libxml2", errors)
+    return Document.model_validate({**data, "namespaces": _namespaces(root, context, None)})
+
+
 def _verify_what_is_there(data: Mapping[str, Any], notes: Notes) -> Document | None:
     """After an error the names and references are still checked, so that the author sees all at once.
 

@@ -6,10 +6,11 @@ from twinform.schemas.packaged import schema_text
 from twinform.schemas.reader import Reader, element_data, reader
 from twinform.schemas.validator import Engine, SchemaError, gate, libxml2_errors, refusals, xmlschema_errors
 from twinform.schemas.values import format_value, parse_value
-from twinform.schemas.writer import Writer, element_xml, writer
+from twinform.schemas.writer import LAST_LINE, Writer, element_xml, writer
 from twinform.schemas.xml import XmlElement, path_of
 
 __all__ = [
+    "LAST_LINE",
     "Context",
     "Engine",
     "Fact",

@@ -30,7 +30,7 @@ _ALWAYS = "opaque"
 """A field that is never None, for steps that look at several fields themselves."""
 
 
-_LAST_LINE = 65535
+LAST_LINE = 65535
 """libxml2 keeps no number beyond it."""
 
 
@@ -40,7 +40,7 @@ def element_xml(element: Any, parent: XmlElement | None = None) -> XmlElement:
     made = etree.Element(element.name, attributes) if parent is None else SubElement(parent, element.name, attributes)
     made.text, made.tail = element.text, element.tail
     if element.source is not None:
-        made.sourceline = min(element.source.line, _LAST_LINE)  # pyright: ignore[reportAttributeAccessIssue] - it can be set
+        made.sourceline = min(element.source.line, LAST_LINE)  # pyright: ignore[reportAttributeAccessIssue] - it can be set
     for child in element.children:
         element_xml(child, made)
     return made

@@ -1,0 +1,90 @@
+"""From one format to the other, and what has to be remembered so that the way back leads home."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from twinform.compiler.emitting import serialised, valid_tree
+from twinform.compiler.memory import Memory, recall, remember, take_memory
+from twinform.compiler.orders import Order
+from twinform.diagnostics import Entry, Fate, Notes
+from twinform.diagnostics.rules.to_urdf import OUTSIDE_MODEL
+from twinform.ir import Document, Format, Opaque
+from twinform.ir.verify import verify_again
+from twinform.passes.legalise.carrier import NAMESPACE, PREFIX, from_xml
+from twinform.passes.legalise.to_urdf.select_model import SelectModel
+from twinform.schemas import XmlElement
+
+Watch = Callable[[str, Document], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Crossing:
+    """The document on the other side, and its text; both are as far as they came where the notes have errors."""
+
+    document: Document
+    text: str = ""
+
+
+def cross(document: Document, source: Document, order: Order, notes: Notes, watch: Watch | None = None) -> Crossing:
+    """Take a document into the other format. `source` is what the file said before its includes were expanded."""
+    document, memory = take_memory(document)
+    entries, notes.entries = notes.entries, []
+    made, at_home = _legalised(document, order, memory, notes, watch)
+    if not notes.has_errors:
+        verify_again(made, notes)
+    root = None if notes.has_errors else valid_tree(made, notes, fit=not at_home)
+    if root is None or notes.has_errors:
+        return Crossing(made)
+    text = serialised(root, made)
+    if order.carriers:
+        new = remember(_without_the_rest(take_memory(source)[0], order), text.encode())
+        notes.entries = [*_fates(notes.entries, order, home=at_home and new.says_nothing)]
+        if not new.goes_without_saying:
+            made, text = _with_memory(made, root, new, source)
+    notes.entries = [*entries, *notes.entries]
+    return Crossing(made, text)
+
+
+def _legalised(
+    document: Document, order: Order, memory: Memory | None, notes: Notes, watch: Watch | None
+) -> tuple[Document, bool]:
+    """The document in the other format, and whether it is home again: in the version, too, that is remembered."""
+    if memory is None or memory.format != order.to:
+        return order.legalisation(document).run(document, notes, watch=watch), False
+    home = order.in_version(memory.version)
+    back = home.legalisation(document).run(document, notes, watch=watch)
+    if notes.has_errors:
+        return back, False
+    back = recall(memory, back, notes)
+    more = order.legalisation(back)
+    return more.run(back, notes, watch=watch), not len(more)
+
+
+def _without_the_rest(source: Document, order: Order) -> Document:
+    """The source, or of a source with several models the one that was asked for, which goes home alone."""
+    return source if order.model is None else SelectModel(model=order.model).run(source, Notes())
+
+
+def _fates(entries: list[Entry], order: Order, *, home: bool) -> list[Entry]:
+    """What became of each part, now that the memory has what would be lost."""
+    if home:
+        return []
+    return [
+        replace(entry, fate=Fate.CARRIED)
+        if entry.fate is Fate.DROPPED and not (order.model and entry.rule is OUTSIDE_MODEL)
+        else entry
+        for entry in entries
+    ]
+
+
+def _with_memory(made: Document, root: XmlElement, memory: Memory, source: Document) -> tuple[Document, str]:
+    """The document and its text with the memory at the end of the model."""
+    xml = memory.to_xml({prefix or None: uri for prefix, uri in source.namespaces if prefix})
+    model = root if made.format is Format.URDF else root.find("model")
+    if model is None:
+        return made, serialised(root, made)
+    model.append(xml)
+    ours = Opaque(element=from_xml(xml))
+    models = (made.models[0].model_copy(update={"opaque": (*made.models[0].opaque, ours)}), *made.models[1:])
+    namespaces = made.namespaces if (PREFIX, NAMESPACE) in made.namespaces else (*made.namespaces, (PREFIX, NAMESPACE))
+    return made.model_copy(update={"models": models, "namespaces": namespaces}), serialised(root, made)
