@@ -30,7 +30,7 @@ def remember(source: Document, made: bytes) -> Memory:
     """
     version = print_version(written_version(source))
     document = lower_tree(etree.fromstring(made), Notes(_MADE))
-    back = way_back(document, source.format, version, Notes())
+    back = way_back(document, source.format, version, Notes(_MADE))
     wanted, edits = document_tree(source), etree.Element("edits")
     if back is None:
         edits.append(wanted)
