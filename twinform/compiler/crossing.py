@@ -10,6 +10,7 @@ from twinform.diagnostics import Entry, Fate, Notes
 from twinform.diagnostics.rules.to_urdf import OUTSIDE_MODEL
 from twinform.ir import Document, Format, Opaque
 from twinform.ir.verify import verify_again
+from twinform.passes.includes import has_includes
 from twinform.passes.legalise.carrier import NAMESPACE, PREFIX, from_xml
 from twinform.passes.legalise.to_urdf.select_model import SelectModel
 from twinform.schemas import XmlElement
@@ -36,10 +37,10 @@ def cross(document: Document, source: Document, order: Order, notes: Notes, watc
     if root is None or notes.has_errors:
         return Crossing(made)
     text = serialised(root, made)
-    if order.carriers:
+    if order.carriers and not (at_home and has_includes(made)):  # what it includes would have to be read again
         new = remember(_without_the_rest(take_memory(source)[0], order), text.encode())
         notes.entries = [*_fates(notes.entries, order, home=at_home and new.says_nothing)]
-        if not new.goes_without_saying:
+        if not (at_home and new.goes_without_saying):
             made, text = _with_memory(made, root, new, source)
     notes.entries = [*entries, *notes.entries]
     return Crossing(made, text)

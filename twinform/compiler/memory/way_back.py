@@ -6,6 +6,7 @@ from lxml import etree
 
 from twinform.compiler.emitting import document_tree, written_version
 from twinform.compiler.loading import lower_tree
+from twinform.compiler.memory.additions import take_off_additions
 from twinform.compiler.memory.document import Memory
 from twinform.compiler.memory.edits import apply, changes
 from twinform.compiler.memory.keys import digest
@@ -16,6 +17,7 @@ from twinform.ir.verify import verify
 from twinform.passes import Pipeline
 from twinform.passes.legalise import Target, legalisation
 from twinform.passes.legalise.carrier import NAMESPACE
+from twinform.passes.legalise.marks import MADE
 from twinform.schemas import LAST_LINE, XmlElement, print_version
 
 _MADE = "<made>"
@@ -72,13 +74,25 @@ def recall(memory: Memory, back: Document, notes: Notes) -> Document:
 def _tree(document: Document, *, bare: bool) -> XmlElement:
     """The tree of a document, without elements and attributes of our own namespace if it has to be bare."""
     tree = document_tree(document)
+    if document.format is Format.URDF:
+        take_off_additions(tree)
     if not bare:
         return tree
     etree.strip_elements(tree, _OURS, with_tail=False)
-    for element in tree.iter():
-        for name in [name for name in map(str, element.keys()) if name.startswith(_OURS[:-1])]:
-            del element.attrib[name]
+    for element in list(tree.iter()):
+        _strip(element)
     return tree
+
+
+def _strip(element: XmlElement) -> None:
+    """Take off our own attributes, and with a mark what it says that we have made."""
+    parent = element.getparent()
+    for name in [name for name in map(str, element.keys()) if name.startswith(_OURS[:-1])]:
+        made = element.attrib.pop(name) if name == MADE else ""
+        if made == "." and parent is not None:
+            parent.remove(element)
+        elif made in element.attrib:
+            del element.attrib[made]
 
 
 def _number(tree: XmlElement) -> None:
