@@ -22,7 +22,8 @@ Every URDF and SDF file of the corpus is read (*well-formed* says what a strict 
 that `twinform check` finds no error), converted to the other format (URDF to SDF {SDF_VERSION}; of a file with several
 models the first {MOST_ROBOTS}, one by one), and written again in its own format and version. *Identical* means that a
 comparison of XML trees, which knows nothing of the compiler, finds the text equal to the file but for white space,
-comments, the spelling of numbers and the order of unlike siblings.
+comments, the spelling of numbers and the order of unlike siblings. *Home* means that the result of the conversion was
+converted back, and that the document of the source came out of it: equal in the IR, in the version that it had.
 
 Every `.xacro` file is *expanded* without arguments, with the packages around it in the corpus and no others, then
 checked and converted likewise. Most are libraries of macros, which are no robots by themselves, or need packages that
@@ -85,6 +86,9 @@ def _sections(outcomes: list[Outcome], macros: list[Expanded], seconds: float) -
     )
     yield "## Files refused that another reader accepts\n\n" + _stricter_than_others(outcomes)
     yield "## Files not identical\n\n" + _listed((one.name, one.difference) for one in found if one.difference)
+    yield "## Files converted that do not come home\n\n" + _listed(
+        (one.name, one.astray) for one in found if one.astray
+    )
     yield "## Broken promises\n\n" + _listed(_faults(outcomes, macros))
 
 
@@ -115,7 +119,7 @@ def _xacro_row(title: str, found: list[Expanded]) -> tuple[object, ...]:
     )
 
 
-_COLUMNS = ("files", "well-formed", "accepted", "converted", "identical", "seconds")
+_COLUMNS = ("files", "well-formed", "accepted", "converted", "home", "identical", "seconds")
 
 
 def _row(title: str, found: list[Examined]) -> tuple[object, ...]:
@@ -125,6 +129,7 @@ def _row(title: str, found: list[Examined]) -> tuple[object, ...]:
         sum(one.well_formed for one in found),
         sum(one.accepted for one in found),
         sum(one.converted for one in found),
+        sum(one.home for one in found),
         sum(one.identical for one in found),
         f"{sum(one.seconds for one in found):.1f}",
     )

@@ -2,17 +2,23 @@
 
 import time
 import traceback
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
+from typing import Literal
 
 import twinform
 from tests.corpus.files import CorpusFile
+from tests.corpus.ir_difference import first_difference as ir_difference
 from tests.oracles.xml_trees import first_difference, is_well_formed
 from twinform.compiler import Checked
-from twinform.diagnostics import Diagnostic
+from twinform.compiler.emitting import emit
+from twinform.compiler.memory.document import forget
+from twinform.diagnostics import Diagnostic, Notes
 from twinform.ir import Document, Format
+from twinform.passes.legalise.sdf_versions.comparison import comparable
+from twinform.passes.legalise.to_urdf.select_model import SelectModel
 
 SDF_VERSION = "1.9"
 """What URDF is converted to: the newest version that libsdformat 12 reads."""
@@ -25,8 +31,9 @@ MOST_ROBOTS = 3
 class Examined:
     """What the compiler makes of a file. The rules are those of the errors that stopped it, each once.
 
-    `difference` is the first place where the file and its own text from the compiler differ; `faults` are broken
-    promises: tracebacks, and refusals that name no line.
+    `difference` is the first place where the file and its own text from the compiler differ, `home` whether every
+    conversion leads back to the model that it began with, and `astray` where the first one does not. `faults` are
+    broken promises: tracebacks, and refusals that name no line.
     """
 
     name: str
@@ -37,6 +44,8 @@ class Examined:
     not_converted_by: tuple[str, ...] = ()
     identical: bool = False
     difference: str = ""
+    home: bool = False
+    astray: str = ""
     faults: tuple[str, ...] = ()
     seconds: float = 0.0
 
@@ -73,17 +82,38 @@ def _checked(path: Path) -> Checked | str:
 
 def _converted(path: Path, document: Document, found: Examined) -> Examined:
     try:
-        if document.format is Format.URDF:
-            twinform.convert(path, to="sdf", sdf_version=SDF_VERSION)
-        else:
-            for robot in robots(document):
-                twinform.convert(path, to="urdf", model=robot)
+        astray = [way for way in _ways_home(path, document) if way]
     except twinform.CompileError as error:
         faults = (*found.faults, *without_line(error.diagnostics))
         return replace(found, not_converted_by=rules_of(error.diagnostics), faults=faults)
     except Exception as error:  # noqa: BLE001 - every other exception is a fault to report
         return replace(found, faults=(*found.faults, fault(error)))
-    return replace(found, converted=True)
+    return replace(found, converted=True, home=not astray, astray=_short(astray[0]) if astray else "")
+
+
+def _ways_home(path: Path, document: Document) -> Iterator[str]:
+    """Convert each robot and go back; gives where the first difference to the source is, if there is any."""
+    if document.format is Format.URDF:
+        yield _way_home(document, twinform.convert(path, to="sdf", sdf_version=SDF_VERSION).text, "urdf")
+        return
+    for robot in robots(document):
+        there = twinform.convert(path, to="urdf", model=robot).text
+        yield _way_home(chosen(document, robot), there, "sdf")
+
+
+def chosen(document: Document, robot: str | None) -> Document:
+    """What has to come back: the document, or of one with several models the text of the one that was chosen."""
+    if robot is None:
+        return document
+    return twinform.loads(emit(SelectModel(model=robot).run(document, Notes()), Notes()))
+
+
+def _way_home(source: Document, there: str, language: Literal["urdf", "sdf"]) -> str:
+    try:
+        back = twinform.convert(there.encode(), to=language)
+    except twinform.CompileError as error:
+        return f"refused on the way back: {error}"
+    return ir_difference(comparable(source), comparable(forget(back.document))) or ""
 
 
 def robots(document: Document) -> list[str | None]:

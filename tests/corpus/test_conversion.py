@@ -21,3 +21,9 @@ def test_an_accepted_file_is_converted_or_the_rules_against_it_are_named(corpus:
     assert corpus.is_dir()
     accepted = [found for found in examined(CHUNKS[chunk]) if found.accepted and not found.faults]
     assert [found.name for found in accepted if found.converted == bool(found.not_converted_by)] == []
+
+
+@pytest.mark.parametrize("chunk", CHUNKS)
+def test_the_way_back_of_a_conversion_leads_home(corpus: Path, chunk: str):
+    assert corpus.is_dir()
+    assert {found.name: found.astray for found in examined(CHUNKS[chunk]) if found.astray} == {}

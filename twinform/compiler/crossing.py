@@ -38,7 +38,7 @@ def cross(document: Document, source: Document, order: Order, notes: Notes, watc
         return Crossing(made)
     text = serialised(root, made)
     if order.carriers and not (at_home and has_includes(made)):  # what it includes would have to be read again
-        new = remember(_without_the_rest(take_memory(source)[0], order), text.encode())
+        new = remember(_without_the_rest(take_memory(source)[0], document, order), text.encode())
         notes.entries = [*_fates(notes.entries, order, home=at_home and new.says_nothing)]
         if not (at_home and new.goes_without_saying):
             made, text = _with_memory(made, root, new, source)
@@ -61,9 +61,13 @@ def _legalised(
     return more.run(back, notes, watch=watch), not len(more)
 
 
-def _without_the_rest(source: Document, order: Order) -> Document:
+def _without_the_rest(source: Document, document: Document, order: Order) -> Document:
     """The source, or of a source with several models the one that was asked for, which goes home alone."""
-    return source if order.model is None else SelectModel(model=order.model).run(source, Notes())
+    if order.model is None:
+        return source
+    notes = Notes()
+    alone = SelectModel(model=order.model).run(source, notes)
+    return SelectModel(model=order.model).run(document, Notes()) if notes.has_errors else alone
 
 
 def _fates(entries: list[Entry], order: Order, *, home: bool) -> list[Entry]:

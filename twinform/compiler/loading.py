@@ -235,11 +235,14 @@ def read_document(text: bytes, notes: Notes, engine: Engine) -> tuple[Document |
     return Document.model_validate(data), root
 
 
-def lower_tree(root: XmlElement, notes: Notes) -> Document:
-    """The document of a tree that we have written ourselves; errors in the notes where it is not valid after all."""
+def lower_tree(root: XmlElement, notes: Notes, *, valid: bool = False) -> Document:
+    """The document of a tree that we have written ourselves; errors in the notes where it is not valid after all.
+
+    `valid` says that its schema has seen it already.
+    """
     format_, lower = _ROOTS[str(root.tag)]
     context = Context(notes, notes.file, format_, _declared_version(root, format_, notes))
-    errors = refusals(root, context, "libxml2")
+    errors = [] if valid else refusals(root, context, "libxml2")
     context.clean = not errors
     data = lower(root, context)
     if errors:

@@ -1,7 +1,5 @@
 """What the way over adds to a URDF, taken off the way back: most files never had it, and those that did remember it."""
 
-import re
-
 from twinform.schemas import XmlElement
 
 _SHAPES = ("visual", "collision")
@@ -22,10 +20,15 @@ def take_off_additions(robot: XmlElement) -> None:
 
 def _unname(link: XmlElement) -> None:
     for tag in _SHAPES:
-        usual = re.compile(rf"{re.escape(link.get('name') or '')}_{tag}(_\d+)?")
+        usual = f"{link.get('name')}_{tag}"
         for shape in link.findall(tag):
-            if usual.fullmatch(shape.get("name") or ""):
+            name = shape.get("name") or ""
+            if name.startswith(usual) and _is_number(name[len(usual) :]):
                 del shape.attrib["name"]
+
+
+def _is_number(ending: str) -> bool:
+    return not ending or (ending[0] == "_" and ending[1:].isdecimal())
 
 
 def _is_nothing(inertial: XmlElement) -> bool:

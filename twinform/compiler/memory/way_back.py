@@ -31,7 +31,7 @@ def remember(source: Document, made: bytes) -> Memory:
     The file is taken the whole way back, as it will be when somebody asks for that, and compared with the source.
     """
     version = print_version(written_version(source))
-    document = lower_tree(etree.fromstring(made), Notes(_MADE))
+    document = lower_tree(etree.fromstring(made), Notes(_MADE), valid=True)
     back = way_back(document, source.format, version, Notes(_MADE))
     wanted, edits = document_tree(source), etree.Element("edits")
     if back is None:
