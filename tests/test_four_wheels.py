@@ -144,8 +144,9 @@ def test_axes_are_those_that_were_meant() -> None:
     axes = {"front_right_wheel_joint": [0, 0, -1], "left_lid_joint": [1, 0, 0]}
     for name, axis in axes.items():
         assert _numbers(_one(_joint(_sdf("four_wheels.urdf"), name), "axis/xyz").text) == axis
-        again = _one(_joint(_urdf_again("four_wheels.urdf"), name), "axis")
-        assert _numbers(again.get("xyz")) == axis
+    again = _one(_joint(_urdf_again("four_wheels.urdf"), "front_right_wheel_joint"), "axis")
+    assert _numbers(again.get("xyz")) == axes["front_right_wheel_joint"]
+    assert _joint(_urdf_again("four_wheels.urdf"), "left_lid_joint").find("axis") is None  # nor had the source one
 
 
 def test_a_fixed_joint_has_no_axis() -> None:

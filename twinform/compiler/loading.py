@@ -26,6 +26,7 @@ from twinform.diagnostics.rules import model, reading, structure
 from twinform.diagnostics.rules import xacro as xacro_rules
 from twinform.ir import Document, Format, count_parts
 from twinform.ir.verify import verify
+from twinform.passes.legalise.carrier import SOURCE
 from twinform.schemas import Context, Engine, Version, XmlElement, gate, parse_version, print_version, refusals, table
 
 _ROOTS: dict[str, tuple[str, Callable[[XmlElement, Context], Mapping[str, Any]]]] = {
@@ -80,15 +81,19 @@ class Checked:
 
     @property
     def size(self) -> int:
-        """How many elements and attributes the source has."""
+        """How many elements and attributes the source has, besides what it remembers of a source of its own."""
         if self.tree is not None:
-            return self.included + sum(1 + len(element.keys()) for element in self.tree.iter())
+            return self.included + _parts(self.tree) - sum(map(_parts, self.tree.iter(SOURCE)))
         return count_parts(self.document) if self.document else 0
 
     @property
     def accepted(self) -> bool:
         """Whether there is no error."""
         return not any(diagnostic.is_error for diagnostic in self.diagnostics)
+
+
+def _parts(tree: XmlElement) -> int:
+    return sum(1 + len(element.keys()) for element in tree.iter())
 
 
 def check(

@@ -12,12 +12,10 @@ from lxml import etree
 
 from twinform.compiler.orders import DEFAULT_SDF_VERSION
 from twinform.ir import Document, Node, Opaque, map_children
-from twinform.passes.legalise.carrier import NAMESPACE, PREFIX
+from twinform.passes.legalise.carrier import NAMESPACE, PREFIX, SOURCE
 from twinform.schemas import XmlElement, element_xml
 
 AnyNode = TypeVar("AnyNode", bound=Node)
-
-TAG = f"{{{NAMESPACE}}}source"
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +45,7 @@ class Memory:
 
     def to_xml(self, namespaces: dict[str | None, str]) -> XmlElement:
         """The element that travels; `namespaces` are the prefixes of the source."""
-        made = etree.Element(TAG, nsmap={**namespaces, PREFIX: NAMESPACE})
+        made = etree.Element(SOURCE, nsmap={**namespaces, PREFIX: NAMESPACE})
         made.set("format", self.format)
         made.set("version", self.version)
         if self.made_of is not None:
@@ -78,7 +76,7 @@ def forget(node: AnyNode) -> AnyNode:
 
 def is_memory(part: Opaque) -> bool:
     """Whether an opaque part is the memory of a source."""
-    return part.element is not None and part.element.name == TAG
+    return part.element is not None and part.element.name == SOURCE
 
 
 def _memory(part: Opaque) -> Memory:

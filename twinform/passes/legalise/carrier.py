@@ -18,6 +18,8 @@ from twinform.schemas import XmlElement, parse_version, table, writer
 
 NAMESPACE = "urn:twinform:1"
 PREFIX = "tf"
+SOURCE = f"{{{NAMESPACE}}}source"
+"""The element that remembers the source of a file; `compiler/memory/` reads and writes it."""
 
 Attributes = tuple[tuple[str, str], ...]
 
