@@ -8,6 +8,7 @@ from typing import TypedDict, Unpack
 from twinform.diagnostics import Location, Notes, Rule, Severity
 from twinform.diagnostics.rules import structure
 from twinform.schemas.facts import Fact, Version, print_version
+from twinform.schemas.prefixes import dialect_of, words_of
 from twinform.schemas.xml import XmlElement, path_of
 
 _ESSENTIAL = frozenset({"parent", "child"})
@@ -161,6 +162,51 @@ def dialect_word(context: Context, element: XmlElement, step: str, word: str, di
         f"{step[1:]!r} of <{element.tag}> is {word!r}, which is not {context.format.upper()}; {_DIALECTS[dialect]}"
     )
     context.report(structure.DIALECT, element, message, step, found=word)
+
+
+def prefixed_element(context: Context, element: XmlElement) -> None:
+    """An element with a prefix: where it is that of a known reader, the element is the reader's, with all in it."""
+    own = dialect_of(element, str(element.tag))
+    if own is None:
+        return
+    prefix, word = own
+    if word in words_of(prefix):
+        message = f"<{prefix}:{word}> is not {context.format.upper()}; {_DIALECTS[prefix]}"
+        _report_prefixed(context, structure.DIALECT, element, message, found=prefix)
+    for below in element.iter():
+        _check_word(context, below, str(below.tag))
+
+
+def prefixed_attribute(context: Context, element: XmlElement, name: str) -> None:
+    """An attribute with a prefix, which may be that of a known reader."""
+    own = dialect_of(element, name)
+    if own is None:
+        return
+    prefix, word = own
+    if word in words_of(prefix):
+        message = f"'{prefix}:{word}' of <{element.tag}> is not {context.format.upper()}; {_DIALECTS[prefix]}"
+        _report_prefixed(context, structure.DIALECT, element, message, f"@{prefix}:{word}", found=prefix)
+    else:
+        _check_word(context, element, name, f"@{prefix}:{word}")
+
+
+def _check_word(context: Context, element: XmlElement, name: str, step: str = "") -> None:
+    prefix, word = dialect_of(element, name) or ("", "")
+    if not prefix or word in words_of(prefix):
+        return
+    rule = structure.UNKNOWN_ATTRIBUTE if step else structure.UNKNOWN_ELEMENT
+    subject = f"'{prefix}:{word}'" if step else f"<{prefix}:{word}>"
+    close = get_close_matches(word, words_of(prefix), n=1, cutoff=0.75)
+    hint = f"did you mean '{prefix}:{close[0]}'?" if close else None
+    message = f"{subject} is not a word of {prefix.capitalize()}'s"
+    _report_prefixed(context, rule, element, message, step, found=f"{prefix}:{word}", help=hint)
+
+
+def _report_prefixed(
+    context: Context, rule: Rule, element: XmlElement, message: str, step: str = "", **more: Unpack[Details]
+) -> None:
+    context.report(rule, element, message, step, **more)
+    context.structural -= 1  # an XSD does not see it
 
 
 def deprecated(context: Context, element: XmlElement) -> None:

@@ -158,12 +158,15 @@ class Reader:
                 return
             if not free and (read_text is not None or str(child.tag)[0] != "{"):
                 messages.unknown_element(context, child, children)
+            elif not free:
+                messages.prefixed_element(context, child)
             if keep:
                 _keep_element(child, node, at, context)
 
         def other_attribute(element: XmlElement, name: str, text: str, node: Data, at: str, context: Context) -> None:
             if name[0] == "{":
                 note_namespaces(element, context)
+                messages.prefixed_attribute(context, element, name)
             if name in _OF_SCHEMAS or (name[0] != "{" and not free):
                 messages.unknown_attribute(context, element, name, attributes)
             if keep:

@@ -27,7 +27,8 @@ DIALECT = Rule(
     strict=Severity.ERROR,
     finds="An element, attribute or value that is not in the format, and that is known from a program that reads it.",
     matters="That program acts on it, every other reader ignores it. It is kept as it is, and carried in a conversion.",
-    example="`<contact>` in a link for Bullet, `<mujoco>` for MuJoCo, `<frame>` for Drake, `<joint type='spherical'>`.",
+    example="`<contact>` in a link for Bullet, `<mujoco>` for MuJoCo, `<frame>` and all of `<drake:...>` for Drake, "
+    "`<joint type='spherical'>`.",
     better="Nothing needs doing where that program is used; for others, say it in their own words as well.",
 )
 MISSING_ELEMENT = Rule(
