@@ -12,19 +12,23 @@ from tests.corpus.files import CorpusFile
 from tests.oracles.xml_trees import first_difference, is_well_formed
 from twinform.compiler import Checked
 from twinform.diagnostics import Diagnostic
-from twinform.ir import Document, Format
+from twinform.ir import Document, Format, Include, Model
+from twinform.passes.legalise.candidates import candidates
 
 SDF_VERSION = "1.9"
 """What URDF is converted to: the newest version that libsdformat 12 reads."""
 
 MOST_ROBOTS = 3
 """So many models of a world are converted."""
+_LIGHT = "model://sun"
+"""An include that is no model, in nearly every world of Gazebo Classic."""
 
 
 @dataclass(frozen=True, slots=True)
 class Examined:
     """What the compiler makes of a file. The rules are those of the errors that stopped it, each once.
 
+    `without_robot` says that there is no model in it, so nothing to convert to URDF.
     `difference` is the first place where the file and its own text from the compiler differ; `faults` are broken
     promises: tracebacks, and refusals that name no line.
     """
@@ -34,6 +38,7 @@ class Examined:
     accepted: bool = False
     refused_by: tuple[str, ...] = ()
     converted: bool = False
+    without_robot: bool = False
     not_converted_by: tuple[str, ...] = ()
     identical: bool = False
     difference: str = ""
@@ -44,13 +49,13 @@ class Examined:
 @cache
 def examined(files: tuple[CorpusFile, ...]) -> tuple[Examined, ...]:
     """All claims tried on some files; the tests that share a process share the work."""
-    return tuple(examine(file.path, file.name) for file in files)
+    return tuple(examine(file) for file in files)
 
 
-def examine(path: Path, name: str) -> Examined:
+def examine(file: CorpusFile) -> Examined:
     """Check a file, convert it to the other format, and write it in its own; no exception comes out of it."""
-    data = path.read_bytes()
-    found = Examined(name, well_formed=is_well_formed(data))
+    path, data = file.path, file.path.read_bytes()
+    found = Examined(file.name, well_formed=is_well_formed(data))
     start = time.perf_counter()
     checked = _checked(path)
     if isinstance(checked, str):
@@ -59,7 +64,7 @@ def examine(path: Path, name: str) -> Examined:
         faults = without_line(checked.diagnostics)
         found = replace(found, refused_by=rules_of(checked.diagnostics), faults=faults)
     else:
-        found = _converted(path, checked.document, replace(found, accepted=True))
+        found = _converted(file, checked.document, replace(found, accepted=True))
         found = _written_again(path, data, checked.document, found)
     return replace(found, seconds=time.perf_counter() - start)
 
@@ -71,13 +76,15 @@ def _checked(path: Path) -> Checked | str:
         return fault(error)
 
 
-def _converted(path: Path, document: Document, found: Examined) -> Examined:
+def _converted(file: CorpusFile, document: Document, found: Examined) -> Examined:
+    among = robots(document)
     try:
         if document.format is Format.URDF:
-            twinform.convert(path, to="sdf", sdf_version=SDF_VERSION)
-        else:
-            for robot in robots(document):
-                twinform.convert(path, to="urdf", model=robot)
+            twinform.convert(file.path, to="sdf", sdf_version=SDF_VERSION)
+        elif not among:
+            return replace(found, without_robot=True)
+        for robot in among if document.format is Format.SDF else ():
+            twinform.convert(file.path, to="urdf", model=robot, paths=file.paths)
     except twinform.CompileError as error:
         faults = (*found.faults, *without_line(error.diagnostics))
         return replace(found, not_converted_by=rules_of(error.diagnostics), faults=faults)
@@ -87,11 +94,13 @@ def _converted(path: Path, document: Document, found: Examined) -> Examined:
 
 
 def robots(document: Document) -> list[str | None]:
-    """The models to convert: of a file with several the first few by name, else the only one."""
-    inside = [f"{world.name}::{model.name}" for world in document.worlds for model in world.models]
-    names = [*(model.name for model in document.models), *inside]
-    includes = sum(len(place.includes) for place in (document, *document.worlds))
-    return [*names[:MOST_ROBOTS]] if names and len(names) + includes > 1 else [None]
+    """The models to convert: of a file with several the first few by name; includes only where there are no others."""
+    among = list(candidates(document))
+    written = [one for one in among if isinstance(one.model, Model)]
+    included = [one for one in among if isinstance(one.model, Include) and one.model.uri != _LIGHT]
+    if len(among) == 1:
+        return [None] if written or included else []
+    return [one.full_name for one in (written or included)[:MOST_ROBOTS]]
 
 
 def _written_again(path: Path, data: bytes, document: Document, found: Examined) -> Examined:

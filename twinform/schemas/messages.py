@@ -120,14 +120,14 @@ def missing_child(context: Context, element: XmlElement, name: str) -> None:
     context.report(rule, element, f"<{element.tag}> has no <{name}>", expected=f"<{name}>")
 
 
-def missing_attribute(context: Context, element: XmlElement, name: str, default: str | None) -> None:
-    """A required attribute that is not there, or one that readers want to see although it has a default."""
-    message = f"<{element.tag}> has no attribute {name!r}"
-    if default is not None:
-        message += f"; without it, {default!r} is meant"
-        context.report(structure.DEFAULTED_ATTRIBUTE, element, message, expected=f"@{name}")
+def missing_attribute(context: Context, element: XmlElement, fact: Fact) -> None:
+    """A required attribute that is not there, or one that readers want to see although they can do without."""
+    message = f"<{element.tag}> has no attribute {fact.name[1:]!r}"
+    if not fact.expected:
+        context.report(structure.MISSING_ATTRIBUTE, element, message, expected=fact.name)
         return
-    context.report(structure.MISSING_ATTRIBUTE, element, message, expected=f"@{name}")
+    meant = "the element says nothing" if fact.default is None else f"{fact.default!r} is meant"
+    context.report(structure.DEFAULTED_ATTRIBUTE, element, f"{message}; without it, {meant}", expected=fact.name)
 
 
 _DIALECTS = {

@@ -60,9 +60,10 @@ DEFAULTED_ATTRIBUTE = Rule(
     name="defaulted-attribute",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
-    finds="An attribute that the format requires is not there; it has a default, and it is clear what is meant.",
-    matters="libsdformat refuses the file all the same.",
-    example="`<light name='lamp'>` without `type`, which is `point` by default.",
+    finds="An attribute that the format requires is not there; it has a default, or its element says nothing without "
+    "it, so it is clear what is meant.",
+    matters="Some readers refuse the file all the same, as libsdformat does with SDF.",
+    example="`<light name='lamp'>` without `type`, which is `point` by default; `<texture/>` in URDF.",
     better="Write the attribute.",
     references="libsdformat: ATTRIBUTE_MISSING",
 )
