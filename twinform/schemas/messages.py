@@ -38,7 +38,8 @@ class Context:
     schema does not have them: the gate looks at the document without them. `#text` is the text in an element,
     `#tail` the one that follows it. `replaced` holds the words of other versions: the attribute or text that one stands
     in, and a word that the gate sees in its place. `outside` lists elements and attributes of other versions. `aside`
-    is true inside of what the readers of the robot itself skip: nothing there is an error. `header` holds what the root
+    is true inside of what the readers of the robot itself skip: nothing there is an error. `declared` says whether the
+    version is the file's own word; where it is not, an old word is nothing to warn of. `header` holds what the root
     element says about the document rather than about its node.
     """
 
@@ -53,6 +54,7 @@ class Context:
     clean: bool = False
     simple: bool = False
     aside: bool = False
+    declared: bool = True
     outside: list[tuple[XmlElement, Fact]] = field(default_factory=list[tuple[XmlElement, Fact]])
     header: dict[str, object] = field(default_factory=dict[str, object])
 
@@ -94,7 +96,9 @@ def outside_version(context: Context, element: XmlElement, fact: Fact) -> None:
     context.tolerated.append((element, name[1:] if fact.is_attribute else None))
     what = f"the attribute {name[1:]!r}" if fact.is_attribute else f"<{name}>"
     message = f"{what} {_when(context, fact)}"
-    context.report(structure.OUTSIDE_VERSION, element, message, name if fact.is_attribute else "", found=name)
+    step = name if fact.is_attribute else ""
+    severity = None if context.declared or context.notes.strict else Severity.INFO
+    context.report(structure.OUTSIDE_VERSION, element, message, step, found=name, severity=severity)
 
 
 def word_outside_version(context: Context, element: XmlElement, fact: Fact, word: str) -> None:
@@ -111,7 +115,7 @@ def _when(context: Context, fact: Fact) -> str:
     when = f"came with {context.format.upper()} {print_version(fact.since)}"
     if fact.until < context.version:
         when = f"went after {context.format.upper()} {print_version(fact.until)}"
-    return f"{when}; the file declares {print_version(context.version)}"
+    return f"{when}; the file declares {print_version(context.version)}" if context.declared else when
 
 
 def missing_child(context: Context, element: XmlElement, name: str) -> None:
