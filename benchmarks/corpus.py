@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterable
 from itertools import groupby
 
+from benchmarks.known import known
 from benchmarks.markdown import table, write
 from benchmarks.workers import Failure, run
 from tests.corpus.examine import MOST_ROBOTS, SDF_VERSION, Examined, examine
@@ -14,16 +15,24 @@ from tests.corpus.files import CORPUS, MISSING, ROOT, CorpusFile, Kind, corpus_f
 
 PAGE = ROOT / "docs" / "reference" / "corpus.md"
 MOST_SHOWN = 40
+MOST_REFUSED = 0.02
+"""The share of the files that another reader accepts which may be refused here."""
+_READERS = (("urdfdom 3.0.1", "check_urdf"), ("libsdformat 12.3", "libsdformat12"))
+_UNEXPLAINED = "**unexplained**"
 INTRODUCTION = f"""# What the compiler makes of real files
 
 Made by `make corpus`; only the seconds differ from run to run.
 
 Every URDF and SDF file of the corpus is read (*well-formed* says what a strict XML parser thinks of it, *accepted*
 that `twinform check` finds no error), converted to the other format (URDF to SDF {SDF_VERSION}; of a file with several
-models the first {MOST_ROBOTS}, one by one), and written again in its own format and version. *Identical* means that a
-comparison of XML trees, which knows nothing of the compiler, finds the text equal to the file but for white space,
-comments, the spelling of numbers and the order of unlike siblings. *Home* means that the result of the conversion was
-converted back, and that the document of the source came out of it: equal in the IR, in the version that it had.
+models the first {MOST_ROBOTS}, one by one; includes only where there are no others), and written again in its own
+format and version. *Identical* means that a comparison of XML trees, which knows nothing of the compiler, finds the
+text equal to the file but for white space, comments, the spelling of numbers and the order of unlike siblings. *Home* means that the result of
+the conversion was converted back, and that the document of the source came out of it: equal in the IR, in the version
+that it had.
+
+Files that others accept and that are refused here, and accepted ones that are not converted, each have their reason in
+`benchmarks/corpus_known.toml`; one without is a broken promise.
 
 Every `.xacro` file is *expanded* without arguments, with the packages around it in the corpus and no others, then
 checked and converted likewise. Most are libraries of macros, which are no robots by themselves, or need packages that
@@ -57,7 +66,7 @@ def _outcomes() -> Iterable[Outcome]:
 
 
 def _examine(file: CorpusFile) -> Examined:
-    return examine(file.path, file.name)
+    return examine(file)
 
 
 def _macros() -> Iterable[Expanded]:
@@ -72,6 +81,20 @@ def _examine_xacro(file: CorpusFile) -> Expanded:
 def _faults(outcomes: list[Outcome], macros: list[Expanded]) -> Iterable[tuple[str, str]]:
     for one in (*(found for _, found in outcomes), *macros):
         yield from ((one.name, fault) for fault in one.faults)
+    for _, one in outcomes:
+        if one.not_converted_by and not known().why_not_converted(one.name, one.not_converted_by):
+            yield one.name, f"not converted and not explained: {', '.join(one.not_converted_by)}"
+    for reader, column in _READERS:
+        good, refused = _refused(outcomes, column)
+        if len(refused) > MOST_REFUSED * good:
+            yield reader, f"accepts {good} files, of which {len(refused)} are refused"
+        yield from ((one.name, f"{reader} accepts it") for one in refused if not known().why_refused(one.name))
+
+
+def _refused(outcomes: list[Outcome], column: str) -> tuple[int, list[Examined]]:
+    """How many files another reader accepts, and those of them that are refused here."""
+    good = [found for file, found in outcomes if file.row.get(column) == "ok"]
+    return len(good), [found for found in good if not found.accepted]
 
 
 def _sections(outcomes: list[Outcome], macros: list[Expanded], seconds: float) -> Iterable[str]:
@@ -81,9 +104,7 @@ def _sections(outcomes: list[Outcome], macros: list[Expanded], seconds: float) -
     yield "## xacro files refused, by rule\n\n" + _by_rule((one.refused_by, one.name) for one in macros)
     yield "## By repository\n\n" + _by_repository(outcomes)
     yield "## Files refused, by rule\n\n" + _by_rule((one.refused_by, one.name) for one in found)
-    yield "## Files accepted and not converted, by rule\n\n" + _by_rule(
-        (one.not_converted_by, one.name) for one in found
-    )
+    yield "## Files accepted and not converted\n\n" + _not_converted(found)
     yield "## Files refused that another reader accepts\n\n" + _stricter_than_others(outcomes)
     yield "## Files not identical\n\n" + _listed((one.name, one.difference) for one in found if one.difference)
     yield "## Files converted that do not come home\n\n" + _listed(
@@ -155,15 +176,30 @@ def _by_rule(refusals: Iterable[tuple[tuple[str, ...], str]]) -> str:
     return table(["rule", "files", "for example"], rows) if counts else "None."
 
 
+def _not_converted(found: list[Examined]) -> str:
+    nothing = sum(one.without_robot for one in found)
+    text = f"{nothing} files hold no model: lights, actors, physics; there is nothing to convert."
+    groups: dict[str, list[Examined]] = {}
+    for one in sorted(found, key=lambda one: one.not_converted_by):
+        if one.not_converted_by:
+            why = known().why_not_converted(one.name, one.not_converted_by) or _UNEXPLAINED
+            groups.setdefault(why, []).append(one)
+    rows = [
+        (", ".join(group[0].not_converted_by), len(group), group[0].name, why)
+        for why, group in sorted(groups.items(), key=lambda item: -len(item[1]))
+    ]
+    return text + "\n\n" + table(["rules", "files", "for example", "why that is right"], rows)
+
+
 def _stricter_than_others(outcomes: list[Outcome]) -> str:
     parts: list[str] = []
-    for reader, column in (("urdfdom 3.0.1", "check_urdf"), ("libsdformat 12.3", "libsdformat12")):
-        good = [outcome for outcome in outcomes if outcome[0].row.get(column) == "ok"]
-        refused = [found for _, found in good if not found.accepted]
-        parts.append(f"{reader} accepts {len(good)} of these files; {len(refused)} of them are refused here.")
-        parts.append(_by_rule((one.refused_by, one.name) for one in refused))
-        parts.append(_listed((one.name, ", ".join(one.refused_by)) for one in refused))
-    return "\n\n".join(part.strip() for part in parts)
+    for reader, column in _READERS:
+        good, refused = _refused(outcomes, column)
+        share = f"{len(refused) / max(good, 1):.1%}"
+        parts.append(f"{reader} accepts {good} of these files; {len(refused)} of them, {share}, are refused here.")
+        rows = [(one.name, ", ".join(one.refused_by), known().why_refused(one.name) or _UNEXPLAINED) for one in refused]
+        parts.append(table(["file", "rule", "why that is right"], rows) if rows else "")
+    return "\n\n".join(part.strip() for part in parts if part)
 
 
 def _listed(rows: Iterable[tuple[str, str]]) -> str:

@@ -16,7 +16,8 @@ from twinform.compiler import Checked
 from twinform.compiler.emitting import emit
 from twinform.compiler.memory.document import forget
 from twinform.diagnostics import Diagnostic, Notes
-from twinform.ir import Document, Format
+from twinform.ir import Document, Format, Include, Model
+from twinform.passes.legalise.candidates import candidates, name_once_expanded
 from twinform.passes.legalise.sdf_versions.comparison import comparable
 from twinform.passes.legalise.to_urdf.select_model import SelectModel
 
@@ -25,12 +26,15 @@ SDF_VERSION = "1.9"
 
 MOST_ROBOTS = 3
 """So many models of a world are converted."""
+_LIGHT = "model://sun"
+"""An include that is no model, in nearly every world of Gazebo Classic."""
 
 
 @dataclass(frozen=True, slots=True)
 class Examined:
     """What the compiler makes of a file. The rules are those of the errors that stopped it, each once.
 
+    `without_robot` says that there is no model in it, so nothing to convert to URDF.
     `difference` is the first place where the file and its own text from the compiler differ, `home` whether every
     conversion leads back to the model that it began with, and `astray` where the first one does not. `faults` are
     broken promises: tracebacks, and refusals that name no line.
@@ -41,6 +45,7 @@ class Examined:
     accepted: bool = False
     refused_by: tuple[str, ...] = ()
     converted: bool = False
+    without_robot: bool = False
     not_converted_by: tuple[str, ...] = ()
     identical: bool = False
     difference: str = ""
@@ -53,13 +58,13 @@ class Examined:
 @cache
 def examined(files: tuple[CorpusFile, ...]) -> tuple[Examined, ...]:
     """All claims tried on some files; the tests that share a process share the work."""
-    return tuple(examine(file.path, file.name) for file in files)
+    return tuple(examine(file) for file in files)
 
 
-def examine(path: Path, name: str) -> Examined:
+def examine(file: CorpusFile) -> Examined:
     """Check a file, convert it to the other format, and write it in its own; no exception comes out of it."""
-    data = path.read_bytes()
-    found = Examined(name, well_formed=is_well_formed(data))
+    path, data = file.path, file.path.read_bytes()
+    found = Examined(file.name, well_formed=is_well_formed(data))
     start = time.perf_counter()
     checked = _checked(path)
     if isinstance(checked, str):
@@ -68,7 +73,7 @@ def examine(path: Path, name: str) -> Examined:
         faults = without_line(checked.diagnostics)
         found = replace(found, refused_by=rules_of(checked.diagnostics), faults=faults)
     else:
-        found = _converted(path, checked.document, replace(found, accepted=True))
+        found = _converted(file, checked.document, replace(found, accepted=True))
         found = _written_again(path, data, checked.document, found)
     return replace(found, seconds=time.perf_counter() - start)
 
@@ -80,9 +85,12 @@ def _checked(path: Path) -> Checked | str:
         return fault(error)
 
 
-def _converted(path: Path, document: Document, found: Examined) -> Examined:
+def _converted(file: CorpusFile, document: Document, found: Examined) -> Examined:
+    among = robots(document)
     try:
-        astray = [way for way in _ways_home(path, document) if way]
+        if document.format is Format.SDF and not among:
+            return replace(found, without_robot=True)
+        astray = [way for way in _ways_home(file, document, among) if way]
     except twinform.CompileError as error:
         faults = (*found.faults, *without_line(error.diagnostics))
         return replace(found, not_converted_by=rules_of(error.diagnostics), faults=faults)
@@ -91,21 +99,26 @@ def _converted(path: Path, document: Document, found: Examined) -> Examined:
     return replace(found, converted=True, home=not astray, astray=_short(astray[0]) if astray else "")
 
 
-def _ways_home(path: Path, document: Document) -> Iterator[str]:
+def _ways_home(file: CorpusFile, document: Document, among: list[str | None]) -> Iterator[str]:
     """Convert each robot and go back; gives where the first difference to the source is, if there is any."""
     if document.format is Format.URDF:
-        yield _way_home(document, twinform.convert(path, to="sdf", sdf_version=SDF_VERSION).text, "urdf")
+        yield _way_home(document, twinform.convert(file.path, to="sdf", sdf_version=SDF_VERSION).text, "urdf")
         return
-    for robot in robots(document):
-        there = twinform.convert(path, to="urdf", model=robot).text
-        yield _way_home(chosen(document, robot), there, "sdf")
+    for robot in among:
+        there = twinform.convert(file.path, to="urdf", model=robot, paths=file.paths).text
+        yield _way_home(_chosen(file, document, robot), there, "sdf")
 
 
-def chosen(document: Document, robot: str | None) -> Document:
+def _chosen(file: CorpusFile, document: Document, robot: str | None) -> Document:
     """What has to come back: the document, or of one with several models the text of the one that was chosen."""
     if robot is None:
         return document
-    return twinform.loads(emit(SelectModel(model=robot).run(document, Notes()), Notes()))
+    notes = Notes()
+    alone = SelectModel(model=robot).run(document, notes)
+    if notes.has_errors:  # it is an include
+        whole = twinform.check(file.path, expand_includes=True, paths=file.paths).document or document
+        alone = SelectModel(model=name_once_expanded(document, whole, robot)).run(whole, Notes())
+    return twinform.loads(emit(alone, Notes(), fit=True))
 
 
 def _way_home(source: Document, there: str, language: Literal["urdf", "sdf"]) -> str:
@@ -117,11 +130,13 @@ def _way_home(source: Document, there: str, language: Literal["urdf", "sdf"]) ->
 
 
 def robots(document: Document) -> list[str | None]:
-    """The models to convert: of a file with several the first few by name, else the only one."""
-    inside = [f"{world.name}::{model.name}" for world in document.worlds for model in world.models]
-    names = [*(model.name for model in document.models), *inside]
-    includes = sum(len(place.includes) for place in (document, *document.worlds))
-    return [*names[:MOST_ROBOTS]] if names and len(names) + includes > 1 else [None]
+    """The models to convert: of a file with several the first few by name; includes only where there are no others."""
+    among = list(candidates(document))
+    written = [one for one in among if isinstance(one.model, Model)]
+    included = [one for one in among if isinstance(one.model, Include) and one.model.uri != _LIGHT]
+    if len(among) == 1:
+        return [None] if written or included else []
+    return [one.full_name for one in (written or included)[:MOST_ROBOTS]]
 
 
 def _written_again(path: Path, data: bytes, document: Document, found: Examined) -> Examined:

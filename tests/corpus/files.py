@@ -20,6 +20,9 @@ _ASIDE = re.compile(rb"<!--.*?-->|<\?.*?\?>", re.DOTALL)
 _FIRST_TAG = re.compile(rb"<([A-Za-z_][\w:.-]*)")
 _SUFFIXES = frozenset({".urdf", ".sdf", ".world", ".xacro", ".config", ".in", ".gazebo", ".xml"})
 _PORTION = 40
+_LOOKED_UP_IN = {"": "osrf+gazebo_models", "gazebosim+sdformat/test": "gazebosim+sdformat/test/integration/model"}
+"""Where includes are looked up beside the folders around the file: what came with Gazebo Classic for all, and what the
+tests of a repository set."""
 
 
 class Kind(StrEnum):
@@ -45,6 +48,11 @@ class CorpusFile:
     def path(self) -> Path:
         """Where it lies."""
         return CORPUS / self.name
+
+    @property
+    def paths(self) -> tuple[Path, ...]:
+        """The folders in which its includes are looked up, beside those around it."""
+        return tuple(CORPUS / there for here, there in _LOOKED_UP_IN.items() if self.name.startswith(here))
 
     @property
     def repository(self) -> str:

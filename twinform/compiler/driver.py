@@ -1,7 +1,7 @@
 """The way of the data: load, the user's passes, legalisation, back end."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from twinform.compiler.crossing import cross
@@ -17,7 +17,7 @@ from twinform.diagnostics.rules.structure import MISSING_ATTRIBUTE
 from twinform.ir import Document
 from twinform.ir.verify import verify, verify_again
 from twinform.passes import Pass, Pipeline, parse_pipeline
-from twinform.passes.legalise.candidates import wanted_includes
+from twinform.passes.legalise.candidates import name_once_expanded, wanted_includes
 from twinform.schemas import Engine
 
 
@@ -111,7 +111,8 @@ def fulfil(
         said = checked.document
         if checked.accepted and (order.expand_includes or order.to == "urdf"):
             wanted = None if order.expand_includes else wanted_includes(checked.document, order.model)
-            checked = expand(checked, how, wanted=wanted, carriers=order.carriers)
+            before, checked = checked, expand(checked, how, wanted=wanted, carriers=order.carriers)
+            order = replace(order, model=name_once_expanded(before.document, checked.document, order.model))
         if checked.document is None or not (checked.accepted or (order.passes and _may_be_mended(checked))):
             raise CompileError(checked.diagnostics, unreadable=checked.unreadable)
         return _run(checked, checked.document, said, order, strict=how.strict, watch=watch)

@@ -101,7 +101,7 @@ class _Reader:
                 return None
             return Included(found.document, _folder(include, path))
 
-        return _File(expand_includes(document, resolve, self.notes), total.files, total.size)
+        return _File(expand_includes(document, resolve, self.notes, carriers=self.carriers), total.files, total.size)
 
     def _find(self, include: Include, file: Path, document: Document) -> Path | None:
         """The file that an include names."""

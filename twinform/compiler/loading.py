@@ -15,7 +15,6 @@ from twinform.compiler.parsing import (
     parse,
     read_bytes,
     strip_default_namespace,
-    undeclared_prefix,
 )
 from twinform.compiler.sdf import front_end as sdf
 from twinform.compiler.urdf import front_end as urdf
@@ -27,7 +26,18 @@ from twinform.diagnostics.rules import xacro as xacro_rules
 from twinform.ir import Document, Format, count_parts
 from twinform.ir.verify import verify
 from twinform.passes.legalise.carrier import SOURCE
-from twinform.schemas import Context, Engine, Version, XmlElement, gate, parse_version, print_version, refusals, table
+from twinform.schemas import (
+    Context,
+    Engine,
+    Version,
+    XmlElement,
+    gate,
+    parse_version,
+    print_version,
+    refusals,
+    table,
+    undeclared_prefix,
+)
 
 _ROOTS: dict[str, tuple[str, Callable[[XmlElement, Context], Mapping[str, Any]]]] = {
     "robot": ("urdf", urdf.lower),
@@ -230,7 +240,7 @@ def read_document(text: bytes, notes: Notes, engine: Engine) -> tuple[Document |
     context = Context(notes, notes.file, format_, _declared_version(root, format_, notes))
     errors = refusals(root, context, engine)
     context.clean = not errors
-    context.simple = context.clean and b"xmlns" not in text
+    context.simple = context.clean and _is_plain(text, notes)
     data = lower(root, context)
     if errors:
         gate(root, context, engine, errors)
@@ -292,6 +302,12 @@ def _declared_version(root: XmlElement, format_: str, notes: Notes) -> Version:
         message = f"{format_.upper()} has no version {declared!r}; read as {newest}"
         notes.report(structure.UNKNOWN_VERSION, message, where, found=declared, expected=", ".join(facts.versions))
     return facts.newest
+
+
+def _is_plain(text: bytes, notes: Notes) -> bool:
+    """Whether no name has a namespace: none is declared, nor was a prefix repaired; in UTF-16 there is a zero byte."""
+    repaired = any(found.rule is reading.REPAIRED_XML for found in notes.diagnostics)
+    return not repaired and b"xmlns" not in text and b"\0" not in text
 
 
 def _namespaces(root: XmlElement, context: Context, default: str | None) -> tuple[tuple[str, str], ...]:

@@ -12,7 +12,7 @@ from lxml import etree
 from twinform.compiler.malformed import LOST_BRACKET, first_fatal, repaired, with_bracket
 from twinform.diagnostics import Location, Notes
 from twinform.diagnostics.rules import reading
-from twinform.schemas import XmlElement
+from twinform.schemas import XmlElement, undeclared_namespace
 
 LARGEST = 64 * 2**20
 """The largest file, in bytes. The largest real one that we know has 2 MB; a chain of 10,000 links has 15."""
@@ -103,18 +103,9 @@ def _declare_prefixes(root: XmlElement) -> None:
             element.set(_qualified(str(name)), element.attrib.pop(name))
 
 
-_UNDECLARED = "urn:twinform:undeclared:"
-"""The beginning of the namespace that an undeclared prefix is given; the prefix is the end."""
-
-
-def undeclared_prefix(namespace: str) -> str | None:
-    """The prefix that a namespace was made for, if it was."""
-    return namespace.removeprefix(_UNDECLARED) if namespace.startswith(_UNDECLARED) else None
-
-
 def _qualified(name: str) -> str:
     prefix, _, local = name.partition(":")
-    return f"{{{_UNDECLARED}{prefix}}}{local}"
+    return f"{{{undeclared_namespace(prefix)}}}{local}"
 
 
 def strip_default_namespace(root: XmlElement) -> str | None:

@@ -7,7 +7,7 @@ from twinform.schemas.reader import Reader, element_data, reader
 from twinform.schemas.validator import Engine, SchemaError, gate, libxml2_errors, refusals, xmlschema_errors
 from twinform.schemas.values import format_value, parse_value
 from twinform.schemas.writer import LAST_LINE, Writer, element_xml, writer
-from twinform.schemas.xml import XmlElement, path_of
+from twinform.schemas.xml import XmlElement, path_of, undeclared_namespace, undeclared_prefix
 
 __all__ = [
     "LAST_LINE",
@@ -33,6 +33,8 @@ __all__ = [
     "refusals",
     "schema_text",
     "table",
+    "undeclared_namespace",
+    "undeclared_prefix",
     "writer",
     "xmlschema_errors",
 ]

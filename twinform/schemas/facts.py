@@ -15,7 +15,8 @@ container), then keys, flags and the place in the IR.
 
 Keys are `default`, `min`, `max`, `enum`, `since`, `until`, `unit`, `dialect` (whose word it is where it is not the
 format's) and `also` (words of dialects beside those of `enum`). Flags are `any` (free content), `deprecated`,
-`expected` (readers want it written although it has a default) and `aside` (readers of the robot itself skip it).
+`expected` (readers want it written although it has a default, or its element says nothing without it) and `aside`
+(readers of the robot itself skip it).
 
 Places are:
 

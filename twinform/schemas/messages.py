@@ -8,6 +8,7 @@ from typing import TypedDict, Unpack
 from twinform.diagnostics import Location, Notes, Rule, Severity
 from twinform.diagnostics.rules import structure
 from twinform.schemas.facts import Fact, Version, print_version
+from twinform.schemas.prefixes import dialect_of, words_of
 from twinform.schemas.xml import XmlElement, path_of
 
 _ESSENTIAL = frozenset({"parent", "child"})
@@ -37,7 +38,8 @@ class Context:
     schema does not have them: the gate looks at the document without them. `#text` is the text in an element,
     `#tail` the one that follows it. `replaced` holds the words of other versions: the attribute or text that one stands
     in, and a word that the gate sees in its place. `outside` lists elements and attributes of other versions. `aside`
-    is true inside of what the readers of the robot itself skip: nothing there is an error. `header` holds what the root
+    is true inside of what the readers of the robot itself skip: nothing there is an error. `declared` says whether the
+    version is the file's own word; where it is not, an old word is nothing to warn of. `header` holds what the root
     element says about the document rather than about its node.
     """
 
@@ -52,6 +54,7 @@ class Context:
     clean: bool = False
     simple: bool = False
     aside: bool = False
+    declared: bool = True
     outside: list[tuple[XmlElement, Fact]] = field(default_factory=list[tuple[XmlElement, Fact]])
     header: dict[str, object] = field(default_factory=dict[str, object])
 
@@ -93,7 +96,9 @@ def outside_version(context: Context, element: XmlElement, fact: Fact) -> None:
     context.tolerated.append((element, name[1:] if fact.is_attribute else None))
     what = f"the attribute {name[1:]!r}" if fact.is_attribute else f"<{name}>"
     message = f"{what} {_when(context, fact)}"
-    context.report(structure.OUTSIDE_VERSION, element, message, name if fact.is_attribute else "", found=name)
+    step = name if fact.is_attribute else ""
+    severity = None if context.declared or context.notes.strict else Severity.INFO
+    context.report(structure.OUTSIDE_VERSION, element, message, step, found=name, severity=severity)
 
 
 def word_outside_version(context: Context, element: XmlElement, fact: Fact, word: str) -> None:
@@ -110,7 +115,7 @@ def _when(context: Context, fact: Fact) -> str:
     when = f"came with {context.format.upper()} {print_version(fact.since)}"
     if fact.until < context.version:
         when = f"went after {context.format.upper()} {print_version(fact.until)}"
-    return f"{when}; the file declares {print_version(context.version)}"
+    return f"{when}; the file declares {print_version(context.version)}" if context.declared else when
 
 
 def missing_child(context: Context, element: XmlElement, name: str) -> None:
@@ -119,14 +124,14 @@ def missing_child(context: Context, element: XmlElement, name: str) -> None:
     context.report(rule, element, f"<{element.tag}> has no <{name}>", expected=f"<{name}>")
 
 
-def missing_attribute(context: Context, element: XmlElement, name: str, default: str | None) -> None:
-    """A required attribute that is not there, or one that readers want to see although it has a default."""
-    message = f"<{element.tag}> has no attribute {name!r}"
-    if default is not None:
-        message += f"; without it, {default!r} is meant"
-        context.report(structure.DEFAULTED_ATTRIBUTE, element, message, expected=f"@{name}")
+def missing_attribute(context: Context, element: XmlElement, fact: Fact) -> None:
+    """A required attribute that is not there, or one that readers want to see although they can do without."""
+    message = f"<{element.tag}> has no attribute {fact.name[1:]!r}"
+    if not fact.expected:
+        context.report(structure.MISSING_ATTRIBUTE, element, message, expected=fact.name)
         return
-    context.report(structure.MISSING_ATTRIBUTE, element, message, expected=f"@{name}")
+    meant = "the element says nothing" if fact.default is None else f"{fact.default!r} is meant"
+    context.report(structure.DEFAULTED_ATTRIBUTE, element, f"{message}; without it, {meant}", expected=fact.name)
 
 
 _DIALECTS = {
@@ -161,6 +166,51 @@ def dialect_word(context: Context, element: XmlElement, step: str, word: str, di
         f"{step[1:]!r} of <{element.tag}> is {word!r}, which is not {context.format.upper()}; {_DIALECTS[dialect]}"
     )
     context.report(structure.DIALECT, element, message, step, found=word)
+
+
+def prefixed_element(context: Context, element: XmlElement) -> None:
+    """An element with a prefix: where it is that of a known reader, the element is the reader's, with all in it."""
+    own = dialect_of(element, str(element.tag))
+    if own is None:
+        return
+    prefix, word = own
+    if word in words_of(prefix):
+        message = f"<{prefix}:{word}> is not {context.format.upper()}; {_DIALECTS[prefix]}"
+        _report_prefixed(context, structure.DIALECT, element, message, found=prefix)
+    for below in element.iter():
+        _check_word(context, below, str(below.tag))
+
+
+def prefixed_attribute(context: Context, element: XmlElement, name: str) -> None:
+    """An attribute with a prefix, which may be that of a known reader."""
+    own = dialect_of(element, name)
+    if own is None:
+        return
+    prefix, word = own
+    if word in words_of(prefix):
+        message = f"'{prefix}:{word}' of <{element.tag}> is not {context.format.upper()}; {_DIALECTS[prefix]}"
+        _report_prefixed(context, structure.DIALECT, element, message, f"@{prefix}:{word}", found=prefix)
+    else:
+        _check_word(context, element, name, f"@{prefix}:{word}")
+
+
+def _check_word(context: Context, element: XmlElement, name: str, step: str = "") -> None:
+    prefix, word = dialect_of(element, name) or ("", "")
+    if not prefix or word in words_of(prefix):
+        return
+    rule = structure.UNKNOWN_ATTRIBUTE if step else structure.UNKNOWN_ELEMENT
+    subject = f"'{prefix}:{word}'" if step else f"<{prefix}:{word}>"
+    close = get_close_matches(word, words_of(prefix), n=1, cutoff=0.75)
+    hint = f"did you mean '{prefix}:{close[0]}'?" if close else None
+    message = f"{subject} is not a word of {prefix.capitalize()}'s"
+    _report_prefixed(context, rule, element, message, step, found=f"{prefix}:{word}", help=hint)
+
+
+def _report_prefixed(
+    context: Context, rule: Rule, element: XmlElement, message: str, step: str = "", **more: Unpack[Details]
+) -> None:
+    context.report(rule, element, message, step, **more)
+    context.structural -= 1  # an XSD does not see it
 
 
 def deprecated(context: Context, element: XmlElement) -> None:

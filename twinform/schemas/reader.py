@@ -94,7 +94,7 @@ class Reader:
         present = [row for row in fact.rows if row.exists_in(self.version)]
         asked = [row for row in present if row.is_attribute and (row.required or row.expected)]
         needed_attributes = frozenset(row.name[1:] for row in asked)
-        defaults = {row.name[1:]: row.default if row.expected else None for row in asked}
+        rows_asked = {row.name[1:]: row for row in asked}
         needed_children = frozenset(row.name for row in present if not row.is_attribute and row.required)
         once = frozenset(row.name for row in self._rows(fact.children) if not row.repeats)
         free, content = fact.any, fact.place if fact.any and keep else None
@@ -117,7 +117,7 @@ class Reader:
                     other_attribute(element, name, text, node, at, context)
             if needed_attributes and not needed_attributes.issubset(element.keys()):
                 for name in sorted(needed_attributes.difference(element.keys())):
-                    messages.missing_attribute(context, element, name, defaults[name])
+                    messages.missing_attribute(context, element, rows_asked[name])
             text = element.text
             if read_text is not None:
                 read_text(element, node, at, context)
@@ -158,12 +158,15 @@ class Reader:
                 return
             if not free and (read_text is not None or str(child.tag)[0] != "{"):
                 messages.unknown_element(context, child, children)
+            elif not free:
+                messages.prefixed_element(context, child)
             if keep:
                 _keep_element(child, node, at, context)
 
         def other_attribute(element: XmlElement, name: str, text: str, node: Data, at: str, context: Context) -> None:
             if name[0] == "{":
                 note_namespaces(element, context)
+                messages.prefixed_attribute(context, element, name)
             if name in _OF_SCHEMAS or (name[0] != "{" and not free):
                 messages.unknown_attribute(context, element, name, attributes)
             if keep:

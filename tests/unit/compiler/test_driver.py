@@ -72,3 +72,16 @@ def test_sdf_is_written_in_the_version_that_is_asked_for(version: str) -> None:
     assert twinform.loads(made).version == version
     found = check(made.encode(), strict=True).diagnostics
     assert [each.message for each in found if each.severity > Severity.INFO] == []
+
+
+def test_an_undeclared_prefix_in_an_otherwise_plain_element_is_not_lost() -> None:
+    text = """<robot name="r"><link name="a"><collision><geometry>
+      <mesh filename="package://r/a.obj"><drake:declare_convex/></mesh></geometry></collision></link></robot>"""
+    assert "<drake:declare_convex/>" in twinform.convert(text.encode(), to="urdf").text
+
+
+def test_a_prefix_declared_in_utf_16_is_not_lost() -> None:
+    text = """<?xml version="1.0" encoding="UTF-16"?>
+      <robot name="r" xmlns:my="urn:mine"><link name="a"><collision><geometry>
+      <mesh filename="package://r/a.obj"><my:part/></mesh></geometry></collision></link></robot>"""
+    assert "<my:part/>" in twinform.convert(text.encode("utf-16"), to="urdf").text

@@ -250,3 +250,15 @@ def test_what_a_merged_model_says_of_itself_is_in_the_ledger(folder: Path) -> No
     body = '<model name="m"><link name="base"/><include merge="1"><uri>model://arm</uri><static>1</static></include>'
     ledger = twinform.convert(_world(folder, body + "</model>"), to="sdf", expand_includes=True).ledger
     assert [entry.rule.name for entry in ledger.entries] == ["merged-away"]
+
+
+def test_an_older_file_is_said_in_the_words_of_the_newer_one_around_it(tmp_path: Path) -> None:
+    (tmp_path / "old.sdf").write_text("""<sdf version="1.5"><model name="old"><link name="a">
+      <sensor name="s" type="imu"><imu><noise><rate><stddev>2e-4</stddev></rate></noise></imu></sensor>
+    </link></model></sdf>""")
+    (tmp_path / "new.sdf").write_text(
+        """<sdf version="1.9"><world name="w"><include><uri>old.sdf</uri></include></world></sdf>"""
+    )
+    made = twinform.convert(tmp_path / "new.sdf", to="sdf", expand_includes=True)
+    assert made.text.count('<noise type="gaussian"') == 6
+    assert made.ledger.entries == ()

@@ -27,7 +27,8 @@ DIALECT = Rule(
     strict=Severity.ERROR,
     finds="An element, attribute or value that is not in the format, and that is known from a program that reads it.",
     matters="That program acts on it, every other reader ignores it. It is kept as it is, and carried in a conversion.",
-    example="`<contact>` in a link for Bullet, `<mujoco>` for MuJoCo, `<frame>` for Drake, `<joint type='spherical'>`.",
+    example="`<contact>` in a link for Bullet, `<mujoco>` for MuJoCo, `<frame>` and all of `<drake:...>` for Drake, "
+    "`<joint type='spherical'>`.",
     better="Nothing needs doing where that program is used; for others, say it in their own words as well.",
 )
 MISSING_ELEMENT = Rule(
@@ -59,9 +60,10 @@ DEFAULTED_ATTRIBUTE = Rule(
     name="defaulted-attribute",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
-    finds="An attribute that the format requires is not there; it has a default, and it is clear what is meant.",
-    matters="libsdformat refuses the file all the same.",
-    example="`<light name='lamp'>` without `type`, which is `point` by default.",
+    finds="An attribute that the format requires is not there; it has a default, or its element says nothing without "
+    "it, so it is clear what is meant.",
+    matters="Some readers refuse the file all the same, as libsdformat does with SDF.",
+    example="`<light name='lamp'>` without `type`, which is `point` by default; `<texture/>` in URDF.",
     better="Write the attribute.",
     references="libsdformat: ATTRIBUTE_MISSING",
 )

@@ -29,6 +29,7 @@ class References:
         self.own = MODEL if isinstance(holder, Model) else WORLD
         self.notes = notes
         self._holder = holder
+        self._inner_frames: frozenset[str] = frozenset()
 
     def verify(self) -> None:
         """Report every reference that leads nowhere, or to two things."""
@@ -60,6 +61,7 @@ class References:
 
     def _link(self, link: Link) -> None:
         self._pose(link.pose)
+        self._inner_frames = _frames_inside(link)
         for visual in link.visuals:
             self._pose(visual.pose)
         for collision in link.collisions:
@@ -67,6 +69,7 @@ class References:
         for sensor in link.sensors:
             self._pose(sensor.pose)
         self._lights(link.lights)
+        self._inner_frames = frozenset()
 
     def _lights(self, lights: Iterable[Light]) -> None:
         for light in lights:
@@ -96,8 +99,18 @@ class References:
             self._look_up(joints.DANGLING_LINK, what + ("model" if self.own == MODEL else "world"), where, name)
 
     def _pose(self, pose: Pose | None) -> None:
-        if pose is not None and pose.relative_to:
+        if pose is None:
+            return
+        if pose.relative_to:
             self._frame(pose.relative_to, pose.location.at("@relative_to"))
+        elif pose.opaque and not self.one_scope:
+            self._old_frame(pose)
+
+    def _old_frame(self, pose: Pose) -> None:
+        """The frame of a pose before 1.7, which means what `relative_to` means since."""
+        name = next((part.attribute[1] for part in pose.opaque if part.attribute and part.attribute[0] == "frame"), "")
+        if name not in self._inner_frames:
+            self._frame(name, pose.location.at("@frame"))
 
     def _frame(self, name: str | None, where: Location) -> None:
         if name and name != self.own:
@@ -110,3 +123,9 @@ class References:
         elif found == "twice" and self.one_scope:
             message = f"{name!r} is the name of two things, and this may mean either"
             self.notes.report(rules.AMBIGUOUS_FRAME, message, where, found=name)
+
+
+def _frames_inside(link: Link) -> frozenset[str]:
+    """The frames that only what is in a link knows, as SDF 1.5 and 1.6 have them."""
+    frames = [part.element for part in link.opaque if part.element and part.element.name == "frame"]
+    return frozenset(frame.get("name") or "" for frame in frames)

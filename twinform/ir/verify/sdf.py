@@ -157,20 +157,31 @@ class _Verifier:
                 seen.add(problem.found)
         if graph is not None and not problems:
             self._ends(holder, graph)
+            for model in holder.models if isinstance(holder, Model) else ():
+                self._ends_inside(model, graph, "")
 
-    def _ends(self, holder: Model | World, graph: FrameGraph) -> None:
+    def _ends_inside(self, model: Model, graph: FrameGraph, scope: str) -> None:
+        """Nested models too; libsdformat does not look there, so it is no error until a format cannot say it."""
+        scope = f"{scope}{model.name}::"
+        self._ends(model, graph, scope, None if self.notes.strict else Severity.WARNING)
+        for nested in model.models:
+            self._ends_inside(nested, graph, scope)
+
+    def _ends(
+        self, holder: Model | World, graph: FrameGraph, scope: str = "", severity: Severity | None = None
+    ) -> None:
         """Report joints that connect a link to itself by way of a frame."""
         links = {link.name for link in holder.links} if isinstance(holder, Model) else set[str]()
         for joint in holder.joints:
             parent, child = joint.parent, joint.child
             if not parent or not child or parent == child or (parent in links and child in links):
                 continue
-            if not (graph.knows(parent) and graph.knows(child)):  # it is in an include
+            if not (graph.knows(scope + parent) and graph.knows(scope + child)):  # it is in an include
                 continue
-            body = graph.body(parent)
-            if body == graph.body(child) and (body in links or "::" in body):
+            body = graph.body(scope + parent)
+            if body == graph.body(scope + child) and (body.removeprefix(scope) in links or "::" in body):
                 message = f"joint {joint.name!r} connects {body!r} to itself: {parent!r} and {child!r} are both on it"
-                self.notes.report(rules.SELF_JOINT, message, joint.location, found=body)
+                self.notes.report(rules.SELF_JOINT, message, joint.location, found=body, severity=severity)
 
 
 def _names_frames(world: World) -> bool:

@@ -43,16 +43,17 @@ def _model_has_includes(model: Model) -> bool:
     return bool(model.includes) or any(map(_model_has_includes, model.models))
 
 
-def expand_includes(document: Document, resolve: Resolver, notes: Notes) -> Document:
+def expand_includes(document: Document, resolve: Resolver, notes: Notes, *, carriers: bool = True) -> Document:
     """The document with what its includes name in their place.
 
-    Files of different versions come together in the newest of them: the frames of older ones are said in its words.
+    Files of different versions come together in the newest of them: older ones are said in its words, and what it lacks
+    is carried, or dropped without `carriers`.
     """
     found = [resolve(include) for include in _includes(document)]
     version = newest(document.version, *(each.document.version for each in found if each), *_needs(document))
-    document = upgrade_document(document, version)
+    document = upgrade_document(document, version, notes, carriers=carriers)
     by_identity = {id(include): each for include, each in zip(_includes(document), found, strict=True)}
-    document = _Expansion(by_identity, version, notes).document(document)
+    document = _Expansion(by_identity, version, notes, carriers).document(document)
     return document.model_copy(update={"namespaces": _namespaces(document, found)})
 
 
@@ -100,6 +101,7 @@ class _Expansion:
     found: dict[int, Included | None]
     version: str | None
     notes: Notes
+    carriers: bool
     ready: dict[int, Document] = field(default_factory=dict[int, Document])
 
     def document(self, document: Document) -> Document:
@@ -149,7 +151,8 @@ class _Expansion:
         """The document of an include in the words and with the paths of this one."""
         done = self.ready.get(id(source))
         if done is None:
-            done = relocate(upgrade_document(source.document, self.version), source.folder)
+            done = upgrade_document(source.document, self.version, self.notes, carriers=self.carriers)
+            done = relocate(done, source.folder)
             self.ready[id(source)] = done
         return done
 
@@ -176,11 +179,11 @@ class _Expansion:
             message = f"{include.uri!r} has no model that could be included here"
             self.notes.report(rules.INCLUDE_WITHOUT_MODEL, message, include.location, found=include.uri)
             return None
-        first, *others = models
-        if others:
-            message = f"{include.uri!r} has {len(models)} models; {first.name!r} is taken"
+        count = len(source.document.models)  # newer versions have one at most
+        if count > 1:
+            message = f"{include.uri!r} has {count} models; {models[0].name!r} is taken"
             self.notes.report(rules.INCLUDE_TAKES_FIRST, message, include.location, found=include.uri)
-        return first
+        return models[0]
 
     def _refuse_merge(self, include: Include, why: str) -> None:
         message = f"{include.uri!r} cannot be merged: {why}"

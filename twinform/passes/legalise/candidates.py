@@ -33,6 +33,16 @@ def candidates(document: Document) -> Iterator[Candidate]:
             yield Candidate(one, world)
 
 
+def name_once_expanded(before: Document | None, after: Document | None, name: str | None) -> str | None:
+    """The name of a model that was chosen by the URI of its include, now that the include is expanded."""
+    among = candidates(before) if before and after and name else ()
+    nameless = [one.model for one in among if isinstance(one.model, Include) and one.answers_to(name)]
+    if not after or len(nameless) != 1:
+        return name
+    place = nameless[0].source
+    return next((one.full_name for one in candidates(after) if place and one.model.source is place), name)
+
+
 def wanted_includes(document: Document | None, name: str | None) -> Callable[[Include], bool]:
     """Which includes have to be read to make URDF of the model of this name.
 

@@ -5,11 +5,19 @@ from twinform.passes.legalise.sdf_versions.leave_out import LeaveOut
 from twinform.passes.legalise.sdf_versions.put_back import PutBack
 from twinform.passes.legalise.sdf_versions.rename_states import RenameStates
 from twinform.passes.legalise.sdf_versions.set_version import SetVersion
-from twinform.passes.legalise.sdf_versions.steps import backward, forward
+from twinform.passes.legalise.sdf_versions.steps import backward, forward, unversioned
 from twinform.passes.legalise.sdf_versions.write_plain_poses import WritePlainPoses
 from twinform.schemas import Version, parse_version, print_version, table
 
-__all__ = ["change_version", "known_version", "lower_version", "raise_version", "raise_words"]
+__all__ = [
+    "change_version",
+    "known_version",
+    "lower_version",
+    "raise_for_merging",
+    "raise_unversioned",
+    "raise_version",
+    "raise_words",
+]
 
 _ANY_POSE: Version = (1, 9)
 """Since this version a pose that comes out of a carrier may be in any notation."""
@@ -45,6 +53,17 @@ def raise_words(declared: str | None, *, carriers: bool = True) -> tuple[Pass, .
     old, newest = known_version(declared), table("sdf").versions[-1]
     back = PutBack(version=newest, source=old, carriers=carriers)
     return (*forward(parse_version(old), parse_version(newest), names=False), back)
+
+
+def raise_for_merging(declared: str, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
+    """The same on the way to a file of several versions: what its version lacks is left out when it is whole."""
+    back = PutBack(version=asked, source=declared, carriers=carriers)
+    return (*forward(parse_version(declared), parse_version(asked)), back, SetVersion(version=asked))
+
+
+def raise_unversioned() -> tuple[Pass, ...]:
+    """The passes that say old words in new ones where nobody has declared a version, as in `<gazebo>` elements."""
+    return tuple(unversioned(table("sdf").versions[-1]))
 
 
 def lower_version(declared: str | None, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:

@@ -66,6 +66,13 @@ def _from_named_frames(crosses: Crosses, version: str, *, names: bool) -> Iterat
         yield RenameStates(version=version)
 
 
+def unversioned(version: str) -> Iterator[Pass]:
+    """The passes for words of any version in a text that declares none, where no newer version means something else."""
+    yield SpreadImuNoise(version=version)
+    yield NamePoseFrames(version=version)
+    yield NameAxisFrames(version=version)
+
+
 def backward(new: Version, old: Version, *, carriers: bool = True) -> Iterator[Pass]:
     """The passes from a newer version to an older one, each where its version is crossed."""
     crosses: Crosses = lambda minor: old < (1, minor) <= new  # noqa: E731 - a word for the lines below

@@ -1,7 +1,7 @@
 """From the terms of URDF to those of SDF: the passes, in order."""
 
 from twinform.passes.base import Pass
-from twinform.passes.legalise.sdf_versions import lower_version
+from twinform.passes.legalise.sdf_versions import lower_version, raise_unversioned
 from twinform.passes.legalise.to_sdf.bodies import UrdfBodies
 from twinform.passes.legalise.to_sdf.carry_urdf import CarryUrdf
 from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo
@@ -22,6 +22,7 @@ def to_sdf(version: str, *, carriers: bool) -> tuple[Pass, ...]:
     return (
         CarryUrdf(carriers=carriers),  # before anything of SDF comes in
         FoldGazebo(carriers=carriers),
+        *raise_unversioned(),
         WorldLink(carriers=carriers),
         UniqueNames(carriers=carriers),
         NameShapes(),

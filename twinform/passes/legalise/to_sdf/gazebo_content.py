@@ -29,7 +29,7 @@ def read_content(
         for element in extension.content:
             element_xml(element, xml)
     found = Notes(file=notes.file, strict=notes.strict)
-    context = Context(found, notes.file, "sdf", table("sdf").newest)
+    context = Context(found, notes.file, "sdf", table("sdf").newest, declared=False)
     data = reader("sdf", context.version).read(xml, context, kind, listed[0].source)
     _report(found, f"{kind}[@name='{name}']", name if kind != "model" else "", notes)
     fields = set(data) - _GIVEN
