@@ -27,9 +27,9 @@ Every URDF and SDF file of the corpus is read (*well-formed* says what a strict 
 that `twinform check` finds no error), converted to the other format (URDF to SDF {SDF_VERSION}; of a file with several
 models the first {MOST_ROBOTS}, one by one; includes only where there are no others), and written again in its own
 format and version. *Identical* means that a comparison of XML trees, which knows nothing of the compiler, finds the
-text equal to the file but for white space, comments, the spelling of numbers and the order of unlike siblings. *Home* means that the result of
-the conversion was converted back, and that the document of the source came out of it: equal in the IR, in the version
-that it had.
+text equal to the file but for white space, comments, the spelling of numbers and the order of unlike siblings. *Home*
+means that the result of the conversion was converted back, and that the document of the source came out of it: equal in
+the IR, in the version that it had.
 
 Files that others accept and that are refused here, and accepted ones that are not converted, each have their reason in
 `benchmarks/corpus_known.toml`; one without is a broken promise.

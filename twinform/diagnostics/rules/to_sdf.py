@@ -75,9 +75,9 @@ NO_JOINT = Rule(
 JOINT_TYPE_UNSUPPORTED = Rule(
     name="joint-type-unsupported",
     severity=Severity.ERROR,
-    finds="A joint type that the target has no word for and that cannot be expressed by others yet.",
+    finds="A joint that the target has no word for and that no others say together.",
     matters="Left out or replaced, the robot would move in another way.",
-    example="`ball`, `universal`, `revolute2`, `screw` and `gearbox` from SDF.",
+    example="`piston` of SDF before 1.5; a `screw` with a `<thread_pitch>` of 0 rad/m.",
     better="Write the joint as a chain of revolute and prismatic ones.",
 )
 JOINT_CHAIN = Rule(

@@ -59,6 +59,26 @@ AUTOMATIC_INERTIA = Rule(
     example="`<inertial auto='true'/>`",
     better="Compute it first, with a pass or by `gz sdf --print --expand-auto-inertials`.",
 )
+UNFOLDED_JOINT = Rule(
+    name="unfolded-joint",
+    severity=Severity.WARNING,
+    finds="A `ball`, `universal`, `revolute2` or `screw` joint of an SDF file that becomes URDF.",
+    matters="URDF says it by a chain of joints with links between. These have no mass, so that the robot weighs what "
+    "it weighed; but Gazebo's own reader of URDF drops a moving link without mass, and all below it. The middle one of "
+    "the three joints of a ball loses a direction at 90 degrees, which the ball does not.",
+    example="`<joint name='neck' type='universal'>` becomes `neck_axis` and `neck`.",
+    better="Nothing for ROS, and our way back makes it one joint again. For Gazebo, keep the SDF file.",
+)
+GEARBOX = Rule(
+    name="gearbox",
+    severity=Severity.WARNING,
+    finds="A `gearbox` joint of an SDF file that becomes URDF.",
+    matters="It holds no link, it couples the angles of two other joints: one of them mimics the other in URDF. Gazebo "
+    "reads the gearbox itself in a `<gazebo>` element. Where the two are not turning joints at the reference body, "
+    "about the axes of the gearbox, only Gazebo couples them.",
+    example="`<joint name='gears' type='gearbox'>` between `wheel` and `motor`, both of which turn on `frame`.",
+    better="Let both ends turn on the `<gearbox_reference_body>`, about `<axis>` and `<axis2>`.",
+)
 JOINT_END = Rule(
     name="joint-end",
     severity=Severity.INFO,

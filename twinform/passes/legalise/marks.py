@@ -26,6 +26,14 @@ def made_fields(node: Node) -> tuple[str, ...]:
     return tuple(" ".join(found).split())
 
 
+def without_mark(node: AnyNode, field: str) -> AnyNode:
+    """The node without the mark on one field."""
+    fields = [each for each in made_fields(node) if each != field]
+    rest = tuple(part for part in node.opaque if not _is_mark(part))
+    bare = node.model_copy(update={"opaque": rest})
+    return mark_made(bare, *fields) if fields else bare
+
+
 def _is_mark(part: Opaque) -> bool:
     return part.attribute is not None and part.attribute[0] == MADE
 

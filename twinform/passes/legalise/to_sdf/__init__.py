@@ -5,6 +5,8 @@ from twinform.passes.legalise.sdf_versions import lower_version, raise_unversion
 from twinform.passes.legalise.to_sdf.bodies import UrdfBodies
 from twinform.passes.legalise.to_sdf.carry_urdf import CarryUrdf
 from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo
+from twinform.passes.legalise.to_sdf.fold_gearboxes import FoldGearboxes
+from twinform.passes.legalise.to_sdf.fold_joints import FoldJoints
 from twinform.passes.legalise.to_sdf.frame_links import FrameLinks
 from twinform.passes.legalise.to_sdf.joints import UrdfJoints
 from twinform.passes.legalise.to_sdf.mesh_uris import MeshUris
@@ -23,6 +25,7 @@ def to_sdf(version: str, *, carriers: bool) -> tuple[Pass, ...]:
         CarryUrdf(carriers=carriers),  # before anything of SDF comes in
         FoldGazebo(carriers=carriers),
         *raise_unversioned(),
+        FoldJoints(),
         WorldLink(carriers=carriers),
         UniqueNames(carriers=carriers),
         NameShapes(),
@@ -30,6 +33,7 @@ def to_sdf(version: str, *, carriers: bool) -> tuple[Pass, ...]:
         FrameLinks(carriers=carriers),
         UrdfBodies(),
         UrdfJoints(carriers=carriers),
+        FoldGearboxes(),
         MeshUris(),
         *lower_version(None, version, carriers=carriers),
         RetargetSdf(version=version),

@@ -6,12 +6,16 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf
-from twinform.ir import GazeboExtension, Model, Node, Opaque, Pose, map_children
+from twinform.ir import GazeboExtension, Joint, Model, Node, Opaque, Pose, map_children
 from twinform.passes.legalise.carrier import carry, is_carrier, is_ours, unpack
+from twinform.passes.legalise.joint_chains import is_chain_mark
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.schemas import Fact, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)
+
+_BALLS = frozenset({"ball", "spherical"})
+"""What dialects of URDF call the ball joint of SDF."""
 
 
 class CarryUrdf(ModelPass):
@@ -19,8 +23,9 @@ class CarryUrdf(ModelPass):
 
     Changes: 1. opaque elements, attributes and text of URDF (transmissions, ros2_control, other tools' elements) become
     carriers; 2. parts of an origin, which is a plain text in SDF, are carried by what has the origin; 3. carriers of
-    SDF that add to what the model says become parts of it again; the others stay, for nothing may be said twice. With
-    `carriers` false, the parts of the first two are dropped.
+    SDF that add to what the model says become parts of it again; the others stay, for nothing may be said twice; 4.
+    what Bullet calls `spherical` and Drake `ball` is a `ball` that carries this name. With `carriers` false, none of
+    these parts is carried.
     Never touches: typed fields.
     Diagnostics: none; every part has a ledger entry under `urdf-only`.
     """
@@ -36,6 +41,15 @@ class CarryUrdf(ModelPass):
         if isinstance(node, GazeboExtension):  # the next pass knows what may stand in it
             return node
         node = map_children(node, lambda child: self._sweep(child, notes))
+        if isinstance(node, Joint) and node.type in _BALLS:
+            message = f"{node.type} joint {node.name!r} is one of a dialect of URDF"
+            kept = [Opaque(attribute=("type", node.type))]
+            ball = self._swept(node.model_copy(update={"type": "ball"}), notes)
+            return self._carry(ball, kept, notes, message)
+        return self._swept(node, notes)
+
+    def _swept(self, node: AnyNode, notes: Notes) -> AnyNode:
+        """The node with its own parts in carriers, or out of them."""
         pose: Pose | None = node.__dict__.get("pose")
         if not node.opaque and not (pose and pose.opaque):
             return node
@@ -48,13 +62,14 @@ class CarryUrdf(ModelPass):
         return self._carry(node.model_copy(update=update), pieces, notes) if not isinstance(node, Pose) else node
 
     def _keeps(self, part: Opaque) -> bool:
-        return self.carriers or not is_ours(part)
+        return self.carriers or not is_ours(part) or is_chain_mark(part)  # which go where the chain is folded
 
-    def _carry(self, node: AnyNode, pieces: list[Opaque], notes: Notes) -> AnyNode:
+    def _carry(self, node: AnyNode, pieces: list[Opaque], notes: Notes, message: str = "") -> AnyNode:
         fate = Fate.CARRIED if self.carriers else Fate.DROPPED
         for piece in pieces:
-            message = f"{piece.name} is not a part of SDF"
-            notes.account(fate, to_sdf.URDF_ONLY, message, piece.location, max(1, piece.weight))
+            why = message or f"{piece.name} is not a part of SDF"
+            where = piece.location if piece.source else node.location
+            notes.account(fate, to_sdf.URDF_ONLY, why, where, max(1, piece.weight))
         return carry(node, pieces, "urdf") if self.carriers else node
 
 

@@ -22,8 +22,7 @@ Made = TypeVar("Made", Link, Joint)
 class UrdfJoints(ModelPass):
     """Say the types, default axes and default limits of URDF in SDF's terms.
 
-    Changes: 1. a `fixed` or `ball` joint loses its axis, limits and the like, which are carried; what Bullet calls
-    `spherical` is a `ball`; 2. a `continuous` joint loses
+    Changes: 1. a `fixed` joint loses its axis, limits and the like, which are carried; 2. a `continuous` joint loses
     lower and upper limit, which URDF ignores; 3. a joint that moves gets its axis written, 1 0 0 where URDF leaves it
     out; 4. a revolute or prismatic joint gets its limits written, 0 where URDF leaves them out; 5. a `floating` joint
     goes, and its child link is posed where it was; 6. limits of acceleration and jerk, which SDF lacks, are carried;
@@ -87,14 +86,23 @@ class UrdfJoints(ModelPass):
                 return self._without_axis(joint, notes)
             case "revolute" | "prismatic" | "continuous":
                 return self._moving(joint, notes)
-            case "ball" | "spherical":
-                return self._without_axis(joint.model_copy(update={"type": "ball"}), notes)
+            case "ball":
+                return self._ball(joint, notes)
             case "planar" | "universal" | "revolute2" | "screw" | "gearbox":
                 return joint  # SDF's own, from a <gazebo> element
             case _:
                 message = f"joint {joint.name!r} is {joint.type!r}, which SDF has no joint for"
                 notes.report(to_sdf.JOINT_TYPE_UNSUPPORTED, message, joint.location.at("@type"), found=joint.type)
                 return joint
+
+    def _ball(self, joint: Joint, notes: Notes) -> Joint:
+        """Any axis of a ball joint stays: its damping is that of the joint."""
+        limit = joint.axis.limit if joint.axis else None
+        if joint.axis is None or limit is None:
+            return joint
+        limit, rest = _without(limit, _HIGHER)
+        joint = joint.model_copy(update={"axis": joint.axis.model_copy(update={"limit": limit})})
+        return self._keep(joint, rest, f"SDF has no place for these limits of joint {joint.name!r}", notes)
 
     def _without_axis(self, joint: Joint, notes: Notes) -> Joint:
         if joint.axis is None:
@@ -136,9 +144,15 @@ def _limit(joint: Joint, limit: Limit | None) -> tuple[Limit | None, list[Opaque
     if limit is None:
         return None, []
     unsaid = (*_HIGHER, "lower", "upper") if joint.type == "continuous" else _HIGHER
-    written = [(name, getattr(limit, name)) for name in unsaid if getattr(limit, name) is not None]
+    limit, rest = _without(limit, unsaid)
+    missing = [name for name in ("lower", "upper") if getattr(limit, name) is None]
+    if joint.type == "continuous" or not missing:
+        return limit, rest
+    return limit.model_copy(update=dict.fromkeys(missing, 0.0)), rest
+
+
+def _without(limit: Limit, names: tuple[str, ...]) -> tuple[Limit, list[Opaque]]:
+    """The limit without what it says by these names, and that as attributes of URDF."""
+    written = [(name, getattr(limit, name)) for name in names if getattr(limit, name) is not None]
     rest = [Opaque(at="limit", attribute=(name, format_value(value))) for name, value in written]
-    update: dict[str, float | None] = {name: None for name, _ in written}
-    if joint.type != "continuous":
-        update |= {name: 0.0 for name in ("lower", "upper") if getattr(limit, name) is None}
-    return (limit.model_copy(update=update) if update else limit), rest
+    return (limit.model_copy(update={name: None for name, _ in written}) if written else limit), rest

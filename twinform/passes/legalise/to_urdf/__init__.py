@@ -13,9 +13,11 @@ from twinform.passes.legalise.to_urdf.map_joints import MapJoints
 from twinform.passes.legalise.to_urdf.map_materials import MapMaterials
 from twinform.passes.legalise.to_urdf.map_surfaces import MapSurfaces
 from twinform.passes.legalise.to_urdf.rebase_links import RebaseLinks
+from twinform.passes.legalise.to_urdf.relate_gearboxes import RelateGearboxes
 from twinform.passes.legalise.to_urdf.resolve_joint_ends import ResolveJointEnds
 from twinform.passes.legalise.to_urdf.select_model import SelectModel
 from twinform.passes.legalise.to_urdf.turn_frames_into_links import TurnFramesIntoLinks
+from twinform.passes.legalise.to_urdf.unfold_joints import UnfoldJoints
 from twinform.passes.legalise.to_urdf.unpack_urdf import UnpackUrdf
 from twinform.passes.legalise.to_urdf.upgrade_sdf import UpgradeSdf
 
@@ -34,6 +36,8 @@ def to_urdf(*, model: str | None = None, urdf_version: UrdfVersion = "1.0", carr
         ExpressAxes(carriers=carriers),
         TurnFramesIntoLinks(carriers=carriers),
         BuildTree(carriers=carriers),
+        RelateGearboxes(carriers=carriers),
+        UnfoldJoints(carriers=carriers),
         MapGeometry(carriers=carriers, urdf_version=urdf_version),
         MapMaterials(carriers=carriers),
         MapSurfaces(carriers=carriers),

@@ -1,17 +1,15 @@
 """URDF describes one tree."""
 
-from functools import partial
 from typing import ClassVar
 
 from twinform.diagnostics import Fate
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import GazeboExtension, Joint, Link, Model, Pose, count_parts
+from twinform.ir import Joint, Link, Model, count_parts
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
-from twinform.ir.transform import Transform
-from twinform.passes.legalise.carrier import to_element
 from twinform.passes.legalise.marks import mark_made
-from twinform.passes.legalise.nodes import map_poses, unique_name
+from twinform.passes.legalise.nodes import unique_name
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
+from twinform.passes.legalise.to_urdf.cut_joints import cut_joints
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 
 
@@ -22,6 +20,7 @@ class BuildTree(ToUrdfPass):
     each of the others becomes a `<joint>` in a `<gazebo>` element, with its pose in the child's frame of URDF; 2. a
     root beside the first one hangs from it by a `floating` joint. The first root is `world` where a joint has it as its
     parent, else the one that the canonical link hangs from; 3. in a static model every root is fixed to `world`.
+    Never touches: gearboxes, which hold no link.
     Diagnostics: `cut-loop`; in the ledger `cut-loop` and `hung-root`.
     """
 
@@ -33,9 +32,11 @@ class BuildTree(ToUrdfPass):
         kept: list[Joint] = []
         cut: list[Joint] = []
         for joint in model.joints:
-            (kept if tree.add(joint) else cut).append(joint)
+            (kept if joint.type == "gearbox" or tree.add(joint) else cut).append(joint)
+        for joint in cut:
+            _report_cut(joint, tree.parent_joint.get(joint.child or ""), keeper)
         if cut:
-            model = _cut(model, kept, cut, tree, keeper)
+            model = cut_joints(model, kept, cut, tree.parent_joint)
         roots = [link for link in model.links if link.name not in tree.parent_joint]
         first = _first_root(model, tree)
         return _hang(model, [link for link in roots if link.name != first], first, keeper)
@@ -76,33 +77,11 @@ def _first_root(model: Model, tree: Tree) -> str:
     return tree.root(FrameGraph(model).body(MODEL, kind="model"))
 
 
-def _cut(model: Model, kept: list[Joint], cut: list[Joint], tree: Tree, keeper: Keeper) -> Model:
-    graph = FrameGraph(model)
-    extensions = list(model.extensions)
-    for joint in cut:
-        child = joint.child or ""
-        closed = tree.parent_joint.get(child)
-        message = f"joint {joint.name!r} closes a loop at link {child!r}"
-        related = (closed.location,) if closed else ()
-        keeper.notes.report(rules.CUT_LOOP, message, joint.location, found=child, related=related)
-        fate = Fate.CARRIED
-        keeper.notes.account(fate, rules.CUT_LOOP, message, joint.location, count_parts(joint))
-        base = (closed.name, "joint") if closed else (child, "link")
-        pose = graph.pose(joint.name, base[0], kind="joint", base="joint" if closed else "link").to_pose()
-        blob = to_element(joint.model_copy(update={"pose": pose}), "joint", "sdf")
-        extensions.append(GazeboExtension(content=(blob,), source=joint.source))
-    model = model.model_copy(update={"joints": tuple(kept), "extensions": tuple(extensions)})
-    children = {joint.name: joint.child or "" for joint in cut}
-    return map_poses(model, partial(_without_cut, graph, children))
-
-
-def _without_cut(graph: FrameGraph, children: dict[str, str], pose: Pose) -> Pose:
-    """A pose relative to a joint that was cut, relative to the joint's child."""
-    joint = pose.relative_to
-    if joint not in children:
-        return pose
-    child = children[joint]
-    return graph.pose(joint, child, kind="joint").compose(Transform.from_pose(pose)).to_pose(child)
+def _report_cut(joint: Joint, closed: Joint | None, keeper: Keeper) -> None:
+    message = f"joint {joint.name!r} closes a loop at link {joint.child!r}"
+    related = (closed.location,) if closed else ()
+    keeper.notes.report(rules.CUT_LOOP, message, joint.location, found=joint.child, related=related)
+    keeper.notes.account(Fate.CARRIED, rules.CUT_LOOP, message, joint.location, count_parts(joint))
 
 
 def _hang(model: Model, roots: list[Link], first: str, keeper: Keeper) -> Model:

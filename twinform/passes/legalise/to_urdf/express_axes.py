@@ -11,7 +11,11 @@ from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.schemas import format_value
 
-_MOVES = frozenset({"revolute", "continuous", "prismatic"})
+_AXES = {
+    **dict.fromkeys(("revolute", "continuous", "prismatic", "screw"), ("axis",)),
+    **dict.fromkeys(("universal", "revolute2", "gearbox"), ("axis", "axis2")),
+}
+"""The axes that mean something, by the type of the joint."""
 _DEFAULT = (0.0, 0.0, 1.0)
 """SDF's axis where none is written; URDF's is 1 0 0."""
 
@@ -20,7 +24,7 @@ class ExpressAxes(ToUrdfPass):
     """Write every axis, in the joint frame.
 
     Changes: 1. an axis that is expressed in another frame is turned into the joint's; its numbers stay where that is no
-    turn; 2. an axis that is not written is SDF's, z.
+    turn; 2. an axis that is not written is SDF's, z. Joints with two axes have both of them written so.
     Diagnostics: `zero-axis`; in the ledger `axis-frame`.
     """
 
@@ -28,33 +32,39 @@ class ExpressAxes(ToUrdfPass):
 
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model with its axes in the joint frames."""
-        if not any(joint.type in _MOVES for joint in model.joints):
+        if not any(joint.type in _AXES for joint in model.joints):
             return model
         graph = FrameGraph(model)
-        joints = tuple(_express(joint, graph, keeper) if joint.type in _MOVES else joint for joint in model.joints)
-        return model.model_copy(update={"joints": joints})
+        joints: list[Joint] = []
+        for joint in model.joints:
+            expressed = joint
+            for field in _AXES.get(joint.type, ()):
+                expressed = _express(expressed, field, graph, keeper)
+            joints.append(expressed)
+        return model.model_copy(update={"joints": tuple(joints)})
 
 
-def _express(joint: Joint, graph: FrameGraph, keeper: Keeper) -> Joint:
-    axis = joint.axis or Axis()
+def _express(joint: Joint, field: str, graph: FrameGraph, keeper: Keeper) -> Joint:
+    written: Axis | None = getattr(joint, field)
+    axis = written or Axis()
     if axis.xyz is not None and not any(axis.xyz):
-        message = f"the axis of joint {joint.name!r} has length zero"
+        message = f"the {field} of joint {joint.name!r} has length zero"
         keeper.notes.report(model_rules.ZERO_AXIS, message, axis.location, found="0 0 0")
     if axis.xyz is None:
-        joint = mark_made(joint, "axis.xyz" if joint.axis else "axis")
+        joint = mark_made(joint, f"{field}.xyz" if written else field)
     if not axis.expressed_in:
         made = axis if axis.xyz is not None else axis.model_copy(update={"xyz": _DEFAULT})
-        return joint if made is axis else joint.model_copy(update={"axis": made})
+        return joint if made is axis else joint.model_copy(update={field: made})
     turn = graph.pose(axis.expressed_in, joint.name, kind="frame", base="joint")
     x, y, z = turn.rotate(axis.xyz or _DEFAULT)
     made = axis.model_copy(update={"xyz": (x + 0.0, y + 0.0, z + 0.0), "expressed_in": None})
-    turned = joint.model_copy(update={"axis": made})
-    message = f"the axis of joint {joint.name!r} is expressed in {axis.expressed_in!r}"
-    return keeper.keep(turned, [_written(axis)], rules.AXIS_FRAME, message, axis.location)
+    turned = joint.model_copy(update={field: made})
+    message = f"the {field} of joint {joint.name!r} is expressed in {axis.expressed_in!r}"
+    return keeper.keep(turned, [_written(axis, field)], rules.AXIS_FRAME, message, axis.location)
 
 
-def _written(axis: Axis) -> Opaque:
+def _written(axis: Axis, field: str) -> Opaque:
     """The axis as it stands in SDF."""
     attributes = (("expressed_in", axis.expressed_in or ""),)
     text = format_value(axis.xyz) if axis.xyz is not None else None
-    return Opaque(at="axis", element=Element(name="xyz", attributes=attributes, text=text))
+    return Opaque(at=field, element=Element(name="xyz", attributes=attributes, text=text))

@@ -15,7 +15,11 @@ from twinform.schemas import format_value
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
+_WITHOUT_STRENGTH = ("effort", "velocity", "stiffness", "dissipation")
+"""What goes from the limit of a continuous joint without strength: URDF would ask for the strength beside the rest."""
 _TYPES = frozenset({"fixed", "revolute", "continuous", "prismatic", "floating", "planar"})
+_DIALECT = frozenset({"ball", "spherical"})
+"""What a dialect of URDF calls a joint that came from there; another ball joint is a chain by now."""
 _UNBOUNDED = 1e16
 """What stands for infinity, as it does in SDF before 1.10: rad, m, N m, N, rad/s or m/s."""
 
@@ -36,6 +40,8 @@ class MapJoints(ToUrdfPass):
 
 
 def _map(joint: Joint, keeper: Keeper) -> Joint:
+    if joint.type in _DIALECT:
+        return joint
     if joint.type not in _TYPES:
         message = f"joint {joint.name!r} is {joint.type}, a type that URDF does not have"
         where = joint.location.at("@type")
@@ -76,8 +82,8 @@ def _continuous(joint: Joint, limit: Limit, keeper: Keeper) -> tuple[Joint, Limi
     limit = limit.model_copy(update={"lower": None, "upper": None})
     if _is_strength(limit.effort) or _is_strength(limit.velocity):
         return _fill(joint, limit, dict.fromkeys(("effort", "velocity"), _UNBOUNDED), keeper)
-    joint = _keep_written(joint, limit, ("effort", "velocity"), keeper)
-    return joint, limit.model_copy(update={"effort": None, "velocity": None})
+    joint = _keep_written(joint, limit, _WITHOUT_STRENGTH, keeper)
+    return joint, limit.model_copy(update=dict.fromkeys(_WITHOUT_STRENGTH))
 
 
 def _bounded(joint: Joint, limit: Limit, keeper: Keeper) -> tuple[Joint, Limit]:

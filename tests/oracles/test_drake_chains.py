@@ -1,0 +1,75 @@
+"""Drake moves a joint of SDF and the chain that it becomes in URDF alike."""
+
+import importlib
+import math
+from typing import Any
+
+import pytest
+
+import twinform
+
+np: Any = pytest.importorskip("numpy")
+pytest.importorskip("pydrake")
+
+SDF = """<sdf version="1.10"><model name="m"><pose>0.3 0.1 0.2 0.1 0.3 0.2</pose>
+<link name="a"><inertial><mass>1</mass></inertial></link>
+<link name="b"><pose>1 0 1 0.1 0.2 0.4</pose><inertial><pose>0.1 0.2 0.3 0 0 0</pose><mass>2</mass></inertial></link>
+<link name="c"><pose>2 0 1 0.1 0.2 0</pose></link>
+<link name="d"><pose>3 0 1 0.1 -0.2 0.3</pose></link>
+<joint name="u" type="universal"><pose>0 0 0.1 0.3 0 0.2</pose><parent>a</parent><child>b</child>
+  <axis><xyz expressed_in="b">0 1 0</xyz></axis><axis2><xyz expressed_in="b">1 0 0</xyz></axis2></joint>
+<joint name="s" type="screw"><pose>0.1 0 0 0.2 0.1 0</pose><parent>b</parent><child>c</child>
+  {}<axis><xyz>0 0.6 0.8</xyz></axis></joint>
+<joint name="w" type="ball"><pose>0.1 0 0 0.2 0.1 0</pose><parent>c</parent><child>d</child></joint>
+</model></sdf>"""
+
+PITCHES = {
+    "<screw_thread_pitch>0.3</screw_thread_pitch>": 0.3 / math.tau,
+    "<screw_thread_pitch>-0.3</screw_thread_pitch>": -0.3 / math.tau,
+}
+SAMPLES = 20
+
+
+@pytest.mark.parametrize("pitch", PITCHES)
+def test_universal_screw_and_ball_joints_move_as_their_chains_do(pitch: str):
+    sdf = SDF.format(pitch)
+    urdf = twinform.convert(sdf.encode(), to="urdf").text
+    one, other = _plant(sdf, "sdf"), _plant(urdf, "urdf")
+    for u, v, turn, roll, pitch_, yaw in np.random.default_rng(1).uniform(-1.2, 1.2, (SAMPLES, 6)):
+        here = _centres(one, {"u": [u, v], "s": [turn], "w": [roll, pitch_, yaw]})
+        chain = {"u_axis": u, "u": v, "s_slide": turn * PITCHES[pitch], "s": turn, "w_z": yaw, "w_y": pitch_, "w": roll}
+        there = _centres(other, {name: [value] for name, value in chain.items()})
+        for link in "bcd":  # the frames of the links are elsewhere, so the axes of their inertias are compared
+            assert np.abs(here[link][0] - there[link][0]).max() < 1e-9
+            assert np.abs(here[link][1] - there[link][1]).max() < 1e-9
+
+
+def _plant(text: str, kind: str) -> Any:
+    plant = importlib.import_module("pydrake.multibody.plant").MultibodyPlant(0.001)  # mimic asks for discrete time
+    importlib.import_module("pydrake.multibody.parsing").Parser(plant).AddModelsFromString(text, kind)
+    plant.Finalize()
+    return plant
+
+
+def _centres(plant: Any, values: dict[str, list[float]]) -> dict[str, tuple[Any, Any]]:
+    """The centre of mass of each link and its rotation since all joints stood at zero, both in the link `a`."""
+    context = plant.CreateDefaultContext()
+    root = plant.GetBodyByName("a")
+    frames = [plant.GetBodyByName(name) for name in "bcd"]
+    context_at_zero = plant.CreateDefaultContext()
+    positions = plant.GetPositions(context)
+    for name, value in values.items():
+        start = plant.GetJointByName(name).position_start()
+        positions[start : start + len(value)] = value
+    plant.SetPositions(context, positions)
+    return {body.name(): _centre(plant, body, root, context, context_at_zero) for body in frames}
+
+
+def _centre(plant: Any, body: Any, root: Any, context: Any, at_zero: Any) -> tuple[Any, Any]:
+    now, before = (_pose(plant, body, root, each) for each in (context, at_zero))
+    centre = now.multiply(body.CalcCenterOfMassInBodyFrame(context))
+    return centre, now.rotation().matrix() @ before.rotation().matrix().T
+
+
+def _pose(plant: Any, body: Any, root: Any, context: Any) -> Any:
+    return plant.EvalBodyPoseInWorld(context, root).inverse().multiply(plant.EvalBodyPoseInWorld(context, body))

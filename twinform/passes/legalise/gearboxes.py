@@ -1,0 +1,93 @@
+"""What a gearbox of SDF couples: the angles of two joints at one body."""
+
+import math
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from twinform.ir import Axis, Joint, Mimic
+from twinform.ir.frames import FrameGraph
+from twinform.ir.node import Vector3
+
+_TURNS = frozenset({"revolute", "continuous"})
+_PARALLEL = 1e-9
+"""How far from 1 the cosine between two axes may be that are one."""
+
+
+class Relation(NamedTuple):
+    """The joint `follower` turns `multiplier` times as far as `leader`."""
+
+    leader: str
+    follower: str
+    multiplier: float
+
+
+class UngearedError(Exception):
+    """Why no two joints have the angles that a gearbox couples."""
+
+
+def relation(gearbox: Joint, joints: Mapping[str, Joint], graph: FrameGraph) -> Relation:
+    """How a gearbox relates two of the joints, which are given by their names.
+
+    theta_2 = -ratio theta_1: theta_1 is the angle from the reference body to the gearbox's parent about `axis`, theta_2
+    the one to its child about `axis2` (the SDF description of <joint>, gearbox_reference_body). So the two bodies must
+    be joined to the reference body, each by a joint that turns about that axis, one way or the other.
+
+    Raises:
+        UngearedError: there are no such joints.
+        FrameError: an end is not known.
+    """
+    reference = gearbox.gearbox_reference_body
+    if not reference:
+        raise UngearedError("it names no reference body")
+    leader, forth = _turn(gearbox, gearbox.parent, gearbox.axis, joints, graph)
+    follower, back = _turn(gearbox, gearbox.child, gearbox.axis2, joints, graph)
+    if _mimic(joints[follower]):
+        raise UngearedError(f"joint {follower!r} mimics another already")
+    if _follows(leader, follower, joints):
+        raise UngearedError(f"joint {leader!r} follows {follower!r} already")
+    ratio = 1.0 if gearbox.gearbox_ratio is None else gearbox.gearbox_ratio
+    return Relation(leader, follower, -ratio * forth * back + 0.0)
+
+
+def _turn(
+    gearbox: Joint, body: str | None, axis: Axis | None, joints: Mapping[str, Joint], graph: FrameGraph
+) -> tuple[str, float]:
+    """The joint whose angle is that of the body at the reference body about an axis, and the angle's sign."""
+    reference = gearbox.gearbox_reference_body
+    for joint in joints.values():
+        if joint.type not in _TURNS or {joint.parent, joint.child} != {reference, body}:
+            continue
+        turn = graph.pose(joint.name, gearbox.name, kind="joint", base="joint")
+        cosine = _cosine(turn.rotate(_direction(joint.axis)), _direction(axis))
+        if abs(abs(cosine) - 1) > _PARALLEL:
+            raise UngearedError(f"joint {joint.name!r} turns about another axis")
+        sign = 1.0 if cosine > 0 else -1.0
+        return joint.name, sign if joint.parent == reference else -sign
+    raise UngearedError(f"no joint turns {body!r} at {reference!r}")
+
+
+def _direction(axis: Axis | None) -> Vector3:
+    return (axis.xyz if axis else None) or (0.0, 0.0, 1.0)
+
+
+def _cosine(one: Vector3, other: Vector3) -> float:
+    dot = sum(a * b for a, b in zip(one, other, strict=True))
+    lengths = math.hypot(*one) * math.hypot(*other)
+    return dot / lengths if lengths else 0.0
+
+
+def _mimic(joint: Joint | None) -> Mimic | None:
+    return joint.axis.mimic if joint and joint.axis else None
+
+
+def _follows(leader: str, follower: str, joints: Mapping[str, Joint]) -> bool:
+    """Whether the leader follows the other one, perhaps by others between."""
+    seen: set[str] = set()
+    name = leader
+    while name not in seen:
+        if name == follower:
+            return True
+        seen.add(name)
+        mimic = _mimic(joints.get(name))
+        name = (mimic.joint if mimic else None) or name
+    return False

@@ -1,0 +1,210 @@
+"""Chains of URDF joints that were one joint of SDF: whether they still are, and what joint they are."""
+
+import math
+from dataclasses import dataclass
+
+from twinform.ir import Axis, Dynamics, Joint, JointType, Limit, Link, Model, Opaque
+from twinform.ir.transform import Transform
+from twinform.passes.legalise.carrier import is_carrier, is_ours, unpack
+from twinform.passes.legalise.chain_carriers import Parts, join_axes
+from twinform.passes.legalise.joint_chains import (
+    BALL_AXES,
+    CHAINS,
+    PART_OF,
+    PITCHES,
+    TWO_AXES,
+    is_chain_mark,
+    marked,
+    metres_per_radian,
+)
+from twinform.passes.legalise.marks import made_fields, mark_made
+from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb
+from twinform.passes.legalise.sdf_versions.carriers import Terms
+from twinform.schemas import parse_version, table
+
+_KINDS: dict[str, JointType] = {str(kind): kind for kind in CHAINS}
+_TURNS = frozenset({"revolute", "continuous"})
+_NO_BODY = ("visuals", "collisions", "sensors", "lights")
+_BEYOND_SDF = ("acceleration", "deceleration", "jerk")
+_CLOSE = 1e-9
+"""How far numbers may be apart that were written from one."""
+
+
+class StaleChainError(Exception):
+    """A chain that was edited so that it is not the joint any more."""
+
+
+@dataclass(frozen=True, slots=True)
+class Chain:
+    """The joints and links of a chain, from the parent's side; `kind` is the joint that it stands for."""
+
+    kind: JointType
+    above: tuple[Joint, ...]
+    between: tuple[Link, ...]
+    last: Joint
+
+
+def find_chain(last: Joint, kind: str, model: Model) -> Chain:
+    """The chain that ends in this joint.
+
+    Raises:
+        StaleChainError: it does not stand for a joint of its kind.
+    """
+    known = _KINDS.get(kind)
+    if known is None:
+        raise StaleChainError(f"there are no chains for {kind!r}")
+    chain = _walk(last, known, model)
+    _check_links(chain, model)
+    for joint in (*chain.above[1:], last):
+        if not Transform.from_pose(joint.pose).is_identity:
+            raise StaleChainError(f"joint {joint.name!r} is not where the others are")
+    for joint in chain.above:
+        if joint.sensors or any(not is_ours(part) for part in joint.opaque):
+            raise StaleChainError(f"joint {joint.name!r} says more than an axis")
+    _check_limits(chain)
+    _CHECKS[known](chain)
+    return chain
+
+
+def _walk(last: Joint, kind: JointType, model: Model) -> Chain:
+    above = {joint.child: joint for joint in model.joints}
+    links = {link.name: link for link in model.links}
+    joints: list[Joint] = []
+    between: list[Link] = []
+    joint = last
+    for _ in CHAINS[kind]:
+        link, upper = links.get(joint.parent or ""), above.get(joint.parent)
+        if link is None or upper is None or {marked(link, PART_OF), marked(upper, PART_OF)} != {last.name}:
+            raise StaleChainError(f"what is above {joint.name!r} is not of the chain")
+        joints.insert(0, upper)
+        between.insert(0, link)
+        joint = upper
+    return Chain(kind, tuple(joints), tuple(between), last)
+
+
+def _check_links(chain: Chain, model: Model) -> None:
+    """The links between hold nothing but the chain."""
+    names = {link.name for link in chain.between}
+    inside = {joint.name for joint in (*chain.above, chain.last)}
+    for link in chain.between:
+        if link.inertial is not None or any(getattr(link, field) for field in _NO_BODY):
+            raise StaleChainError(f"link {link.name!r} has a body")
+        if any(not is_ours(part) for part in link.opaque):
+            raise StaleChainError(f"link {link.name!r} says something")
+    for joint in model.joints:
+        if joint.parent in names and joint.name not in inside:
+            raise StaleChainError(f"joint {joint.name!r} hangs from a link of it")
+
+
+def _check_limits(chain: Chain) -> None:
+    for joint in (*chain.above, chain.last):
+        limit = joint.axis.limit if joint.axis and joint.axis.limit else Limit()
+        if any(getattr(limit, field) is not None for field in _BEYOND_SDF):
+            raise StaleChainError(f"joint {joint.name!r} has limits that SDF has no word for")
+
+
+def _check_turns(chain: Chain) -> None:
+    for joint in (*chain.above, chain.last):
+        if joint.type not in _TURNS:
+            raise StaleChainError(f"joint {joint.name!r} does not turn")
+
+
+def _check_ball(chain: Chain) -> None:
+    _check_turns(chain)
+    joints = (*chain.above, chain.last)
+    for joint, xyz in zip(joints, BALL_AXES, strict=True):
+        axis = joint.axis or Axis()
+        if axis.xyz != xyz or axis.mimic or joint.type != "continuous":
+            raise StaleChainError(f"joint {joint.name!r} does not turn freely about {xyz}")
+    if len({_damping(joint) for joint in joints}) != 1:
+        raise StaleChainError("its joints are damped unlike each other")
+
+
+def _damping(joint: Joint) -> tuple[float | None, float | None]:
+    dynamics = joint.axis.dynamics if joint.axis and joint.axis.dynamics else Dynamics()
+    return dynamics.damping, dynamics.friction
+
+
+def _check_screw(chain: Chain) -> None:
+    slide, turn = chain.above[0], chain.last
+    mimic = slide.axis.mimic if slide.axis else None
+    if slide.type != "prismatic" or turn.type not in _TURNS:
+        raise StaleChainError("it does not slide and turn")
+    if mimic is None or mimic.joint != turn.name or mimic.offset:
+        raise StaleChainError(f"joint {slide.name!r} does not follow {turn.name!r}")
+    if (slide.axis or Axis()).xyz != (turn.axis or Axis()).xyz:
+        raise StaleChainError("it slides along another axis than it turns about")
+
+
+_CHECKS = {"universal": _check_turns, "revolute2": _check_turns, "ball": _check_ball, "screw": _check_screw}
+
+
+def folded(chain: Chain) -> Joint:
+    """The joint that a chain stands for, with the values that the chain has now."""
+    first, last = chain.above[0], chain.last
+    own = tuple(part for part in last.opaque if not is_chain_mark(part))
+    opaque = join_axes(first.opaque, own) if chain.kind in TWO_AXES else own
+    update: dict[str, object] = {"type": chain.kind, "parent": first.parent, "pose": first.pose, "opaque": opaque}
+    joint = last.model_copy(update=update)
+    if "pose" in made_fields(first) and not any("pose" in _names(part) for part in opaque):
+        joint = mark_made(joint, "pose")
+    if chain.kind in TWO_AXES:
+        return joint.model_copy(update={"axis": _in_sdf(first), "axis2": _in_sdf(last)})
+    return _ball(joint, last) if chain.kind == "ball" else _screw(joint, chain)
+
+
+def _in_sdf(joint: Joint) -> Axis:
+    """The axis of a joint of URDF with what URDF means where it says nothing."""
+    axis = joint.axis or Axis()
+    limit = axis.limit
+    if limit is not None and joint.type == "continuous":
+        limit = limit.model_copy(update={"lower": None, "upper": None})
+        limit = None if limit == Limit() else limit
+    elif limit is not None:
+        limit = limit.model_copy(update={"lower": limit.lower or 0.0, "upper": limit.upper or 0.0})
+    return axis.model_copy(update={"xyz": axis.xyz or (1.0, 0.0, 0.0), "limit": limit})
+
+
+def _ball(joint: Joint, last: Joint) -> Joint:
+    """A ball joint has the axis that it carries, with the damping of the chain."""
+    joint = _unpacked(joint.model_copy(update={"axis": None}), ("axis", "axis2"))
+    damping, friction = _damping(last)
+    axis = joint.axis or Axis()
+    dynamics = (axis.dynamics or Dynamics()).model_copy(update={"damping": damping, "friction": friction})
+    if dynamics == (axis.dynamics or Dynamics()):
+        return joint
+    return joint.model_copy(update={"axis": axis.model_copy(update={"dynamics": dynamics})})
+
+
+def _screw(joint: Joint, chain: Chain) -> Joint:
+    """A screw joint has the pitch that it carries, or the one that its chain has now if that is another."""
+    axis = chain.above[0].axis
+    mimic = axis.mimic if axis else None
+    ratio = 1.0 if mimic is None or mimic.multiplier is None else mimic.multiplier
+    joint = _unpacked(joint.model_copy(update={"axis": _in_sdf(chain.last)}), PITCHES)
+    said = metres_per_radian(joint)
+    if said is not None and math.isclose(said, ratio, rel_tol=_CLOSE):
+        return joint
+    return joint.model_copy(update={"screw_thread_pitch": ratio * math.tau, "thread_pitch": None})
+
+
+def _unpacked(joint: Joint, names: tuple[str, ...]) -> Joint:
+    """The joint with the elements of these names out of their carriers."""
+    opaque: list[Opaque] = []
+    pieces: Parts = ()
+    for part in joint.opaque:
+        if any(name in _names(part) for name in names):
+            pieces += unpack(part)
+        else:
+            opaque.append(part)
+    newest = parse_version(table("sdf").versions[-1])
+    try:
+        return absorb(joint.model_copy(update={"opaque": tuple(opaque)}), pieces, Terms(), newest)
+    except CarrierError as error:
+        raise StaleChainError(str(error)) from error
+
+
+def _names(part: Opaque) -> tuple[str, ...]:
+    """The elements in a carrier of SDF that belong into the joint itself."""
+    pieces = unpack(part) if is_carrier(part, "sdf") else (part,)
+    return tuple(piece.element.name for piece in pieces if piece.element and not piece.at)

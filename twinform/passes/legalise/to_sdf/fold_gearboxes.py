@@ -1,0 +1,66 @@
+"""What URDF says by `<mimic>`, a gearbox of SDF says already."""
+
+import math
+from typing import ClassVar
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules import to_urdf as rules
+from twinform.ir import Joint, Mimic, Model
+from twinform.ir.frames import FrameError, FrameGraph
+from twinform.passes.legalise.gearboxes import UngearedError, relation
+from twinform.passes.legalise.marks import made_fields, without_mark
+from twinform.passes.legalise.model_pass import ModelPass
+
+_MIMIC = "axis.mimic"
+_CLOSE = 1e-9
+"""How far multipliers may be apart that were made from one ratio."""
+
+
+class FoldGearboxes(ModelPass):
+    """Take away the mimics that were made for gearboxes on the way to URDF.
+
+    Changes: a joint that is marked as made to mimic another does not, where a gearbox couples the two just so.
+    Never touches: a mimic that was edited, or whose gearbox is gone; it stands for itself then.
+    Diagnostics: `stale-carrier`.
+    """
+
+    name: ClassVar[str] = "fold-gearboxes"
+
+    def run_model(self, model: Model, notes: Notes) -> Model:
+        """The model with each coupling said once."""
+        marked = [joint for joint in model.joints if _MIMIC in made_fields(joint) and joint.axis and joint.axis.mimic]
+        if not marked:
+            return model
+        graph = FrameGraph(model)
+        bare = {joint.name: _without_mimic(joint) for joint in marked}
+        joints = {joint.name: bare.get(joint.name, joint) for joint in model.joints if joint.type != "gearbox"}
+        gears = [joint for joint in model.joints if joint.type == "gearbox"]
+        coupled: dict[str, Mimic] = {}
+        for gearbox in gears:
+            try:
+                found = relation(gearbox, joints, graph)
+            except (UngearedError, FrameError):
+                continue
+            coupled[found.follower] = Mimic(joint=found.leader, multiplier=found.multiplier)
+        kept = {joint.name: _kept(joint, bare[joint.name], coupled.get(joint.name), notes) for joint in marked}
+        return model.model_copy(update={"joints": tuple(kept.get(joint.name, joint) for joint in model.joints)})
+
+
+def _without_mimic(joint: Joint) -> Joint:
+    axis = joint.axis and joint.axis.model_copy(update={"mimic": None})
+    return without_mark(joint.model_copy(update={"axis": axis}), _MIMIC)
+
+
+def _kept(joint: Joint, bare: Joint, coupled: Mimic | None, notes: Notes) -> Joint:
+    """The joint without its mimic, if a gearbox says the same; else with it, as if it had always been there."""
+    mimic = joint.axis.mimic if joint.axis else None
+    if coupled and mimic and _is_the_same(mimic, coupled):
+        return bare
+    message = f"joint {joint.name!r} mimics {mimic.joint if mimic else None!r}, and no gearbox couples them so any more"
+    notes.report(rules.STALE_CARRIER, message, joint.location, found=joint.name)
+    return without_mark(joint, _MIMIC)
+
+
+def _is_the_same(mimic: Mimic, coupled: Mimic) -> bool:
+    factors = (1.0 if mimic.multiplier is None else mimic.multiplier, coupled.multiplier or 0.0)
+    return mimic.joint == coupled.joint and not mimic.offset and math.isclose(*factors, rel_tol=_CLOSE)

@@ -1,0 +1,62 @@
+"""How joints of SDF move, one degree of freedom after the other, in the joint's own frame."""
+
+import math
+from typing import NamedTuple
+
+from twinform.ir import Axis, Dynamics, Joint, JointType, Limit, Mimic
+from twinform.ir.node import Vector3
+from twinform.passes.legalise.joint_chains import BALL_AXES, metres_per_radian
+
+_Z: Vector3 = (0.0, 0.0, 1.0)
+_UNBOUNDED = 1e16
+"""What stands for infinity in URDF, as it does in SDF before 1.10."""
+
+
+class Step(NamedTuple):
+    """One joint of a chain."""
+
+    type: JointType
+    axis: Axis
+
+
+def two_axes(joint: Joint) -> tuple[Step, ...]:
+    """A universal or revolute2 joint: it turns about `axis`, which the parent holds, then about `axis2` of the child.
+
+    A turn about an axis leaves the axis where it is, so `axis2` has one direction in the link between and in the child.
+    """
+    return (Step("revolute", joint.axis or Axis(xyz=_Z)), Step("revolute", joint.axis2 or Axis(xyz=_Z)))
+
+
+def ball(joint: Joint) -> tuple[Step, ...]:
+    """A ball joint as turns about z, y and x: together Rz Ry Rx, the orientation that URDF writes as yaw, pitch, roll.
+
+    Damping acts on the angular velocity of a ball joint, and here on the three rates, which are its parts while the
+    angles are small.
+    """
+    written = joint.axis.dynamics if joint.axis else None
+    damped = None
+    if written is not None and (written.damping is not None or written.friction is not None):
+        damped = Dynamics(damping=written.damping, friction=written.friction)
+    return tuple(Step("revolute", Axis(xyz=xyz, dynamics=damped)) for xyz in BALL_AXES)
+
+
+def screw(joint: Joint) -> tuple[Step, ...]:
+    """A screw joint: it slides along its axis by `metres_per_radian` times the angle that it turns about it."""
+    axis = joint.axis or Axis(xyz=_Z)
+    ratio = metres_per_radian(joint) or 0.0
+    slide = Axis(xyz=axis.xyz, limit=_slide_limit(axis.limit, ratio), mimic=Mimic(joint=joint.name, multiplier=ratio))
+    return (Step("prismatic", slide), Step("revolute", axis))
+
+
+def _slide_limit(limit: Limit | None, ratio: float) -> Limit:
+    """Limits that the turn keeps already: its own, times the ratio."""
+    said = limit or Limit()
+    ends = sorted((_scaled(said.lower, -_UNBOUNDED, ratio), _scaled(said.upper, _UNBOUNDED, ratio)))
+    speed = said.velocity if said.velocity is not None and said.velocity >= 0 else _UNBOUNDED
+    return Limit(lower=ends[0], upper=ends[1], effort=_UNBOUNDED, velocity=min(_UNBOUNDED, speed * abs(ratio)))
+
+
+def _scaled(value: float | None, unbounded: float, ratio: float) -> float:
+    if value is None or not abs(value) < _UNBOUNDED:
+        return math.copysign(_UNBOUNDED, unbounded * ratio)
+    return value * ratio + 0.0

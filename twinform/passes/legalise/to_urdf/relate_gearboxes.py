@@ -1,0 +1,60 @@
+"""Gearboxes couple joints; URDF says so by `<mimic>`."""
+
+from typing import ClassVar
+
+from twinform.diagnostics import Fate, Severity
+from twinform.diagnostics.rules import to_urdf as rules
+from twinform.ir import Axis, Joint, Mimic, Model, count_parts
+from twinform.ir.frames import FrameGraph
+from twinform.passes.legalise.gearboxes import Relation, UngearedError, relation
+from twinform.passes.legalise.marks import mark_made
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass
+from twinform.passes.legalise.to_urdf.cut_joints import cut_joints
+from twinform.passes.legalise.to_urdf.keeper import Keeper
+
+
+class RelateGearboxes(ToUrdfPass):
+    """Let one of the two joints that a gearbox couples mimic the other.
+
+    Changes: 1. the joint between the reference body and the gearbox's child mimics the one between the reference body
+    and its parent; 2. the gearbox itself, with all that it says, is a `<joint>` in a `<gazebo>` element.
+    Never touches: a joint that mimics another already.
+    Diagnostics: `gearbox`, a warning where only Gazebo couples anything; in the ledger `gearbox`.
+    """
+
+    name: ClassVar[str] = "relate-gearboxes"
+
+    def run_model(self, model: Model, keeper: Keeper) -> Model:
+        """The model without gearboxes."""
+        gearboxes = [joint for joint in model.joints if joint.type == "gearbox"]
+        if not gearboxes:
+            return model
+        graph = FrameGraph(model)
+        joints = {joint.name: joint for joint in model.joints if joint.type != "gearbox"}
+        for gearbox in gearboxes:
+            try:
+                found = relation(gearbox, joints, graph)
+            except UngearedError as error:
+                _report_uncoupled(gearbox, str(error), keeper)
+                continue
+            joints[found.follower] = _follower(joints[found.follower], found)
+            message = f"gearbox {gearbox.name!r}: joint {found.follower!r} mimics {found.leader!r}"
+            _report(gearbox, message, Severity.INFO, keeper)
+        holding = {joint.child or "": joint for joint in joints.values()}
+        return cut_joints(model, tuple(joints.values()), gearboxes, holding)
+
+
+def _follower(joint: Joint, found: Relation) -> Joint:
+    mimic = Mimic(joint=found.leader, multiplier=found.multiplier)
+    axis = (joint.axis or Axis()).model_copy(update={"mimic": mimic})
+    return mark_made(joint.model_copy(update={"axis": axis}), "axis.mimic")
+
+
+def _report_uncoupled(gearbox: Joint, why: str, keeper: Keeper) -> None:
+    message = f"gearbox {gearbox.name!r} couples no two joints of URDF: {why}"
+    _report(gearbox, message, Severity.WARNING, keeper)
+
+
+def _report(gearbox: Joint, message: str, severity: Severity, keeper: Keeper) -> None:
+    keeper.notes.report(rules.GEARBOX, message, gearbox.location, found=gearbox.name, severity=severity)
+    keeper.notes.account(Fate.CARRIED, rules.GEARBOX, message, gearbox.location, count_parts(gearbox))

@@ -1,0 +1,176 @@
+"""Joints of several degrees of freedom, or of coupled ones, as chains."""
+
+from functools import partial
+from typing import ClassVar
+
+from twinform.diagnostics import Fate
+from twinform.diagnostics.rules import to_sdf as shared_rules
+from twinform.diagnostics.rules import to_urdf as rules
+from twinform.ir import Axis, Joint, Link, Model, Opaque, Pose, count_parts
+from twinform.passes.legalise.carrier import carry, is_carrier, to_element, unpack
+from twinform.passes.legalise.chain_carriers import split_axes
+from twinform.passes.legalise.joint_chains import CHAINS, PITCHES, TWO_AXES, metres_per_radian, part_mark, type_mark
+from twinform.passes.legalise.marks import mark_made
+from twinform.passes.legalise.nodes import text_piece, unique_name
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass
+from twinform.passes.legalise.to_urdf.joint_steps import Step, ball, screw, two_axes
+from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.schemas import format_value
+
+_STEPS = {"universal": two_axes, "revolute2": two_axes, "ball": ball, "screw": screw}
+_WORDS = {
+    "universal": "two turning joints",
+    "revolute2": "two turning joints",
+    "ball": "three turning joints",
+    "screw": "a turning joint and a sliding one that mimics it",
+}
+_IN_URDF = frozenset({"ball", "spherical"})
+"""What dialects of URDF call a ball joint."""
+
+
+class UnfoldJoints(ToUrdfPass):
+    """Say ball, universal, revolute2 and screw joints by chains of joints that URDF has.
+
+    Changes: 1. a universal or revolute2 joint turns about its first axis, then about its second; 2. a ball joint turns
+    about z, y and x of its frame; 3. a screw joint slides by a joint that mimics the one that turns; 4. the last joint
+    of a chain keeps name, place and child, and links without mass stand between; all are marked, so that the way back
+    folds them; 5. what mimics the first axis of a joint with two mimics the first joint of the chain; 6. a ball joint
+    that was one in URDF is one again.
+    Never touches: joints that close a loop, which are joints of SDF in a `<gazebo>` element.
+    Diagnostics: `unfolded-joint`; `joint-type-unsupported` for a screw with a pitch of 0 rad/m.
+    """
+
+    name: ClassVar[str] = "unfold-joints"
+
+    def run_model(self, model: Model, keeper: Keeper) -> Model:
+        """The model with chains of joints."""
+        if not any(joint.type in CHAINS for joint in model.joints):
+            return model
+        taken = {node.name for node in (*model.links, *model.joints)}
+        links: dict[str | None, tuple[Link, ...]] = {}
+        first: dict[str, str] = {}
+        joints: list[Joint] = []
+        for joint in model.joints:
+            if joint.type not in CHAINS or _was_in_urdf(joint) or _lacks_pitch(joint, keeper):
+                joints.append(_as_in_urdf(joint))
+                continue
+            between, chain = _unfold(joint, taken, keeper)
+            links[joint.child] = between
+            joints += chain
+            if joint.type in TWO_AXES:
+                first[joint.name] = chain[0].name
+        every = tuple(one for link in model.links for one in (*links.get(link.name, ()), link))
+        joints = [_follow(joint, first) for joint in joints] if first else joints
+        return model.model_copy(update={"links": every, "joints": tuple(joints)})
+
+
+def _unfold(joint: Joint, taken: set[str], keeper: Keeper) -> tuple[tuple[Link, ...], list[Joint]]:
+    """The links between and the joints of the chain, from the parent's side."""
+    *above, last = _STEPS[joint.type](joint)
+    kept = _account(joint, keeper)
+    parts_of_first, opaque = split_axes(kept.opaque) if joint.type in TWO_AXES else ((), kept.opaque)
+    links: list[Link] = []
+    joints: list[Joint] = []
+    parent = joint.parent
+    for word, step in zip(CHAINS[joint.type], above, strict=True):
+        name = _free_name(f"{joint.name}_{word}", taken)
+        link = _free_name(f"{name}_link", taken)
+        made = Joint(name=name, type=step.type, parent=parent, child=link, axis=step.axis, source=joint.source)
+        joints.append(_part(made.model_copy(update={"opaque": parts_of_first}), joint, keeper))
+        links.append(_between(link, joint, keeper))
+        parent, parts_of_first = link, ()
+    return tuple(links), [*joints, _last(kept, parent, last, opaque, keeper)]
+
+
+def _free_name(name: str, taken: set[str]) -> str:
+    made = unique_name(name, taken)
+    taken.add(made)
+    return made
+
+
+def _part(made: Joint, joint: Joint, keeper: Keeper) -> Joint:
+    if not keeper.carriers:
+        return made
+    return made.model_copy(update={"opaque": (part_mark(joint.name), *made.opaque)})
+
+
+def _between(name: str, joint: Joint, keeper: Keeper) -> Link:
+    """A link without mass where the joint is."""
+    marks = (part_mark(joint.name),) if keeper.carriers else ()
+    link = Link(name=name, pose=Pose(relative_to=joint.name), source=joint.source, opaque=marks)
+    return mark_made(link, ".")
+
+
+def _last(joint: Joint, parent: str | None, step: Step, opaque: tuple[Opaque, ...], keeper: Keeper) -> Joint:
+    """The joint that keeps the name, the child and the place."""
+    marks = (type_mark(joint),) if keeper.carriers else ()
+    update = {"type": step.type, "parent": parent, "axis": step.axis, "opaque": (*marks, *opaque)}
+    return joint.model_copy(update={**dict.fromkeys(("axis2", *PITCHES)), **update})
+
+
+def _account(joint: Joint, keeper: Keeper) -> Joint:
+    """Say what becomes of the joint; it carries what its chain has no words for."""
+    message = f"{joint.type} joint {joint.name!r} is {_WORDS[joint.type]} in URDF, with links without mass between"
+    keeper.notes.report(rules.UNFOLDED_JOINT, message, joint.location.at("@type"), found=joint.type)
+    fate = Fate.CARRIED if keeper.carriers else Fate.DROPPED
+    account = partial(keeper.notes.account, rule=rules.UNFOLDED_JOINT, location=joint.location)
+    account(fate, message=f"joint {joint.name!r} is {joint.type}", weight=1)
+    if joint.type == "ball":
+        lock = f"where the second of the three joints of {joint.name!r} is at 90 deg, the others turn about one axis"
+        account(Fate.APPROXIMATED, message=lock, weight=0)
+        return _keep_axis(joint, keeper)
+    if joint.type == "screw" and keeper.carriers:  # their number is the multiplier of the mimic; this is its spelling
+        written = {name: getattr(joint, name) for name in PITCHES}
+        pieces = [text_piece(name, format_value(value)) for name, value in written.items() if value is not None]
+        return carry(joint, pieces, "sdf")
+    return joint
+
+
+def _keep_axis(joint: Joint, keeper: Keeper) -> Joint:
+    """A ball joint turns about any axis; what its own is good for is the damping."""
+    for field in ("axis", "axis2"):
+        axis: Axis | None = getattr(joint, field)
+        if axis is not None:
+            message = f"ball joint {joint.name!r} has an {field}; its damping acts on each of the three joints"
+            bare = to_element(Joint(name="", type=joint.type).model_copy(update={field: axis}), "joint", "sdf")
+            pieces = [Opaque(element=child) for child in bare.children]
+            joint = keeper.keep(joint, pieces, rules.UNFOLDED_JOINT, message, axis.location, count_parts(axis))
+    return joint
+
+
+def _follow(joint: Joint, first: dict[str, str]) -> Joint:
+    """The joint with its mimic of the first axis of a joint with two, now of the first joint of the chain."""
+    axis = joint.axis
+    mimic = axis.mimic if axis else None
+    if axis is None or mimic is None or mimic.joint not in first or mimic.axis == "axis2":
+        return joint
+    mimic = mimic.model_copy(update={"joint": first[mimic.joint]})
+    return joint.model_copy(update={"axis": axis.model_copy(update={"mimic": mimic})})
+
+
+def _lacks_pitch(joint: Joint, keeper: Keeper) -> bool:
+    if joint.type != "screw" or metres_per_radian(joint) is not None:
+        return False
+    message = f"screw joint {joint.name!r} has a thread pitch of 0 rad/m, which moves infinitely far"
+    keeper.notes.report(shared_rules.JOINT_TYPE_UNSUPPORTED, message, joint.location, found="0")
+    return True
+
+
+def _was_in_urdf(joint: Joint) -> bool:
+    return any(_type_in_urdf(part) for part in joint.opaque)
+
+
+def _as_in_urdf(joint: Joint) -> Joint:
+    """The joint with the type that a dialect of URDF gave it, if it came from one."""
+    found = next((kind for part in joint.opaque if (kind := _type_in_urdf(part))), None)
+    if found is None or joint.type != "ball":
+        return joint
+    opaque = tuple(part for part in joint.opaque if not _type_in_urdf(part))
+    return joint.model_copy(update={"type": found, "opaque": opaque})
+
+
+def _type_in_urdf(part: Opaque) -> str | None:
+    """The type of a ball joint in a carrier of URDF."""
+    pieces = unpack(part) if is_carrier(part, "urdf") else ()
+    said = (piece.attribute[1] for piece in pieces if piece.attribute and piece.attribute[0] == "type" and not piece.at)
+    return next((kind for kind in said if kind in _IN_URDF), None)
