@@ -8,10 +8,10 @@ from itertools import groupby
 
 from benchmarks.known import known
 from benchmarks.markdown import table, write
-from benchmarks.workers import Failure, run
 from tests.corpus.examine import MOST_ROBOTS, SDF_VERSION, Examined, examine
 from tests.corpus.examine_xacro import Expanded, examine_xacro
 from tests.corpus.files import CORPUS, MISSING, ROOT, CorpusFile, Kind, corpus_files, models, xacro_files
+from twinform.testing.workers import Failure, run
 
 PAGE = ROOT / "docs" / "reference" / "corpus.md"
 MOST_SHOWN = 40

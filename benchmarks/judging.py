@@ -6,10 +6,13 @@ from enum import StrEnum
 from pathlib import Path
 
 import twinform
-from benchmarks import drake
 from tests.corpus.files import ROOT, CorpusFile, Kind
+from twinform.testing import oracles
+from twinform.testing.oracles.looking import look, versus
+from twinform.testing.oracles.robot import Robot
 
 OUT = ROOT / "out" / "oracle"
+DRAKE = "drake"
 _ASIDE = re.compile(r"^.*?:\d+(:\d+)?: (error|warning): |\S*/\S*|\b\d[\d.e+-]*\b")
 
 
@@ -31,6 +34,13 @@ class Verdict(StrEnum):
     SOURCE = "source not readable"
     REFUSED = "not converted"
     CRASH = "crash"
+
+
+_VERDICTS = {
+    oracles.Alike.FRAMES: Verdict.FRAMES,
+    oracles.Alike.INERTIAL: Verdict.INERTIAL,
+    None: Verdict.DIFFERENT,
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +81,7 @@ def post_mortem(file: CorpusFile) -> tuple[Outcome, ...]:
     return tuple(Outcome(file.name, way, Verdict.RESULT, "Drake ends the process") for way in directions(file))
 
 
-def _judged(file: CorpusFile, direction: Direction, source: drake.Samples | str) -> Outcome:
+def _judged(file: CorpusFile, direction: Direction, source: Robot | str) -> Outcome:
     try:
         output = _convert(file, direction)
     except twinform.CompileError as error:
@@ -81,20 +91,11 @@ def _judged(file: CorpusFile, direction: Direction, source: drake.Samples | str)
         return Outcome(file.name, direction, Verdict.CRASH, f"{type(error).__name__}: {error}")
     if isinstance(source, str):
         return Outcome(file.name, direction, Verdict.SOURCE, source, output=output)
-    result = _load(output, source["reference"])
-    if isinstance(result, str):
-        return Outcome(file.name, direction, Verdict.RESULT, result, output=output)
-    if names := drake.renamed(source, result):
-        result = drake.load(output, names, source["reference"])
-    if result["reference"] != source["reference"]:
-        source = drake.load(file.path, reference=result["reference"])
-    return _compared(file, direction, drake.compare(source, result), output)
-
-
-def _compared(file: CorpusFile, direction: Direction, found: drake.Judgement, output: Path) -> Outcome:
-    verdicts = {drake.Judge.FRAMES: Verdict.FRAMES, drake.Judge.INERTIAL: Verdict.INERTIAL, None: Verdict.DIFFERENT}
-    verdict = verdicts[found.judge]
-    return Outcome(file.name, direction, verdict, found.cause, found.difference, output)
+    try:
+        found = versus(source, (file.path, output), (DRAKE, DRAKE))
+    except oracles.UnreadableError as error:
+        return Outcome(file.name, direction, Verdict.RESULT, cause(error.cause), output=output)
+    return Outcome(file.name, direction, _VERDICTS[found.alike], found.cause, found.deviation, output)
 
 
 def _convert(file: CorpusFile, direction: Direction) -> Path:
@@ -113,15 +114,15 @@ def _written(name: str, text: str) -> Path:
     return output
 
 
-def _load(path: Path, reference: str | None = None) -> drake.Samples | str:
+def _load(path: Path) -> Robot | str:
     """What Drake sees, or why it sees nothing."""
     try:
-        return drake.load(path, reference=reference)
-    except Exception as error:  # noqa: BLE001 - Drake raises bare RuntimeError and SystemExit for every fault
-        return _cause(str(error) or type(error).__name__)
+        return look(path, DRAKE)
+    except oracles.UnreadableError as error:
+        return cause(error.cause)
 
 
-def _cause(message: str) -> str:
+def cause(message: str) -> str:
     """A message without file names and numbers, so that equal causes read the same."""
     line = next((line for line in message.splitlines() if line.strip()), message)
     return _ASIDE.sub(lambda match: "" if match.group(2) else "..", line).strip()[:160]

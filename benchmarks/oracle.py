@@ -9,12 +9,13 @@ from concurrent.futures import ThreadPoolExecutor
 from fnmatch import fnmatchcase
 from pathlib import Path
 
-from benchmarks import drake
 from benchmarks.judging import OUT, Direction, Outcome, Verdict, directions, judge, post_mortem, rewrite
 from benchmarks.oracle_report import Reader, report
-from benchmarks.workers import Failure, run
 from tests.corpus.files import CORPUS, MISSING, ROOT, CorpusFile, Kind, corpus_files
-from tests.oracles import libsdformat, urdfdom
+from tests.oracles import known, urdfdom
+from twinform.testing import oracles
+from twinform.testing.oracles import libsdformat
+from twinform.testing.workers import Failure, run
 
 PAGE = ROOT / "docs" / "reference" / "oracle.md"
 KNOWN = Path(__file__).with_name("oracle_known.toml")
@@ -26,8 +27,8 @@ def main() -> int:
     """Convert, judge, report, and fail where a robot changed."""
     if not CORPUS.is_dir():
         return _fail(MISSING)
-    if not drake.available():
-        return _fail("Drake or its oracle script is not here: pip install '.[oracles]'")
+    if not oracles.available("drake"):
+        return _fail("Drake is not here: pip install '.[oracles]'")
     shutil.rmtree(OUT, ignore_errors=True)
     outcomes = sorted(_outcomes(), key=lambda outcome: (outcome.direction, outcome.name))
     readers = _readers(outcomes)
@@ -72,7 +73,7 @@ def _readers(outcomes: list[Outcome]) -> tuple[Reader, ...]:
             "libsdformat 12",
             "SDF 1.9 from URDF files that it takes itself",
             _by_libsdformat(from_urdf),
-            libsdformat.KNOWN,
+            known.LIBSDFORMAT,
         ),
         Reader(
             "libsdformat 12", "SDF files that it takes itself, written again", _by_libsdformat(_rewritten(good)), {}

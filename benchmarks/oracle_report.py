@@ -5,9 +5,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from benchmarks.drake import TOLERANCE
 from benchmarks.judging import Direction, Outcome, Verdict
 from benchmarks.markdown import table, write
+from twinform.testing.oracles.comparison import TOLERANCE
 
 INTRODUCTION = f"""# The same robot, in the eyes of others
 

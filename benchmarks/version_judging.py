@@ -4,9 +4,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import twinform
-from benchmarks import drake
+from benchmarks.judging import DRAKE
 from tests.corpus.files import ROOT, CorpusFile, Kind, corpus_files
 from tests.corpus.versions import NEWEST
+from twinform.testing import oracles
+from twinform.testing.oracles.looking import look, versus
+from twinform.testing.oracles.robot import Robot
 
 OUT = ROOT / "out" / "versions"
 VERSIONS = ("1.11", "1.6")
@@ -33,24 +36,23 @@ def sample() -> list[CorpusFile]:
 def judge(file: CorpusFile) -> list[Comparison]:
     """The model as it is, and in other versions; no exception comes out of it."""
     try:
-        source = drake.load(file.path)
-    except Exception:  # noqa: BLE001 - Drake raises bare RuntimeError and SystemExit for every fault
+        source = look(file.path, DRAKE)
+    except oracles.UnreadableError:
         return [Comparison(file.name, "the file", "not read by Drake")]
     return [_compare(file, source, version) for version in VERSIONS]
 
 
-def _compare(file: CorpusFile, source: drake.Samples, version: str) -> Comparison:
+def _compare(file: CorpusFile, source: Robot, version: str) -> Comparison:
     way = f"the file and the same in {version}"
     try:
         path = _written(file, version)
     except twinform.CompileError as error:
         return Comparison(file.name, way, "refused", error.diagnostics[0].message)
     try:
-        result = drake.load(path, reference=source["reference"])
-    except Exception as error:  # noqa: BLE001 - as above
-        return Comparison(file.name, way, "result not read by Drake", _cause(str(error)))
-    found = drake.compare(source, result)
-    return Comparison(file.name, way, f"same ({found.judge})" if found.judge else "different", found.cause)
+        found = versus(source, (file.path, path), (DRAKE, DRAKE))
+    except oracles.UnreadableError as error:
+        return Comparison(file.name, way, "result not read by Drake", _cause(error.cause))
+    return Comparison(file.name, way, f"same ({found.alike})" if found.alike else "different", found.cause)
 
 
 def _cause(message: str) -> str:

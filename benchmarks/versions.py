@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from itertools import groupby
 
 import twinform
-from benchmarks import drake
 from benchmarks.markdown import table, write
 from benchmarks.version_judging import Comparison, judge, sample
-from benchmarks.workers import Failure, run
 from tests.corpus.examine import rules_of
 from tests.corpus.files import CORPUS, MISSING, ROOT, SHARED, CorpusFile, Kind, models
 from tests.corpus.versions import NEWEST, Trip, there_and_back, upgraded_difference
+from twinform.testing import oracles
+from twinform.testing.workers import Failure, run
 
 PAGE = ROOT / "docs" / "reference" / "versions.md"
 PAIRS = SHARED / "reference" / "pairs.csv"
@@ -146,7 +146,7 @@ def _pair_totals(pairs: list[Pair]) -> str:
 
 def _drake_section() -> str:
     head = "## In the eyes of Drake\n\n"
-    if not drake.available():
+    if not oracles.available("drake"):
         return head + "Drake was not there."
     found: list[Comparison] = []
     for file, result in run(judge, sample(), seconds=_SECONDS):

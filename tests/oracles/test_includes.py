@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import twinform
-from tests.oracles import libsdformat
+from twinform.testing.oracles import libsdformat
 
 _CASES = Path(__file__).parents[1] / "cases" / "includes"
 

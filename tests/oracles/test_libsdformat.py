@@ -8,7 +8,8 @@ import pytest
 import twinform
 from tests.corpus.examine import SDF_VERSION
 from tests.corpus.files import CorpusFile, Kind, chunks
-from tests.oracles import libsdformat
+from tests.oracles import known
+from twinform.testing.oracles import libsdformat
 
 URDF, SDF = chunks(Kind.URDF), chunks(Kind.SDF)
 
@@ -38,7 +39,7 @@ def _is_model_alone(file: CorpusFile) -> bool:
 
 
 def _good(files: tuple[CorpusFile, ...]) -> Iterator[CorpusFile]:
-    return (file for file in files if file.row.get("libsdformat12") == "ok" and file.name not in libsdformat.KNOWN)
+    return (file for file in files if file.row.get("libsdformat12") == "ok" and file.name not in known.LIBSDFORMAT)
 
 
 def _errors(files: Iterator[CorpusFile], folder: Path) -> dict[str, tuple[str, ...]]:

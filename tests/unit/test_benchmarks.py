@@ -9,8 +9,8 @@ import pytest
 import twinform
 from benchmarks import robots
 from benchmarks.markdown import table
-from benchmarks.workers import Failure, run
 from tests.oracles import urdfdom
+from twinform.testing.workers import Failure, run
 
 
 @pytest.mark.parametrize("links", [1, 2, 40])

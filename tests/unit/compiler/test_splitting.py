@@ -6,8 +6,8 @@ import pytest
 from lxml import etree
 
 import twinform
-from tests.oracles import libsdformat
 from twinform.compiler import CompileError, Order, Reading, split
+from twinform.testing.oracles import libsdformat
 
 _EXAMPLES = Path(__file__).parents[3] / "examples"
 _BODY = "<inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial>"

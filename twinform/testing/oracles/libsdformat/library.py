@@ -10,19 +10,11 @@ from dataclasses import dataclass
 from functools import cache
 from itertools import islice
 from pathlib import Path
-from typing import TypedDict
+from typing import NotRequired, TypedDict
 
 MISSING = "libsdformat 12 is not here: it needs libsdformat-dev, pkg-config and g++"
 
-_WEIGHED_TOGETHER = "links with impossible inertia, which it lumps into their parents when it reads URDF itself"
-KNOWN = {
-    "Gepetto+example-robot-data/robots/alex_description/urdf/alex_psyonic_hands.urdf": _WEIGHED_TOGETHER,
-    "Gepetto+example-robot-data/robots/hyq_description/robots/hyq_no_sensors.urdf": _WEIGHED_TOGETHER,
-}
-"""URDF files of the corpus that it takes, though it does not take SDF that says the same, and why."""
-
 _SOURCE = Path(__file__).with_name("sdf_load.cpp")
-_BUILD = Path(__file__).resolve().parents[2] / "build" / "oracles"
 _AT_ONCE = 50
 _SECONDS_PER_FILE = 20
 
@@ -32,16 +24,47 @@ class _Error(TypedDict):
     message: str
 
 
+class LinkRow(TypedDict):
+    """A link: poses are a position and a quaternion, moments are xx, yy, zz, xy, xz, yz about the centre of mass."""
+
+    name: str
+    pose: list[float]
+    mass: float
+    centre: list[float]
+    moments: list[float]
+
+
+class JointRow(TypedDict):
+    """A joint at its zero position, with the number that the library has for its kind."""
+
+    name: str
+    kind: int
+    parent: str
+    child: str
+    pose: list[float]
+    axis: NotRequired[list[float]]
+    limits: NotRequired[dict[str, float]]
+
+
+class RobotRow(TypedDict):
+    """A model, in its own frame."""
+
+    pose: list[float]
+    links: list[LinkRow]
+    joints: list[JointRow]
+
+
 class _Row(TypedDict):
     """A line of the program's output."""
 
     path: str
     ok: bool
     errors: list[_Error]
+    robot: NotRequired[RobotRow]
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class Reading:
     """Whether the file was read without an error, and the errors as `code: message`."""
 
     ok: bool
@@ -56,14 +79,32 @@ def available() -> bool:
     return subprocess.run(["pkg-config", "--exists", "sdformat12"], check=False).returncode == 0
 
 
-def judge(paths: Iterable[Path]) -> dict[Path, Verdict]:
+def judge(paths: Iterable[Path]) -> dict[Path, Reading]:
     """The verdict on each file. A file on which the library crashes or hangs gets an error of its own."""
     waiting = [Path(path).resolve() for path in paths]
-    verdicts: dict[Path, Verdict] = {}
+    verdicts: dict[Path, Reading] = {}
     for chunk in _chunks(waiting):
         while rest := [path for path in chunk if path not in verdicts]:
             verdicts |= _run(rest)
     return verdicts
+
+
+def describe(path: Path) -> RobotRow:
+    """The first model of a file.
+
+    Raises:
+        RuntimeError: the library has errors for the file, or there is no model in it.
+    """
+    command = [str(_program()), "--robots", str(path)]
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
+    if done.returncode:
+        raise RuntimeError(f"libsdformat ended with {done.returncode}")
+    row: _Row = json.loads(done.stdout.decode(errors="replace"))
+    if errors := _reading(row).errors:
+        raise RuntimeError("; ".join(errors))
+    if "robot" not in row:
+        raise RuntimeError("there is no model in it")
+    return row["robot"]
 
 
 def _chunks(paths: list[Path]) -> Iterator[list[Path]]:
@@ -72,7 +113,7 @@ def _chunks(paths: list[Path]) -> Iterator[list[Path]]:
         yield chunk
 
 
-def _run(paths: list[Path]) -> dict[Path, Verdict]:
+def _run(paths: list[Path]) -> dict[Path, Reading]:
     """The verdicts up to and including the first file that the library does not survive."""
     command = [str(_program()), *map(str, paths)]
     try:
@@ -82,20 +123,25 @@ def _run(paths: list[Path]) -> dict[Path, Verdict]:
     except subprocess.TimeoutExpired as expired:
         output, failure = expired.stdout or b"", "libsdformat did not come to an end"
     rows: list[_Row] = [json.loads(line) for line in output.decode(errors="replace").splitlines()]
-    verdicts = {path: _verdict(row) for path, row in zip(paths, rows, strict=False)}
-    return verdicts if len(verdicts) == len(paths) else verdicts | {paths[len(verdicts)]: Verdict(False, (failure,))}
+    verdicts = {path: _reading(row) for path, row in zip(paths, rows, strict=False)}
+    return verdicts if len(verdicts) == len(paths) else verdicts | {paths[len(verdicts)]: Reading(False, (failure,))}
 
 
-def _verdict(row: _Row) -> Verdict:
-    return Verdict(row["ok"], tuple(f"{error['code']}: {error['message']}" for error in row["errors"]))
+def _reading(row: _Row) -> Reading:
+    return Reading(row["ok"], tuple(f"{error['code']}: {error['message']}" for error in row["errors"]))
 
 
 @cache
 def _program() -> Path:
-    program = _BUILD / f"sdf_load-{hashlib.sha256(_SOURCE.read_bytes()).hexdigest()[:12]}"
+    program = _folder() / f"sdf_load-{hashlib.sha256(_SOURCE.read_bytes()).hexdigest()[:12]}"
     if not program.exists():
         _build(program)
     return program
+
+
+def _folder() -> Path:
+    cache = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
+    return Path(cache) / "twinform" / "oracles"
 
 
 def _build(program: Path) -> None:

@@ -1,0 +1,26 @@
+"""Physics engines as judges: are two files, of either format, the same robot?
+
+    from twinform.testing import oracles
+
+    if oracles.available("drake"):
+        verdict = oracles.compare("robot.urdf", "robot.sdf", engine="drake")
+        assert verdict, verdict
+
+Engines come with `pip install 'twinform[oracles]'`, and are imported when they are asked.
+"""
+
+from twinform.testing.oracles.asking import compare
+from twinform.testing.oracles.engines import ENGINES, Engine, available
+from twinform.testing.oracles.verdict import Alike, EngineMissingError, OracleError, UnreadableError, Verdict
+
+__all__ = [
+    "ENGINES",
+    "Alike",
+    "Engine",
+    "EngineMissingError",
+    "OracleError",
+    "UnreadableError",
+    "Verdict",
+    "available",
+    "compare",
+]

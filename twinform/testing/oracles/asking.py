@@ -1,0 +1,56 @@
+"""The question that users ask: are these two files the same robot?"""
+
+from os import PathLike
+from pathlib import Path
+
+from twinform.testing.oracles.child import ChildDiedError, call
+from twinform.testing.oracles.engines import required
+from twinform.testing.oracles.verdict import UnreadableError, Verdict
+
+
+def compare(
+    a: str | PathLike[str],
+    b: str | PathLike[str],
+    *,
+    engine: str = "drake",
+    other: str | None = None,
+    lumped: bool = False,
+) -> Verdict:
+    """Whether two files are the same robot to a physics engine, and how far apart they are.
+
+    Names, limits, masses, poses of links, centres of mass, inertias, mass matrix and gravity are compared at some sets
+    of joint positions. The engine works in a process of its own.
+
+    Args:
+        a: URDF or SDF, as the engine reads it.
+        b: likewise.
+        engine: a name of `ENGINES`.
+        other: the engine for `b`, where it is another one.
+        lumped: weigh links together that are fixed to each other, as some engines do anyway.
+
+    Raises:
+        EngineMissingError: an engine is not installed.
+        UnreadableError: an engine cannot read its file.
+        ValueError: there is no such engine.
+    """
+    from twinform.testing.oracles import looking  # noqa: PLC0415 - numpy, which is in the extra `oracles`
+
+    engines = (engine, other or engine)
+    for name in engines:
+        required(name)
+    first, second = Path(a).resolve(), Path(b).resolve()
+    try:
+        return call(looking.compared, first, second, engines, lumped)
+    except ChildDiedError:
+        raise _culprit(first, second, engines) from None
+
+
+def _culprit(first: Path, second: Path, engines: tuple[str, str]) -> UnreadableError:
+    """The file on which an engine ends its process."""
+    from twinform.testing.oracles import looking  # noqa: PLC0415 - as above
+
+    try:
+        call(looking.look, first, engines[0])
+    except ChildDiedError as died:
+        return UnreadableError(engines[0], first, str(died))
+    return UnreadableError(engines[1], second, "it ends the process")

@@ -1,0 +1,150 @@
+"""Two robots, each as an engine sees it: are they the same?"""
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from twinform.testing.oracles.lumping import lumped as weighed_together
+from twinform.testing.oracles.robot import Matrix, Robot, Sample
+from twinform.testing.oracles.verdict import Alike, Verdict
+
+TOLERANCE = 1e-9
+_POSES = frozenset({"position", "rotation"})
+_SHOWN = 4
+
+
+@dataclass(frozen=True, slots=True)
+class _Deviation:
+    """A difference of one kind, and where it is."""
+
+    kind: str
+    size: float
+    where: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.kind} of {self.where}" if self.where else self.kind
+
+
+def renamed(source: Robot, result: Robot) -> dict[str, str]:
+    """The joints that have a new name because a link had theirs: the old name by the new one."""
+    lost = (set(source.joints) - set(result.joints)) & set(source.links)
+    return {f"{name}_joint": name for name in lost if f"{name}_joint" in result.joints}
+
+
+def judge(first: Robot, second: Robot, *, tolerance: float = TOLERANCE, lumped: bool = False) -> Verdict:
+    """The verdict on two robots that were read; `lumped` weighs links together that are fixed to each other."""
+    if lumped or first.lumped or second.lumped:
+        lumped = True
+        first, second = (each if each.lumped else weighed_together(each) for each in (first, second))
+    found = _largest_of_each_kind(first, second)
+    worst = _largest(found)
+    weight = _largest(one for one in found if one.kind not in _POSES)
+    if cause := _other_parts(first, second) or _other_limits(first, second) or _other_numbers(found, tolerance):
+        return _verdict(first, second, None, worst, cause)
+    if lumped:
+        return _verdict(first, second, Alike.LUMPED, weight)
+    if worst.size <= tolerance and set(first.links) <= set(second.links):
+        return _verdict(first, second, Alike.FRAMES, worst)
+    return _verdict(first, second, Alike.INERTIAL, weight)
+
+
+def _verdict(first: Robot, second: Robot, alike: Alike | None, found: _Deviation, cause: str = "") -> Verdict:
+    engine = first.engine if first.engine == second.engine else f"{first.engine} and {second.engine}"
+    return Verdict(engine, alike, found.size, str(found) if found.size else "", cause)
+
+
+def _largest_of_each_kind(first: Robot, second: Robot) -> list[_Deviation]:
+    scales = _scales(first.samples)
+    largest: dict[str, _Deviation] = {}
+    for before, after in zip(first.samples, second.samples, strict=True):
+        for one in _deviations(first, second, before, after):
+            scaled = replace(one, size=_number(one.size / scales.get(one.kind, 1.0)))
+            if one.kind not in largest or scaled.size > largest[one.kind].size:
+                largest[one.kind] = scaled
+    return list(largest.values())
+
+
+def _scales(samples: Sequence[Sample]) -> Mapping[str, float]:
+    """What a difference is measured against: one, or the largest number of its kind where that is more."""
+    bodies = [body for sample in samples for body in sample.bodies.values()]
+    values: dict[str, list[float | Matrix]] = {
+        "gravity": [force for sample in samples for force in sample.gravity.values()],
+        "position": [pose[:3, 3] for sample in samples for pose in sample.poses.values()],
+        "mass": [body.mass for body in bodies],
+        "centre of mass": [body.centre for body in bodies],
+        "inertia": [body.inertia for body in bodies],
+    }
+    return {kind: max([1.0, *(float(np.abs(value).max()) for value in each)]) for kind, each in values.items()}
+
+
+def _deviations(first: Robot, second: Robot, before: Sample, after: Sample) -> Iterator[_Deviation]:
+    shared = [name for name in first.joints if name in second.joints]
+    yield _mass_matrix(shared, _part(first, before, shared), _part(second, after, shared))
+    for name in shared:
+        yield _Deviation("gravity", abs(before.gravity[name] - after.gravity[name]), f"joint {name}")
+    for name in before.poses.keys() & after.poses.keys():
+        gap = np.abs(before.poses[name] - after.poses[name])
+        yield _Deviation("position", float(gap[:3, 3].max()), f"link {name}")
+        yield _Deviation("rotation", float(gap[:3, :3].max()), f"link {name}")
+    for name in before.bodies.keys() & after.bodies.keys():
+        one, other, where = before.bodies[name], after.bodies[name], f"link {name}"
+        yield _Deviation("mass", abs(one.mass - other.mass), where)
+        yield _Deviation("centre of mass", float(np.abs(one.centre - other.centre).max()), where)
+        yield _Deviation("inertia", float(np.abs(one.inertia - other.inertia).max()), where)
+
+
+def _part(robot: Robot, sample: Sample, joints: list[str]) -> Matrix:
+    rows = [robot.joints.index(name) for name in joints]
+    return sample.mass_matrix[np.ix_(rows, rows)]
+
+
+def _mass_matrix(joints: list[str], before: Matrix, after: Matrix) -> _Deviation:
+    if not joints:
+        return _Deviation("mass matrix", 0.0)
+    gap = np.abs(before - after)
+    row, column = np.unravel_index(int(gap.argmax()), gap.shape)
+    size = float(gap.max()) / max(float(np.abs(before).max()), 1e-300)
+    return _Deviation("mass matrix", size, f"joints {joints[row]} and {joints[column]}")
+
+
+def _largest(found: Iterable[_Deviation]) -> _Deviation:
+    return max(found, key=lambda one: one.size, default=_Deviation("", 0.0))
+
+
+def _number(size: float) -> float:
+    # what is no number is as far from right as can be
+    return math.inf if math.isnan(size) else size
+
+
+def _other_parts(first: Robot, second: Robot) -> str:
+    """Joints and links with mass that only one of the two has; massless links may become frames and back."""
+    before, after = first.samples[0].bodies.keys(), second.samples[0].bodies.keys()
+    parts = [
+        ("joints lost", set(first.joints) - set(second.joints)),
+        ("joints added", set(second.joints) - set(first.joints)),
+        ("links lost", before - after),
+        ("links added", after - before),
+    ]
+    return "; ".join(f"{what}: {', '.join(sorted(names))}" for what, names in parts if names)
+
+
+def _other_limits(first: Robot, second: Robot) -> str:
+    texts = [
+        f"{name}.{key} {one[key]:g} became {other[key]:g}"
+        for name, one in first.limits.items()
+        if (other := second.limits.get(name)) is not None
+        for key in one
+        if key in other and not _close(one[key], other[key])
+    ]
+    return f"limits and damping: {'; '.join(texts[:_SHOWN])}" if texts else ""
+
+
+def _close(one: float, other: float) -> bool:
+    return one == other or abs(one - other) <= TOLERANCE * max(1.0, abs(one))
+
+
+def _other_numbers(found: Iterable[_Deviation], tolerance: float) -> str:
+    wrong = [f"{one.kind} {one.size:.2g}" for one in found if one.kind not in _POSES and one.size > tolerance]
+    return f"other numbers: {', '.join(wrong)}" if wrong else ""

@@ -1,0 +1,122 @@
+"""Drake's view of a model, URDF or SDF, nested models included."""
+
+import importlib
+import logging
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from twinform.testing.oracles.robot import GRAVITY, WORLD, Body, Matrix, Robot, Sample, View, inverse, limit, moved
+from twinform.testing.oracles.sampling import position
+
+Parts = dict[str, Any]
+"""Drake's bodies or joints by name."""
+
+_FREE = 6
+
+
+def read(path: Path, view: View) -> Robot:
+    """The first model of a file.
+
+    Raises:
+        Exception: Drake cannot read it; it has no narrower type for that.
+    """
+    plant, bodies, joints = parts(path)
+    moving = {view.names.get(name, name): joint for name, joint in joints.items() if joint.num_velocities() == 1}
+    reference = view.reference if view.reference in bodies else root(bodies, joints)
+    origin = _pose(plant, plant.CreateDefaultContext(), bodies[reference]) if reference != WORLD else np.eye(4)
+    plant.mutable_gravity_field().set_gravity_vector(origin[:3, :3] @ np.array([0.0, 0.0, -GRAVITY]))
+    samples = (
+        _sample(plant, bodies, moving, origin, lambda name, number=number: position(name, number))
+        for number in range(view.count)
+    )
+    return Robot(
+        engine="drake",
+        reference=reference,
+        joints=tuple(moving),
+        links=tuple(bodies),
+        limits={name: _limits(joint) for name, joint in moving.items()},
+        samples=tuple(samples),
+        welds=_welds(bodies, joints),
+    )
+
+
+def parts(path: Path) -> tuple[Any, Parts, Parts]:
+    """The plant of the first model of a file, and its bodies and joints; without shapes, so that no mesh is missed."""
+    logging.getLogger("drake").setLevel(logging.CRITICAL)
+    plant = importlib.import_module("pydrake.multibody.plant").MultibodyPlant(0.0)
+    parser = importlib.import_module("pydrake.multibody.parsing").Parser(plant)
+    prefix = f"{plant.GetModelInstanceName(parser.AddModels(str(path))[0])}::"
+    plant.Finalize()
+    index = importlib.import_module("pydrake.multibody.tree").BodyIndex
+    bodies = _named(plant, (plant.get_body(index(number)) for number in range(plant.num_bodies())), prefix)
+    joints = _named(plant, (plant.get_joint(number) for number in plant.GetJointIndices()), prefix)
+    return plant, bodies, joints
+
+
+def root(bodies: Parts, joints: Parts) -> str:
+    """The world where something is joined to it, else the link that a tree hangs from."""
+    if any(joint.parent_body().name() == WORLD and joint.num_velocities() < _FREE for joint in joints.values()):
+        return WORLD
+    # nested models come first in Drake's order; the outer one has the root that a tree hangs from
+    free = (name for name, body in bodies.items() if body.is_floating_base_body())
+    return min(free, key=lambda name: name.count("::"), default=WORLD)
+
+
+def _named(plant: Any, found: Iterable[Any], prefix: str) -> Parts:
+    """Those of the model and the models in it, by their names inside it."""
+    scoped = ((f"{plant.GetModelInstanceName(part.model_instance())}::{part.name()}", part) for part in found)
+    return {name.removeprefix(prefix): part for name, part in scoped if name.startswith(prefix)}
+
+
+def _welds(bodies: Parts, joints: Parts) -> dict[str, str]:
+    names = {body.index(): name for name, body in bodies.items()}
+    welds = (joint for joint in joints.values() if joint.num_velocities() == 0)
+    return {
+        names[joint.child_body().index()]: names.get(joint.parent_body().index(), WORLD)
+        for joint in welds
+        if joint.child_body().index() in names
+    }
+
+
+def _limits(joint: Any) -> dict[str, float]:
+    return {
+        "lower": limit(joint.position_lower_limits()[0]),
+        "upper": limit(joint.position_upper_limits()[0]),
+        "velocity": limit(joint.velocity_upper_limits()[0]),
+        "damping": float(joint.default_damping_vector()[0]),
+    }
+
+
+def _sample(plant: Any, bodies: Parts, joints: Parts, origin: Matrix, place: Callable[[str], float]) -> Sample:
+    context = plant.CreateDefaultContext()
+    positions = plant.GetPositions(context)
+    for name, joint in joints.items():
+        positions[joint.position_start()] = place(name)
+    plant.SetPositions(context, positions)
+    speeds = [joint.velocity_start() for joint in joints.values()]
+    forces = plant.CalcGravityGeneralizedForces(context)
+    back = inverse(origin)
+    poses = {name: back @ _pose(plant, context, body) for name, body in bodies.items()}
+    weighed = ((name, _body(context, body, poses[name])) for name, body in bodies.items())
+    return Sample(
+        poses=poses,
+        bodies={name: body for name, body in weighed if body is not None},
+        mass_matrix=plant.CalcMassMatrix(context)[np.ix_(speeds, speeds)],
+        gravity={name: float(forces[speed]) for name, speed in zip(joints, speeds, strict=True)},
+    )
+
+
+def _body(context: Any, body: Any, pose: Matrix) -> Body | None:
+    inertia = body.CalcSpatialInertiaInBodyFrame(context)
+    if not inertia.get_mass() > 0:
+        return None
+    centre = inertia.get_com()
+    moments = inertia.Shift(centre).CalcRotationalInertia().CopyToFullMatrix3()
+    return moved(pose, inertia.get_mass(), centre, moments)
+
+
+def _pose(plant: Any, context: Any, body: Any) -> Matrix:
+    return plant.EvalBodyPoseInWorld(context, body).GetAsMatrix4()

@@ -1,0 +1,53 @@
+"""The robot that libsdformat sees: it resolves frames and reads URDF, and the kinematics here do the rest."""
+
+from pathlib import Path
+
+import numpy as np
+
+from twinform.testing.oracles.kinematics import Joint, Link, Motion, robot
+from twinform.testing.oracles.libsdformat.library import JointRow, LinkRow, describe
+from twinform.testing.oracles.lumping import lumped
+from twinform.testing.oracles.robot import Matrix, Robot, View, limit, pose
+
+_MOTIONS = {2: Motion.TURNS, 3: Motion.FIXED, 5: Motion.SLIDES, 6: Motion.TURNS}
+"""The kinds of joints that move in one way or not at all, by the library's numbers for them."""
+
+
+def read(path: Path, view: View) -> Robot:
+    """The first model of a file.
+
+    Raises:
+        RuntimeError: libsdformat has errors for it.
+    """
+    found = describe(path)
+    links = [_link(row) for row in found["links"]]
+    joints = [_joint(row) for row in found["joints"]]
+    seen = robot("libsdformat", links, joints, _pose(found["pose"]), view)
+    # it weighs links together itself when it reads URDF
+    return lumped(seen) if path.suffix == ".urdf" else seen
+
+
+def _link(row: LinkRow) -> Link:
+    xx, yy, zz, xy, xz, yz = row["moments"]
+    inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    return Link(row["name"], _pose(row["pose"]), row["mass"], _pose(row["centre"]), inertia)
+
+
+def _joint(row: JointRow) -> Joint:
+    limits = {name: limit(value) for name, value in row.get("limits", {}).items()}
+    return Joint(
+        row["name"],
+        _MOTIONS.get(row["kind"], Motion.OTHER),
+        row["parent"],
+        row["child"],
+        _pose(row["pose"]),
+        np.array(row.get("axis", [0.0, 0.0, 1.0])),
+        limits,
+    )
+
+
+def _pose(numbers: list[float]) -> Matrix:
+    w, *vector = numbers[3:]
+    x, y, z = vector
+    skew = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return pose(np.eye(3) + 2 * w * skew + 2 * skew @ skew, np.array(numbers[:3]))

@@ -1,0 +1,158 @@
+// Loads files with libsdformat 12 and says what it thinks of each, one JSON object per line.
+// File names come from the arguments, or from standard input, one per line. After `--robots` the first model of each
+// file is described too, with the models in it: poses in the frame of that model, and everything in SI units.
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <sdf/sdf.hh>
+#include <sstream>
+#include <string>
+
+namespace {
+
+using ignition::math::Pose3d;
+
+std::string quoted(const std::string &text) {
+  std::string out = "\"";
+  for (const unsigned char c : text) {
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += static_cast<char>(c);
+    } else if (c < 0x20) {
+      char escape[8];
+      std::snprintf(escape, sizeof escape, "\\u%04x", c);
+      out += escape;
+    } else {
+      out += static_cast<char>(c);
+    }
+  }
+  return out + "\"";
+}
+
+std::string number(const double value) {
+  if (std::isnan(value)) return "NaN";
+  if (std::isinf(value)) return value > 0 ? "Infinity" : "-Infinity";
+  std::ostringstream out;
+  out.precision(17);
+  out << value;
+  return out.str();
+}
+
+template <typename... Numbers>
+std::string numbers(const Numbers... values) {
+  std::string out;
+  ((out += (out.empty() ? "[" : ", ") + number(values)), ...);
+  return out + "]";
+}
+
+// position, then the quaternion with its real part first
+std::string written(const Pose3d &pose) {
+  const auto &p = pose.Pos();
+  const auto &r = pose.Rot();
+  return numbers(p.X(), p.Y(), p.Z(), r.W(), r.X(), r.Y(), r.Z());
+}
+
+// what could not be resolved stays where it is, and the errors of loading say so
+Pose3d resolved(const sdf::SemanticPose &semantic, const std::string &frame) {
+  Pose3d pose;
+  semantic.Resolve(pose, frame);
+  return pose;
+}
+
+void describe_link(const sdf::Link &link, const std::string &scope, const Pose3d &model) {
+  const auto &inertial = link.Inertial();
+  const auto &mass = inertial.MassMatrix();
+  std::cout << "{\"name\": " << quoted(scope + link.Name())
+            << ", \"pose\": " << written(model * resolved(link.SemanticPose(), "__model__"))
+            << ", \"mass\": " << number(mass.Mass()) << ", \"centre\": " << written(inertial.Pose())
+            << ", \"moments\": "
+            << numbers(mass.Ixx(), mass.Iyy(), mass.Izz(), mass.Ixy(), mass.Ixz(), mass.Iyz()) << "}";
+}
+
+void describe_axis(const sdf::Joint &joint) {
+  const sdf::JointAxis *axis = joint.Axis(0);
+  if (axis == nullptr) return;
+  ignition::math::Vector3d direction;
+  axis->ResolveXyz(direction, joint.Name());
+  std::cout << ", \"axis\": " << numbers(direction.X(), direction.Y(), direction.Z()) << ", \"limits\": {\"lower\": "
+            << number(axis->Lower()) << ", \"upper\": " << number(axis->Upper())
+            << ", \"velocity\": " << number(axis->MaxVelocity()) << ", \"effort\": " << number(axis->Effort())
+            << ", \"damping\": " << number(axis->Damping()) << ", \"friction\": " << number(axis->Friction()) << "}";
+}
+
+void describe_joint(const sdf::Joint &joint, const std::string &scope, const Pose3d &model) {
+  std::string parent = joint.ParentLinkName(), child = joint.ChildLinkName();
+  joint.ResolveParentLink(parent);
+  joint.ResolveChildLink(child);
+  std::cout << "{\"name\": " << quoted(scope + joint.Name()) << ", \"kind\": " << static_cast<int>(joint.Type())
+            << ", \"parent\": " << quoted(parent == "world" ? parent : scope + parent)
+            << ", \"child\": " << quoted(scope + child)
+            << ", \"pose\": " << written(model * resolved(joint.SemanticPose(), "__model__"));
+  describe_axis(joint);
+  std::cout << "}";
+}
+
+void describe_links(const sdf::Model &model, const std::string &scope, const Pose3d &pose, const char *&separator) {
+  for (uint64_t i = 0; i < model.LinkCount(); ++i, separator = ", ") {
+    std::cout << separator;
+    describe_link(*model.LinkByIndex(i), scope, pose);
+  }
+  for (uint64_t i = 0; i < model.ModelCount(); ++i) {
+    const sdf::Model &inner = *model.ModelByIndex(i);
+    describe_links(inner, scope + inner.Name() + "::", pose * resolved(inner.SemanticPose(), "__model__"), separator);
+  }
+}
+
+void describe_joints(const sdf::Model &model, const std::string &scope, const Pose3d &pose, const char *&separator) {
+  for (uint64_t i = 0; i < model.JointCount(); ++i, separator = ", ") {
+    std::cout << separator;
+    describe_joint(*model.JointByIndex(i), scope, pose);
+  }
+  for (uint64_t i = 0; i < model.ModelCount(); ++i) {
+    const sdf::Model &inner = *model.ModelByIndex(i);
+    describe_joints(inner, scope + inner.Name() + "::", pose * resolved(inner.SemanticPose(), "__model__"), separator);
+  }
+}
+
+const sdf::Model *first_model(const sdf::Root &root) {
+  if (root.Model() != nullptr) return root.Model();
+  return root.WorldCount() == 0 ? nullptr : root.WorldByIndex(0)->ModelByIndex(0);
+}
+
+void describe(const sdf::Root &root) {
+  const sdf::Model *model = first_model(root);
+  if (model == nullptr) return;
+  const char *separator = "";
+  std::cout << ", \"robot\": {\"pose\": " << written(model->RawPose()) << ", \"links\": [";
+  describe_links(*model, "", Pose3d::Zero, separator);
+  separator = "";
+  std::cout << "], \"joints\": [";
+  describe_joints(*model, "", Pose3d::Zero, separator);
+  std::cout << "]}";
+}
+
+void judge(const std::string &path, const bool robots) {
+  sdf::Root root;
+  const sdf::Errors errors = root.Load(path);
+  std::cout << "{\"path\": " << quoted(path) << ", \"ok\": " << (errors.empty() ? "true" : "false") << ", \"errors\": [";
+  const char *separator = "";
+  for (const sdf::Error &error : errors) {
+    std::cout << separator << "{\"code\": " << static_cast<int>(error.Code())
+              << ", \"message\": " << quoted(error.Message()) << "}";
+    separator = ", ";
+  }
+  std::cout << "]";
+  if (robots) describe(root);
+  std::cout << "}" << std::endl;
+}
+
+}  // namespace
+
+int main(int count, char **arguments) {
+  const bool robots = count > 1 && std::string(arguments[1]) == "--robots";
+  const int first = robots ? 2 : 1;
+  for (int i = first; i < count; ++i) judge(arguments[i], robots);
+  std::string path;
+  while (count == first && std::getline(std::cin, path)) judge(path, robots);
+  return 0;
+}

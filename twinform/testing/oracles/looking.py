@@ -1,0 +1,50 @@
+"""Looking at files with an engine in this process, which an engine may take down; `asking.py` has a process for it."""
+
+from importlib import import_module
+from pathlib import Path
+
+from twinform.testing.oracles.comparison import judge, renamed
+from twinform.testing.oracles.engines import required
+from twinform.testing.oracles.robot import Robot, View
+from twinform.testing.oracles.verdict import UnreadableError, Verdict
+
+
+def look(path: Path, engine: str, view: View | None = None) -> Robot:
+    """What an engine sees in a file.
+
+    Raises:
+        EngineMissingError: it is not installed.
+        UnreadableError: it cannot read the file.
+    """
+    chosen = required(engine)
+    if not chosen.reads(path):
+        raise UnreadableError(engine, path, f"it does not read {path.suffix or 'files without a suffix'}")
+    try:
+        return import_module(chosen.module).read(path, view or View())
+    except (Exception, SystemExit) as error:
+        raise UnreadableError(engine, path, str(error) or type(error).__name__) from error
+
+
+def versus(first: Robot, files: tuple[Path, Path], engines: tuple[str, str], *, lumped: bool = False) -> Verdict:
+    """The verdict on two files, of which the first has been looked at.
+
+    Raises:
+        UnreadableError: an engine cannot read its file.
+    """
+    (source, result), (before, after) = files, engines
+    second = look(result, after, View(reference=first.reference))
+    if names := renamed(first, second):
+        second = look(result, after, View(names, first.reference))
+    if second.reference != first.reference:
+        first = look(source, before, View(reference=second.reference))
+    tolerance = max(required(engine).tolerance for engine in engines)
+    return judge(first, second, tolerance=tolerance, lumped=lumped)
+
+
+def compared(first: Path, second: Path, engines: tuple[str, str], lumped: bool) -> Verdict:
+    """The verdict on two files.
+
+    Raises:
+        UnreadableError: an engine cannot read its file.
+    """
+    return versus(look(first, engines[0]), (first, second), engines, lumped=lumped)

@@ -1,0 +1,38 @@
+"""Links weighed together with those that are fixed to them, which is how some engines see every robot."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from twinform.testing.oracles.robot import Body, Robot, Sample
+
+
+def lumped(robot: Robot) -> Robot:
+    """The robot with one body for each group of links that are fixed to each other, named after the first of them."""
+    samples = tuple(_lumped(sample, robot.welds) for sample in robot.samples)
+    return replace(robot, samples=samples, lumped=True)
+
+
+def _lumped(sample: Sample, welds: Mapping[str, str]) -> Sample:
+    groups: dict[str, list[Body]] = {}
+    for link, body in sample.bodies.items():
+        groups.setdefault(_first(link, welds), []).append(body)
+    return replace(sample, bodies={name: _together(bodies) for name, bodies in groups.items()})
+
+
+def _first(link: str, welds: Mapping[str, str]) -> str:
+    while link in welds:
+        link = welds[link]
+    return link
+
+
+def _together(bodies: Iterable[Body]) -> Body:
+    parts = list(bodies)
+    mass = sum(body.mass for body in parts)
+    centre = np.sum([body.mass * body.centre for body in parts], axis=0) / mass
+    inertia = np.zeros((3, 3))
+    for body in parts:
+        arm = body.centre - centre
+        inertia += body.inertia + body.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    return Body(mass, centre, inertia)

@@ -1,0 +1,119 @@
+"""MuJoCo's view of a URDF model, which it is given without shapes (`shapes.py`)."""
+
+import importlib
+import math
+from collections.abc import Mapping
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from twinform.testing.oracles.robot import (
+    GRAVITY,
+    WORLD,
+    Body,
+    Matrix,
+    Robot,
+    Sample,
+    View,
+    inverse,
+    limit,
+    moved,
+    pose,
+)
+from twinform.testing.oracles.sampling import position
+from twinform.testing.oracles.shapes import root_link, without_shapes
+
+Numbers = dict[str, int]
+"""MuJoCo's numbers of bodies or joints by name."""
+
+
+def read(path: Path, view: View) -> Robot:
+    """The robot of a file, with every link as a body of its own.
+
+    Raises:
+        Exception: MuJoCo cannot read it.
+    """
+    mujoco: Any = importlib.import_module("mujoco")
+    text = without_shapes(path)
+    spec = mujoco.MjSpec.from_string(text.decode())
+    spec.compiler.fusestatic = False
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    bodies = {model.body(number).name: number for number in range(1, model.nbody)}
+    joints = _joints(mujoco, model, view.names)
+    root = root_link(text)
+    reference = view.reference if view.reference in {*bodies, WORLD} else root
+    origin = np.eye(4) if reference == WORLD else _pose(data, bodies[reference])
+    model.opt.gravity[:] = origin[:3, :3] @ np.array([0.0, 0.0, -GRAVITY])
+    sample = partial(_sample, mujoco, model, data, bodies, joints, inverse(origin))
+    return Robot(
+        engine="mujoco",
+        reference=reference,
+        joints=tuple(joints),
+        links=tuple(bodies),
+        limits={name: _limits(model, number) for name, number in joints.items()},
+        samples=tuple(sample(number) for number in range(view.count)),
+        welds=_welds(model, bodies, root),
+    )
+
+
+def _joints(mujoco: Any, model: Any, names: Mapping[str, str]) -> Numbers:
+    moving = {int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE)}
+    numbers = (number for number in range(model.njnt) if int(model.jnt_type[number]) in moving)
+    found = ((model.joint(number).name, number) for number in numbers)
+    return {names.get(name, name): number for name, number in found}
+
+
+def _welds(model: Any, bodies: Numbers, root: str) -> dict[str, str]:
+    """Links without a joint, by what they are fixed to; MuJoCo alone fixes a root to the world."""
+    fixed = {name: number for name, number in bodies.items() if model.body_jntnum[number] == 0 and name != root}
+    return {name: model.body(int(model.body_parentid[number])).name for name, number in fixed.items()}
+
+
+def _limits(model: Any, number: int) -> dict[str, float]:
+    lower, upper = model.jnt_range[number] if model.jnt_limited[number] else (-math.inf, math.inf)
+    effort = model.jnt_actfrcrange[number][1] if model.jnt_actfrclimited[number] else math.inf
+    speed = int(model.jnt_dofadr[number])
+    return {
+        "lower": limit(lower),
+        "upper": limit(upper),
+        "effort": limit(effort),
+        "damping": float(model.dof_damping[speed]),
+        "friction": float(model.dof_frictionloss[speed]),
+    }
+
+
+def _sample(mujoco: Any, model: Any, data: Any, bodies: Numbers, joints: Numbers, back: Matrix, sample: int) -> Sample:
+    for name, number in joints.items():
+        data.qpos[model.jnt_qposadr[number]] = position(name, sample)
+    mujoco.mj_forward(model, data)
+    poses = {name: back @ _pose(data, number) for name, number in bodies.items()}
+    speeds = [int(model.jnt_dofadr[number]) for number in joints.values()]
+    return Sample(
+        poses=poses,
+        bodies={
+            name: _body(model, data, number, back) for name, number in bodies.items() if model.body_mass[number] > 0
+        },
+        mass_matrix=_mass_matrix(mujoco, model, data)[np.ix_(speeds, speeds)],
+        gravity={name: -float(data.qfrc_bias[speed]) for name, speed in zip(joints, speeds, strict=True)},
+    )
+
+
+def _mass_matrix(mujoco: Any, model: Any, data: Any) -> Matrix:
+    matrix = np.zeros((model.nv, model.nv))
+    for row, unit in zip(matrix, np.eye(model.nv), strict=True):
+        mujoco.mj_mulM(model, data, row, unit)
+    return matrix
+
+
+def _body(model: Any, data: Any, number: int, back: Matrix) -> Body:
+    # MuJoCo has inertias along their own axes, with the centre of mass as their origin
+    inertial = back @ pose(data.ximat[number].reshape(3, 3), data.xipos[number])
+    return moved(inertial, float(model.body_mass[number]), np.zeros(3), np.diag(model.body_inertia[number]))
+
+
+def _pose(data: Any, number: int) -> Matrix:
+    return pose(data.xmat[number].reshape(3, 3), data.xpos[number])

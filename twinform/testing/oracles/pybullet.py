@@ -1,0 +1,177 @@
+"""PyBullet's view of a URDF model, which it is given without shapes (`shapes.py`).
+
+It turns links about with some digits less than others, so that its tolerance is larger. A link without an inertia
+weighs one kg to it, and nothing to everybody else: it is given one that says so.
+"""
+
+import importlib
+import math
+import tempfile
+from collections.abc import Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from lxml import etree
+
+from twinform.testing.oracles.robot import GRAVITY, Body, Matrix, Robot, Sample, View, inverse, limit, moved, pose
+from twinform.testing.oracles.sampling import position
+from twinform.testing.oracles.shapes import without_shapes
+
+_MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+
+
+class _Joint(NamedTuple):
+    """What PyBullet says of a joint."""
+
+    number: int
+    name: bytes
+    kind: int
+    first_position: int
+    first_speed: int
+    flags: int
+    damping: float
+    friction: float
+    lower: float
+    upper: float
+    effort: float
+    velocity: float
+    link: bytes
+    axis: Sequence[float]
+    place: Sequence[float]
+    turn: Sequence[float]
+    parent: int
+
+
+class _World:
+    """A PyBullet world with one robot, whose root is fixed, in it."""
+
+    def __init__(self, path: Path) -> None:
+        self.engine: Any = importlib.import_module("pybullet")
+        self.client = self.engine.connect(self.engine.DIRECT)
+        # without this it takes a file that it has seen before for the one that is there now
+        self.engine.setPhysicsEngineParameter(enableFileCaching=0, physicsClientId=self.client)
+        load = partial(self.ask, "loadURDF", str(path), flags=self.engine.URDF_USE_INERTIA_FROM_FILE, of_robot=False)
+        self.robot = load(useFixedBase=1)
+        # a root that is fixed has no mass to it
+        self.loose = load(useFixedBase=0)
+        self.base = self.ask("getBodyInfo")[0].decode()
+        self.joints = [_Joint(*self.ask("getJointInfo", number)) for number in range(self.ask("getNumJoints"))]
+
+    def ask(self, question: str, *arguments: Any, of_robot: bool = True, **options: Any) -> Any:
+        """One of PyBullet's functions, about this robot."""
+        first = (self.robot,) if of_robot else ()
+        return getattr(self.engine, question)(*first, *arguments, physicsClientId=self.client, **options)
+
+    def close(self) -> None:
+        """End it."""
+        self.ask("disconnect", of_robot=False)
+
+
+def read(path: Path, view: View) -> Robot:
+    """The robot of a file.
+
+    Raises:
+        Exception: PyBullet cannot read it.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        stripped = Path(folder) / "robot.urdf"
+        stripped.write_bytes(_weighed(without_shapes(path)))
+        world = _World(stripped)
+    try:
+        return _robot(world, view)
+    finally:
+        world.close()
+
+
+def _weighed(text: bytes) -> bytes:
+    """The same robot with an inertia for every link."""
+    robot = etree.fromstring(text)
+    for link in robot.iterfind("link"):
+        if link.find("inertial") is None:
+            inertial = etree.SubElement(link, "inertial")
+            etree.SubElement(inertial, "mass", value="0")
+            etree.SubElement(inertial, "inertia", dict.fromkeys(_MOMENTS, "0"))
+    return etree.tostring(robot)
+
+
+def _robot(world: _World, view: View) -> Robot:
+    moving = {world.engine.JOINT_REVOLUTE, world.engine.JOINT_PRISMATIC}
+    named = {joint.name.decode(): joint for joint in world.joints if joint.kind in moving}
+    joints = {view.names.get(name, name): joint for name, joint in named.items()}
+    numbers = {world.base: -1} | {joint.link.decode(): joint.number for joint in world.joints}
+    reference = view.reference if view.reference in numbers else world.base
+    origin = _poses(world, numbers[reference])[0]
+    down = origin[:3, :3] @ np.array([0.0, 0.0, -GRAVITY])
+    world.ask("setGravity", *down, of_robot=False)
+    samples = (_sample(world, joints, numbers, inverse(origin), number) for number in range(view.count))
+    return Robot(
+        engine="pybullet",
+        reference=reference,
+        joints=tuple(joints),
+        links=tuple(numbers),
+        limits={name: _limits(joint) for name, joint in joints.items()},
+        samples=tuple(samples),
+        welds=_welds(world, numbers),
+    )
+
+
+def _welds(world: _World, numbers: Mapping[str, int]) -> dict[str, str]:
+    names = {number: name for name, number in numbers.items()}
+    fixed = (joint for joint in world.joints if joint.kind == world.engine.JOINT_FIXED)
+    return {joint.link.decode(): names[joint.parent] for joint in fixed}
+
+
+def _limits(joint: _Joint) -> dict[str, float]:
+    # a joint without limits has them the wrong way round
+    endless = joint.lower > joint.upper
+    return {
+        "lower": -math.inf if endless else limit(joint.lower),
+        "upper": math.inf if endless else limit(joint.upper),
+        "velocity": limit(joint.velocity),
+        "effort": limit(joint.effort),
+        "damping": joint.damping,
+        "friction": joint.friction,
+    }
+
+
+def _sample(
+    world: _World, joints: Mapping[str, _Joint], numbers: Mapping[str, int], back: Matrix, sample: int
+) -> Sample:
+    for name, joint in joints.items():
+        world.ask("resetJointState", joint.number, position(name, sample))
+    order = {joint.number: place for place, joint in enumerate(sorted(joints.values()))}
+    places = [position(name, sample) for name, _ in sorted(joints.items(), key=lambda item: item[1].number)]
+    rows = [order[joint.number] for joint in joints.values()]
+    rest = [0.0] * len(places)
+    matrix = np.array(world.ask("calculateMassMatrix", places)) if places else np.zeros((0, 0))
+    forces = world.ask("calculateInverseDynamics", places, rest, rest) if places else ()
+    seen = {name: _poses(world, number) for name, number in numbers.items()}
+    bodies = ((name, _body(world, number, back @ seen[name][1])) for name, number in numbers.items())
+    return Sample(
+        poses={name: back @ link for name, (link, _) in seen.items()},
+        bodies={name: body for name, body in bodies if body.mass > 0},
+        mass_matrix=matrix[np.ix_(rows, rows)],
+        gravity={name: -float(forces[order[joint.number]]) for name, joint in joints.items()},
+    )
+
+
+def _body(world: _World, number: int, inertial: Matrix) -> Body:
+    known = world.engine.getDynamicsInfo(world.loose, number, physicsClientId=world.client)
+    return moved(inertial, float(known[0]), np.zeros(3), np.diag(known[2]))
+
+
+def _poses(world: _World, number: int) -> tuple[Matrix, Matrix]:
+    """The frame of a link, and that of its inertia."""
+    if number >= 0:
+        state = world.ask("getLinkState", number, computeForwardKinematics=1)
+        return _pose(world, state[4], state[5]), _pose(world, state[0], state[1])
+    inertial = _pose(world, *world.ask("getBasePositionAndOrientation"))
+    known = world.ask("getDynamicsInfo", -1)
+    return inertial @ inverse(_pose(world, known[3], known[4])), inertial
+
+
+def _pose(world: _World, place: Sequence[float], turn: Sequence[float]) -> Matrix:
+    rotation = np.array(world.engine.getMatrixFromQuaternion(turn)).reshape(3, 3)
+    return pose(rotation, np.array(place))
