@@ -118,7 +118,7 @@ def _chosen(file: CorpusFile, document: Document, robot: str | None) -> Document
     if notes.has_errors:  # it is an include
         whole = twinform.check(file.path, expand_includes=True, paths=file.paths).document or document
         alone = SelectModel(model=name_once_expanded(document, whole, robot)).run(whole, Notes())
-    return twinform.loads(emit(alone, Notes(), fit=True))
+    return twinform.loads(emit(alone, Notes()))
 
 
 def _way_home(source: Document, there: str, language: Literal["urdf", "sdf"]) -> str:

@@ -9,6 +9,7 @@ from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.findings import show
 from twinform.cli.targets import Job
 from twinform.compiler import CompileError, Conversion, Order, Reading, fulfil, read, write_atomically
+from twinform.compiler.audit import audit
 from twinform.diagnostics import Fate, Ledger
 from twinform.diagnostics.reporters import Findings
 from twinform.ir import Document
@@ -24,6 +25,7 @@ class Options:
     ledger: Path | None
     dumps: tuple[str, ...]
     notes: bool
+    audit: bool = False
 
     def order_for(self, job: Job) -> Order:
         """What one input is to become."""
@@ -52,7 +54,20 @@ def run_conversion(job: Job, options: Options, label: str) -> int:
     _require_ran(options.dumps, seen)
     _write(conversion, job.path, options.ledger)
     click.echo(f"{label}{': ' if label else ''}{summary(conversion.ledger)}", err=True)
-    return 0
+    return _audit(conversion, job.source.name) if options.audit else 0
+
+
+def _audit(conversion: Conversion, name: str) -> int:
+    """Count what became of every part, by an instrument that knows nothing of the conversion; 1 if any is missing."""
+    if conversion.source is None or not conversion.text.startswith("<"):
+        raise click.UsageError("--audit counts elements of XML, and this is JSON")
+    found = audit(conversion.source, conversion.text, conversion.ledger)
+    for part in found.unaccounted:
+        click.echo(
+            f"{name}:{part.location.line}: nothing accounts for {part.says}\n    at {part.location.path}", err=True
+        )
+    click.echo(f"audit: {found.total} parts, {len(found.unaccounted)} unaccounted", err=True)
+    return FINDINGS if found.unaccounted else 0
 
 
 def _json(document: Document) -> str:

@@ -51,6 +51,7 @@ def _pipeline(_ctx: click.Context, _option: click.Parameter, value: str | None) 
     is_flag=True,
     help="Write each model of a world as URDF into the directory OUT, and an SDF that includes them.",
 )
+@click.option("--audit", is_flag=True, help="Count what became of every element and attribute; fail if any is missing.")
 @reading_options
 @click.option("--print-pipeline", is_flag=True, help="Print every pass that would run, in order, and stop.")
 @click.option("--dump-ir-after", "dumps", metavar="PASS", multiple=True, help="Print the IR after a pass on stderr.")
@@ -68,6 +69,7 @@ def command(
     carriers: bool,
     model: str | None,
     split: bool,
+    audit: bool,
     print_pipeline: bool,
     dumps: tuple[str, ...],
     notes: bool,
@@ -92,7 +94,8 @@ def command(
         model=model,
         expand_includes=expand_includes,
     )
-    options = Options(order=order, reading=how_to_read(arguments, **how), ledger=ledger, dumps=dumps, notes=notes)
+    reading = how_to_read(arguments, **how)
+    options = Options(order=order, reading=reading, ledger=ledger, dumps=dumps, notes=notes, audit=audit)
     if split:
         ctx.exit(run_split(_only(sources), options, _folder(out, target, model)))
     todo = jobs(sources, out, target)

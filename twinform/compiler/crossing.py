@@ -37,12 +37,13 @@ def cross(document: Document, source: Document, order: Order, notes: Notes, watc
     if root is None or notes.has_errors:
         return Crossing(made)
     text = serialised(root, made)
+    new = None
     if order.carriers and not (at_home and has_includes(made)):  # what it includes would have to be read again
         new = remember(_without_the_rest(take_memory(source)[0], document, order), text.encode())
-        notes.entries = [*_fates(notes.entries, order, home=at_home and new.says_nothing)]
         if not (at_home and new.goes_without_saying):
             made, text = _with_memory(made, root, new, source)
-    notes.entries = [*entries, *notes.entries]
+    all_is_said = at_home and (new is None or new.says_nothing)
+    notes.entries = [*entries, *([] if all_is_said else _fates(notes.entries, order))]
     return Crossing(made, text)
 
 
@@ -52,13 +53,12 @@ def _legalised(
     """The document in the other format, and whether it is home again: in the version, too, that is remembered."""
     if memory is None or memory.format != order.to:
         return order.legalisation(document).run(document, notes, watch=watch), False
-    home = order.in_version(memory.version)
-    back = home.legalisation(document).run(document, notes, watch=watch)
+    back = order.home(memory.version).legalisation(document).run(document, notes, watch=watch)
     if notes.has_errors:
         return back, False
-    back = recall(memory, back, notes)
+    back, fits = recall(memory, back, notes)
     more = order.legalisation(back)
-    return more.run(back, notes, watch=watch), not len(more)
+    return more.run(back, notes, watch=watch), fits and not len(more)
 
 
 def _without_the_rest(source: Document, document: Document, order: Order) -> Document:
@@ -70,13 +70,12 @@ def _without_the_rest(source: Document, document: Document, order: Order) -> Doc
     return SelectModel(model=order.model).run(document, Notes()) if notes.has_errors else alone
 
 
-def _fates(entries: list[Entry], order: Order, *, home: bool) -> list[Entry]:
-    """What became of each part, now that the memory has what would be lost."""
-    if home:
-        return []
+def _fates(entries: list[Entry], order: Order) -> list[Entry]:
+    """What became of each part: the memory has what would be lost, and where there is none nothing is carried."""
+    was, now = (Fate.DROPPED, Fate.CARRIED) if order.carriers else (Fate.CARRIED, Fate.DROPPED)
     return [
-        replace(entry, fate=Fate.CARRIED)
-        if entry.fate is Fate.DROPPED and not (order.model and entry.rule is OUTSIDE_MODEL)
+        replace(entry, fate=now)
+        if entry.fate is was and not (order.carriers and order.model and entry.rule is OUTSIDE_MODEL)
         else entry
         for entry in entries
     ]

@@ -1,7 +1,7 @@
 """The way of the data: load, the user's passes, legalisation, back end."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from twinform.compiler.crossing import cross
@@ -18,17 +18,21 @@ from twinform.ir import Document
 from twinform.ir.verify import verify, verify_again
 from twinform.passes import Pass, Pipeline, parse_pipeline
 from twinform.passes.legalise.candidates import name_once_expanded, wanted_includes
-from twinform.schemas import Engine
+from twinform.schemas import Engine, XmlElement
 
 
 @dataclass(frozen=True, slots=True)
 class Conversion:
-    """What `convert` made: the text, the document that it says, and what was found and lost on the way."""
+    """What `convert` made: the text, the document that it says, and what was found and lost on the way.
+
+    `source` is the XML that it was made from, for those who count: `twinform.compiler.audit`.
+    """
 
     text: str
     document: Document
     diagnostics: tuple[Diagnostic, ...]
     ledger: Ledger
+    source: XmlElement | None = field(default=None, repr=False, compare=False)
 
 
 def plan(
@@ -145,7 +149,7 @@ def _run(
         raise CompileError(tuple(notes.diagnostics))
     lost = sum(entry.weight for entry in notes.entries)
     ledger = Ledger(max(0, checked.size - lost), tuple(notes.entries))
-    return Conversion(text, document, tuple(notes.diagnostics), ledger)
+    return Conversion(text, document, tuple(notes.diagnostics), ledger, checked.tree)
 
 
 def _written(

@@ -30,12 +30,15 @@ class Order:
         """Every pass that a conversion of this document runs, in order: the user's, then those of the target."""
         return Pipeline((*self.passes, *self.legalisation(source)))
 
-    def in_version(self, version: str) -> "Order":
-        """The same for another version of the target; of URDF, the one that is asked for goes before it."""
+    def home(self, version: str) -> "Order":
+        """The same for the version that is remembered of the source, as it was tried when that was remembered.
+
+        Of URDF, the version that is asked for goes before it.
+        """
         if self.to == "sdf":
-            return replace(self, sdf_version=version)
+            return replace(self, sdf_version=version, carriers=True)
         known = next((each for each in URDF_VERSIONS if each == version), None)
-        return replace(self, urdf_version=self.urdf_version or known)
+        return replace(self, urdf_version=self.urdf_version or known, carriers=True)
 
     def legalisation(self, source: Document) -> Pipeline:
         """The passes that the target asks for."""

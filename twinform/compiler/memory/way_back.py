@@ -50,8 +50,8 @@ def way_back(document: Document, format_: Format, version: str, notes: Notes) ->
     return None if notes.has_errors else found
 
 
-def recall(memory: Memory, back: Document, notes: Notes) -> Document:
-    """What the source said, from what its way back has made: the document before it went over.
+def recall(memory: Memory, back: Document, notes: Notes) -> tuple[Document, bool]:
+    """What the source said, from what its way back has made, and whether all that is remembered fits.
 
     What was edited since stays as it is. Diagnostics: `stale-carrier` for what does not fit any more.
     """
@@ -68,7 +68,7 @@ def recall(memory: Memory, back: Document, notes: Notes) -> Document:
     for path in misfits:
         message = f"what the source said of {path} does not fit what is there now"
         notes.report(rules.STALE_CARRIER, message, back.location, found=path)
-    return document
+    return document, not misfits
 
 
 def _tree(document: Document, *, bare: bool) -> XmlElement:

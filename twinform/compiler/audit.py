@@ -1,0 +1,170 @@
+"""A count of what became of every element and attribute of a source, by an instrument that knows no conversion.
+
+It reads two trees and the ledger, and nothing of how the one was made of the other. Each part of the source gets one
+fate: that of the entry of the ledger that covers its place, if there is one; *carried* if what it says stands in our
+own namespace in the result; *expressed* if it stands elsewhere in the result, or is a number of those that a change of
+frame recomputes (poses, axes and moments of inertia). What none of that holds for is *unaccounted*: a fault of ours.
+"""
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from lxml import etree
+
+from twinform.diagnostics import Fate, Ledger, Location
+from twinform.passes.legalise.carrier import NAMESPACE, SOURCE
+from twinform.schemas import XmlElement, path_of
+
+_OURS = f"{{{NAMESPACE}}}"
+_COMPUTED = frozenset({"pose", "origin", "xyz", "rpy", "axis", "inertia", "ixx", "ixy", "ixz", "iyy", "iyz", "izz"})
+"""Elements and attributes whose numbers depend on the frame that they are said in."""
+_SHAPE_NAME = re.compile(r"(.+)_(?:visual|collision)(?:_\d+)?")
+_SCHEME = re.compile(r"\b[a-z]+://")
+_SAID_BY = {"frame": "fixed"}
+"""Elements of one format whose being there says a word of the other: a frame stands for a fixed joint."""
+_PREDICATE = re.compile(r"\[[^]]*\]|\{[^}]*\}|(?<=[/@])[\w.-]+:")
+_Place = tuple[int, str]
+"""A line of the source, and the path of an element or attribute that begins there."""
+_PUNCTUATION = str.maketrans(dict.fromkeys("/:,;", " "))
+
+
+class Part(NamedTuple):
+    """An element or attribute of the source that nothing accounts for."""
+
+    location: Location
+    says: str
+
+
+@dataclass(frozen=True, slots=True)
+class Audit:
+    """How many elements and attributes met each fate; together they are the whole source."""
+
+    expressed: int
+    carried: int
+    approximated: int
+    dropped: int
+    unaccounted: tuple[Part, ...]
+
+    @property
+    def total(self) -> int:
+        """All elements and attributes of the source."""
+        return self.expressed + self.carried + self.approximated + self.dropped + len(self.unaccounted)
+
+
+def audit(source: XmlElement, result: str, ledger: Ledger) -> Audit:
+    """Count the fates of all parts of `source` in the XML of `result`."""
+    inside, outside = _words_of(etree.fromstring(result.encode()))
+    fates = {(entry.location.line, _bare(entry.location.path)): entry.fate for entry in reversed(ledger.entries)}
+    count = dict.fromkeys(("expressed", *Fate), 0)
+    unaccounted: list[Part] = []
+    for part in _parts(source, fates):
+        if part.fate is not None:
+            count[part.fate] += 1
+        elif part.computed or all(word in outside or _implied(word, outside) for word in part.words):
+            count["expressed"] += 1
+        elif part.words <= inside | outside:
+            count[Fate.CARRIED] += 1
+        else:
+            missing = ", ".join(sorted(part.words - inside - outside))
+            unaccounted.append(Part(Location(line=part.line, path=part.path()), missing))
+    carried, approximated, dropped = (count[fate] for fate in Fate)
+    return Audit(count["expressed"], carried, approximated, dropped, tuple(unaccounted))
+
+
+@dataclass(frozen=True, slots=True)
+class _Piece:
+    """An element or attribute of the source: the words that it says, and the fate that the ledger has for its place."""
+
+    element: XmlElement
+    attribute: str | None
+    words: frozenset[str]
+    fate: Fate | None
+
+    @property
+    def line(self) -> int:
+        return self.element.sourceline or 0
+
+    @property
+    def computed(self) -> bool:
+        if self.attribute == "version" and self.element.getparent() is None:
+            return True  # it is about the language of the file, and the result has its own
+        return str(self.element.tag) in _COMPUTED and all(map(_is_number, self.words))
+
+    def path(self) -> str:
+        path = path_of(self.element)
+        return f"{path}/@{self.attribute}" if self.attribute else path
+
+
+def _parts(root: XmlElement, fates: dict[_Place, Fate]) -> Iterator[_Piece]:
+    """All elements and attributes, from the outside in; what covers an element covers all that is in it."""
+    stack: list[tuple[XmlElement, Fate | None, str]] = [(root, None, "")]
+    while stack:
+        element, above, around = stack.pop()
+        if element.tag == SOURCE:
+            continue
+        line, path = element.sourceline or 0, f"{around}/{_local(str(element.tag))}"
+        fate = above or fates.get((line, path))
+        yield _Piece(element, None, frozenset(_words(element.text or "")), fate)
+        for name, value in element.items():
+            own = fates.get((line, f"{path}/@{_local(str(name))}"))
+            yield _Piece(element, str(name), frozenset(_words(str(value))), fate or own)
+        stack += [(child, fate, path) for child in element if isinstance(child.tag, str)]
+
+
+def _bare(path: str) -> str:
+    """A path without what tells one element from its like; the line does that."""
+    return _PREDICATE.sub("", path)
+
+
+def _local(name: str) -> str:
+    return name.rpartition("}")[2]
+
+
+def _words_of(result: XmlElement) -> tuple[frozenset[str], frozenset[str]]:
+    """What the result says in our own namespace, and what outside of it."""
+    inside: set[str] = set()
+    outside: set[str] = set()
+    stack = [(result, outside)]
+    while stack:
+        element, words = stack.pop()
+        words = inside if str(element.tag).startswith(_OURS) else words
+        words.update(_words(element.text or ""))
+        if (said := _SAID_BY.get(str(element.tag))) is not None:
+            words.add(said)
+        for name, value in element.items():
+            (inside if str(name).startswith(_OURS) else words).update(_words(str(value)))
+        stack += [(child, words) for child in element if isinstance(child.tag, str)]
+    return frozenset(inside), frozenset(outside)
+
+
+def _words(text: str) -> Iterable[str]:
+    """The words of a text, numbers in one spelling, paths and scoped names in their pieces.
+
+    The scheme of a URI does not count: both formats have their own for the same folder.
+    """
+    return map(_spelt, _SCHEME.sub("", text).translate(_PUNCTUATION).split())
+
+
+def _spelt(word: str) -> str:
+    if word in {"true", "false"}:
+        return "1" if word == "true" else "0"
+    try:
+        return repr(float(word) + 0.0)
+    except ValueError:
+        return word
+
+
+def _implied(word: str, words: frozenset[str]) -> bool:
+    """Whether it is the name that a shape of a link has where URDF gives it none."""
+    name = _SHAPE_NAME.fullmatch(word)
+    return name is not None and name[1] in words
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
