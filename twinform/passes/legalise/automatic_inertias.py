@@ -3,9 +3,10 @@
 from collections.abc import Iterable
 
 from twinform.diagnostics import Location
-from twinform.ir import Collision, Inertial, Link, Node
+from twinform.ir import Collision, Inertia, Inertial, Link, Node, Opaque, Pose
 from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import Solid, combined, placed, solid, with_mass
+from twinform.passes.legalise.carrier import to_element
 
 _DENSITY = 1000.0
 """SDF's default: water, kg/m^3."""
@@ -35,6 +36,26 @@ def automatic(link: Link, inertial: Inertial, collisions: Iterable[Collision], g
         raise NoInertiaError(f"link {link.name!r} has no collision to compute its inertia from", inertial.location)
     whole = combined(parts)
     return whole if inertial.mass is None else with_mass(whole, inertial.mass)
+
+
+def written_out(inertial: Inertial, found: Solid) -> tuple[Inertial, list[Opaque], tuple[str, ...]]:
+    """An automatic inertial with the numbers of what was found.
+
+    With it, as pieces of SDF, that it was automatic, and the pose and inertia that readers of SDF overlook; and the
+    names of the fields that are computed.
+    """
+    overlooked = to_element(inertial.model_copy(update={"mass": None, "opaque": ()}), "inertial", "sdf")
+    pieces = [Opaque(attribute=pair) for pair in overlooked.attributes]
+    pieces += [Opaque(element=child) for child in overlooked.children]
+    xx, yy, zz, xy, xz, yz = found.inertia
+    update = {
+        "auto": None,
+        "mass": found.mass,
+        "pose": Pose(xyz=found.centre, rpy=(0.0, 0.0, 0.0)) if any(found.centre) else None,
+        "inertia": Inertia(ixx=xx, ixy=xy, ixz=xz, iyy=yy, iyz=yz, izz=zz),
+    }
+    made = ("pose", "inertia") if inertial.mass is not None else ("mass", "pose", "inertia")
+    return inertial.model_copy(update=update), pieces, made
 
 
 def _filled(link: Link, collision: Collision, usual: float | None, graph: FrameGraph) -> Solid:

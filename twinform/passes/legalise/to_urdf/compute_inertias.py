@@ -3,11 +3,9 @@
 from typing import ClassVar
 
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Inertia, Inertial, Link, Model, Opaque, Pose
+from twinform.ir import Link, Model
 from twinform.ir.frames import FrameGraph
-from twinform.ir.solids import Solid
-from twinform.passes.legalise.automatic_inertias import NoInertiaError, automatic
-from twinform.passes.legalise.carrier import to_element
+from twinform.passes.legalise.automatic_inertias import NoInertiaError, automatic, written_out
 from twinform.passes.legalise.marks import mark_made
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
@@ -42,21 +40,7 @@ def _compute(link: Link, graph: FrameGraph, keeper: Keeper) -> Link:
     except NoInertiaError as error:
         keeper.notes.report(rules.AUTOMATIC_INERTIA, str(error), error.location)
         return link
-    return link.model_copy(update={"inertial": _written(link.name, inertial, found, keeper)})
-
-
-def _written(name: str, inertial: Inertial, found: Solid, keeper: Keeper) -> Inertial:
-    overlooked = inertial.model_copy(update={"mass": None, "opaque": ()})
-    whole = to_element(overlooked, "inertial", "sdf")
-    pieces = [*(Opaque(attribute=pair) for pair in whole.attributes), *(Opaque(element=one) for one in whole.children)]
-    made = ("pose", "inertia") if inertial.mass is not None else ("mass", "pose", "inertia")
-    xx, yy, zz, xy, xz, yz = found.inertia
-    update = {
-        "auto": None,
-        "mass": found.mass,
-        "pose": Pose(xyz=found.centre) if any(found.centre) else None,
-        "inertia": Inertia(ixx=xx, ixy=xy, ixz=xz, iyy=yy, iyz=yz, izz=zz),
-    }
-    written = mark_made(inertial.model_copy(update=update), *made)
-    message = f"the inertia of link {name!r} is computed from its collisions"
-    return keeper.keep(written, pieces, rules.COMPUTED_INERTIA, message, inertial.location)
+    written, pieces, made = written_out(inertial, found)
+    message = f"the inertia of link {link.name!r} is computed from its collisions"
+    kept = keeper.keep(mark_made(written, *made), pieces, rules.COMPUTED_INERTIA, message, inertial.location)
+    return link.model_copy(update={"inertial": kept})
