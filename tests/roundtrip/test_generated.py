@@ -7,7 +7,7 @@ import twinform
 from twinform.compiler import check
 from twinform.compiler.emitting import emit
 from twinform.diagnostics import Notes
-from twinform.ir import Document, Joint, Link, Mesh
+from twinform.ir import Axis, Document, Joint, Link, Mesh
 from twinform.ir.frames import FrameGraph
 from twinform.testing import strategies
 
@@ -89,3 +89,22 @@ def test_links_and_joints_come_back_by_name(robot: Document) -> None:
         return {part.name for part in parts}
 
     assert names(robot.models[0].links) <= names(again.links)
+
+
+@_SETTINGS
+@given(strategies.sdf_models())
+def test_joints_of_sdf_come_back_with_their_axes(model: Document) -> None:
+    urdf = twinform.convert(_text(model).encode(), to="urdf").text
+    again = twinform.convert(urdf.encode(), to="sdf").document.models[0]
+    joints = {joint.name: joint for joint in again.joints}
+    for joint in model.models[0].joints:
+        if joint.type == "fixed":
+            continue  # a link without mass on one is a frame
+        back = joints[joint.name]
+        assert (back.type, back.parent, back.child) == (joint.type, joint.parent, joint.child)
+        assert [_direction(back.axis), _direction(back.axis2)] == [_direction(joint.axis), _direction(joint.axis2)]
+        assert (back.screw_thread_pitch, back.thread_pitch) == (joint.screw_thread_pitch, joint.thread_pitch)
+
+
+def _direction(axis: Axis | None) -> tuple[float, float, float] | None:
+    return axis.xyz if axis else None

@@ -163,9 +163,23 @@ def sdf_models(*, version: str = "1.11", max_links: int = 8) -> st.SearchStrateg
             names[1]: st.lists(st.builds(Collision, **shape), max_size=2).map(_named("collision")),
         }
     )
-    types = st.sampled_from(["fixed", "revolute", "continuous", "prismatic", "free"])
-    segment = st.tuples(body, types, poses(whole=True), poses(whole=True), _axes(), st.integers(0, 7), st.booleans())
+    segment = st.tuples(body, _movements(), poses(whole=True), poses(whole=True), st.integers(0, 7), st.booleans())
     return st.lists(segment, min_size=1, max_size=max_links).map(lambda segments: _sdf_model(segments, version))
+
+
+def _movements() -> st.SearchStrategy[dict[str, Any]]:
+    """What a joint of SDF says about how it moves; nothing at all where there is none."""
+    axis, pitch = _axes(), numbers(min_value=0.1, max_value=3)
+    one, two = {"axis": axis}, {"axis": axis, "axis2": axis}
+    fields: dict[str, dict[str, st.SearchStrategy[Any]]] = {
+        **dict.fromkeys(("revolute", "continuous", "prismatic"), one),
+        **dict.fromkeys(("universal", "revolute2"), two),
+        "screw": {**one, "screw_thread_pitch": _maybe(pitch)},
+        "fixed": {},
+        "ball": {},
+    }
+    kinds = [st.fixed_dictionaries({"type": st.just(kind), **inside}) for kind, inside in fields.items()]
+    return st.one_of(st.just({}), *kinds)
 
 
 def _named(kind: str) -> Any:
@@ -179,17 +193,14 @@ def _sdf_model(segments: list[Any], version: str) -> Document:
     links: list[Link] = []
     joints: list[Joint] = []
     frames: list[Frame] = []
-    for number, (body, kind, pose, frame_pose, axis, pick, framed) in enumerate(segments):
+    for number, (body, movement, pose, frame_pose, pick, framed) in enumerate(segments):
         parent = f"link_{pick % number}" if number else None
         placed = pose.model_copy(update={"relative_to": parent})
         links.append(Link(name=f"link_{number}", pose=placed, **body))
         if framed:
             frames.append(Frame(name=f"frame_{number}", attached_to=f"link_{number}", pose=frame_pose))
-        if number and kind != "free":
-            moving = None if kind == "fixed" else axis
+        if number and movement:
             child = f"link_{number}"
-            joints.append(
-                Joint(name=f"joint_{number}", type=kind, parent=parent, child=child, pose=frame_pose, axis=moving)
-            )
+            joints.append(Joint(name=f"joint_{number}", parent=parent, child=child, pose=frame_pose, **movement))
     model = Model(name="model", links=tuple(links), joints=tuple(joints), frames=tuple(frames))
     return Document(format=Format.SDF, version=version, models=(model,))

@@ -161,6 +161,10 @@ OLDER: list[tuple[str, str, str, list[str]]] = [
     # 1.11 and before
     ("1.10", arm("revolute", "<axis><xyz>1 0 0</xyz><mimic joint='k'/></axis>").replace(
         "</model>", joint("revolute", "<axis/>", name="k") + "</model>"), "//axis/mimic", []),
+    ("1.10", model(f"<link name='a'><inertial auto='true'><density>2</density></inertial>"
+                   f"<collision name='c'><pose>0 0 1 0 0 0</pose>{BOX}</collision></link>"),
+     "//mass/text() | //inertial/pose/text() | //inertial/@auto", ["2", "0 0 1 0 0 0"]),
+    ("1.10", model("<link name='a'><inertial auto='true'/></link>"), "//mass | //inertial/@auto", []),
     ("1.9", arm("revolute", "<axis><limit><lower>-inf</lower><upper>inf</upper><effort>inf</effort></limit></axis>"),
      "//limit[not(ancestor::tf:version)]/*/text()", ["-1e+16", "1e+16", "-1"]),
     ("1.9", arm("screw", "<screw_thread_pitch>2</screw_thread_pitch>"), "//joint/thread_pitch/text()",

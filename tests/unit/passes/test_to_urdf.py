@@ -359,6 +359,12 @@ def test_a_loop_is_cut_and_closed_again_for_gazebo() -> None:
 WORLD = "<world name='w'><gravity>0 0 -1</gravity><model name='m'>{}</model><model name='n'>{}</model></world>"
 
 
+def test_a_carried_shape_is_where_the_link_has_moved_to() -> None:
+    shape = visual("<geometry><ellipsoid/></geometry>")
+    text = LINK + link(shape, "b") + joint("fixed", "<pose>0 0 0.5 0 0 0</pose>")
+    assert said(convert(text), "//tf:sdf/visual/pose/text()") == ["0 0 -0.5 0 0 0"]
+
+
 def test_a_model_is_taken_out_of_a_world_by_name() -> None:
     document = read(LINK, around=WORLD.replace("{}", LINK))
     root, notes = lower(document, model="n")

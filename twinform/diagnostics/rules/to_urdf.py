@@ -54,10 +54,19 @@ FRAME_MADE_LINK = Rule(
 AUTOMATIC_INERTIA = Rule(
     name="automatic-inertia",
     severity=Severity.ERROR,
-    finds="An inertial that asks the reader to compute it from the collisions (`auto='true'`).",
+    finds="An inertial that asks the reader to compute it (`auto='true'`), in a link without collisions, or with one "
+    "whose shape has no inside that is known: a mesh, a plane, a heightmap.",
     matters="URDF can only write the numbers.",
-    example="`<inertial auto='true'/>`",
-    better="Compute it first, with a pass or by `gz sdf --print --expand-auto-inertials`.",
+    example="`<inertial auto='true'/>` beside a `<collision>` that is a `<mesh>`.",
+    better="Use simple shapes for the collision, or compute it first: `gz sdf --print --expand-auto-inertials`.",
+)
+COMPUTED_INERTIA = Rule(
+    name="computed-inertia",
+    severity=Severity.INFO,
+    finds="An inertial that asks the reader to compute it from the collisions (`auto='true'`).",
+    matters="URDF can only write the numbers: they are those of the shapes, filled with their densities.",
+    example="`<inertial auto='true'><density>2700</density></inertial>`",
+    better="Nothing needs doing: on our way back it is automatic again, if its shapes still give the same numbers.",
 )
 UNFOLDED_JOINT = Rule(
     name="unfolded-joint",

@@ -41,6 +41,11 @@ def join_axes(first: Iterable[Opaque], rest: Iterable[Opaque]) -> Parts:
     return (*_marks(fields), *joined)
 
 
+def is_of_axis(path: str) -> bool:
+    """Whether a part at this path is one of the axis."""
+    return _is_of(path, "/", "axis")
+
+
 def _marks(fields: Iterable[str]) -> Parts:
     words = " ".join(fields)
     return (Opaque(attribute=(MADE, words)),) if words else ()

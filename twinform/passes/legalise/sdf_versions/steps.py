@@ -20,6 +20,7 @@ from twinform.passes.legalise.sdf_versions.place_inertials import PlaceInertials
 from twinform.passes.legalise.sdf_versions.rename_states import RenameStates
 from twinform.passes.legalise.sdf_versions.spread_imu_noise import SpreadImuNoise
 from twinform.passes.legalise.sdf_versions.turn_axes import TurnAxes
+from twinform.passes.legalise.sdf_versions.write_inertias import WriteInertias
 from twinform.passes.legalise.sdf_versions.write_plain_poses import WritePlainPoses
 from twinform.passes.legalise.sdf_versions.write_thread_pitches import WriteThreadPitches
 from twinform.schemas import Version, print_version
@@ -85,6 +86,8 @@ def _models_back(crosses: Crosses, version: str, source: str, *, carriers: bool)
     """What is where, from the outside in."""
     if crosses(12):
         yield RenameStates(version=version, carriers=carriers, back=True)
+    if crosses(11):
+        yield WriteInertias(version=version, carriers=carriers)
     if crosses(5):
         yield FlattenNested(version=version, carriers=carriers, source=source)
     if crosses(8):

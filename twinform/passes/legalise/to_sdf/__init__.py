@@ -9,6 +9,7 @@ from twinform.passes.legalise.to_sdf.fold_gearboxes import FoldGearboxes
 from twinform.passes.legalise.to_sdf.fold_joints import FoldJoints
 from twinform.passes.legalise.to_sdf.frame_links import FrameLinks
 from twinform.passes.legalise.to_sdf.joints import UrdfJoints
+from twinform.passes.legalise.to_sdf.leave_inertias import LeaveInertias
 from twinform.passes.legalise.to_sdf.mesh_uris import MeshUris
 from twinform.passes.legalise.to_sdf.name_shapes import NameShapes
 from twinform.passes.legalise.to_sdf.retarget import RetargetSdf
@@ -26,6 +27,7 @@ def to_sdf(version: str, *, carriers: bool) -> tuple[Pass, ...]:
         FoldGazebo(carriers=carriers),
         *raise_unversioned(),
         FoldJoints(),
+        LeaveInertias(version=version),
         WorldLink(carriers=carriers),
         UniqueNames(carriers=carriers),
         NameShapes(),

@@ -55,6 +55,8 @@ def _with_inertial(link: Link) -> Link:
     inertial = link.inertial
     if inertial is None:
         return link.model_copy(update={"inertial": _NONE})
+    if inertial.auto:
+        return link
     missing: dict[str, object] = {}
     if inertial.mass is None:
         missing["mass"] = 0.0

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from twinform.ir import Axis, Dynamics, Joint, JointType, Limit, Link, Model, Opaque
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import is_carrier, is_ours, unpack
-from twinform.passes.legalise.chain_carriers import Parts, join_axes
+from twinform.passes.legalise.chain_carriers import Parts, is_of_axis, join_axes
 from twinform.passes.legalise.joint_chains import (
     BALL_AXES,
     CHAINS,
@@ -59,7 +59,7 @@ def find_chain(last: Joint, kind: str, model: Model) -> Chain:
         if not Transform.from_pose(joint.pose).is_identity:
             raise StaleChainError(f"joint {joint.name!r} is not where the others are")
     for joint in chain.above:
-        if joint.sensors or any(not is_ours(part) for part in joint.opaque):
+        if joint.sensors or not all(is_ours(part) or is_of_axis(part.at) for part in joint.opaque):
             raise StaleChainError(f"joint {joint.name!r} says more than an axis")
     _check_limits(chain)
     _CHECKS[known](chain)

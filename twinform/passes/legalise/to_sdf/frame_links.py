@@ -111,7 +111,7 @@ class FrameLinks(ModelPass):
 
 def is_massless(link: Link) -> bool:
     """Whether a link of URDF, where an absent inertial means no mass, has none."""
-    return link.inertial is None or (link.inertial.mass or 0.0) <= 0.0
+    return link.inertial is None or (not link.inertial.auto and (link.inertial.mass or 0.0) <= 0.0)
 
 
 def _anchor(name: str, moved: dict[str, Joint]) -> str:

@@ -5,7 +5,7 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf
-from twinform.ir import Joint, Link, Model, Opaque, Pose
+from twinform.ir import Axis, Joint, Link, Model, Opaque, Pose
 from twinform.passes.legalise.carrier import carry
 from twinform.passes.legalise.model_pass import ModelPass
 
@@ -54,10 +54,9 @@ class UniqueNames(ModelPass):
             "child": follow(joint.child or ""),
             "pose": _renamed_pose(joint.pose, follow),
         }
-        mimic = joint.axis.mimic if joint.axis else None
-        if joint.axis and mimic and mimic.joint in joints:
-            changed = mimic.model_copy(update={"joint": joints[mimic.joint]})
-            update["axis"] = joint.axis.model_copy(update={"mimic": changed})
+        if joint.gearbox_reference_body is not None:
+            update["gearbox_reference_body"] = follow(joint.gearbox_reference_body)
+        update |= {field: _followed(getattr(joint, field), joints) for field in ("axis", "axis2")}
         joint = joint.model_copy(update=update)
         return self._rename(joint, joints[joint.name], notes) if joint.name in joints else joint
 
@@ -82,6 +81,14 @@ def free_name(name: str, taken: set[str]) -> str:
         candidate, number = f"{name}_{number}", number + 1
     taken.add(candidate)
     return candidate
+
+
+def _followed(axis: Axis | None, joints: dict[str, str]) -> Axis | None:
+    """The axis with its mimic of a joint by that joint's new name."""
+    mimic = axis.mimic if axis else None
+    if axis is None or mimic is None or mimic.joint not in joints:
+        return axis
+    return axis.model_copy(update={"mimic": mimic.model_copy(update={"joint": joints[mimic.joint]})})
 
 
 def _renamed_pose(pose: Pose | None, follow: Callable[[str], str]) -> Pose | None:

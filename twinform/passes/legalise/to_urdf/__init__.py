@@ -3,6 +3,7 @@
 from twinform.passes.base import Pass
 from twinform.passes.legalise.to_urdf.build_tree import BuildTree
 from twinform.passes.legalise.to_urdf.carry_the_rest import CarryTheRest
+from twinform.passes.legalise.to_urdf.compute_inertias import ComputeInertias
 from twinform.passes.legalise.to_urdf.express_axes import ExpressAxes
 from twinform.passes.legalise.to_urdf.extend_gazebo import ExtendGazebo
 from twinform.passes.legalise.to_urdf.fill_inertials import FillInertials
@@ -31,6 +32,7 @@ def to_urdf(*, model: str | None = None, urdf_version: UrdfVersion = "1.0", carr
         UpgradeSdf(carriers=carriers),
         FlattenModels(carriers=carriers),
         FoldPlanarJoints(carriers=carriers),
+        ComputeInertias(carriers=carriers),
         FillInertials(carriers=carriers),
         ResolveJointEnds(carriers=carriers),
         ExpressAxes(carriers=carriers),
@@ -38,11 +40,11 @@ def to_urdf(*, model: str | None = None, urdf_version: UrdfVersion = "1.0", carr
         BuildTree(carriers=carriers),
         RelateGearboxes(carriers=carriers),
         UnfoldJoints(carriers=carriers),
-        MapGeometry(carriers=carriers, urdf_version=urdf_version),
-        MapMaterials(carriers=carriers),
-        MapSurfaces(carriers=carriers),
         MapJoints(carriers=carriers),
         RebaseLinks(carriers=carriers),
+        MapGeometry(carriers=carriers, urdf_version=urdf_version),  # what it carries is where it will be
+        MapMaterials(carriers=carriers),
+        MapSurfaces(carriers=carriers),
         ExtendGazebo(carriers=carriers),
         CarryTheRest(carriers=carriers, urdf_version=urdf_version),
         UnpackUrdf(),

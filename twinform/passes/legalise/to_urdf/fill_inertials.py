@@ -2,7 +2,6 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Inertia, Inertial, Link, Model
 from twinform.passes.legalise.marks import mark_made
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
@@ -19,17 +18,13 @@ class FillInertials(ToUrdfPass):
 
     Changes: a missing mass is 1 kg, a missing `ixx`, `iyy`, `izz` 1 kg m^2 and a missing product of inertia 0. These
     are the values that every reader of SDF takes; a reader of URDF would take none.
-    Diagnostics: `automatic-inertia` where the reader is to compute them from the shapes.
+    Diagnostics: none.
     """
 
     name: ClassVar[str] = "fill-inertials"
 
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model with an inertial in every link."""
-        for link in model.links:
-            if link.inertial is not None and link.inertial.auto:
-                message = f"the inertia of link {link.name!r} is left to be computed from its collisions"
-                keeper.notes.report(rules.AUTOMATIC_INERTIA, message, link.inertial.location)
         return model.model_copy(update={"links": tuple(map(_fill_link, model.links))})
 
 

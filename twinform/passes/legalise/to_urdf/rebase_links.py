@@ -112,7 +112,7 @@ class _Rebase:
             return holder
         transform = self.graph.resolve(written, self.name, self.base[0], kind=self.kind, base=self.base[1])
         made = transform.to_pose() if tag in {"sensor", "light"} else in_radians(transform)
-        if written is None:
+        if written is None or "pose" in made_fields(holder):
             return mark_made(holder.model_copy(update={"pose": made}), "pose")
         moved = holder.model_copy(update={"pose": made})
         name = getattr(holder, "name", None)

@@ -1,0 +1,76 @@
+"""Inertias that SDF leaves to its reader, computed from the collisions as its readers do."""
+
+from collections.abc import Iterable
+
+from twinform.diagnostics import Location
+from twinform.ir import Collision, Inertia, Inertial, Link, Node, Opaque, Pose
+from twinform.ir.frames import FrameGraph
+from twinform.ir.solids import Solid, combined, placed, solid, with_mass
+from twinform.passes.legalise.carrier import to_element
+
+_DENSITY = 1000.0
+"""SDF's default: water, kg/m^3."""
+
+
+class NoInertiaError(Exception):
+    """Why an inertia cannot be computed, and where that is said."""
+
+    def __init__(self, message: str, location: Location) -> None:
+        super().__init__(message)
+        self.location = location
+
+
+def automatic(link: Link, inertial: Inertial, collisions: Iterable[Collision], graph: FrameGraph) -> Solid:
+    """The mass, centre and inertia of a link in its own frame.
+
+    Every collision is filled with its own `<density>`, else with that of the inertial, else with water. A mass that is
+    written stays: the inertia is scaled to it. Other readers agree: libsdformat, Link::ResolveAutoInertials.
+
+    Raises:
+        NoInertiaError: there is no collision, or one of a shape without an inside.
+        FrameError: a collision is posed in a frame that is not known.
+    """
+    usual = _density(inertial)
+    parts = [_filled(link, one, usual, graph) for one in collisions]
+    if not parts:
+        raise NoInertiaError(f"link {link.name!r} has no collision to compute its inertia from", inertial.location)
+    whole = combined(parts)
+    return whole if inertial.mass is None else with_mass(whole, inertial.mass)
+
+
+def written_out(inertial: Inertial, found: Solid) -> tuple[Inertial, list[Opaque], tuple[str, ...]]:
+    """An automatic inertial with the numbers of what was found.
+
+    With it, as pieces of SDF, that it was automatic, and the pose and inertia that readers of SDF overlook; and the
+    names of the fields that are computed.
+    """
+    overlooked = to_element(inertial.model_copy(update={"mass": None, "opaque": ()}), "inertial", "sdf")
+    pieces = [Opaque(attribute=pair) for pair in overlooked.attributes]
+    pieces += [Opaque(element=child) for child in overlooked.children]
+    xx, yy, zz, xy, xz, yz = found.inertia
+    update = {
+        "auto": None,
+        "mass": found.mass,
+        "pose": Pose(xyz=found.centre, rpy=(0.0, 0.0, 0.0)) if any(found.centre) else None,
+        "inertia": Inertia(ixx=xx, ixy=xy, ixz=xz, iyy=yy, iyz=yz, izz=zz),
+    }
+    made = ("pose", "inertia") if inertial.mass is not None else ("mass", "pose", "inertia")
+    return inertial.model_copy(update=update), pieces, made
+
+
+def _filled(link: Link, collision: Collision, usual: float | None, graph: FrameGraph) -> Solid:
+    shape = collision.geometry.shape if collision.geometry else None
+    own = _density(collision)
+    density = own if own is not None else _DENSITY if usual is None else usual
+    filled = solid(shape, density)
+    if filled is None:
+        what = f"a {shape.kind}" if shape else "no shape"
+        message = f"the inertia of link {link.name!r} is computed from collision {collision.name!r}, which is {what}"
+        raise NoInertiaError(message, collision.location)
+    return placed(filled, graph.resolve(collision.pose, link.name, link.name))
+
+
+def _density(node: Node) -> float | None:
+    """What `<density>` says in a node; the last one, should there be several."""
+    texts = [part.element.text for part in node.opaque if part.element and part.element.name == "density"]
+    return float(texts[-1] or "nan") if texts else None

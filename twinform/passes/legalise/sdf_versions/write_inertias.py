@@ -1,0 +1,51 @@
+"""Before 1.11 no inertia was left to the reader."""
+
+from functools import partial
+from typing import ClassVar
+
+from twinform.diagnostics.rules import sdf_versions as rules
+from twinform.ir import Document, Link, Model
+from twinform.ir.frames import FrameGraph
+from twinform.passes.legalise.automatic_inertias import NoInertiaError, automatic, written_out
+from twinform.passes.legalise.sdf_versions.base import VersionPass, map_models
+from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms
+
+_SINCE = (1, 11)
+
+
+class WriteInertias(VersionPass):
+    """Write the inertias that newer versions leave to their reader (`<inertial auto="true">`).
+
+    Changes: mass, pose and inertia of such a link are those of its collisions, filled with their densities; a mass that
+    is written stays.
+    Never touches: links without collisions or with shapes without an inside; of these a later pass says that the
+    version cannot say it.
+    """
+
+    name: ClassVar[str] = "write-inertias"
+
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document with every inertia written out."""
+        return map_models(document, partial(_write_all, keeper))
+
+
+def _write_all(keeper: Keeper, model: Model) -> Model:
+    if not any(link.inertial and link.inertial.auto for link in model.links):
+        return model
+    graph = FrameGraph(model)
+    return model.model_copy(update={"links": tuple(_write(link, graph, keeper) for link in model.links)})
+
+
+def _write(link: Link, graph: FrameGraph, keeper: Keeper) -> Link:
+    inertial = link.inertial
+    if inertial is None or not inertial.auto:
+        return link
+    try:
+        found = automatic(link, inertial, link.collisions, graph)
+    except NoInertiaError:
+        return link
+    written, pieces, made = written_out(inertial, found)
+    message = f"the inertia of link {link.name!r} is left to be computed from its collisions"
+    terms = Terms(since=_SINCE, without=made)
+    kept = keeper.keep(written, pieces, terms, rules.OTHER_WORDS, message, inertial.location, len(pieces))
+    return link.model_copy(update={"inertial": kept})

@@ -1,0 +1,115 @@
+"""Inertias that were computed on the way to URDF are left to the reader again."""
+
+import math
+from collections.abc import Iterable
+from typing import ClassVar
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules import to_urdf as rules
+from twinform.ir import Collision, Inertial, Link, Model, Opaque
+from twinform.ir.frames import FrameError, FrameGraph
+from twinform.ir.solids import Solid, placed
+from twinform.ir.transform import Transform
+from twinform.passes.legalise.automatic_inertias import NoInertiaError, automatic
+from twinform.passes.legalise.carrier import is_carrier, unpack
+from twinform.passes.legalise.marks import made_fields, without_mark
+from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb
+from twinform.passes.legalise.sdf_versions.carriers import Terms
+from twinform.schemas import parse_version, table
+
+_SINCE = (1, 11)
+_FIELDS = ("mass", "pose", "inertia")
+_CLOSE = 1e-9
+"""How far numbers may be apart that were computed from one shape, relative to the largest of their kind."""
+
+
+class LeaveInertias(ModelPass):
+    """Say `<inertial auto="true">` where SDF said so before.
+
+    Changes: 1. an inertial that carries `auto`, and has the numbers that its collisions give, is automatic again, with
+    what was written beside; 2. where the numbers or the collisions were edited, the numbers stay and are no longer
+    automatic.
+    Never touches: anything for an SDF before 1.11, which cannot say it: the numbers stay, and their carriers too.
+    Diagnostics: `stale-carrier`.
+    """
+
+    name: ClassVar[str] = "leave-inertias"
+    version: str
+
+    def run_model(self, model: Model, notes: Notes) -> Model:
+        """The model with its automatic inertias."""
+        if parse_version(self.version) < _SINCE or not any(map(_was_automatic, model.links)):
+            return model
+        graph = FrameGraph(model)
+        links = tuple(_leave(link, graph, notes) if _was_automatic(link) else link for link in model.links)
+        return model.model_copy(update={"links": links})
+
+
+def _was_automatic(link: Link) -> bool:
+    return link.inertial is not None and any(_is_auto(part) for part in link.inertial.opaque)
+
+
+def _is_auto(part: Opaque) -> bool:
+    pieces = unpack(part) if is_carrier(part, "sdf") else ()
+    return any(piece.attribute and piece.attribute[0] == "auto" and not piece.at for piece in pieces)
+
+
+def _leave(link: Link, graph: FrameGraph, notes: Notes) -> Link:
+    inertial = link.inertial or Inertial()
+    made = made_fields(inertial)
+    left = inertial.model_copy(update=dict.fromkeys(_FIELDS if "mass" in made else _FIELDS[1:]))
+    for field in _FIELDS:
+        left = without_mark(left, field)
+    try:
+        left = _unpacked(left)
+        found = automatic(link, left, _collisions(link), graph)
+    except (CarrierError, NoInertiaError, FrameError) as error:
+        return _stale(link, inertial, str(error), notes)
+    if not _is_the_same(found, inertial):
+        return _stale(link, inertial, "its numbers or its collisions were edited", notes)
+    return link.model_copy(update={"inertial": left})
+
+
+def _unpacked(inertial: Inertial) -> Inertial:
+    """The inertial with all that it carries of SDF."""
+    pieces = tuple(piece for part in inertial.opaque if is_carrier(part, "sdf") for piece in unpack(part))
+    kept = tuple(part for part in inertial.opaque if not is_carrier(part, "sdf"))
+    newest = parse_version(table("sdf").versions[-1])
+    return absorb(inertial.model_copy(update={"opaque": kept}), pieces, Terms(), newest)
+
+
+def _collisions(link: Link) -> Iterable[Collision]:
+    """Those of URDF, and those of shapes that it lacks, which were carried."""
+    newest = parse_version(table("sdf").versions[-1])
+    carried = tuple(part for part in link.opaque if part.element and part.element.name == "collision")
+    return (*link.collisions, *absorb(Link(name=link.name), carried, Terms(), newest).collisions)
+
+
+def _is_the_same(found: Solid, inertial: Inertial) -> bool:
+    """Whether an inertial says the same mass, centre and inertia, whichever way its axes are turned."""
+    written = inertial.inertia
+    if inertial.mass is None or written is None:
+        return False
+    moments = (written.ixx, written.iyy, written.izz, written.ixy, written.ixz, written.iyz)
+    xx, yy, zz, xy, xz, yz = (0.0 if moment is None else moment for moment in moments)
+    said = placed(Solid(inertial.mass, (0.0, 0.0, 0.0), (xx, yy, zz, xy, xz, yz)), Transform.from_pose(inertial.pose))
+    return (
+        math.isclose(found.mass, said.mass, rel_tol=_CLOSE)
+        and _are_close(found.centre, said.centre, max(1.0, *map(abs, found.centre)))
+        and _are_close(found.inertia, said.inertia, max(map(abs, found.inertia)))
+    )
+
+
+def _are_close(some: Iterable[float], others: Iterable[float], scale: float) -> bool:
+    return all(abs(one - other) <= _CLOSE * scale for one, other in zip(some, others, strict=True))
+
+
+def _stale(link: Link, inertial: Inertial, why: str, notes: Notes) -> Link:
+    message = f"the inertia of link {link.name!r} was computed, and is not any more: {why}"
+    notes.report(rules.STALE_CARRIER, message, inertial.location, found=link.name)
+    kept = tuple(part for part in inertial.opaque if not _is_auto(part))
+    bare = inertial.model_copy(update={"opaque": kept})
+    for field in _FIELDS:
+        bare = without_mark(bare, field)
+    return link.model_copy(update={"inertial": bare})

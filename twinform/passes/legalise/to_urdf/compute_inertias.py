@@ -1,0 +1,46 @@
+"""Inertias that SDF leaves to its reader, URDF has to be told."""
+
+from typing import ClassVar
+
+from twinform.diagnostics.rules import to_urdf as rules
+from twinform.ir import Link, Model
+from twinform.ir.frames import FrameGraph
+from twinform.passes.legalise.automatic_inertias import NoInertiaError, automatic, written_out
+from twinform.passes.legalise.marks import mark_made
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass
+from twinform.passes.legalise.to_urdf.keeper import Keeper
+
+
+class ComputeInertias(ToUrdfPass):
+    """Write the inertia that a reader of SDF would compute (`<inertial auto="true">`).
+
+    Changes: mass, pose and inertia of such a link are those of its collisions, filled with their densities; a mass that
+    is written stays. That they were computed travels in a carrier, and so do a pose and an inertia that were written,
+    which readers of SDF overlook.
+    Diagnostics: `automatic-inertia` for a link without collisions, and for shapes without an inside, such as planes and
+    meshes; in the ledger `computed-inertia`.
+    """
+
+    name: ClassVar[str] = "compute-inertias"
+
+    def run_model(self, model: Model, keeper: Keeper) -> Model:
+        """The model with every inertia written out."""
+        if not any(link.inertial and link.inertial.auto for link in model.links):
+            return model
+        graph = FrameGraph(model)
+        return model.model_copy(update={"links": tuple(_compute(link, graph, keeper) for link in model.links)})
+
+
+def _compute(link: Link, graph: FrameGraph, keeper: Keeper) -> Link:
+    inertial = link.inertial
+    if inertial is None or not inertial.auto:
+        return link
+    try:
+        found = automatic(link, inertial, link.collisions, graph)
+    except NoInertiaError as error:
+        keeper.notes.report(rules.AUTOMATIC_INERTIA, str(error), error.location)
+        return link
+    written, pieces, made = written_out(inertial, found)
+    message = f"the inertia of link {link.name!r} is computed from its collisions"
+    kept = keeper.keep(mark_made(written, *made), pieces, rules.COMPUTED_INERTIA, message, inertial.location)
+    return link.model_copy(update={"inertial": kept})
