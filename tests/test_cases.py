@@ -4,7 +4,6 @@ from pathlib import Path
 
 import pytest
 
-import twinform
 from twinform.testing import Case, CheckOptions, cases
 
 _CASES = Path(__file__).parent / "cases"
@@ -42,7 +41,7 @@ def test_convert_makes_what_the_case_shows(case: Case) -> None:
 def test_an_older_version_is_written_as_the_case_shows(case: Case) -> None:
     assert case.mismatches() == []
     expected = case.path.with_suffix(".expected.sdf")
-    text = twinform.convert(case.path, to="sdf", sdf_version=_OLDER).text
+    text = case.output(_OLDER, to="sdf")
     if not expected.exists():
         expected.write_text(text, encoding="utf-8")
         pytest.fail(f"{expected.name} was missing and is written now; read it before you keep it")

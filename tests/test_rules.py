@@ -18,7 +18,6 @@ _PARTS = _CASES / "includes/parts"
 WITHOUT_CASE = {
     "automatic-inertia": "unit/passes/test_to_urdf.py",
     "filled-limit": "unit/passes/test_fill_limits.py",
-    "include-not-expanded": "unit/passes/test_to_urdf.py",
     "joint-type-unsupported": "unit/passes/test_to_urdf.py",
     "merged-away": "unit/compiler/test_includes.py",
     "missing-inertial": "unit/passes/test_check_inertia.py",
