@@ -3,10 +3,13 @@
 import csv
 import sys
 import time
+import tomllib
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cache
 from itertools import groupby
+from pathlib import Path
 
 import twinform
 from benchmarks.markdown import table, write
@@ -19,9 +22,11 @@ from twinform.testing.workers import Failure, run
 
 PAGE = ROOT / "docs" / "reference" / "versions.md"
 PAIRS = SHARED / "reference" / "pairs.csv"
+KNOWN = Path(__file__).with_name("versions_known.toml")
 VERSIONS = ("1.4", "1.5", "1.6", "1.7", "1.8", "1.9", "1.10", "1.11")
 SHOWN = "1.6"
 _SECONDS = 120
+_UNEXPLAINED = "**unexplained**"
 INTRODUCTION = f"""# Versions of SDF
 
 Made by `make versions`.
@@ -61,8 +66,22 @@ def main() -> int:
     lost = [
         f"{trip.name} {trip.version}: {trip.difference}" for trip in trips if trip.difference and not trip.accounted
     ]
-    print(*lost, *failures, sep="\n", file=sys.stderr)
-    return 1 if lost or failures else 0
+    unexplained = [f"{name}: not explained" for name in _unexplained(trips, pairs)]
+    print(*lost, *failures, *unexplained, sep="\n", file=sys.stderr)
+    return 1 if lost or failures or unexplained else 0
+
+
+@cache
+def _known() -> dict[str, dict[str, str]]:
+    """The causes of differences and refusals, by file."""
+    return tomllib.loads(KNOWN.read_text(encoding="utf-8"))
+
+
+def _unexplained(trips: list[Trip], pairs: list[Pair]) -> Iterable[str]:
+    differing = [pair.newer for pair in pairs if pair.difference or pair.refused_by]
+    yield from (name for name in differing if name not in _known()["pairs"])
+    refused = [trip.name for trip in trips if not trip.arrived and trip.version == SHOWN]
+    yield from (name for name in refused if name not in _known()["refused"])
 
 
 def _trips() -> tuple[list[Trip], list[str]]:
@@ -98,8 +117,13 @@ def _trip_sections(trips: list[Trip], failures: list[str]) -> Iterable[str]:
     yield f"## {NEWEST}, an older version, and {NEWEST} again\n\n" + _by_version(trips)
     refused = [trip for trip in trips if not trip.arrived]
     yield "## Refused on the way, by rule\n\n" + _refusals(refused)
-    shown = [(trip.name, ", ".join(trip.refused_by)) for trip in refused if trip.version == SHOWN]
-    yield f"The files that do not go to {SHOWN}:\n\n" + table(["file", "rules"], shown) if shown else ""
+    why = _known()["refused"]
+    shown = [
+        (trip.name, ", ".join(trip.refused_by), why.get(trip.name, _UNEXPLAINED))
+        for trip in refused
+        if trip.version == SHOWN
+    ]
+    yield f"The files that do not go to {SHOWN}:\n\n" + table(["file", "rules", "why"], shown) if shown else ""
     different = [(trip.name, trip.version, trip.difference) for trip in trips if trip.difference]
     yield "## Not equal\n\n" + (table(["file", "version", "first difference"], different) if different else "None.")
     yield "## Broken promises\n\n" + ("\n".join(failures) or "None.")
@@ -133,9 +157,11 @@ def _refusals(refused: list[Trip]) -> str:
 def _pair_section(pairs: list[Pair]) -> str:
     """The differences are those of the files: two versions of a model are seldom the same model."""
     head = "## One model at two versions\n\nThe older file said in the version of the newer one, and the newer one."
+    why = _known()["pairs"]
     different = [(pair.newer, ", ".join(pair.refused_by) or pair.difference) for pair in pairs]
-    rows = [row for row in different if row[1]]
-    return f"{head} {_pair_totals(pairs)}\n\n" + table(["newer file", "first difference (the older, the newer)"], rows)
+    rows = [(newer, first, why.get(newer, _UNEXPLAINED)) for newer, first in different if first]
+    columns = ["newer file", "first difference (the older, the newer)", "cause"]
+    return f"{head} {_pair_totals(pairs)}\n\n" + table(columns, rows)
 
 
 def _pair_totals(pairs: list[Pair]) -> str:

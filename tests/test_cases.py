@@ -9,6 +9,8 @@ from twinform.testing import Case, CheckOptions, cases
 _CASES = Path(__file__).parent / "cases"
 
 
+_OLDER = "1.4"
+"""The version that the cases of versions are written in: the oldest that can be."""
 _EXPANDED = CheckOptions(expand_includes=True, paths=(_CASES / "includes/parts",))
 
 
@@ -33,3 +35,14 @@ def test_convert_makes_what_the_case_shows(case: Case) -> None:
         case.output_path.write_text(case.output(), encoding="utf-8")
         pytest.fail(f"{case.output_path.name} was missing and is written now; read it before you keep it")
     assert case.output() == case.output_path.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("case", cases(_CASES / "versions"), ids=_name)
+def test_an_older_version_is_written_as_the_case_shows(case: Case) -> None:
+    assert case.mismatches() == []
+    expected = case.path.with_suffix(".expected.sdf")
+    text = case.output(_OLDER, to="sdf")
+    if not expected.exists():
+        expected.write_text(text, encoding="utf-8")
+        pytest.fail(f"{expected.name} was missing and is written now; read it before you keep it")
+    assert text == expected.read_text(encoding="utf-8")

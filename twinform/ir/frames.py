@@ -17,6 +17,7 @@ from twinform.ir.world import World
 Kind = Literal["link", "joint", "frame", "model", "world"]
 MODEL = "__model__"
 WORLD = "world"
+_OWN_FRAME = f"::{MODEL}"
 
 _IDENTITY = Transform()
 _NEAR = 64
@@ -128,7 +129,7 @@ class FrameGraph:
 
     def knows(self, name: str) -> bool:
         """Whether a name stands for a frame."""
-        return name in self._named
+        return bool(self._vertices(name))
 
     def _add_links(self, links: Iterable[Link], scope: str) -> None:
         for link in links:
@@ -182,12 +183,16 @@ class FrameGraph:
         return vertex
 
     def _find(self, name: str, kind: Kind, source: Source | None = None, scope: str = "") -> _Vertex:
-        found = self._named.get(name if name == WORLD else scope + name)
+        found = self._vertices(name if name == WORLD else scope + name)
         if not found:
             named_in = source or self.root.source
             where = named_in.location if named_in else NOWHERE
             raise FrameError(rules.DANGLING_FRAME, f"there is no frame {scope + name!r}", where, name)
         return next((vertex for vertex in found if vertex.kind == kind), found[0])
+
+    def _vertices(self, name: str) -> list[_Vertex]:
+        """What has a name; where models were flattened, `inner` stands for `inner::__model__` too."""
+        return self._named.get(name) or self._named.get(name.removesuffix(_OWN_FRAME), [])
 
     def _parent(self, vertex: _Vertex) -> _Vertex:
         if vertex.parent is None:

@@ -72,10 +72,11 @@ class Case:
         """Where the expected output lies, if there is one."""
         return self.path.with_suffix(f".expected.{_OTHER[self.path.suffix]}")
 
-    def output(self, sdf_version: str | None = None) -> str:
-        """What the file becomes in the other format; the findings where it does not become anything."""
+    def output(self, sdf_version: str | None = None, *, to: Literal["sdf", "urdf"] | None = None) -> str:
+        """What the file becomes, by default in the other format; the findings where it does not become anything."""
+        to = to or _OTHER[self.path.suffix]
         try:
-            return convert(self.path, to=_OTHER[self.path.suffix], sdf_version=sdf_version, strict=self.strict).text
+            return convert(self.path, to=to, sdf_version=sdf_version, strict=self.strict).text
         except CompileError as error:
             return "\n".join(f"{each.location.line}: {each.rule.name}" for each in error.diagnostics if each.is_error)
 

@@ -30,7 +30,8 @@ INCLUDE_NOT_EXPANDED = Rule(
     name="include-not-expanded",
     severity=Severity.ERROR,
     finds="An `<include>` inside the model whose file was not read.",
-    matters="The links in it would be missing from the robot.",
+    matters="The links in it would be missing from the robot. SDF before 1.7, where a pose names no frame, cannot be "
+    "written without knowing where they are.",
     example="`<include><uri>model://gripper</uri></include>` where no folder of models is known.",
     better="Say where its model is, so that it is put in its place.",
 )

@@ -11,7 +11,6 @@ from twinform.passes.legalise.marks import mark_made
 from twinform.passes.legalise.nodes import map_elements, map_poses
 
 AnyNode = TypeVar("AnyNode", bound=Node)
-_OWN_FRAME = f"::{MODEL}"
 _FRAME_ATTRIBUTES = frozenset({"relative_to", "frame"})
 
 
@@ -21,14 +20,11 @@ def flatten(model: Model, keep: Callable[[Frame, Model], Frame]) -> Model:
     A frame stands for each nested model's own; `keep` may put what else the model says there.
     """
     graph = FrameGraph(model)
-    top = _Scope("", _written_out(model))
-    links = [top.inside(link) for link in model.links]
-    joints = [top.joint(joint) for joint in model.joints]
-    frames = [top.frame(frame) if frame.attached_to else top.inside(frame) for frame in model.frames]
-    stack = [(nested, top) for nested in reversed(model.models)]
+    links, joints, frames = list(model.links), list(model.joints), list(model.frames)
+    stack = [(nested, _Scope("")) for nested in reversed(model.models)]
     while stack:
         nested, around = stack.pop()
-        scope = _Scope(f"{around.prefix}{nested.name}::", _written_out(nested))
+        scope = _Scope(f"{around.prefix}{nested.name}::")
         emptied = {"links": (), "joints": (), "frames": (), "models": ()}
         frames.append(keep(_own_frame(nested, around, scope, graph), nested.model_copy(update=emptied)))
         links.extend(scope.link(link) for link in nested.links)
@@ -41,21 +37,16 @@ def flatten(model: Model, keep: Callable[[Frame, Model], Frame]) -> Model:
 
 @dataclass(frozen=True, slots=True)
 class _Scope:
-    """The names of one model, as they are called in the outermost one.
-
-    A nested model's own frame has two names, `inner` and `inner::__model__`, unless a frame is `written_out` by the
-    longer one, which SDF 1.7 does.
-    """
+    """The names of one model, as they are called in the outermost one."""
 
     prefix: str
-    written_out: frozenset[str]
 
     def rename(self, name: str | None) -> str | None:
         if not name or name == WORLD:
             return name
         if name == MODEL:
             return self.frame_name
-        return self.prefix + (name if name in self.written_out else name.removesuffix(_OWN_FRAME))
+        return self.prefix + name
 
     @property
     def frame_name(self) -> str:
@@ -66,7 +57,7 @@ class _Scope:
         pose = self._pose(link.pose) if link.pose else Pose()
         if pose.relative_to is None:
             pose = pose.model_copy(update={"relative_to": self.frame_name})
-        inside = self.inside(link.model_copy(update={"pose": None}))
+        inside = self._inside(link.model_copy(update={"pose": None}))
         update: dict[str, object] = {"name": self.prefix + link.name, "pose": pose}
         if link.pose is None:
             inside = mark_made(inside, "pose")
@@ -81,12 +72,12 @@ class _Scope:
             "axis": self._axis(joint.axis),
             "axis2": self._axis(joint.axis2),
         }
-        return self.inside(joint).model_copy(update=update)
+        return self._inside(joint).model_copy(update=update)
 
     def frame(self, frame: Frame) -> Frame:
         holder = self.rename(frame.attached_to or MODEL)
         update: dict[str, object] = {"name": self.prefix + frame.name, "attached_to": holder}
-        return self.inside(frame).model_copy(update=update)
+        return self._inside(frame).model_copy(update=update)
 
     def _axis(self, axis: Axis | None) -> Axis | None:
         if axis is None:
@@ -99,14 +90,10 @@ class _Scope:
     def _pose(self, pose: Pose) -> Pose:
         return pose.model_copy(update={"relative_to": self.rename(pose.relative_to)}) if pose.relative_to else pose
 
-    def inside(self, node: AnyNode) -> AnyNode:
+    def _inside(self, node: AnyNode) -> AnyNode:
         """The node with the frames renamed that poses in it name, in typed and in opaque parts."""
         node = map_poses(node, self._pose)
         return _map_opaque(node, self)
-
-
-def _written_out(model: Model) -> frozenset[str]:
-    return frozenset(frame.name for frame in model.frames if frame.name.endswith(_OWN_FRAME))
 
 
 def _map_opaque(node: AnyNode, scope: _Scope) -> AnyNode:

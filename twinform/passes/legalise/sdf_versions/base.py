@@ -5,6 +5,8 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from twinform.diagnostics import Notes
+from twinform.diagnostics.rules.frames import DANGLING_FRAME
+from twinform.diagnostics.rules.to_urdf import INCLUDE_NOT_EXPANDED
 from twinform.ir import Document, Element, Model, Node, World, map_children
 from twinform.ir.frames import FrameError
 from twinform.passes.base import Pass
@@ -31,7 +33,7 @@ class VersionPass(Pass):
         try:
             return self.change(document, Keeper(notes, self.carriers))
         except FrameError as error:
-            error.report(notes)
+            _report(error, document, self.version, notes)
             return document
 
     @abstractmethod
@@ -42,6 +44,21 @@ class VersionPass(Pass):
     def number(self) -> Version:
         """The version that is asked for, as a pair of numbers."""
         return parse_version(self.version)
+
+
+def _report(error: FrameError, document: Document, version: str, notes: Notes) -> None:
+    """Say which frame cannot be resolved, and how it could be where an include was not read."""
+    if error.rule is not DANGLING_FRAME or not _has_includes(document):
+        error.report(notes)
+        return
+    message = f"SDF {version} needs to know where {error.found!r} is, and only the file of an include can say"
+    hint = "expand the includes, or write a newer version"
+    notes.report(INCLUDE_NOT_EXPANDED, message, error.location, found=error.found, help=hint)
+
+
+def _has_includes(node: Node) -> bool:
+    inner = (*getattr(node, "worlds", ()), *getattr(node, "models", ()))
+    return bool(getattr(node, "includes", ())) or any(map(_has_includes, inner))
 
 
 def map_models(node: AnyNode, change: Callable[[Model], Model]) -> AnyNode:

@@ -4,14 +4,19 @@ from functools import partial
 from typing import ClassVar
 
 from twinform.diagnostics.rules import sdf_versions as rules
+from twinform.diagnostics.rules.frames import DANGLING_FRAME
 from twinform.ir import Document, Joint, Model, Opaque, World, count_parts
-from twinform.ir.frames import WORLD, FrameGraph
+from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
 from twinform.passes.legalise.joint_ends import named_ends, report_self_joint, resolve_ends
 from twinform.passes.legalise.nodes import pose_piece
 from twinform.passes.legalise.sdf_versions.base import VersionPass, map_models, map_worlds
 from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms
 
 _SINCE = (1, 8)
+_FRAMES = (1, 7)
+"""Since this version there are frames; what a joint is at is theirs to say."""
+_UNKNOWN = MODEL
+"""What a frame moves with where all links are in includes that were not read."""
 
 
 class ConnectLinks(VersionPass):
@@ -26,35 +31,41 @@ class ConnectLinks(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with joints between links."""
-        document = map_models(document, partial(_in_model, keeper))
-        return map_worlds(document, partial(_in_world, keeper))
+        document = map_models(document, partial(_in_model, keeper, self.number >= _FRAMES))
+        return map_worlds(document, partial(_in_world, keeper, self.number >= _FRAMES))
 
 
-def _in_model(keeper: Keeper, model: Model) -> Model:
+def _in_model(keeper: Keeper, frames: bool, model: Model) -> Model:
     links = {WORLD, *(link.name for link in model.links)}
     if all(joint.parent in links and joint.child in links for joint in model.joints):
         return model
-    return model.model_copy(update={"joints": _connect(model, links, keeper)})
+    return model.model_copy(update={"joints": _connect(model, links, keeper, frames=frames)})
 
 
-def _in_world(keeper: Keeper, world: World) -> World:
+def _in_world(keeper: Keeper, frames: bool, world: World) -> World:
     if not world.joints:
         return world
-    return world.model_copy(update={"joints": _connect(world, {WORLD}, keeper)})
+    return world.model_copy(update={"joints": _connect(world, {WORLD}, keeper, frames=frames)})
 
 
-def _connect(holder: Model | World, links: set[str], keeper: Keeper) -> tuple[Joint, ...]:
+def _connect(holder: Model | World, links: set[str], keeper: Keeper, *, frames: bool) -> tuple[Joint, ...]:
     graph = FrameGraph(holder)
     if holder.includes:  # names that only their files know may be links
         ends = {end for joint in holder.joints for end in (joint.parent, joint.child) if end}
         links |= {end for end in ends if not graph.knows(end)}
-    return tuple(_resolve(joint, links, graph, keeper) for joint in holder.joints)
+    return tuple(_resolve(joint, links, graph, keeper, frames=frames) for joint in holder.joints)
 
 
-def _resolve(joint: Joint, links: set[str], graph: FrameGraph, keeper: Keeper) -> Joint:
+def _resolve(joint: Joint, links: set[str], graph: FrameGraph, keeper: Keeper, *, frames: bool) -> Joint:
     resolved, pieces = resolve_ends(joint, links, graph)
     if not pieces:
         return joint
+    if _UNKNOWN in (resolved.parent, resolved.child):
+        if frames:
+            return joint
+        end = joint.parent if resolved.parent == _UNKNOWN else joint.child
+        message = f"joint {joint.name!r} is at {end!r}, which moves with no link that is known"
+        raise FrameError(DANGLING_FRAME, message, joint.location, end or "")
     if resolved.parent == resolved.child:
         report_self_joint(joint, resolved, keeper.notes)
         return joint

@@ -47,10 +47,12 @@ class PlaceAbsolutely(VersionPass):
     """Give every pose in the one frame that SDF before 1.7 gives it in.
 
     Changes: 1. links and nested models are posed in the model, models of a world in the world; 2. joints in their child
-    link; 3. visuals, collisions, inertials, sensors and lights in their link, and so on; 4. frames go; 5. a model that
-    is placed by one of its frames is placed by its own, which is all that happens on the way to 1.7.
+    link, but for fixed ones whose child is in an include, which lose their pose; 3. visuals, collisions, inertials,
+    sensors and lights in their link, and so on; 4. frames go; 5. a model that is placed by one of its frames is placed
+    by its own, which is all that happens on the way to 1.7.
     Never touches: poses that name no frame.
-    Diagnostics: `older-version` for each frame; in the ledger `other-words` for each pose.
+    Diagnostics: `older-version` for each frame, `include-not-expanded` where only an include knows a frame; in the
+    ledger `other-words` for each pose.
     """
 
     name: ClassVar[str] = "place-absolutely"
@@ -187,6 +189,10 @@ class _Poses:
             joint = joint.model_copy(update={"sensors": _sensors(joint.sensors, moved, self.elements())})
         if joint.pose is None or joint.pose.relative_to is None:
             return joint
+        if joint.type == "fixed" and not joint.sensors and not self.graph.knows(joint.child or WORLD):
+            # only an include knows the child, and where between two links a fixed joint is makes no difference
+            return self.placer.replace(joint, Transform(), None)
+        self.graph.body(joint.child or WORLD, source=joint.source)
         return self.placer.replace(joint, self.graph.pose(joint.name, joint.child or WORLD, kind="joint"), None)
 
     def elements(self) -> ElementPoses:

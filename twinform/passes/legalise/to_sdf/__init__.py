@@ -4,6 +4,7 @@ from twinform.passes.base import Pass
 from twinform.passes.legalise.sdf_versions import lower_version, raise_unversioned
 from twinform.passes.legalise.to_sdf.bodies import UrdfBodies
 from twinform.passes.legalise.to_sdf.carry_urdf import CarryUrdf
+from twinform.passes.legalise.to_sdf.declare_quaternions import DeclareQuaternions
 from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo
 from twinform.passes.legalise.to_sdf.fold_gearboxes import FoldGearboxes
 from twinform.passes.legalise.to_sdf.fold_joints import FoldJoints
@@ -37,6 +38,7 @@ def to_sdf(version: str, *, carriers: bool) -> tuple[Pass, ...]:
         UrdfJoints(carriers=carriers),
         FoldGearboxes(),
         MeshUris(),
+        DeclareQuaternions(),
         *lower_version(None, version, carriers=carriers),
         RetargetSdf(version=version),
     )

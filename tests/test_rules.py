@@ -1,0 +1,94 @@
+"""Every rule has a case that triggers it and one that does not; where no case file can, a test does."""
+
+from collections import defaultdict
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+import twinform
+from twinform.diagnostics import Diagnostic, Entry, catalogue
+from twinform.testing import Case, cases
+
+_TESTS = Path(__file__).parent
+_CASES = _TESTS / "cases"
+_PARTS = _CASES / "includes/parts"
+
+WITHOUT_CASE = {
+    "automatic-inertia": "unit/passes/test_to_urdf.py",
+    "filled-limit": "unit/passes/test_fill_limits.py",
+    "joint-type-unsupported": "unit/passes/test_to_urdf.py",
+    "merged-away": "unit/compiler/test_includes.py",
+    "missing-inertial": "unit/passes/test_check_inertia.py",
+    "partial-limit": "unit/compiler/test_driver.py",
+    "schema-disagreement": "unit/schemas/test_validator.py",
+    "stale-carrier": "unit/passes/test_sdf_versions.py",
+    "too-many-includes": "unit/compiler/test_includes.py",
+    "unfilled-limit": "unit/passes/test_fill_limits.py",
+    "unreadable-file": "unit/compiler/test_parsing.py",
+    "unused-argument": "unit/compiler/test_xacro.py",
+    "xacro-message": "unit/compiler/test_xacro.py",
+    "xacro-missing": "unit/compiler/test_xacro.py",
+    "xacro-refused": "unit/compiler/test_xacro.py",
+}
+"""Rules that need more than one file, an option or a fault of our own, and the test that triggers each and does not."""
+
+
+@cache
+def _found() -> dict[str, set[str]]:
+    """The rules that each case triggers, by the path of the case."""
+    found: dict[str, set[str]] = defaultdict(set)
+    for folder in ("check", "xacro"):
+        for case in cases(_CASES / folder):
+            found[_name(case)] = _rules(twinform.check(case.path).diagnostics)
+    for case in cases(_CASES / "includes", below=False):
+        checked = twinform.check(case.path, expand_includes=True, paths=[_PARTS])
+        found[_name(case)] = _rules(checked.diagnostics)
+    for case in cases(_CASES / "convert"):
+        found[_name(case)] = set(_of_conversion(case, None))
+    for case in cases(_CASES / "versions"):
+        found[_name(case)] = set(_of_conversion(case, "1.4"))
+    return found
+
+
+def _name(case: Case) -> str:
+    return str(case.path.relative_to(_CASES))
+
+
+def _rules(diagnostics: tuple[Diagnostic | Entry, ...]) -> set[str]:
+    return {each.rule.name for each in diagnostics}
+
+
+def _of_conversion(case: Case, version: str | None) -> Iterator[str]:
+    """Also the rules of the ledger."""
+    to = "sdf" if version or case.path.suffix == ".urdf" else "urdf"
+    try:
+        made = twinform.convert(case.path, to=to, sdf_version=version)
+    except twinform.CompileError as error:
+        yield from _rules(error.diagnostics)
+        return
+    yield from _rules(made.diagnostics) | _rules(made.ledger.entries)
+
+
+@pytest.mark.parametrize("rule", sorted(catalogue()))
+def test_a_case_triggers_each_rule(rule: str) -> None:
+    triggered = [name for name, rules in _found().items() if rule in rules]
+    if rule not in WITHOUT_CASE:
+        assert triggered
+        return
+    assert not triggered, "there is a case now, so the table need not name a test"
+    text = (_TESTS / WITHOUT_CASE[rule]).read_text(encoding="utf-8")
+    assert rule in text or rule.upper().replace("-", "_") in text
+
+
+@pytest.mark.parametrize("rule", sorted(set(catalogue()) - set(WITHOUT_CASE)))
+def test_a_case_of_the_same_folder_does_not_trigger_it(rule: str) -> None:
+    found = _found()
+    folders = {name.partition("/")[0] for name, rules in found.items() if rule in rules}
+    others = {name.partition("/")[0] for name, rules in found.items() if rule not in rules}
+    assert folders <= others
+
+
+def test_the_table_names_rules_that_there_are() -> None:
+    assert set(WITHOUT_CASE) <= set(catalogue())

@@ -1,0 +1,31 @@
+"""A pose of SDF says that its rotation is a quaternion; URDF has another attribute for it."""
+
+from typing import ClassVar
+
+from twinform.diagnostics import Notes
+from twinform.ir import Model, Pose
+from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.legalise.nodes import map_poses
+
+_QUATERNION = "quat_xyzw"
+
+
+class DeclareQuaternions(ModelPass):
+    """Declare the notation of poses that are written as quaternions.
+
+    Changes: the `rotation_format` of every pose that has a `quat_xyzw`.
+    Never touches: other poses.
+    Diagnostics: none.
+    """
+
+    name: ClassVar[str] = "declare-quaternions"
+
+    def run_model(self, model: Model, notes: Notes) -> Model:
+        """The model with quaternions that say what they are."""
+        return map_poses(model, _declared)
+
+
+def _declared(pose: Pose) -> Pose:
+    if pose.quat_xyzw is None or pose.rotation_format is not None:
+        return pose
+    return pose.model_copy(update={"rotation_format": _QUATERNION, "rpy": None})
