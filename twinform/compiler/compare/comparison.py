@@ -25,12 +25,14 @@ class Said:
 class Difference:
     """One thing in which two robots differ, or in which they are described in different ways.
 
-    `group` is `model`, `link`, `joint`, `frame` or `kinematics`, and `name` that of the link, joint or frame; `aspect`
-    is the path to the value from there. `absolute` is by how much the values differ, in `unit`, and `relative` its
-    share of the larger one; both are None for what is no number.
+    `model` names the robot where several are compared, and is empty otherwise. `group` is `model`, `link`, `joint`,
+    `frame` or `kinematics`, and `name` that of the link, joint or frame; `aspect` is the path to the value from there.
+    `absolute` is by how much the values differ, in `unit`, and `relative` its share of the larger one; both are None
+    for what is no number.
     """
 
     severity: Severity
+    model: str = ""
     group: str
     name: str
     aspect: str

@@ -79,11 +79,11 @@ def _compared(a: Robots, b: Robots, tolerance: float) -> Iterator[Difference]:
     terms = Terms(a.path, b.path, a.format, b.format, tolerance)
     if len(a.by_name) == len(b.by_name) == 1:
         (one,), (other,) = a.by_name.values(), b.by_name.values()
-        yield from compare_robots(one, other, terms, placed=False)
+        yield from compare_robots(one, other, terms, several=False)
         return
     for name, robot in a.by_name.items():
         if name in b.by_name:
-            yield from compare_robots(robot, b.by_name[name], terms, placed=True)
+            yield from compare_robots(robot, b.by_name[name], terms, several=True)
         else:
             yield from _missing(robot, terms, in_a=True)
     for name, robot in b.by_name.items():

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from twinform.compiler.compare.comparison import Difference, Said, Severity
 from twinform.compiler.compare.robot import Leaf
 from twinform.compiler.compare.values import Gap, Value, gaps, show
-from twinform.diagnostics import NOWHERE, Location
+from twinform.diagnostics import Location
 from twinform.ir import Format
 from twinform.ir.transform import Transform
 
@@ -56,6 +56,7 @@ class Findings:
     """What was found so far."""
 
     terms: Terms
+    model: str = ""
     items: list[Difference] = field(default_factory=list[Difference])
 
     def values(
@@ -113,24 +114,36 @@ class Findings:
         said = Said(what, where)
         self._add(severity, subject, aspect, message, said if in_a else Said(), Said() if in_a else said)
 
-    def leaf(self, subject: Subject, aspect: str, pair: tuple[Leaf | None, Leaf | None], base: Base) -> bool:
-        """Add the differences between two values, of which one may not be written; gives whether there are any."""
+    def leaf(
+        self,
+        subject: Subject,
+        aspect: str,
+        pair: tuple[Leaf | None, Leaf | None],
+        base: Base,
+        places: tuple[Location, Location],
+    ) -> bool:
+        """Add the differences between two values; gives whether there are any.
+
+        One of them may not be written; `places` are where they could be.
+        """
         before = len(self.items)
         a, b = pair
         if a is not None and b is not None:
             self.values(subject, aspect, a.value, b.value, (a.where, b.where), base)
         elif (one := a or b) is not None:
-            self._half_written(subject, aspect, one, in_a=a is not None)
+            self._half_written(subject, aspect, one, places, in_a=a is not None)
         return len(self.items) > before
 
-    def _half_written(self, subject: Subject, aspect: str, one: Leaf, *, in_a: bool) -> None:
+    def _half_written(
+        self, subject: Subject, aspect: str, one: Leaf, places: tuple[Location, Location], *, in_a: bool
+    ) -> None:
         if one.default is None:
             what = show(one.value)
             self.lonely(subject, aspect, what, one.where, in_a=in_a, only=one.only, carried=one.carried)
         elif in_a:
-            self.values(subject, aspect, one.value, one.default, (one.where, NOWHERE))
+            self.values(subject, aspect, one.value, one.default, (one.where, places[1]))
         else:
-            self.values(subject, aspect, one.default, one.value, (NOWHERE, one.where))
+            self.values(subject, aspect, one.default, one.value, (places[0], one.where))
 
     def _add(
         self, severity: Severity, subject: Subject, aspect: str, message: str, a: Said, b: Said, gap: Gap | None = None
@@ -138,6 +151,7 @@ class Findings:
         self.items.append(
             Difference(
                 severity=severity,
+                model=self.model,
                 group=subject.group,
                 name=subject.name,
                 aspect=aspect,

@@ -12,7 +12,7 @@ def compare_frames(findings: Findings, a: Robot, b: Robot, bases: Mapping[str, B
     """Compare the frames of both robots; a link of the same name stands for a frame too."""
     for name, one in a.frames.items():
         if name in b.frames:
-            _compare(findings, one, b.frames[name], bases, quiet=name in a.models | b.models)
+            _compare(findings, one, b.frames[name], bases, nested=name in a.models | b.models)
     lonely_a, lonely_b = (
         _without_like(findings, a, b, bases, in_a=True),
         _without_like(findings, b, a, bases, in_a=False),
@@ -28,15 +28,17 @@ def compare_frames(findings: Findings, a: Robot, b: Robot, bases: Mapping[str, B
 
 
 def _compare(
-    findings: Findings, one: NamedFrame, other: NamedFrame, bases: Mapping[str, Base], *, quiet: bool = False
+    findings: Findings, one: NamedFrame, other: NamedFrame, bases: Mapping[str, Base], *, nested: bool = False
 ) -> None:
     subject, places = Subject("frame", one.name), (one.where, other.where)
     base = bases.get(one.body, Base())
     findings.values(subject, "attached_to", Words(one.body), Words(other.body), places)
-    findings.values(subject, "pose", Place(one.pose), Place(other.pose), places, base)
     terms = findings.terms
-    if quiet:
+    if nested:
+        if terms.worst(Place(one.pose), Place(other.pose), base):
+            findings.note(subject, "frame", f"the nested model {one.name!r} is said in another frame", places)
         return
+    findings.values(subject, "pose", Place(one.pose), Place(other.pose), places, base)
     if one.was_link != other.was_link and not (one.lumped or other.lumped) and terms.format_a is not terms.format_b:
         there = terms.b if one.was_link else terms.a
         findings.note(subject, "", f"link {one.name!r}, which has no mass, is a frame in {there}", places)

@@ -18,24 +18,23 @@ from twinform.compiler.compare.values import Direction, Flag, Gap, Numbers, Plac
 from twinform.ir.frames import WORLD
 
 Named = TypeVar("Named", Body, Hinge)
-_MODEL = Subject("model", "")
 _ABOUT_A_LINE = frozenset({"revolute", "continuous", "screw", "gearbox"})
 _ABOUT_A_POINT = frozenset({"ball", "universal", "revolute2"})
 """Joints for which it matters where along the axis they are; others have no place at all, only directions."""
 
 
-def compare_robots(a: Robot, b: Robot, terms: Terms, *, placed: bool) -> tuple[Difference, ...]:
-    """Everything in which two robots differ; `placed` says whether their place in the world counts."""
-    lumped = lump(a, b)
-    return _Judge(lumped, terms, placed=placed).run()
+def compare_robots(a: Robot, b: Robot, terms: Terms, *, several: bool) -> tuple[Difference, ...]:
+    """Everything in which two robots differ; where they are two of `several`, their place among these counts."""
+    return _Judge(lump(a, b), terms, several=several).run()
 
 
 class _Judge:
-    def __init__(self, lumped: Lumped, terms: Terms, *, placed: bool) -> None:
+    def __init__(self, lumped: Lumped, terms: Terms, *, several: bool) -> None:
         self.a, self.b, self.lumped = lumped.a, lumped.b, lumped
         self.terms = terms
-        self.placed = placed
-        self.found = Findings(terms)
+        self.several = several
+        self.subject = Subject("model", lumped.a.name if several else "")
+        self.found = Findings(terms, lumped.a.name if several else "")
         self.alignment: Alignment = align(self.a, self.b, terms)
 
     def run(self) -> tuple[Difference, ...]:
@@ -71,9 +70,9 @@ class _Judge:
         places = (self.a.where, self.b.where)
         if self.a.name != self.b.name:
             message = f"the model is called {self.a.name!r} in {self.terms.a}, and {self.b.name!r} in {self.terms.b}"
-            self.found.note(_MODEL, "name", message, places)
-        compare_leaves(self.found, _MODEL, self.a.leaves, self.b.leaves, Base())
-        compare_parts(self.found, _MODEL, self.a.parts, self.b.parts, Base())
+            self.found.note(self.subject, "name", message, places)
+        compare_leaves(self.found, self.subject, self.a.leaves, self.b.leaves, Base(), places)
+        compare_parts(self.found, self.subject, self.a.parts, self.b.parts, Base())
         self._placement()
 
     def _placement(self) -> None:
@@ -82,14 +81,14 @@ class _Judge:
         away = self.terms.worst(Place(self.a.world.inverse()), Place(self.b.world.inverse()))
         if not roots or not away:
             return
-        counts = self.placed or _stands(self.a) or _stands(self.b)
+        counts = self.several or _stands(self.a) or _stands(self.b)
         severity = Severity.DIFFERENCE if counts else Severity.NOTE
-        self.found.gaps(_MODEL, "pose", away, (self.a.where, self.b.where), severity)
+        self.found.gaps(self.subject, "pose", away, (self.a.where, self.b.where), severity)
 
     def _body(self, a: Body, b: Body) -> None:
         subject, base = Subject("link", a.name), self.alignment.bases[a.name]
         self._mass(subject, a.mass, b.mass, base)
-        compare_leaves(self.found, subject, a.leaves, b.leaves, base)
+        compare_leaves(self.found, subject, a.leaves, b.leaves, base, (a.where, b.where))
         compare_parts(self.found, subject, a.parts, b.parts, base)
         if a.name in self.alignment.placed:
             self.found.values(subject, "pose", Place(a.frame), Place(b.frame), (a.where, b.where))
@@ -122,7 +121,7 @@ class _Judge:
             for number, pair in enumerate(zip(a.axes, b.axes, strict=False)):
                 aspect = "axis2/xyz" if number else "axis/xyz"
                 self.found.values(subject, aspect, Direction(pair[0]), Direction(pair[1]), places, base)
-        compare_leaves(self.found, subject, *_same_kind(a, b), base)
+        compare_leaves(self.found, subject, *_same_kind(a, b), base, places)
         compare_parts(self.found, subject, a.parts, b.parts, base)
 
     def _place_of_joint(self, subject: Subject, a: Hinge, b: Hinge) -> None:

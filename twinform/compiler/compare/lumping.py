@@ -52,7 +52,12 @@ def _groups(robot: Robot, other: Robot) -> dict[str, list[str]]:
 
 
 def _is_one_body(a: Robot, b: Robot, name: str, mine: list[str], theirs: list[str]) -> bool:
-    """Whether the masses say so; of links without mass, only a frame of the same name can tell."""
+    """Whether the masses say so; of links without mass, only a frame of the same name can tell.
+
+    Where each of the robots has links that the other lacks, they may as well be called otherwise.
+    """
+    if mine and theirs:
+        return False
     total_a, total_b = _total(a, (name, *mine)), _total(b, (name, *theirs))
     if abs(total_a - total_b) > _EVIDENCE * max(total_a, total_b):
         return False

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from twinform.compiler.compare.findings import Base, Findings, Subject, Terms
 from twinform.compiler.compare.robot import Leaf, Leaves, Part
 from twinform.compiler.compare.values import Place
+from twinform.diagnostics import NOWHERE, Location
 
 _BY_CONTENT = frozenset({"visual", "collision"})
 """Parts that converters rename, and that nothing but a name tells apart."""
@@ -17,20 +18,28 @@ Fits = Callable[[Part, Part, Terms, Base], bool]
 
 
 def compare_leaves(
-    findings: Findings, subject: Subject, a: Leaves, b: Leaves, base: Base, aspect: str = "", *, skipped: bool = False
+    findings: Findings,
+    subject: Subject,
+    a: Leaves,
+    b: Leaves,
+    base: Base,
+    places: tuple[Location, Location] = (NOWHERE, NOWHERE),
+    aspect: str = "",
+    *,
+    carried: bool = False,
 ) -> None:
     """Compare all values; below one that says of what kind a thing is, nothing is compared when the kinds differ."""
     closed: list[str] = []
     for path in sorted(a.keys() | b.keys()):
         if any(path.startswith(f"{above}/") for above in closed):
             continue
-        if skipped and path in _NOT_COMPARED_IN_CARRIERS:
+        if carried and path in _NOT_COMPARED_IN_CARRIERS:
             continue
         pair = (a.get(path), b.get(path))
         if _is_absent_pose(pair):
             continue
         name = f"{aspect}/{path}" if aspect else path
-        if findings.leaf(subject, name, pair, base):
+        if findings.leaf(subject, name, pair, base, places):
             closed.append(path)
 
 
@@ -47,8 +56,8 @@ def compare_parts(findings: Findings, subject: Subject, a: Iterable[Part], b: It
         pairs, only_a, only_b = match(groups_a.get(kind, []), groups_b.get(kind, []), findings.terms, base)
         for one, other in pairs:
             name = f"{kind} {one.name!r}"
-            carried = one.carried or other.carried
-            compare_leaves(findings, subject, one.leaves, other.leaves, base, name, skipped=carried)
+            carried, places = one.carried or other.carried, (one.where, other.where)
+            compare_leaves(findings, subject, one.leaves, other.leaves, base, places, name, carried=carried)
             _note_renamed(findings, subject, one, other)
         for in_a, rest in ((True, only_a), (False, only_b)):
             for part in rest:
@@ -105,7 +114,7 @@ def is_same(a: Part, b: Part, terms: Terms, base: Base) -> bool:
     """Whether two parts say the same but for their names."""
     found = Findings(terms)
     subject = Subject("", "")
-    compare_leaves(found, subject, a.leaves, b.leaves, base, skipped=a.carried or b.carried)
+    compare_leaves(found, subject, a.leaves, b.leaves, base, carried=a.carried or b.carried)
     return not found.items
 
 

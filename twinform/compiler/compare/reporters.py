@@ -18,8 +18,8 @@ Reporter = Callable[[Comparison], str]
 def text(comparison: Comparison, paint: Paint = lambda word, _: word) -> str:
     """A heading for each link, joint or frame, and a line for each difference: `places: severity: what`."""
     lines: list[str] = []
-    for (group, name), items in groupby(comparison.items, key=lambda item: (item.group, item.name)):
-        lines.append(printable(f"{group} {name!r}" if name else group))
+    for heading, items in groupby(comparison.items, key=_heading):
+        lines.append(printable(heading))
         lines += [f"  {_line(item, comparison, paint)}" for item in items]
     return "".join(f"{line}\n" for line in lines)
 
@@ -27,8 +27,8 @@ def text(comparison: Comparison, paint: Paint = lambda word, _: word) -> str:
 def json(comparison: Comparison) -> str:
     """One object: `{"a", "b", "same", "tolerance", "items": [...]}`; every key is always there.
 
-    An item is `{"severity", "group", "name", "aspect", "message", "a", "b", "absolute", "relative", "unit"}`, and its
-    sides are `{"value", "file", "line", "path"}`. Line 0 means unknown; a difference without end is null.
+    An item is `{"severity", "model", "group", "name", "aspect", "message", "a", "b", "absolute", "relative", "unit"}`,
+    and its sides are `{"value", "file", "line", "path"}`. Line 0 means unknown; a difference without end is null.
     """
     whole = {
         "a": comparison.a,
@@ -54,18 +54,25 @@ def _count(items: tuple[Difference, ...], word: str) -> str:
     return f"{len(items)} {word}{'' if len(items) == 1 else 's'}"
 
 
+def _heading(item: Difference) -> str:
+    words = f"{item.group} {item.name!r}" if item.name else item.group
+    return f"{words} of model {item.model!r}" if item.model and item.group != "model" else words
+
+
 def _line(item: Difference, comparison: Comparison, paint: Paint) -> str:
     places = ", ".join(_places(item, comparison))
-    amount = f" ({', '.join(_amounts(item))})" if item.absolute is not None else ""
+    amounts = [] if item.group == "kinematics" else list(_amounts(item))
+    amount = f" ({', '.join(amounts)})" if amounts else ""
     severity = paint(str(item.severity), item.severity)
     return f"{places}{': ' if places else ''}{severity}: {printable(_what(item))}{amount}"
 
 
 def _what(item: Difference) -> str:
     """What differs, without what the heading says."""
-    if item.absolute is None or item.a.text is None or item.b.text is None or item.severity is Severity.NOTE:
-        return item.message
-    return f"{item.aspect} is {item.a.text}, and {item.b.text}"
+    short = item.severity is Severity.DIFFERENCE and item.group != "kinematics"
+    if short and item.a.text is not None and item.b.text is not None:
+        return f"{item.aspect} is {item.a.text}, and {item.b.text}"
+    return item.message
 
 
 def _places(item: Difference, comparison: Comparison) -> Iterator[str]:
@@ -87,6 +94,7 @@ def _amounts(item: Difference) -> Iterator[str]:
 def _row(item: Difference) -> dict[str, object]:
     return {
         "severity": str(item.severity),
+        "model": item.model,
         "group": item.group,
         "name": item.name,
         "aspect": item.aspect,
