@@ -7,7 +7,7 @@ import click
 
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
-from twinform.cli.inputs import HowToRead, how_to_read, inputs, reading_options
+from twinform.cli.inputs import HowToRead, file_options, how_to_read, inputs
 from twinform.compiler import CompileError
 from twinform.compiler.compare import TOLERANCE, Severity, compare_files
 from twinform.compiler.compare.reporters import REPORTERS, summary, text
@@ -28,7 +28,7 @@ _PAIR = 2
     show_default=True,
     help="What share of a value is rounding; of positions and angles, metres and radians.",
 )
-@reading_options
+@file_options
 @click.pass_context
 def command(
     ctx: click.Context,
@@ -37,7 +37,6 @@ def command(
     *,
     model: str | None,
     tolerance: float,
-    expand_includes: bool,
     **how: Unpack[HowToRead],
 ) -> None:
     """Say whether two files describe the same robot.

@@ -25,13 +25,26 @@ _WITH_TWO = frozenset({"universal", "revolute2", "gearbox"})
 def describe(model: Model, source: Model, format: Format, origins: Mapping[str, Origins]) -> Robot:
     """The robot of a model; `source` is the model as the file has it."""
     shells: list[tuple[Frame, Model]] = []
-    model = flatten(model, lambda frame, shell: _noted(shells, frame, shell))
+    model = _without_made_root(flatten(model, lambda frame, shell: _noted(shells, frame, shell)))
     return _Description(model, format, origins).robot(source, shells)
 
 
 def _noted(shells: list[tuple[Frame, Model]], frame: Frame, shell: Model) -> Frame:
     shells.append((frame, shell))
     return frame
+
+
+def _without_made_root(model: Model) -> Model:
+    """The model without the link that was made because URDF needs one."""
+    link = model.links[0] if len(model.links) == 1 else None
+    if link is None or "." not in made_fields(link) or (link.inertial and link.inertial.mass):
+        return model
+    name = link.name
+    frames = (
+        frame.model_copy(update={"attached_to": MODEL}) if frame.attached_to == name else frame
+        for frame in model.frames
+    )
+    return model.model_copy(update={"links": (), "frames": tuple(frames), "canonical_link": None})
 
 
 class _Description:

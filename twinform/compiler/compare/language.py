@@ -1,5 +1,6 @@
 """Two files in one language: the robots of a document, said in the words of the newest SDF."""
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -31,7 +32,7 @@ class Robots:
 
 
 def read_robots(source: str | Path | bytes, how: Reading, *, name: str, model: str | None) -> Robots:
-    """The robots of a file, or the one that is called `model` where there are several.
+    """The robots of a file; where there are several and `model` names one, that one.
 
     Raises:
         CompileError: the file has an error, or no such model.
@@ -45,7 +46,7 @@ def read_robots(source: str | Path | bytes, how: Reading, *, name: str, model: s
         raise CompileError(checked.diagnostics, unreadable=checked.unreadable)
     notes = Notes(checked.path, how.strict, origins=dict(checked.origins))
     try:
-        robots = {each.name: each for each in _robots(checked, document, model, notes)}
+        robots = dict(_robots(checked, document, model, notes))
     except FrameError as error:
         error.report(notes)
         robots = {}
@@ -54,18 +55,21 @@ def read_robots(source: str | Path | bytes, how: Reading, *, name: str, model: s
     return Robots(checked.path, document.format, robots)
 
 
-def _robots(checked: Checked, document: Document, model: str | None, notes: Notes) -> Iterator[Robot]:
+def _robots(checked: Checked, document: Document, model: str | None, notes: Notes) -> Iterator[tuple[str, Robot]]:
+    """Each robot by its name, with its world's where several are called so."""
     said = Pipeline(_into_words_of_sdf(document)).run(document, notes)
     if notes.has_errors:
         return
-    names = [one.full_name for one in candidates(said)]
-    for name in [model] if model is not None or len(names) < 2 else dict.fromkeys(names):
+    names = list(dict.fromkeys(one.full_name for one in candidates(said)))
+    called = Counter(one.model.name for one in candidates(said))
+    for name in [None] if len(names) == 1 else names if model is None else [model]:
         chosen = SelectModel(model=name).run(said, notes)
         if notes.has_errors:
             return
         chosen = UniqueNames().run(chosen, Notes())  # before 1.7 a joint and a link could share theirs
         source = document.models[0] if document.format is Format.URDF else chosen.models[0]
-        yield describe(chosen.models[0], source, document.format, checked.origins)
+        robot = describe(chosen.models[0], source, document.format, checked.origins)
+        yield (robot.name if called[robot.name] == 1 or name is None else name), robot
 
 
 def _into_words_of_sdf(document: Document) -> tuple[Pass, ...]:

@@ -14,7 +14,7 @@ _NOT_COMPARED_IN_CARRIERS = frozenset({"pose"})
 """A carried shape is posed in the frame that its link had in the other file."""
 
 Pair = tuple[Part, Part]
-Fits = Callable[[Part, Part, Terms, Base], bool]
+Fits = Callable[[Part, Part], bool]
 
 
 def compare_leaves(
@@ -81,28 +81,54 @@ def _by_kind(parts: Iterable[Part]) -> dict[str, list[Part]]:
 
 def match(a: list[Part], b: list[Part], terms: Terms, base: Base) -> tuple[list[Pair], list[Part], list[Part]]:
     """Pairs of parts of one kind, and those of each robot that are left over."""
+    if not any(part.kind in _BY_CONTENT for part in (*a, *b)):
+        return _paired(a, b, _has_name)
+    pairs, left_a, left_b = _paired(a, b, lambda one, other: _has_name(one, other) and is_same(one, other, terms, base))
+    same, left_a, left_b = _paired(left_a, left_b, lambda one, other: is_same(one, other, terms, base))
+    alike = _most_alike(left_a, left_b, terms, base)
+    return [*pairs, *same, *alike], _rest(left_a, (one for one, _ in alike)), _rest(left_b, (one for _, one in alike))
+
+
+def _paired(a: list[Part], b: list[Part], fits: Fits) -> tuple[list[Pair], list[Part], list[Part]]:
+    """Each part with the first one that fits it and is still free."""
     pairs: list[Pair] = []
-    left_a, left_b = list(a), list(b)
-    for fits in _FITS if any(part.kind in _BY_CONTENT for part in (*a, *b)) else _FITS_BY_NAME:
-        for one in list(left_a):
-            found = next((other for other in left_b if fits(one, other, terms, base)), None)
-            if found is not None:
-                pairs.append((one, found))
-                left_a = [each for each in left_a if each is not one]
-                left_b = [each for each in left_b if each is not found]
-    return pairs, left_a, left_b
+    free = list(b)
+    for one in a:
+        found = next((index for index, other in enumerate(free) if fits(one, other)), None)
+        if found is not None:
+            pairs.append((one, free.pop(found)))
+    return pairs, _rest(a, (one for one, _ in pairs)), free
 
 
-def _has_name(a: Part, b: Part, _terms: Terms, _base: Base) -> bool:
+def _rest(parts: list[Part], taken: Iterable[Part]) -> list[Part]:
+    gone = {id(part) for part in taken}
+    return [part for part in parts if id(part) not in gone]
+
+
+def _has_name(a: Part, b: Part) -> bool:
     return a.name == b.name
 
 
-def _has_shape(a: Part, b: Part, _terms: Terms, _base: Base) -> bool:
-    return _shape(a) == _shape(b)
+def _most_alike(a: list[Part], b: list[Part], terms: Terms, base: Base) -> list[Pair]:
+    """Shapes that differ, the nearest first; two kinds of shape are the same one only where its name says so."""
+    near = [
+        (_distance(one, other, terms, base), i, j)
+        for i, one in enumerate(a)
+        for j, other in enumerate(b)
+        if _has_name(one, other) or _shape(one) == _shape(other)
+    ]
+    pairs: dict[int, int] = {}
+    for _, i, j in sorted(near):
+        if i not in pairs and j not in pairs.values():
+            pairs[i] = j
+    return [(a[i], b[j]) for i, j in sorted(pairs.items())]
 
 
-def _is_itself(a: Part, b: Part, terms: Terms, base: Base) -> bool:
-    return a.name == b.name and is_same(a, b, terms, base)
+def _distance(a: Part, b: Part, terms: Terms, base: Base) -> int:
+    """How many of the values differ; another name weighs as much as two of them."""
+    found = Findings(terms)
+    compare_leaves(found, Subject("", ""), a.leaves, b.leaves, base, carried=a.carried or b.carried)
+    return len(found.items) + (0 if _has_name(a, b) else 2)
 
 
 def _shape(part: Part) -> object:
@@ -113,14 +139,8 @@ def _shape(part: Part) -> object:
 def is_same(a: Part, b: Part, terms: Terms, base: Base) -> bool:
     """Whether two parts say the same but for their names."""
     found = Findings(terms)
-    subject = Subject("", "")
-    compare_leaves(found, subject, a.leaves, b.leaves, base, carried=a.carried or b.carried)
+    compare_leaves(found, Subject("", ""), a.leaves, b.leaves, base, carried=a.carried or b.carried)
     return not found.items
-
-
-_FITS: tuple[Fits, ...] = (_is_itself, is_same, _has_name, _has_shape)
-"""How shapes find each other, the surest way first."""
-_FITS_BY_NAME: tuple[Fits, ...] = (_has_name,)
 
 
 def unmatched(a: Iterable[Part], b: Iterable[Part], terms: Terms, base: Base) -> Iterator[Part]:
