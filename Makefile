@@ -12,7 +12,7 @@ SYNCED := .venv/.synced
 ORACLES := .venv/.oracles
 DEMO := out/demo
 
-.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle bench clean
+.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle sameness bench clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -79,6 +79,9 @@ versions: $(ORACLES) ## every SDF file in older versions and back, some before D
 
 oracle: $(ORACLES) ## Drake, libsdformat and urdfdom judge the conversions; writes docs/reference/oracle.md
 	$(BIN)/python -m benchmarks.oracle
+
+sameness: $(SYNCED) ## every conversion against its source by `twinform diff`; writes docs/reference/sameness.md
+	$(BIN)/python -m benchmarks.sameness
 
 bench: $(SYNCED) ## how fast it is; writes docs/reference/performance.md
 	$(BIN)/python -m benchmarks.bench

@@ -24,5 +24,7 @@ def test_the_commands_of_a_page_run(page: Path, tmp_path: Path, monkeypatch: pyt
     ]
     for command, *expected in (step.splitlines() for step in steps if step):
         done = CliRunner().invoke(main, shlex.split(command)[1:], catch_exceptions=False)
-        assert done.exit_code == 0, done.output
+        assert done.exit_code <= command.startswith("twinform diff"), (
+            done.output
+        )  # which ends with 1 to tell them apart
         assert all(line in done.output for line in expected), done.output

@@ -14,24 +14,32 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from twinform.compiler import CompileError, Conversion, check, convert, load, loads, write_atomically
+    from twinform.compiler.compare import Comparison, Difference, diff
     from twinform.diagnostics import Diagnostic, Ledger
     from twinform.ir import Document
 
 __version__ = "0.1.0"
 __all__ = [
+    "Comparison",
     "CompileError",
     "Conversion",
     "Diagnostic",
+    "Difference",
     "Document",
     "Ledger",
     "check",
     "convert",
+    "diff",
     "load",
     "loads",
     "write_atomically",
 ]
 
-_HOMES = {"Document": "twinform.ir", "Diagnostic": "twinform.diagnostics", "Ledger": "twinform.diagnostics"}
+_HOMES = {
+    **dict.fromkeys(("Comparison", "Difference", "diff"), "twinform.compiler.compare"),
+    **dict.fromkeys(("Diagnostic", "Ledger"), "twinform.diagnostics"),
+    "Document": "twinform.ir",
+}
 
 
 def __getattr__(name: str) -> object:

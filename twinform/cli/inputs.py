@@ -35,17 +35,22 @@ _OPTIONS = (
         default=True,
         help="Whether to expand .xacro files, which evaluates Python expressions in them; expand only what you trust.",
     ),
-    click.option(
-        "--expand-includes", is_flag=True, help="Read the files that includes name, and put them in their place."
-    ),
+)
+_EXPAND_INCLUDES = click.option(
+    "--expand-includes", is_flag=True, help="Read the files that includes name, and put them in their place."
 )
 
 
-def reading_options(command: Command) -> Command:
-    """Give a command the options that say how files are read."""
+def file_options(command: Command) -> Command:
+    """Give a command the options that say how a file is read."""
     for option in reversed(_OPTIONS):
         command = option(command)
     return command
+
+
+def reading_options(command: Command) -> Command:
+    """The same, and whether the files that it includes are read too."""
+    return file_options(_EXPAND_INCLUDES(command))
 
 
 class HowToRead(TypedDict):

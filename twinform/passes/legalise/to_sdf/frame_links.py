@@ -5,7 +5,7 @@ from typing import ClassVar, TypeVar
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf
 from twinform.ir import Collision, Element, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual
-from twinform.passes.legalise.carrier import carry, to_element
+from twinform.passes.legalise.carrier import carry, is_ours, to_element
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.to_sdf.name_shapes import name_all
 
@@ -126,14 +126,17 @@ def _carriers(node: Link | Joint) -> tuple[Opaque, ...]:
     return tuple(part for part in node.opaque if part.element is not None and part.element.name.startswith("{"))
 
 
+def _is_native(part: Opaque) -> bool:
+    """Whether it is SDF's own: carriers stay with the frame, and marks say something of the link that is gone."""
+    return not is_ours(part) and not (part.element is not None and part.element.name.startswith("{"))
+
+
 def _host(link: Link, guests: list[Link], notes: Notes) -> Link:
     if not guests:
         return link
     visuals = (*link.visuals, *(_placed(visual, guest.name) for guest in guests for visual in guest.visuals))
     collisions = (*link.collisions, *(_placed(one, guest.name) for guest in guests for one in guest.collisions))
-    plain = tuple(
-        _placed_element(part, guest.name) for guest in guests for part in guest.opaque if part not in _carriers(guest)
-    )
+    plain = tuple(_placed_element(part, guest.name) for guest in guests for part in guest.opaque if _is_native(part))
     return link.model_copy(
         update={
             "visuals": name_all(visuals, f"{link.name}_visual", notes),

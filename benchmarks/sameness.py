@@ -1,0 +1,187 @@
+"""Is every conversion the same robot, by our own comparison? `make sameness` writes docs/reference/sameness.md."""
+
+import sys
+import time
+import tomllib
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+from fnmatch import fnmatchcase
+from pathlib import Path
+
+import twinform
+from benchmarks.markdown import table, write
+from tests.corpus.examine import robots, rules_of
+from tests.corpus.files import CORPUS, MISSING, ROOT, CorpusFile, Kind, models
+from twinform.testing.oracles import libsdformat
+from twinform.testing.workers import Failure, run
+
+PAGE = ROOT / "docs" / "reference" / "sameness.md"
+KNOWN = Path(__file__).with_name("sameness_known.toml")
+CUT_OFF = 1e-5
+"""The tolerance for what libsdformat prints, which keeps six digits of some numbers."""
+MOST_SHOWN = 40
+INTRODUCTION = f"""# Is it still the same robot?
+
+Made by `make sameness`; only the seconds differ from run to run.
+
+Every robot of the corpus that is accepted and converted is compared with what it became, by `twinform diff` with its
+tolerance of 1e-9 (of a file with several models the first three, one by one). The last line is about what libsdformat
+12 makes of URDF files that it takes itself, compared with a tolerance of {CUT_OFF:g}. It lumps all fixed joints, which
+is no difference; what differs is what that conversion changes. *With notes* are those of the same ones that say
+something in another way."""
+
+
+class Way(StrEnum):
+    """What is compared with its source."""
+
+    TO_SDF = "URDF -> SDF"
+    TO_URDF = "SDF -> URDF"
+    LUMPED = "URDF -> SDF by libsdformat 12"
+
+
+class Verdict(StrEnum):
+    """What became of one conversion."""
+
+    SAME = "same"
+    COLOURS = "same but for materials"
+    DIFFERENT = "different"
+    REFUSED = "not converted"
+    CRASH = "crash"
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """A conversion and its verdict; `kinds` are the aspects that differ, without the names in them."""
+
+    name: str
+    way: Way
+    verdict: Verdict
+    cause: str = ""
+    kinds: tuple[str, ...] = ()
+    notes: int = 0
+    seconds: float = 0.0
+
+
+def main() -> int:
+    """Convert, compare, report, and fail where a robot changed."""
+    if not CORPUS.is_dir():
+        print(MISSING, file=sys.stderr)
+        return 1
+    outcomes = sorted(_outcomes(), key=lambda one: (one.way, one.name))
+    known = _known(outcomes)
+    write(PAGE, INTRODUCTION, *_sections(outcomes, known))
+    print(_totals(outcomes), f"written to {PAGE.relative_to(ROOT)}", sep="\n")
+    faults = [f"{one.name}: {one.verdict}: {one.cause}" for one in outcomes if _is_fault(one) and one.name not in known]
+    print(*faults, sep="\n", file=sys.stderr)
+    return 1 if faults else 0
+
+
+def judge(file: CorpusFile) -> tuple[Outcome, ...]:
+    """Convert every robot of a file and compare each with its source; no exception comes out of it."""
+    checked = twinform.check(file.path)
+    if checked.document is None or not checked.accepted:
+        return ()
+    way = Way.TO_SDF if file.kind is Kind.URDF else Way.TO_URDF
+    found = [_judged(file, way, robot) for robot in robots(checked.document)]
+    if way is Way.TO_SDF and libsdformat.available() and file.row.get("libsdformat12") == "ok":
+        found += _lumped(file)
+    return tuple(found)
+
+
+def _judged(file: CorpusFile, way: Way, robot: str | None) -> Outcome:
+    name = f"{file.name} {robot or ''}".strip()
+    try:
+        text = twinform.convert(file.path, to="sdf" if way is Way.TO_SDF else "urdf", model=robot).text
+        return _compared(file, name, way, text, robot)
+    except twinform.CompileError as error:
+        return Outcome(name, way, Verdict.REFUSED, ", ".join(rules_of(error.diagnostics)))
+    except Exception as error:  # noqa: BLE001 - every other exception is a fault to report
+        return Outcome(name, way, Verdict.CRASH, f"{type(error).__name__}: {error}")
+
+
+def _lumped(file: CorpusFile) -> Iterator[Outcome]:
+    text = libsdformat.printed(file.path)
+    if text is None:
+        return
+    try:
+        yield _compared(file, file.name, Way.LUMPED, text, None, CUT_OFF)
+    except twinform.CompileError as error:  # it prints prefixes that it does not declare
+        yield Outcome(file.name, Way.LUMPED, Verdict.REFUSED, ", ".join(rules_of(error.diagnostics)))
+
+
+def _compared(file: CorpusFile, name: str, way: Way, text: str, robot: str | None, tolerance: float = 1e-9) -> Outcome:
+    start = time.perf_counter()
+    found = twinform.diff(file.path, text.encode(), model=robot, tolerance=tolerance)
+    seconds = time.perf_counter() - start
+    kinds = tuple(dict.fromkeys(f"{each.group}: {_aspect(each.aspect)}" for each in found.differences))
+    if found.same:
+        return Outcome(name, way, Verdict.SAME, notes=len(found.notes), seconds=seconds)
+    verdict = Verdict.COLOURS if all("/material" in kind for kind in kinds) else Verdict.DIFFERENT
+    cause = found.differences[0].message.replace(found.a, "source").replace(found.b, "result")
+    return Outcome(name, way, verdict, cause, kinds, len(found.notes), seconds)
+
+
+def _aspect(path: str) -> str:
+    """A path without the names in it, so that equal causes read the same."""
+    if not path:
+        return "there or not"
+    kind, quote, rest = path.partition(" '")
+    end = rest.rpartition("'")[2]
+    return f"{kind}{end or ' there or not'}" if quote else path
+
+
+def _outcomes() -> Iterable[Outcome]:
+    for file, result in run(judge, models()):
+        if isinstance(result, Failure):
+            yield Outcome(file.name, Way.TO_SDF, Verdict.CRASH, result.cause)
+        else:
+            yield from result
+
+
+def _is_fault(outcome: Outcome) -> bool:
+    ours = outcome.way is not Way.LUMPED
+    return ours and outcome.verdict in {Verdict.DIFFERENT, Verdict.COLOURS, Verdict.CRASH}
+
+
+def _known(outcomes: list[Outcome]) -> dict[str, str]:
+    """The reasons, by file, for which a result is knowingly another robot."""
+    reasons: dict[str, str] = tomllib.loads(KNOWN.read_text(encoding="utf-8"))["different"]
+    faults = {one.name for one in outcomes if _is_fault(one)}
+    return {name: why for name in faults for glob, why in reasons.items() if fnmatchcase(name, glob)}
+
+
+def _sections(outcomes: list[Outcome], known: dict[str, str]) -> Iterator[str]:
+    yield _totals(outcomes)
+    ours = [one for one in outcomes if _is_fault(one)]
+    rows = [(one.name, one.cause, known.get(one.name, "not known")) for one in ours]
+    yield "## Conversions that are another robot\n\n" + (
+        table(["file", "first difference", "why"], rows) if rows else "None."
+    )
+    yield "## What libsdformat 12 changes, by aspect\n\n" + _by_kind(outcomes)
+
+
+def _totals(outcomes: list[Outcome]) -> str:
+    rows = [_row(way, [one for one in outcomes if one.way is way]) for way in Way]
+    return table(["conversion", "robots", *Verdict, "same, with notes", "seconds to compare"], rows)
+
+
+def _row(way: Way, found: list[Outcome]) -> tuple[object, ...]:
+    counts = Counter(one.verdict for one in found)
+    noted = sum(1 for one in found if one.verdict is Verdict.SAME and one.notes)
+    seconds = f"{sum(one.seconds for one in found):.1f}"
+    return (way, len(found), *(counts[verdict] for verdict in Verdict), noted, seconds)
+
+
+def _by_kind(outcomes: list[Outcome]) -> str:
+    found = [one for one in outcomes if one.way is Way.LUMPED]
+    counts = Counter(kind for one in found for kind in one.kinds)
+    example = {kind: one.name for one in reversed(found) for kind in one.kinds}
+    rows = sorted(((kind, count, example[kind]) for kind, count in counts.items()), key=lambda row: (-row[1], row[0]))
+    more = f"\n{len(rows) - MOST_SHOWN} more.\n" if len(rows) > MOST_SHOWN else ""
+    return table(["what", "files", "for example"], rows[:MOST_SHOWN]) + more if rows else "libsdformat 12 is not here."
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,40 @@
+"""Every conversion of a real file is the same robot, unless it is known why not."""
+
+import tomllib
+from fnmatch import fnmatchcase
+from pathlib import Path
+
+import pytest
+
+import twinform
+from tests.corpus.examine import robots
+from tests.corpus.files import ROOT, CorpusFile, Kind, chunks
+
+_EVERY = 4
+"""One file of so many is tried; `make sameness` tries all."""
+_KNOWN = tomllib.loads((ROOT / "benchmarks/sameness_known.toml").read_text(encoding="utf-8"))["different"]
+
+SAMPLE = {name: files[::_EVERY] for name, files in chunks().items()}
+
+
+@pytest.mark.parametrize("chunk", SAMPLE)
+def test_a_file_and_its_conversion_are_the_same_robot(corpus: Path, chunk: str):
+    assert corpus.is_dir()
+    tried = [file for file in SAMPLE[chunk] if not any(fnmatchcase(file.name, glob) for glob in _KNOWN)]
+    found = {file.name: difference for file in tried if (difference := _first_difference(file))}
+    assert found == {}
+
+
+def _first_difference(file: CorpusFile) -> str:
+    checked = twinform.check(file.path)
+    if checked.document is None or not checked.accepted:
+        return ""
+    for robot in robots(checked.document):
+        try:
+            text = twinform.convert(file.path, to="sdf" if file.kind is Kind.URDF else "urdf", model=robot).text
+        except twinform.CompileError:
+            continue
+        found = twinform.diff(file.path, text.encode(), model=robot)
+        if not found.same:
+            return found.differences[0].message
+    return ""

@@ -1,0 +1,64 @@
+"""`twinform diff`."""
+
+import os
+from typing import Unpack
+
+import click
+
+from twinform.cli.failure import FINDINGS, UNUSABLE
+from twinform.cli.findings import show
+from twinform.cli.inputs import HowToRead, file_options, how_to_read, inputs
+from twinform.compiler import CompileError
+from twinform.compiler.compare import TOLERANCE, Severity, compare_files
+from twinform.compiler.compare.reporters import REPORTERS, summary, text
+from twinform.diagnostics.reporters import Findings
+
+_COLOURS = {Severity.DIFFERENCE: "red", Severity.NOTE: "cyan"}
+_PAIR = 2
+
+
+@click.command("diff")
+@click.argument("words", metavar="A B [NAME:=VALUE...]", nargs=-1, required=True)
+@click.option("--format", "style", type=click.Choice(list(REPORTERS)), default="text", help="How to print differences.")
+@click.option("--model", metavar="NAME", help="The model to compare, where a file has several.")
+@click.option(
+    "--tolerance",
+    type=click.FloatRange(min=0),
+    default=TOLERANCE,
+    show_default=True,
+    help="What share of a value is rounding; of positions and angles, metres and radians.",
+)
+@file_options
+@click.pass_context
+def command(
+    ctx: click.Context,
+    words: tuple[str, ...],
+    style: str,
+    *,
+    model: str | None,
+    tolerance: float,
+    **how: Unpack[HowToRead],
+) -> None:
+    """Say whether two files describe the same robot.
+
+    Prints what differs, where and by how much, and notes on what is only said in another way. A and B are URDF, SDF,
+    xacro or JSON files, mixed as it comes; - is standard input. Arguments of xacro are written NAME:=VALUE. Exit code:
+    0 the same robot, 1 another one, 2 where a file could not be read or has errors.
+    """
+    sources, arguments = inputs(words)
+    if len(sources) != _PAIR:
+        raise click.UsageError("diff compares two files")
+    a, b = sources
+    try:
+        reading, names = how_to_read(arguments, **how), (a.name, b.name)
+        found = compare_files(a.content, b.content, reading, names=names, model=model, tolerance=tolerance)
+    except CompileError as error:
+        show(Findings(a.name, error.diagnostics), notes=False, on_stderr=True)
+        ctx.exit(UNUSABLE)
+    click.echo(text(found, _paint) if style == "text" else REPORTERS[style](found), nl=False)
+    click.echo(summary(found), err=True)
+    ctx.exit(0 if found.same else FINDINGS)
+
+
+def _paint(word: str, severity: Severity) -> str:
+    return word if os.environ.get("NO_COLOR") else click.style(word, fg=_COLOURS[severity], bold=True)

@@ -1,0 +1,101 @@
+"""What carriers hold counts as said: a robot does not change by travelling in the other format."""
+
+from collections.abc import Iterator
+from copy import deepcopy
+
+from lxml import etree
+
+from twinform.compiler.compare.leaves import CARRIED
+from twinform.passes.legalise.carrier import NAMESPACE
+from twinform.schemas import Fact, XmlElement, table
+
+_CARRIER = {name: f"{{{NAMESPACE}}}{name}" for name in ("sdf", "urdf", "version")}
+_COLOURS = ("ambient", "diffuse")
+_SCRIPT = "script"
+_OF_THE_FILE = frozenset({"pose", "version"})
+"""What says how the other file wrote it, and not what it says."""
+
+
+def unpack_sdf(element: XmlElement, fact: Fact) -> None:
+    """Put what carriers of SDF hold into their places in the tree, where nothing is said instead; it is marked."""
+    colours: dict[XmlElement, list[XmlElement]] = {}
+    for carrier in list(element.iter(_CARRIER["sdf"], _CARRIER["version"])):
+        parent = carrier.getparent()
+        if parent is None or _is_in_carrier(carrier) or carrier.get("instead") or carrier.get("without"):
+            continue
+        parent.remove(carrier)
+        at = carrier.get("at") or ""
+        if at.startswith("/"):
+            continue
+        name, value = carrier.get("attribute"), carrier.get("value")
+        if name is not None:
+            holder = _holder(parent, at)
+            holder.set(name, holder.get(name, value or ""))
+        for child in carrier:
+            if at == "material" and child.tag in _COLOURS:
+                colours.setdefault(parent, []).append(child)
+            else:
+                _graft(child, parent, at, fact if parent is element else None)
+    for visual, carried in colours.items():
+        _unpack_colours(visual, carried)
+
+
+def _is_in_carrier(carrier: XmlElement) -> bool:
+    return any(str(above.tag).startswith(f"{{{NAMESPACE}}}") for above in carrier.iterancestors())
+
+
+def _graft(child: XmlElement, parent: XmlElement, at: str, fact: Fact | None) -> None:
+    if child.tag in _OF_THE_FILE or not isinstance(child.tag, str):
+        return
+    repeats = fact is not None and not at and any(row.name == child.tag and row.repeats for row in fact.rows)
+    holder = _holder(parent, at)
+    said = None if repeats else holder.find(child.tag)
+    if said is None:
+        made = deepcopy(child)
+        made.set(CARRIED, "1")
+        holder.append(made)
+        return
+    if child.tag == _SCRIPT and said.findtext("name") == child.findtext("name"):  # a tag of URDF has no URI for it
+        holder.replace(said, deepcopy(child))
+        return
+    for inner in child:
+        _graft(inner, said, "", None)
+
+
+def _unpack_colours(visual: XmlElement, colours: list[XmlElement]) -> None:
+    """The two colours that URDF has one for, unless that one was changed since."""
+    material = _holder(visual, "material")
+    said = material.find("diffuse")
+    main = next((each for each in colours if each.tag == "diffuse"), colours[0])
+    if said is not None and _color(said) != _color(main):
+        return
+    for old in [child for name in _COLOURS for child in material.findall(name)]:
+        material.remove(old)
+    material.extend(deepcopy(each) for each in colours)
+
+
+def _color(element: XmlElement) -> tuple[float, ...]:
+    """As URDF has it: within 0 and 1, and with alpha."""
+    numbers = [min(1.0, max(0.0, float(word))) for word in (element.text or "").split()]
+    return (*numbers, *([1.0] if len(numbers) == 3 else []))  # red, green and blue
+
+
+def _holder(element: XmlElement, path: str) -> XmlElement:
+    for step in filter(None, path.split("/")):
+        found = element.find(step)
+        element = found if found is not None else etree.SubElement(element, step)
+    return element
+
+
+def urdf_pieces(element: XmlElement) -> Iterator[tuple[str, XmlElement]]:
+    """What the carriers of URDF directly in an element hold: where in it, and the carrier or an element in it."""
+    for carrier in element.findall(_CARRIER["urdf"]):
+        at = carrier.get("at") or ""
+        if carrier.get("attribute") is not None:
+            yield at, carrier
+        yield from ((at, child) for child in carrier if isinstance(child.tag, str))
+
+
+def definition(name: str) -> Fact:
+    """A definition of SDF's table."""
+    return table("sdf").definitions[name]

@@ -1,0 +1,181 @@
+"""From a model in the words of the newest SDF to the robot that it is."""
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+
+from twinform.compiler.compare.joint_values import joint_leaves
+from twinform.compiler.compare.leaves import THERE
+from twinform.compiler.compare.reading import Reading
+from twinform.compiler.compare.robot import Body, Hinge, Leaf, Mass, NamedFrame, Part, Robot
+from twinform.compiler.compare.values import turn_tensor
+from twinform.diagnostics import Origins
+from twinform.ir import Axis, Element, Format, Frame, Inertia, Inertial, Joint, Link, Model, Node, Pose, Vector3
+from twinform.ir.frames import MODEL, WORLD, FrameGraph
+from twinform.ir.transform import Transform
+from twinform.passes.legalise.carrier import is_carrier, unpack
+from twinform.passes.legalise.flattening import flatten
+from twinform.passes.legalise.marks import made_fields
+from twinform.schemas import element_xml
+
+_Z = (0.0, 0.0, 1.0)
+_WITHOUT_AXIS = frozenset({"fixed", "ball"})
+_WITH_TWO = frozenset({"universal", "revolute2", "gearbox"})
+
+
+def describe(model: Model, source: Model, format: Format, origins: Mapping[str, Origins]) -> Robot:
+    """The robot of a model; `source` is the model as the file has it."""
+    shells: list[tuple[Frame, Model]] = []
+    model = _without_made_root(flatten(model, lambda frame, shell: _noted(shells, frame, shell)))
+    return _Description(model, format, origins).robot(source, shells)
+
+
+def _noted(shells: list[tuple[Frame, Model]], frame: Frame, shell: Model) -> Frame:
+    shells.append((frame, shell))
+    return frame
+
+
+def _without_made_root(model: Model) -> Model:
+    """The model without the link that was made because URDF needs one."""
+    link = model.links[0] if len(model.links) == 1 else None
+    if link is None or "." not in made_fields(link) or (link.inertial and link.inertial.mass):
+        return model
+    name = link.name
+    frames = (
+        frame.model_copy(update={"attached_to": MODEL}) if frame.attached_to == name else frame
+        for frame in model.frames
+    )
+    return model.model_copy(update={"links": (), "frames": tuple(frames), "canonical_link": None})
+
+
+class _Description:
+    """One model on the way to be a robot."""
+
+    def __init__(self, model: Model, format: Format, origins: Mapping[str, Origins]) -> None:
+        self.model = model
+        self.format = format
+        self.graph = FrameGraph(model)
+        self.reading = Reading(self._resolve, origins)
+
+    def robot(self, source: Model, shells: Iterable[tuple[Frame, Model]]) -> Robot:
+        """All of it."""
+        model, identity = self.model, Transform()
+        leaves, parts = self.reading.parts(model, identity)
+        inner = [*(self._shell(shell, frame.name) for frame, shell in shells), *self._carried_shells()]
+        of_urdf = source if self.format is Format.URDF else Model(name="")
+        return Robot(
+            name=model.name,
+            format=self.format,
+            world=self.graph.pose(WORLD, MODEL, kind="world", base="model"),
+            bodies={link.name: self._body(link) for link in model.links},
+            joints={joint.name: self._joint(joint) for joint in model.joints if not _is_made_for_static(joint, model)},
+            frames={frame.name: self._frame(frame, of_urdf) for frame in model.frames},
+            models=frozenset(part.name for part in inner),
+            leaves=leaves,
+            parts=(*parts, *inner),
+            where=self.reading.place(model),
+        )
+
+    def _body(self, link: Link) -> Body:
+        frame = self.graph.pose(link.name, MODEL, base="model")
+        leaves, parts = self.reading.parts(link, frame)
+        mass = self._mass(link.inertial, link.name)
+        return Body(link.name, frame, mass, leaves, parts, self.reading.place(link))
+
+    def _mass(self, inertial: Inertial | None, link: str) -> Mass:
+        """SDF gives 1 kg and 1 kg m^2 to what says nothing."""
+        inertial = inertial or Inertial()
+        inertia = inertial.inertia or Inertia()
+        pose = self.graph.resolve(inertial.pose, link, MODEL, base="model")
+        moments = (
+            _or(inertia.ixx, 1.0), _or(inertia.iyy, 1.0), _or(inertia.izz, 1.0),
+            _or(inertia.ixy, 0.0), _or(inertia.ixz, 0.0), _or(inertia.iyz, 0.0),
+        )  # fmt: skip
+        return Mass(
+            _or(inertial.mass, 1.0),
+            pose.translation,
+            turn_tensor(pose, moments),
+            bool(inertial.auto),
+            self.reading.place(inertial),
+        )
+
+    def _joint(self, joint: Joint) -> Hinge:
+        frame = self.graph.pose(joint.name, MODEL, kind="joint", base="model")
+        leaves, parts = self.reading.parts(joint, frame)
+        return Hinge(
+            joint.name,
+            joint.type,
+            self._end(joint.parent),
+            self._end(joint.child),
+            frame,
+            tuple(self._axes(joint, frame)),
+            joint_leaves(joint, leaves),
+            parts,
+            self.reading.place(joint),
+        )
+
+    def _end(self, name: str | None) -> str:
+        """The link that an end of a joint moves with."""
+        return self.graph.body(name or WORLD)
+
+    def _axes(self, joint: Joint, frame: Transform) -> Iterator[Vector3]:
+        if joint.type in _WITHOUT_AXIS:
+            return
+        axes = (joint.axis, joint.axis2) if joint.type in _WITH_TWO else (joint.axis,)
+        for axis in (each or Axis() for each in axes):
+            turn = frame
+            if axis.expressed_in:
+                turn = self.graph.pose(axis.expressed_in, MODEL, kind="frame", base="model")
+            yield _unit(turn.rotate(axis.xyz or _Z))
+
+    def _frame(self, frame: Frame, source: Model) -> NamedFrame:
+        return NamedFrame(
+            frame.name,
+            self.graph.body(frame.name, kind="frame"),
+            self.graph.pose(frame.name, MODEL, kind="frame", base="model"),
+            was_link=any(link.name == frame.name for link in source.links),
+            was_joint=any(joint.name == frame.name for joint in source.joints),
+            where=self.reading.place(frame),
+        )
+
+    def _shell(self, shell: Model, name: str) -> Part:
+        """What a nested model says, but for its links, joints and frames."""
+        leaves, parts = self.reading.parts(shell, Transform())
+        inside = {f"{part.kind}[{part.name}]": Leaf(THERE, where=part.where) for part in parts}
+        inside |= {f"{part.kind}[{part.name}]/{path}": leaf for part in parts for path, leaf in part.leaves.items()}
+        return Part("model", name, {**leaves, **inside}, self.reading.place(shell))
+
+    def _carried_shells(self) -> Iterator[Part]:
+        """The same of nested models that travelled in URDF."""
+        for frame in self.model.frames:
+            for element in _carried(frame):
+                if element.name == "model":
+                    part = self.reading.element(element_xml(element), "model", self.reading.place(frame), Transform())
+                    leaves = {path: leaf for path, leaf in part.leaves.items() if path != "pose"}
+                    yield Part("model", frame.name, leaves, part.where, carried=True)
+
+    def _resolve(self, pose: Pose, holder: Transform) -> Transform:
+        if pose.relative_to:
+            holder = self.graph.pose(pose.relative_to, MODEL, kind="joint", base="model")
+        return holder.compose(Transform.from_pose(pose))
+
+
+def _carried(node: Node) -> Iterator[Element]:
+    for part in node.opaque:
+        if is_carrier(part, "sdf"):
+            yield from (piece.element for piece in unpack(part) if piece.element)
+
+
+def _is_made_for_static(joint: Joint, model: Model) -> bool:
+    """Whether it holds a link of a static model, which stands still anyway."""
+    return bool(model.static) and joint.type == "fixed" and "." in made_fields(joint)
+
+
+def _or(value: float | None, default: float) -> float:
+    return default if value is None else value
+
+
+def _unit(vector: Vector3) -> Vector3:
+    length = math.hypot(*vector)
+    if not length:
+        return vector
+    return (vector[0] / length, vector[1] / length, vector[2] / length)

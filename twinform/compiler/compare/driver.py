@@ -1,0 +1,97 @@
+"""Do two files describe the same robot?"""
+
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+
+from twinform.compiler.compare.comparison import Comparison, Difference
+from twinform.compiler.compare.findings import Findings, Subject, Terms
+from twinform.compiler.compare.judge import compare_robots
+from twinform.compiler.compare.language import Robots, read_robots
+from twinform.compiler.compare.robot import Robot
+from twinform.compiler.errors import CompileError
+from twinform.compiler.loading import Reading, garbage_collection_paused
+from twinform.compiler.uris import SearchPath
+from twinform.schemas import Engine
+
+TOLERANCE = 1e-9
+"""The share of a value, or of a metre or radian where it is smaller than that, up to which a difference is rounding."""
+
+
+def diff(
+    a: str | Path | bytes,
+    b: str | Path | bytes,
+    *,
+    model: str | None = None,
+    tolerance: float = TOLERANCE,
+    strict: bool = False,
+    engine: Engine = "libxml2",
+    paths: Iterable[str | Path] = (),
+    arguments: Mapping[str, str] | None = None,
+    xacro: bool = True,
+) -> Comparison:
+    """Compare the robots in two files, of either format; `model` names one where a file has several.
+
+    Without it the models of two worlds are compared by their names. `paths`, `arguments` and `xacro` are those of
+    `check`; includes are always expanded.
+
+    Raises:
+        CompileError: a file has an error; what was found is in its diagnostics.
+    """
+    how = Reading(strict, engine, SearchPath.of(paths), arguments or {}, xacro)
+    return compare_files(a, b, how, model=model, tolerance=tolerance)
+
+
+def compare_files(
+    a: str | Path | bytes,
+    b: str | Path | bytes,
+    how: Reading,
+    *,
+    names: tuple[str, str] = ("", ""),
+    model: str | None = None,
+    tolerance: float = TOLERANCE,
+) -> Comparison:
+    """`diff`, with all that it needs to know in one place.
+
+    Raises:
+        CompileError: a file has an error; where both have, the diagnostics are those of both.
+    """
+    names = (names[0] or _name(a, "a"), names[1] or _name(b, "b"))
+    with garbage_collection_paused():
+        robots: list[Robots] = []
+        errors: list[CompileError] = []
+        for source, name in zip((a, b), names, strict=True):
+            try:
+                robots.append(read_robots(source, how, name=name, model=model))
+            except CompileError as error:
+                errors.append(error)
+        if errors:
+            found = tuple(diagnostic for error in errors for diagnostic in error.diagnostics)
+            raise CompileError(found, unreadable=any(error.unreadable for error in errors))
+        one, other = robots
+        return Comparison(one.path, other.path, tolerance, tuple(_compared(one, other, tolerance)))
+
+
+def _name(source: str | Path | bytes, default: str) -> str:
+    return f"<{default}>" if isinstance(source, bytes) else str(source)
+
+
+def _compared(a: Robots, b: Robots, tolerance: float) -> Iterator[Difference]:
+    terms = Terms(a.path, b.path, a.format, b.format, tolerance)
+    if len(a.by_name) == len(b.by_name) == 1:
+        (one,), (other,) = a.by_name.values(), b.by_name.values()
+        yield from compare_robots(one, other, terms, several=False)
+        return
+    for name, robot in a.by_name.items():
+        if name in b.by_name:
+            yield from compare_robots(robot, b.by_name[name], terms, several=True)
+        else:
+            yield from _missing(robot, terms, in_a=True)
+    for name, robot in b.by_name.items():
+        if name not in a.by_name:
+            yield from _missing(robot, terms, in_a=False)
+
+
+def _missing(robot: Robot, terms: Terms, *, in_a: bool) -> list[Difference]:
+    found = Findings(terms)
+    found.lonely(Subject("model", robot.name), "", "model", robot.where, in_a=in_a)
+    return found.items

@@ -1,0 +1,165 @@
+"""Collects what differs, and decides how much it weighs."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from twinform.compiler.compare.comparison import Difference, Said, Severity
+from twinform.compiler.compare.robot import Leaf
+from twinform.compiler.compare.values import Gap, Value, gaps, show
+from twinform.diagnostics import Location
+from twinform.ir import Format
+from twinform.ir.transform import Transform
+
+
+@dataclass(frozen=True, slots=True)
+class Base:
+    """The frame that a value is seen from, in each of the robots."""
+
+    a: Transform = field(default_factory=Transform)
+    b: Transform = field(default_factory=Transform)
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """What a finding is about."""
+
+    group: str
+    name: str
+
+    def __str__(self) -> str:
+        return f"{self.group} {self.name!r}" if self.name else f"the {self.group}"
+
+
+@dataclass(frozen=True, slots=True)
+class Terms:
+    """What is the same for the whole comparison: the names and formats of the files, and the tolerance."""
+
+    a: str
+    b: str
+    format_a: Format
+    format_b: Format
+    tolerance: float
+
+    def differs(self, gap: Gap) -> bool:
+        """Whether it is more than rounding."""
+        return gap.exceeds(self.tolerance)
+
+    def worst(self, a: Value, b: Value, base: Base | None = None) -> list[Gap]:
+        """The gaps between two values that are more than rounding."""
+        if base is not None:
+            a, b = a.seen_from(base.a), b.seen_from(base.b)
+        return [gap for gap in gaps(a, b) if self.differs(gap)]
+
+
+@dataclass(slots=True)
+class Findings:
+    """What was found so far."""
+
+    terms: Terms
+    model: str = ""
+    items: list[Difference] = field(default_factory=list[Difference])
+
+    def values(
+        self,
+        subject: Subject,
+        aspect: str,
+        a: Value,
+        b: Value,
+        places: tuple[Location, Location],
+        base: Base | None = None,
+    ) -> None:
+        """Add the differences between two values, if there are any."""
+        self.gaps(subject, aspect, self.terms.worst(a, b, base), places)
+
+    def gaps(
+        self,
+        subject: Subject,
+        aspect: str,
+        found: Iterable[Gap],
+        places: tuple[Location, Location],
+        severity: Severity = Severity.DIFFERENCE,
+        message: str = "",
+    ) -> None:
+        """Add a difference for each of the gaps."""
+        for gap in found:
+            path = f"{aspect}/{gap.aspect}" if gap.aspect else aspect
+            words = message or f"{path} of {subject} is {gap.a} in {self.terms.a}, and {gap.b} in {self.terms.b}"
+            number = gap if gap.absolute != float("inf") or gap.unit else None
+            self._add(severity, subject, path, words, Said(gap.a, places[0]), Said(gap.b, places[1]), number)
+
+    def note(self, subject: Subject, aspect: str, message: str, places: tuple[Location, Location]) -> None:
+        """Add a note."""
+        self._add(Severity.NOTE, subject, aspect, message, Said(None, places[0]), Said(None, places[1]))
+
+    def lonely(
+        self,
+        subject: Subject,
+        aspect: str,
+        what: str,
+        where: Location,
+        *,
+        in_a: bool,
+        only: Format | None = None,
+        carried: bool = False,
+    ) -> None:
+        """Add what only one of the robots has; a note where the other's format has no word for it."""
+        terms = self.terms
+        here, other = (terms.a, terms.format_b) if in_a else (terms.b, terms.format_a)
+        name = f"{aspect} of {subject}" if aspect else str(subject)
+        message, severity = f"{name} is only in {here}", Severity.DIFFERENCE
+        if only is not None and other is not only:
+            message, severity = f"{name} is only in {here}: {other.upper()} has no word for it", Severity.NOTE
+        if carried:
+            message = f"{name} is only in {here}, where it travels unseen by other readers"
+        said = Said(what, where)
+        self._add(severity, subject, aspect, message, said if in_a else Said(), Said() if in_a else said)
+
+    def leaf(
+        self,
+        subject: Subject,
+        aspect: str,
+        pair: tuple[Leaf | None, Leaf | None],
+        base: Base,
+        places: tuple[Location, Location],
+    ) -> bool:
+        """Add the differences between two values; gives whether there are any.
+
+        One of them may not be written; `places` are where they could be.
+        """
+        before = len(self.items)
+        a, b = pair
+        if a is not None and b is not None:
+            self.values(subject, aspect, a.value, b.value, (a.where, b.where), base)
+        elif (one := a or b) is not None:
+            self._half_written(subject, aspect, one, places, in_a=a is not None)
+        return len(self.items) > before
+
+    def _half_written(
+        self, subject: Subject, aspect: str, one: Leaf, places: tuple[Location, Location], *, in_a: bool
+    ) -> None:
+        if one.default is None:
+            what = show(one.value)
+            self.lonely(subject, aspect, what, one.where, in_a=in_a, only=one.only, carried=one.carried)
+        elif in_a:
+            self.values(subject, aspect, one.value, one.default, (one.where, places[1]))
+        else:
+            self.values(subject, aspect, one.default, one.value, (places[0], one.where))
+
+    def _add(
+        self, severity: Severity, subject: Subject, aspect: str, message: str, a: Said, b: Said, gap: Gap | None = None
+    ) -> None:
+        self.items.append(
+            Difference(
+                severity=severity,
+                model=self.model,
+                group=subject.group,
+                name=subject.name,
+                aspect=aspect,
+                message=message,
+                a=a,
+                b=b,
+                absolute=gap.absolute if gap else None,
+                relative=gap.relative if gap else None,
+                unit=gap.unit if gap else "",
+            )
+        )

@@ -1,0 +1,103 @@
+"""The comparison of named frames, which one file may have as links without mass."""
+
+from collections.abc import Mapping
+
+from twinform.compiler.compare.findings import Base, Findings, Subject
+from twinform.compiler.compare.robot import NamedFrame, Robot
+from twinform.compiler.compare.values import Place, Words
+from twinform.ir import Format
+
+
+def compare_frames(findings: Findings, a: Robot, b: Robot, bases: Mapping[str, Base]) -> None:
+    """Compare the frames of both robots; a link of the same name stands for a frame too."""
+    for name, one in a.frames.items():
+        if name in b.frames:
+            _compare(findings, one, b.frames[name], bases, nested=name in a.models | b.models)
+    lonely_a, lonely_b = (
+        _without_like(findings, a, b, bases, in_a=True),
+        _without_like(findings, b, a, bases, in_a=False),
+    )
+    twins_a, twins_b = _twins(findings, lonely_a, a, b), _twins(findings, lonely_b, b, a)
+    renamed = set(twins_a.values()) & set(twins_b.values())
+    _report(
+        findings, lonely_a, (a, b), {name: twin for name, twin in twins_a.items() if twin not in renamed}, in_a=True
+    )
+    _report(
+        findings, lonely_b, (b, a), {name: twin for name, twin in twins_b.items() if twin not in renamed}, in_a=False
+    )
+
+
+def _compare(
+    findings: Findings, one: NamedFrame, other: NamedFrame, bases: Mapping[str, Base], *, nested: bool = False
+) -> None:
+    subject, places = Subject("frame", one.name), (one.where, other.where)
+    base = bases.get(one.body, Base())
+    findings.values(subject, "attached_to", Words(one.body), Words(other.body), places)
+    terms = findings.terms
+    if nested:
+        if terms.worst(Place(one.pose), Place(other.pose), base):
+            findings.note(subject, "frame", f"the nested model {one.name!r} is said in another frame", places)
+        return
+    findings.values(subject, "pose", Place(one.pose), Place(other.pose), places, base)
+    if one.was_link != other.was_link and not (one.lumped or other.lumped) and terms.format_a is not terms.format_b:
+        there = terms.b if one.was_link else terms.a
+        findings.note(subject, "", f"link {one.name!r}, which has no mass, is a frame in {there}", places)
+
+
+def _without_like(
+    findings: Findings, robot: Robot, other: Robot, bases: Mapping[str, Base], *, in_a: bool
+) -> list[NamedFrame]:
+    """The frames that the other robot has neither as a frame nor as a link; a link is compared here."""
+    lonely: list[NamedFrame] = []
+    for name, frame in robot.frames.items():
+        if name in other.frames or (frame.lumped and name not in other.bodies):
+            continue
+        body = other.bodies.get(name)
+        if body is None:
+            lonely.append(frame)
+            continue
+        like = NamedFrame(name, frame.body, body.frame, where=body.where)
+        pair = (frame, like) if in_a else (like, frame)
+        _compare(findings, pair[0], pair[1], bases)
+    return lonely
+
+
+def _report(
+    findings: Findings,
+    lonely: list[NamedFrame],
+    robots: tuple[Robot, Robot],
+    twins: Mapping[str, str],
+    *,
+    in_a: bool,
+) -> None:
+    """Frames of one robot: a note where nothing is lost with them, and nothing to say of joints that hold a frame."""
+    lumped = _is_lumped(*robots)
+    here, there = (findings.terms.a, findings.terms.b) if in_a else (findings.terms.b, findings.terms.a)
+    for frame in lonely:
+        subject, places = Subject("frame", frame.name), (frame.where, frame.where)
+        if frame.name in twins:
+            message = f"frame {frame.name!r} of {here} is where frame {twins[frame.name]!r} is"
+            if not frame.was_joint:
+                findings.note(subject, "", message, places)
+        elif lumped and (frame.was_link or frame.was_joint):
+            findings.note(subject, "", f"{frame.name!r} is a part of link {frame.body!r} in {there}", places)
+        else:
+            findings.lonely(subject, "", "frame", frame.where, in_a=in_a)
+
+
+def _twins(findings: Findings, lonely: list[NamedFrame], robot: Robot, other: Robot) -> dict[str, str]:
+    """For frames that one robot has: another one at the same place that both have, as fixed joints of URDF do."""
+    found: dict[str, str] = {}
+    for frame in lonely:
+        for name, like in robot.frames.items():
+            shared = name != frame.name and like.body == frame.body and (name in other.frames or name in other.bodies)
+            if shared and not findings.terms.worst(Place(frame.pose), Place(like.pose)):
+                found[frame.name] = name
+                break
+    return found
+
+
+def _is_lumped(robot: Robot, other: Robot) -> bool:
+    """Whether the other file is what a reader makes of URDF that has no frames for the links that it merges."""
+    formats = robot.format is Format.URDF and other.format is Format.SDF
+    return formats and not robot.frames.keys() & other.frames.keys()

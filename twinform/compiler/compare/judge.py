@@ -1,0 +1,174 @@
+"""The comparison of two robots, part by part."""
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
+from typing import TypeVar
+
+from twinform.compiler.compare.alignment import Alignment, align
+from twinform.compiler.compare.comparison import Difference, Severity
+from twinform.compiler.compare.findings import Base, Findings, Subject, Terms
+from twinform.compiler.compare.frames import compare_frames
+from twinform.compiler.compare.joint_values import joint_type
+from twinform.compiler.compare.kinematics import compare_kinematics
+from twinform.compiler.compare.lumping import Lumped, lump
+from twinform.compiler.compare.matching import compare_leaves, compare_parts
+from twinform.compiler.compare.robot import Body, Hinge, Leaves, Mass, Robot
+from twinform.compiler.compare.values import Direction, Flag, Gap, Numbers, Place, Point, Tensor, Words, gaps
+from twinform.ir.frames import WORLD
+
+Named = TypeVar("Named", Body, Hinge)
+_ABOUT_A_LINE = frozenset({"revolute", "continuous", "screw", "gearbox"})
+_ABOUT_A_POINT = frozenset({"ball", "universal", "revolute2"})
+"""Joints for which it matters where along the axis they are; others have no place at all, only directions."""
+
+
+def compare_robots(a: Robot, b: Robot, terms: Terms, *, several: bool) -> tuple[Difference, ...]:
+    """Everything in which two robots differ; where they are two of `several`, their place among these counts."""
+    return _Judge(lump(a, b), terms, several=several).run()
+
+
+class _Judge:
+    def __init__(self, lumped: Lumped, terms: Terms, *, several: bool) -> None:
+        self.a, self.b, self.lumped = lumped.a, lumped.b, lumped
+        self.terms = terms
+        self.several = several
+        self.subject = Subject("model", lumped.a.name if several else "")
+        self.found = Findings(terms, lumped.a.name if several else "")
+        self.alignment: Alignment = align(self.a, self.b, terms)
+
+    def run(self) -> tuple[Difference, ...]:
+        self._model()
+        self._note_lumped()
+        self._each("link", self.a.bodies, self.b.bodies, self._body)
+        self._each("joint", self.a.joints, self.b.joints, self._joint)
+        compare_frames(self.found, self.a, self.b, self.alignment.bases)
+        compare_kinematics(self.found, self.a, self.b, self.alignment.bases)
+        return tuple(self.found.items)
+
+    def _each(
+        self, group: str, a: Mapping[str, Named], b: Mapping[str, Named], compare: Callable[[Named, Named], None]
+    ) -> None:
+        for name, one in a.items():
+            if name in b:
+                compare(one, b[name])
+            else:
+                self.found.lonely(Subject(group, name), "", group, one.where, in_a=True)
+        for name, other in b.items():
+            if name not in a:
+                self.found.lonely(Subject(group, name), "", group, other.where, in_a=False)
+
+    def _note_lumped(self) -> None:
+        both = ((self.lumped.from_a, self.terms.b), (self.lumped.from_b, self.terms.a))
+        for into, file in both:
+            for name, host in into.items():
+                frame = (self.a if file == self.terms.b else self.b).frames[name]
+                message = f"link {name!r} is a part of link {host!r} in {file}"
+                self.found.note(Subject("link", name), "", message, (frame.where, frame.where))
+
+    def _model(self) -> None:
+        places = (self.a.where, self.b.where)
+        if self.a.name != self.b.name:
+            message = f"the model is called {self.a.name!r} in {self.terms.a}, and {self.b.name!r} in {self.terms.b}"
+            self.found.note(self.subject, "name", message, places)
+        compare_leaves(self.found, self.subject, self.a.leaves, self.b.leaves, Base(), places)
+        compare_parts(self.found, self.subject, self.a.parts, self.b.parts, Base())
+        self._placement()
+
+    def _placement(self) -> None:
+        """Where the model stands in the world, as far as its links kept their places in the model."""
+        roots = [name for name, base in self.alignment.bases.items() if name != WORLD and base == Base()]
+        away = self.terms.worst(Place(self.a.world.inverse()), Place(self.b.world.inverse()))
+        if not roots or not away:
+            return
+        counts = self.several or _stands(self.a) or _stands(self.b)
+        severity = Severity.DIFFERENCE if counts else Severity.NOTE
+        self.found.gaps(self.subject, "pose", away, (self.a.where, self.b.where), severity)
+
+    def _body(self, a: Body, b: Body) -> None:
+        subject, base = Subject("link", a.name), self.alignment.bases[a.name]
+        self._mass(subject, a.mass, b.mass, base)
+        compare_leaves(self.found, subject, a.leaves, b.leaves, base, (a.where, b.where))
+        compare_parts(self.found, subject, a.parts, b.parts, base)
+        if a.name in self.alignment.placed:
+            self.found.values(subject, "pose", Place(a.frame), Place(b.frame), (a.where, b.where))
+            return
+        moved = self.terms.worst(Place(a.frame), Place(b.frame), base)
+        if moved:
+            message = f"link {a.name!r} is said in another frame ({_amount(moved)} away)"
+            self.found.note(subject, "frame", message, (a.where, b.where))
+
+    def _mass(self, subject: Subject, a: Mass, b: Mass, base: Base) -> None:
+        places = (a.where, b.where)
+        if a.automatic or b.automatic:
+            self.found.values(subject, "inertial/auto", Flag(a.automatic), Flag(b.automatic), places)
+            return
+        self.found.values(subject, "inertial/mass", Numbers((a.mass,), "kg"), Numbers((b.mass,), "kg"), places)
+        if a.mass or b.mass:
+            self.found.values(subject, "inertial/center", Point(a.center), Point(b.center), places, base)
+            self.found.values(subject, "inertial/inertia", Tensor(a.tensor), Tensor(b.tensor), places, base)
+
+    def _joint(self, a: Hinge, b: Hinge) -> None:
+        subject, places = Subject("joint", a.name), (a.where, b.where)
+        for aspect, one, other in (("parent", a.parent, b.parent), ("child", a.child, b.child)):
+            self.found.values(subject, aspect, Words(one), Words(other), places)
+        one, other = joint_type(a.type), joint_type(b.type)
+        self.found.values(subject, "type", Words(one), Words(other), places)
+        base = self.alignment.bases.get(a.child, Base())
+        if a.parent == b.parent:
+            self._place_of_joint(subject, a, b)
+        if one == other:
+            for number, pair in enumerate(zip(a.axes, b.axes, strict=False)):
+                aspect = "axis2/xyz" if number else "axis/xyz"
+                self.found.values(subject, aspect, Direction(pair[0]), Direction(pair[1]), places, base)
+        compare_leaves(self.found, subject, *_same_kind(a, b), base, places)
+        compare_parts(self.found, subject, a.parts, b.parts, base)
+
+    def _place_of_joint(self, subject: Subject, a: Hinge, b: Hinge) -> None:
+        base = self.alignment.bases.get(a.parent, Base())
+        away = self.terms.worst(Place(a.frame), Place(b.frame), base)
+        if not away:
+            return
+        places = (a.where, b.where)
+        if a.child in self.alignment.moved or a.child not in self.alignment.bases:
+            self.found.gaps(subject, "pose", away, places)
+            return
+        off = [gap for gap in _off_axis(a, b, base) if self.terms.differs(gap)]
+        self.found.gaps(subject, "axis/position", off, places)
+        if not off:
+            message = f"joint {a.name!r} is said at another place, which changes nothing ({_amount(away)} away)"
+            self.found.note(subject, "frame", message, places)
+
+
+def _same_kind(a: Hinge, b: Hinge) -> tuple[Leaves, Leaves]:
+    """The values of two joints; of different types, those that both may have."""
+    if joint_type(a.type) == joint_type(b.type):
+        return a.leaves, b.leaves
+    both = a.leaves.keys() & b.leaves.keys()
+    one, other = ({path: leaf for path, leaf in each.leaves.items() if path in both} for each in (a, b))
+    return one, other
+
+
+def _off_axis(a: Hinge, b: Hinge, base: Base) -> Iterable[Gap]:
+    """How far the second joint is off the axis, or the centre, of the first."""
+    one, other = (Point(each.frame.translation).seen_from(to).xyz for each, to in ((a, base.a), (b, base.b)))
+    away = tuple(other[i] - one[i] for i in range(3))
+    if a.type in _ABOUT_A_LINE and a.axes:
+        axis = Direction(a.axes[0]).seen_from(base.a).xyz
+        along = sum(part * share for part, share in zip(away, axis, strict=True))
+        away = tuple(away[i] - along * axis[i] for i in range(3))
+    elif a.type not in _ABOUT_A_POINT:
+        return []
+    (gap,) = gaps(Point(one), Point(other))
+    return [replace(gap, absolute=math.hypot(*away), aspect="")]
+
+
+def _amount(gaps: Iterable[Gap]) -> str:
+    return ", ".join(f"{gap.absolute:.3g} {gap.unit}" for gap in gaps)
+
+
+def _stands(robot: Robot) -> bool:
+    """Whether a robot is held by the world."""
+    static = robot.leaves.get("static")
+    held = any(WORLD in (joint.parent, joint.child) for joint in robot.joints.values())
+    return held or (static is not None and static.value == Flag(True))

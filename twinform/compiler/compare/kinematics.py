@@ -1,0 +1,127 @@
+"""Where every link is when the joints move: forward kinematics of both robots at the same joint positions."""
+
+import math
+import zlib
+from collections.abc import Iterator, Mapping
+from random import Random
+
+from twinform.compiler.compare.findings import Base, Findings, Subject
+from twinform.compiler.compare.joint_values import joint_type, number_of
+from twinform.compiler.compare.robot import Hinge, Robot, carriers
+from twinform.compiler.compare.values import Gap, Place, Words, gaps
+from twinform.ir import Vector3
+from twinform.ir.transform import Transform
+
+SAMPLES = 5
+_AXES: tuple[Vector3, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+_FULL_TURN = 2 * math.pi
+_STILL = Transform()
+
+
+def compare_kinematics(findings: Findings, a: Robot, b: Robot, bases: Mapping[str, Base]) -> None:
+    """Report the link that is furthest from where it is in the other robot, over all samples."""
+    worst: dict[str, tuple[Gap, str]] = {}
+    one = Moving(a, {name: base.a for name, base in bases.items()})
+    other = Moving(b, {name: base.b for name, base in bases.items()})
+    names = [name for name in a.bodies if name in bases]
+    for sample in range(SAMPLES):
+        for name, pose, like in zip(names, one.poses(names, sample), other.poses(names, sample), strict=True):
+            for gap in gaps(Place(pose), Place(like)):
+                known = worst.get(gap.aspect)
+                if findings.terms.differs(gap) and (known is None or known[0].absolute < gap.absolute):
+                    worst[gap.aspect] = (gap, name)
+    for gap, name in worst.values():
+        message = f"link {name!r} is up to {gap.absolute:.3g} {gap.unit} elsewhere at sampled joint positions"
+        places = (a.bodies[name].where, b.bodies[name].where)
+        findings.gaps(Subject("kinematics", name), "pose", [gap], places, message=message)
+
+
+class Moving:
+    """A robot whose joints stand somewhere; `bases` are the frames of its links that are looked at."""
+
+    def __init__(self, robot: Robot, bases: Mapping[str, Transform]) -> None:
+        self.robot = robot
+        self.bases = bases
+        self.hung = carriers(robot)
+
+    def poses(self, names: list[str], sample: int) -> Iterator[Transform]:
+        """The frame of each link at the joint positions of a sample, in that of the root that it hangs from."""
+        moved: dict[str, Transform] = {}
+        for name in names:
+            pose = self._moved(name, sample, moved).compose(self.bases[name])
+            yield self.bases.get(self._root(name), _STILL).inverse().compose(pose)
+
+    def _root(self, name: str) -> str:
+        while name in self.hung:
+            name = self.hung[name].parent
+        return name
+
+    def _moved(self, name: str, sample: int, moved: dict[str, Transform]) -> Transform:
+        """How a link has moved from where it is with every joint at zero, in the model's frame."""
+        path: list[str] = []
+        while name not in moved and name in self.hung:
+            path.append(name)
+            name = self.hung[name].parent
+        motion = moved.get(name, _STILL)
+        for each in reversed(path):
+            motion = moved[each] = motion.compose(self._motion(self.hung[each], sample))
+        return motion
+
+    def _motion(self, joint: Hinge, sample: int) -> Transform:
+        type, position = joint_type(joint.type), joint.frame.translation
+        if type == "fixed":
+            return _STILL
+        if type == "prismatic":
+            (axis,) = joint.axes
+            return Transform(_times(axis, self._position(joint.name, 0, sample)))
+        axes = _AXES if type == "ball" else joint.axes
+        turned = _STILL
+        for number, axis in enumerate(axes):
+            angle = self._position(joint.name, number, sample)
+            turned = turned.compose(_turn(axis, angle, position, self._advance(joint, angle)))
+        return turned
+
+    def _advance(self, joint: Hinge, angle: float) -> float:
+        """How far a screw goes."""
+        if joint.type != "screw":
+            return 0.0
+        return angle / _FULL_TURN * number_of(joint.leaves.get("screw_thread_pitch"), 1.0)
+
+    def _position(self, name: str, axis: int, sample: int, depth: int = 0) -> float:
+        """Where a joint stands: by its name alone, from -1 to 1, or where the joint is that it mimics."""
+        joint = self.robot.joints.get(name)
+        leader = joint.leaves.get(f"{_axis(axis)}/mimic/@joint") if joint else None
+        if joint is None or leader is None or not isinstance(leader.value, Words) or depth > len(self.robot.joints):
+            return Random(zlib.crc32(f"{name}/{axis}/{sample}".encode())).uniform(-1, 1)  # noqa: S311 - not a secret
+        words = joint.leaves.get(f"{_axis(axis)}/mimic/@axis")
+        second = words is not None and words.value == Words("axis2")
+        multiplier, offset = (joint.leaves.get(f"{_axis(axis)}/mimic/{part}") for part in ("multiplier", "offset"))
+        position = self._position(leader.value.text, int(second), sample, depth + 1)
+        return number_of(multiplier, 1.0) * position + number_of(offset, 0.0)
+
+
+def _axis(number: int) -> str:
+    return "axis2" if number else "axis"
+
+
+def _times(vector: Vector3, factor: float) -> Vector3:
+    return (vector[0] * factor, vector[1] * factor, vector[2] * factor)
+
+
+def _turn(axis: Vector3, angle: float, center: Vector3, advance: float) -> Transform:
+    """The rotation about a line (Rodrigues), and the way along it."""
+    x, y, z = axis
+    c, s = math.cos(angle), math.sin(angle)
+    v = 1 - c
+    turn = Transform(
+        rotation=(
+            c + x * x * v, x * y * v - z * s, x * z * v + y * s,
+            x * y * v + z * s, c + y * y * v, y * z * v - x * s,
+            x * z * v - y * s, y * z * v + x * s, c + z * z * v,
+        )
+    )  # fmt: skip
+    back = turn.rotate(center)
+    shift = _times(axis, advance)
+    return Transform(
+        (center[0] - back[0] + shift[0], center[1] - back[1] + shift[1], center[2] - back[2] + shift[2]), turn.rotation
+    )

@@ -1,0 +1,79 @@
+"""Two files in one language: the robots of a document, said in the words of the newest SDF."""
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from twinform.compiler.compare.describe import describe
+from twinform.compiler.compare.robot import Robot
+from twinform.compiler.errors import CompileError
+from twinform.compiler.includes import expand
+from twinform.compiler.loading import Checked, Reading, read
+from twinform.diagnostics import Notes
+from twinform.ir import Document, Format
+from twinform.ir.frames import FrameError
+from twinform.passes import Pass, Pipeline
+from twinform.passes.legalise.candidates import candidates, wanted_includes
+from twinform.passes.legalise.sdf_versions import raise_words
+from twinform.passes.legalise.to_sdf import to_sdf
+from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
+from twinform.passes.legalise.to_urdf.select_model import SelectModel
+from twinform.schemas import table
+
+
+@dataclass(frozen=True, slots=True)
+class Robots:
+    """The robots of a file by their names."""
+
+    path: str
+    format: Format
+    by_name: dict[str, Robot]
+
+
+def read_robots(source: str | Path | bytes, how: Reading, *, name: str, model: str | None) -> Robots:
+    """The robots of a file; where there are several and `model` names one, that one.
+
+    Raises:
+        CompileError: the file has an error, or no such model.
+    """
+    checked = read(source, how, name=name)
+    if checked.accepted:
+        wanted = wanted_includes(checked.document, model) if model is not None else None
+        checked = expand(checked, how, wanted=wanted)
+    document = checked.document
+    if document is None or not checked.accepted:
+        raise CompileError(checked.diagnostics, unreadable=checked.unreadable)
+    notes = Notes(checked.path, how.strict, origins=dict(checked.origins))
+    try:
+        robots = dict(_robots(checked, document, model, notes))
+    except FrameError as error:
+        error.report(notes)
+        robots = {}
+    if notes.has_errors:
+        raise CompileError(tuple(notes.diagnostics))
+    return Robots(checked.path, document.format, robots)
+
+
+def _robots(checked: Checked, document: Document, model: str | None, notes: Notes) -> Iterator[tuple[str, Robot]]:
+    """Each robot by its name, with its world's where several are called so."""
+    said = Pipeline(_into_words_of_sdf(document)).run(document, notes)
+    if notes.has_errors:
+        return
+    names = list(dict.fromkeys(one.full_name for one in candidates(said)))
+    called = Counter(one.model.name for one in candidates(said))
+    for name in [None] if len(names) == 1 else names if model is None else [model]:
+        chosen = SelectModel(model=name).run(said, notes)
+        if notes.has_errors:
+            return
+        chosen = UniqueNames().run(chosen, Notes())  # before 1.7 a joint and a link could share theirs
+        source = document.models[0] if document.format is Format.URDF else chosen.models[0]
+        robot = describe(chosen.models[0], source, document.format, checked.origins)
+        yield (robot.name if called[robot.name] == 1 or name is None else name), robot
+
+
+def _into_words_of_sdf(document: Document) -> tuple[Pass, ...]:
+    newest = table("sdf").versions[-1]
+    if document.format is Format.URDF:
+        return to_sdf(newest, carriers=True)
+    return raise_words(document.version)

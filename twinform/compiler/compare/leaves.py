@@ -1,0 +1,188 @@
+"""The values in an XML tree of SDF, each with its kind, its unit and its default from the table of facts."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+
+from twinform.compiler.compare.robot import Leaf
+from twinform.compiler.compare.values import Flag, Numbers, Place, Value, Words
+from twinform.diagnostics import Location
+from twinform.ir import Pose
+from twinform.ir.transform import Transform
+from twinform.passes.legalise.carrier import NAMESPACE, from_xml
+from twinform.passes.legalise.element_poses import read_pose
+from twinform.passes.legalise.to_sdf.gazebo_tags import SCRIPT_URI
+from twinform.schemas import Fact, XmlElement, parse_value, table
+
+CARRIED = f"{{{NAMESPACE}}}carried"
+"""The attribute of elements that came out of a carrier."""
+_OURS = f"{{{NAMESPACE}}}"
+_SAYS_BY_BEING_THERE = frozenset({"geometry", "material", "mimic"})
+"""Containers that mean something without a word in them; which shape is in a geometry is a value of it."""
+_WITHOUT_MEANING = frozenset({"frame"})
+"""Elements of older versions that no reader looks at."""
+_ANY_NUMBER = frozenset({"double", "int", "uint", "vector3", "vector2d", "vector2i", "quaternion", "time"})
+_COLORS = frozenset({"color", "color4"})
+_POSES = frozenset({"pose", "inertial_pose"})
+_WITH_ALPHA = 4
+THERE = Words("there")
+"""What says that a thing is there at all."""
+
+Resolve = Callable[[Pose, Transform], Transform]
+"""Where a pose is in the model, which is in a frame that is there unless it names another: (pose, frame)"""
+
+
+@dataclass(frozen=True, slots=True)
+class Walk:
+    """A walk over one XML tree; `where` says where the part at a path was written."""
+
+    resolve: Resolve
+    where: Callable[[str], Location]
+    skipped: frozenset[str] = frozenset()
+    found: dict[str, Leaf] = field(default_factory=dict[str, Leaf])
+
+    def enter(
+        self, element: XmlElement, fact: Fact, holder: Transform, path: str = "", *, carried: bool = False
+    ) -> None:
+        """Take in an element whose rows are those of `fact`; poses in it are relative to `holder`."""
+        rows = _rows(fact)
+        here = self._pose(element, rows, holder, path, carried=carried)
+        self._attributes(element, rows, path, carried=carried)
+        for key, child in _keyed(element, rows):
+            if f"{path}{child.tag}" not in self.skipped and child.tag not in _WITHOUT_MEANING:
+                self._child(child, rows.get(str(child.tag)), here, f"{path}{key}", carried=carried)
+
+    def enter_free(self, element: XmlElement, path: str, *, carried: bool = False) -> None:
+        """Take in content that no table describes."""
+        for name, value in element.items():
+            if not str(name).startswith(_OURS):
+                self._put(_join(path, f"@{name}"), _guess(str(value)), None, carried=carried)
+        text = (element.text or "").strip()
+        if text or not (len(element) or element.keys()):
+            self._put(path or "text", _guess(text), None, carried=carried)
+        for key, child in _keyed(element, {}):
+            self.enter_free(child, _join(path, key), carried=carried)
+
+    def _pose(
+        self, element: XmlElement, rows: dict[str, Fact], holder: Transform, path: str, *, carried: bool
+    ) -> Transform:
+        if "pose" not in rows or f"{path}pose" in self.skipped:
+            return holder
+        written = element.find("pose")
+        pose = Pose() if written is None else read_pose(from_xml(written))
+        here = self.resolve(pose, holder)
+        self._put(f"{path}pose", Place(here), None, carried=carried)
+        return here
+
+    def _attributes(self, element: XmlElement, rows: dict[str, Fact], path: str, *, carried: bool) -> None:
+        for name, text in element.items():
+            if name == "name" or str(name).startswith(_OURS) or f"{path}@{name}" in self.skipped:
+                continue
+            row = rows.get(f"@{name}")
+            self._put(f"{path}@{name}", _value(str(text), row), _default(row), carried=carried)
+
+    def _child(self, child: XmlElement, row: Fact | None, here: Transform, path: str, *, carried: bool) -> None:
+        carried = carried or child.get(CARRIED) is not None
+        if row is None or row.any:
+            self.enter_free(child, path, carried=carried)
+        elif row.reference in _POSES:
+            return
+        elif row.type is not None and row.reference is None:
+            self._leaf(child, row, path, carried=carried)
+        else:
+            self._container(child, row, here, path, carried=carried)
+
+    def _leaf(self, child: XmlElement, row: Fact, path: str, *, carried: bool) -> None:
+        text = (child.text or "").strip()
+        if text:
+            self._put(path, _value(text, row), _default(row), carried=carried)
+        self._attributes(child, _rows(row), f"{path}/", carried=carried)
+
+    def _container(self, child: XmlElement, row: Fact, here: Transform, path: str, *, carried: bool) -> None:
+        fact = table("sdf").resolve(row)
+        inner = [one for one in child if isinstance(one.tag, str) and not one.tag.startswith(_OURS)]
+        if row.name == "geometry":
+            self._put(path, Words(str(inner[0].tag) if inner else "empty"), None, carried=carried)
+        elif row.repeats or (row.name in _SAYS_BY_BEING_THERE and (inner or _own_keys(child))):
+            self._put(path, THERE, None, carried=carried)
+        if fact.any:
+            self.enter_free(child, path, carried=carried)
+            self.found.pop(f"{path}/@name", None)  # it is in the path
+        else:
+            self.enter(child, fact, here, f"{path}/", carried=carried)
+
+    def _put(self, path: str, value: Value, default: Value | None, *, carried: bool) -> None:
+        """Of what is said twice, the first counts."""
+        self.found.setdefault(path, Leaf(value, default, self.where(path), carried=carried))
+
+
+def _own_keys(element: XmlElement) -> list[str]:
+    return [str(name) for name in element.keys() if not str(name).startswith(_OURS)]  # noqa: SIM118 - lxml iterates children
+
+
+def _join(path: str, step: str) -> str:
+    return f"{path}/{step}" if path else step
+
+
+def _rows(fact: Fact) -> dict[str, Fact]:
+    """The rows by name; of several, that of the newest version."""
+    found: dict[str, Fact] = {}
+    for row in fact.rows:
+        if row.name not in found or row.until > found[row.name].until:
+            found[row.name] = row
+    return found
+
+
+def _keyed(element: XmlElement, rows: dict[str, Fact]) -> Iterator[tuple[str, XmlElement]]:
+    """The children, but for carriers, with what tells them from their like: a name, else a number."""
+    seen: dict[str, int] = {}
+    for child in element:
+        if not isinstance(child.tag, str) or child.tag.startswith(_OURS):
+            continue
+        row, name = rows.get(child.tag), child.get("name")
+        if row is not None and not row.repeats:
+            yield child.tag, child
+            continue
+        key = f"{child.tag}[{name}]" if row is not None and name else child.tag
+        seen[key] = seen.get(key, 0) + 1
+        yield (key if seen[key] == 1 else f"{key}[{seen[key]}]"), child
+
+
+def _value(text: str, row: Fact | None) -> Value:
+    if row is None or row.type is None:
+        return _guess(text)
+    try:
+        parsed = parse_value(row.type, text)
+    except ValueError:
+        return Words(text)
+    if isinstance(parsed, bool):
+        return Flag(parsed)
+    if row.type in _COLORS or row.type in _ANY_NUMBER:
+        numbers = tuple(map(float, text.split())) if isinstance(parsed, tuple) else (float(str(parsed)),)
+        return Numbers(_with_alpha(numbers) if row.type in _COLORS else numbers, row.unit or "")
+    return words(text)
+
+
+def _with_alpha(color: tuple[float, ...]) -> tuple[float, ...]:
+    return color if len(color) == _WITH_ALPHA else (*color, 1.0)
+
+
+def _default(row: Fact | None) -> Value | None:
+    if row is None:
+        return None
+    if row.name == "uri" and row.type == "string" and row.count == "+":  # of a script, the only one that may repeat
+        return Words(SCRIPT_URI)
+    return _value(row.default, row) if row.default is not None else None
+
+
+def _guess(text: str) -> Value:
+    """Numbers where all words are, else the text with single blanks."""
+    try:
+        numbers = tuple(map(float, text.split()))
+    except ValueError:
+        return words(" ".join(text.split()))
+    return Numbers(numbers) if numbers and "_" not in text else words(text.strip())
+
+
+def words(text: str) -> Words:
+    """A text; the scheme in which ROS names files in packages is that of Gazebo."""
+    return Words(text.replace("package://", "model://", 1) if text.startswith("package://") else text)

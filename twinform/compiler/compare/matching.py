@@ -1,0 +1,152 @@
+"""Which part of one robot is which of the other: by name, and shapes, whose names mean little, by what they are."""
+
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator
+
+from twinform.compiler.compare.findings import Base, Findings, Subject, Terms
+from twinform.compiler.compare.robot import Leaf, Leaves, Part
+from twinform.compiler.compare.values import Place
+from twinform.diagnostics import NOWHERE, Location
+
+_BY_CONTENT = frozenset({"visual", "collision"})
+"""Parts that converters rename, and that nothing but a name tells apart."""
+_NOT_COMPARED_IN_CARRIERS = frozenset({"pose"})
+"""A carried shape is posed in the frame that its link had in the other file."""
+
+Pair = tuple[Part, Part]
+Fits = Callable[[Part, Part], bool]
+
+
+def compare_leaves(
+    findings: Findings,
+    subject: Subject,
+    a: Leaves,
+    b: Leaves,
+    base: Base,
+    places: tuple[Location, Location] = (NOWHERE, NOWHERE),
+    aspect: str = "",
+    *,
+    carried: bool = False,
+) -> None:
+    """Compare all values; below one that says of what kind a thing is, nothing is compared when the kinds differ."""
+    closed: list[str] = []
+    for path in sorted(a.keys() | b.keys()):
+        if any(path.startswith(f"{above}/") for above in closed):
+            continue
+        if carried and path in _NOT_COMPARED_IN_CARRIERS:
+            continue
+        pair = (a.get(path), b.get(path))
+        if _is_absent_pose(pair):
+            continue
+        name = f"{aspect}/{path}" if aspect else path
+        if findings.leaf(subject, name, pair, base, places):
+            closed.append(path)
+
+
+def _is_absent_pose(pair: tuple[Leaf | None, Leaf | None]) -> bool:
+    """Whether it is the place of something that one robot does not have, which its other values say."""
+    one = pair[0] or pair[1]
+    return None in pair and one is not None and isinstance(one.value, Place)
+
+
+def compare_parts(findings: Findings, subject: Subject, a: Iterable[Part], b: Iterable[Part], base: Base) -> None:
+    """Compare the parts of two links, joints or models."""
+    groups_a, groups_b = _by_kind(a), _by_kind(b)
+    for kind in sorted(groups_a.keys() | groups_b.keys()):
+        pairs, only_a, only_b = match(groups_a.get(kind, []), groups_b.get(kind, []), findings.terms, base)
+        for one, other in pairs:
+            name = f"{kind} {one.name!r}"
+            carried, places = one.carried or other.carried, (one.where, other.where)
+            compare_leaves(findings, subject, one.leaves, other.leaves, base, places, name, carried=carried)
+            _note_renamed(findings, subject, one, other)
+        for in_a, rest in ((True, only_a), (False, only_b)):
+            for part in rest:
+                name = f"{kind} {part.name!r}"
+                findings.lonely(subject, name, kind, part.where, in_a=in_a, only=part.only, carried=part.carried)
+
+
+def _note_renamed(findings: Findings, subject: Subject, a: Part, b: Part) -> None:
+    terms = findings.terms
+    if a.name != b.name and terms.format_a is terms.format_b:
+        message = f"{a.kind} {a.name!r} of {subject} is called {b.name!r} in {terms.b}"
+        findings.note(subject, f"{a.kind} {a.name!r}/name", message, (a.where, b.where))
+
+
+def _by_kind(parts: Iterable[Part]) -> dict[str, list[Part]]:
+    found = defaultdict[str, list[Part]](list)
+    for part in parts:
+        found[part.kind].append(part)
+    return found
+
+
+def match(a: list[Part], b: list[Part], terms: Terms, base: Base) -> tuple[list[Pair], list[Part], list[Part]]:
+    """Pairs of parts of one kind, and those of each robot that are left over."""
+    if not any(part.kind in _BY_CONTENT for part in (*a, *b)):
+        return _paired(a, b, _has_name)
+    pairs, left_a, left_b = _paired(a, b, lambda one, other: _has_name(one, other) and is_same(one, other, terms, base))
+    same, left_a, left_b = _paired(left_a, left_b, lambda one, other: is_same(one, other, terms, base))
+    alike = _most_alike(left_a, left_b, terms, base)
+    return [*pairs, *same, *alike], _rest(left_a, (one for one, _ in alike)), _rest(left_b, (one for _, one in alike))
+
+
+def _paired(a: list[Part], b: list[Part], fits: Fits) -> tuple[list[Pair], list[Part], list[Part]]:
+    """Each part with the first one that fits it and is still free."""
+    pairs: list[Pair] = []
+    free = list(b)
+    for one in a:
+        found = next((index for index, other in enumerate(free) if fits(one, other)), None)
+        if found is not None:
+            pairs.append((one, free.pop(found)))
+    return pairs, _rest(a, (one for one, _ in pairs)), free
+
+
+def _rest(parts: list[Part], taken: Iterable[Part]) -> list[Part]:
+    gone = {id(part) for part in taken}
+    return [part for part in parts if id(part) not in gone]
+
+
+def _has_name(a: Part, b: Part) -> bool:
+    return a.name == b.name
+
+
+def _most_alike(a: list[Part], b: list[Part], terms: Terms, base: Base) -> list[Pair]:
+    """Shapes that differ, the nearest first; two kinds of shape are the same one only where its name says so."""
+    near = [
+        (_distance(one, other, terms, base), i, j)
+        for i, one in enumerate(a)
+        for j, other in enumerate(b)
+        if _has_name(one, other) or _shape(one) == _shape(other)
+    ]
+    pairs: dict[int, int] = {}
+    for _, i, j in sorted(near):
+        if i not in pairs and j not in pairs.values():
+            pairs[i] = j
+    return [(a[i], b[j]) for i, j in sorted(pairs.items())]
+
+
+def _distance(a: Part, b: Part, terms: Terms, base: Base) -> int:
+    """How many of the values differ; another name weighs as much as two of them."""
+    found = Findings(terms)
+    compare_leaves(found, Subject("", ""), a.leaves, b.leaves, base, carried=a.carried or b.carried)
+    return len(found.items) + (0 if _has_name(a, b) else 2)
+
+
+def _shape(part: Part) -> object:
+    leaf = part.leaves.get("geometry")
+    return leaf.value if leaf else None
+
+
+def is_same(a: Part, b: Part, terms: Terms, base: Base) -> bool:
+    """Whether two parts say the same but for their names."""
+    found = Findings(terms)
+    compare_leaves(found, Subject("", ""), a.leaves, b.leaves, base, carried=a.carried or b.carried)
+    return not found.items
+
+
+def unmatched(a: Iterable[Part], b: Iterable[Part], terms: Terms, base: Base) -> Iterator[Part]:
+    """The parts for which the other robot has none that is the same."""
+    groups_b = _by_kind(b)
+    for kind, parts in _by_kind(a).items():
+        pairs, only, _ = match(parts, groups_b.get(kind, []), terms, base)
+        yield from only
+        yield from (one for one, other in pairs if not is_same(one, other, terms, base))

@@ -1,0 +1,192 @@
+"""Nodes of the IR as parts: every value in them with its kind, its place in the file and its default."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+
+from lxml import etree
+
+from twinform.compiler.compare.carried import definition, unpack_sdf, urdf_pieces
+from twinform.compiler.compare.leaves import CARRIED, Resolve, Walk
+from twinform.compiler.compare.robot import Leaf, Leaves, Part
+from twinform.compiler.compare.values import Words
+from twinform.diagnostics import NOWHERE, Location, Origins
+from twinform.ir import Format, Joint, Link, Model, Node, node_fields
+from twinform.ir.transform import Transform
+from twinform.passes.legalise.carrier import NAMESPACE
+from twinform.passes.legalise.marks import MADE
+from twinform.schemas import XmlElement, table, writer
+
+_PARTS: Mapping[type[Node], Mapping[str, str]] = {
+    Link: {"visuals": "visual", "collisions": "collision", "sensors": "sensor", "lights": "light"},
+    Joint: {"sensors": "sensor"},
+    Model: {"plugins": "plugin"},
+}
+"""Fields that hold parts of their own, and what these are called in SDF."""
+_BODIES = ("links", "joints", "frames", "models", "includes")
+"""What a model is made of is read by itself."""
+_ALWAYS_TYPED = frozenset({"visual", "collision"})
+"""What has no typed form of these came out of a carrier."""
+_RESOLVED: Mapping[type[Node], frozenset[str]] = {
+    Link: frozenset({"pose", "inertial"}),
+    Joint: frozenset({"pose", "parent", "child", "@type", "axis/xyz", "axis2/xyz"}),
+    Model: frozenset(
+        {"pose", "@canonical_link", "@placement_frame", "link", "joint", "frame", "model", "include", "model_state"}
+    ),
+}
+"""What is compared in other terms than those in which it is written."""
+_NOT_OF_THE_ROBOT = frozenset({"material", "gazebo", "link", "inertial", "mass", "origin", "name", "type"})
+"""What URDF's carriers hold that says how the file is written, or that the model says in words of SDF."""
+_OF_AN_AXIS = frozenset({"axis", "limit", "dynamics", "mimic"})
+_IGNORED_LIMITS = frozenset({"limit/@lower", "limit/@upper"})
+"""Of a continuous joint; those of others are said in words of SDF."""
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """How the nodes of one model are read: which frames there are, and where in which file a line was written."""
+
+    resolve: Resolve
+    origins: Mapping[str, Origins] = field(default_factory=dict[str, Origins])
+
+    def place(self, node: Node | None) -> Location:
+        """Where a node was written."""
+        return self.traced(node.location) if node is not None else NOWHERE
+
+    def traced(self, location: Location) -> Location:
+        """Where a line of an expanded text was written; any other place itself."""
+        origins = self.origins.get(location.file)
+        place = origins.place(location.line) if origins else None
+        return place._replace(path=location.path) if place else location
+
+    def parts(self, node: Link | Joint | Model, frame: Transform) -> tuple[Leaves, tuple[Part, ...]]:
+        """What a node says of itself, and the parts in it; poses are relative to its frame."""
+        fields = _PARTS[type(node)]
+        tag = type(node).__name__.lower()
+        parts = [self._part(child, fields[name], frame) for name in fields for child in getattr(node, name)]
+        apart = (*fields, *_BODIES) if isinstance(node, Model) else fields
+        xml = _xml(node.model_copy(update=dict.fromkeys(apart, ())), tag)
+        leaves, inner = self._own(xml, tag, self._places(node), frame, skipped=_RESOLVED[type(node)])
+        said, carried = self._of_urdf(xml, node)
+        return {**leaves, **said}, (*parts, *inner, *carried)
+
+    def element(self, xml: XmlElement, tag: str, where: Location, frame: Transform) -> Part:
+        """A part that is an element without a typed form."""
+        walk = Walk(self.resolve, lambda _: where)
+        unpack_sdf(xml, definition(tag))
+        if definition(tag).any:
+            walk.enter_free(xml, "")
+        else:
+            walk.enter(xml, definition(tag), frame)
+        name = xml.get("name") or ""
+        walk.found.pop("@name", None)
+        return Part(tag, name, walk.found, where, carried=xml.get(CARRIED) is not None)
+
+    def _part(self, node: Node, tag: str, frame: Transform) -> Part:
+        xml = _xml(node, tag)
+        places = self._places(node)
+        unpack_sdf(xml, definition(tag))
+        walk = Walk(self.resolve, places)
+        if definition(tag).any:
+            walk.enter_free(xml, "")
+        else:
+            walk.enter(xml, definition(tag), frame)
+        walk.found.pop("@name", None)
+        said, _ = self._of_urdf(xml, node)
+        return Part(tag, xml.get("name") or "", {**walk.found, **said}, places(""))
+
+    def _own(
+        self,
+        xml: XmlElement,
+        tag: str,
+        places: Callable[[str], Location],
+        frame: Transform,
+        *,
+        skipped: frozenset[str],
+    ) -> tuple[Leaves, list[Part]]:
+        """The leaves of an element itself, and its named children as parts."""
+        unpack_sdf(xml, definition(tag))
+        rows = {row.name: row for row in definition(tag).children}
+        inner: list[Part] = []
+        for child in [one for one in xml if isinstance(one.tag, str)]:
+            row = rows.get(str(child.tag))
+            if row is not None and row.repeats and row.reference and row.name not in skipped | {"frame"}:
+                xml.remove(child)
+                part = self.element(child, row.name, places(""), frame)
+                inner.append(replace(part, carried=True) if part.kind in _ALWAYS_TYPED else part)
+        walk = Walk(self.resolve, places, skipped)
+        walk.enter(xml, definition(tag), frame)
+        return walk.found, inner
+
+    def _of_urdf(self, xml: XmlElement, node: Node) -> tuple[dict[str, Leaf], list[Part]]:
+        """What only URDF has a word for, which SDF holds in carriers: leaves, and named parts of the model."""
+        where = self.place(node)
+        leaves: dict[str, Leaf] = {}
+        parts: list[Part] = []
+        for at, piece in urdf_pieces(xml):
+            name = piece.get("attribute")
+            if name is not None:
+                walk = Walk(self.resolve, lambda _: where)
+                path = f"{at}/@{name}" if at else f"@{name}"
+                if name not in _NOT_OF_THE_ROBOT and path not in _IGNORED_LIMITS:
+                    walk.enter_free(_text_element(piece.get("value") or ""), path)
+                leaves |= walk.found
+            elif piece.tag == "joint":  # a floating one, which is none in SDF
+                if piece.get(MADE) is None:
+                    leaves["joint"] = Leaf(Words(piece.get("name") or ""), None, where)
+            elif str(piece.tag) not in _NOT_OF_THE_ROBOT and not (isinstance(node, Joint) and _is_idle(piece, node)):
+                walk = Walk(self.resolve, lambda _: where)
+                named = isinstance(node, Model) and not _is_foreign(piece)
+                walk.enter_free(piece, "" if named else str(piece.tag))
+                if named:
+                    walk.found.pop("@name", None)
+                    parts.append(Part(str(piece.tag), piece.get("name") or "", walk.found, where, only=Format.URDF))
+                else:
+                    leaves |= walk.found
+        return {path: _only_urdf(leaf) for path, leaf in leaves.items()}, parts
+
+    def _places(self, node: Node) -> Callable[[str], Location]:
+        """Where what stands at a path of a node was written: the nearest node around it knows."""
+        known = {path: self.place(inner) for path, inner in _inner(node, "") if inner.source is not None}
+
+        def where(path: str) -> Location:
+            while path and path not in known:
+                path = path.rpartition("/")[0]
+            return known.get(path, NOWHERE)
+
+        return where
+
+
+def _is_foreign(element: XmlElement) -> bool:
+    """Whether it is of a namespace, which either format may hold."""
+    return str(element.tag).startswith("{")
+
+
+def _only_urdf(leaf: Leaf) -> Leaf:
+    return Leaf(leaf.value, leaf.default, leaf.where, Format.URDF)
+
+
+def _is_idle(piece: XmlElement, joint: Joint) -> bool:
+    """Whether it is about an axis that the joint does not have."""
+    return piece.tag in _OF_AN_AXIS and joint.axis is None
+
+
+def _inner(node: Node, path: str) -> Iterator[tuple[str, Node]]:
+    """A node and the single nodes in it, by the paths of their elements."""
+    yield path, node
+    for name in node_fields(type(node)):
+        child = getattr(node, name)
+        if isinstance(child, Node):
+            step = getattr(child, "kind", name)
+            yield from _inner(child, f"{path}/{step}" if path else step)
+
+
+def _text_element(text: str) -> XmlElement:
+    made = etree.Element("value")
+    made.text = text
+    return made
+
+
+def _xml(node: Node, tag: str) -> XmlElement:
+    made = etree.Element(tag, nsmap={"tf": NAMESPACE})
+    writer("sdf", table("sdf").newest).write(node, made, tag)
+    return made

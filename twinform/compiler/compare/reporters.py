@@ -1,0 +1,116 @@
+"""A comparison as text for people and as JSON for programs; reporters only format."""
+
+import json as jsonlib
+import math
+from collections.abc import Callable, Iterator, Mapping
+from itertools import groupby
+from types import MappingProxyType
+
+from twinform.compiler.compare.comparison import Comparison, Difference, Said, Severity
+from twinform.diagnostics import Location
+from twinform.diagnostics.reporters import printable
+
+Paint = Callable[[str, Severity], str]
+"""Gives a word the colour of a severity."""
+Reporter = Callable[[Comparison], str]
+
+
+def text(comparison: Comparison, paint: Paint = lambda word, _: word) -> str:
+    """A heading for each link, joint or frame, and a line for each difference: `places: severity: what`."""
+    lines: list[str] = []
+    for heading, items in groupby(comparison.items, key=_heading):
+        lines.append(printable(heading))
+        lines += [f"  {_line(item, comparison, paint)}" for item in items]
+    return "".join(f"{line}\n" for line in lines)
+
+
+def json(comparison: Comparison) -> str:
+    """One object: `{"a", "b", "same", "tolerance", "items": [...]}`; every key is always there.
+
+    An item is `{"severity", "model", "group", "name", "aspect", "message", "a", "b", "absolute", "relative", "unit"}`,
+    and its sides are `{"value", "file", "line", "path"}`. Line 0 means unknown; a difference without end is null.
+    """
+    whole = {
+        "a": comparison.a,
+        "b": comparison.b,
+        "same": comparison.same,
+        "tolerance": comparison.tolerance,
+        "items": [_row(item) for item in comparison.items],
+    }
+    return jsonlib.dumps(whole, indent=2, allow_nan=False) + "\n"
+
+
+REPORTERS: Mapping[str, Reporter] = MappingProxyType({"text": text, "json": json})
+"""Every output format by its name on the command line."""
+
+
+def summary(comparison: Comparison) -> str:
+    """The verdict in one line."""
+    verdict = "the same robot" if comparison.same else "different robots"
+    return f"{verdict}: {_count(comparison.differences, 'difference')}, {_count(comparison.notes, 'note')}"
+
+
+def _count(items: tuple[Difference, ...], word: str) -> str:
+    return f"{len(items)} {word}{'' if len(items) == 1 else 's'}"
+
+
+def _heading(item: Difference) -> str:
+    words = f"{item.group} {item.name!r}" if item.name else item.group
+    return f"{words} of model {item.model!r}" if item.model and item.group != "model" else words
+
+
+def _line(item: Difference, comparison: Comparison, paint: Paint) -> str:
+    places = ", ".join(_places(item, comparison))
+    amounts = [] if item.group == "kinematics" else list(_amounts(item))
+    amount = f" ({', '.join(amounts)})" if amounts else ""
+    severity = paint(str(item.severity), item.severity)
+    return f"{places}{': ' if places else ''}{severity}: {printable(_what(item))}{amount}"
+
+
+def _what(item: Difference) -> str:
+    """What differs, without what the heading says."""
+    short = item.severity is Severity.DIFFERENCE and item.group != "kinematics"
+    if short and item.a.text is not None and item.b.text is not None:
+        return f"{item.aspect} is {item.a.text}, and {item.b.text}"
+    return item.message
+
+
+def _places(item: Difference, comparison: Comparison) -> Iterator[str]:
+    seen: set[Location] = set()
+    for file, said in ((comparison.a, item.a), (comparison.b, item.b)):
+        where = said.location
+        if where.line and where not in seen:
+            seen.add(where)
+            yield f"{printable(where.file or file)}:{where.line}"
+
+
+def _amounts(item: Difference) -> Iterator[str]:
+    if item.absolute is not None and math.isfinite(item.absolute):
+        yield f"by {item.absolute:.6g}{f' {item.unit}' if item.unit else ''}"
+    if item.relative is not None:
+        yield f"{100 * item.relative:.3g} %"
+
+
+def _row(item: Difference) -> dict[str, object]:
+    return {
+        "severity": str(item.severity),
+        "model": item.model,
+        "group": item.group,
+        "name": item.name,
+        "aspect": item.aspect,
+        "message": item.message,
+        "a": _side(item.a),
+        "b": _side(item.b),
+        "absolute": _finite(item.absolute),
+        "relative": _finite(item.relative),
+        "unit": item.unit,
+    }
+
+
+def _side(said: Said) -> dict[str, object]:
+    where = said.location
+    return {"value": said.text, "file": where.file, "line": where.line, "path": where.path}
+
+
+def _finite(value: float | None) -> float | None:
+    return value if value is not None and math.isfinite(value) else None

@@ -1,0 +1,130 @@
+"""A robot as it is compared: bodies, joints and frames, all in the model's frame with every joint at zero.
+
+Which frame of a file something was said in is gone here; what is left of names are those of links, joints, frames and
+sensors.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from twinform.compiler.compare.values import Value
+from twinform.diagnostics import NOWHERE, Location
+from twinform.ir import Format, Vector3
+from twinform.ir.principal_moments import Symmetric
+from twinform.ir.transform import Transform
+
+
+@dataclass(frozen=True, slots=True)
+class Leaf:
+    """A value and what it is where it is not written.
+
+    `only` is the format that alone has a word for it. What is `carried` is there for this compiler alone.
+    """
+
+    value: Value
+    default: Value | None = None
+    where: Location = NOWHERE
+    only: Format | None = None
+    carried: bool = False
+
+
+Leaves = Mapping[str, Leaf]
+"""Values by their path, such as `geometry/box/size`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A thing that a link, joint or model has: a visual, a sensor, a plugin."""
+
+    kind: str
+    name: str
+    leaves: Leaves
+    where: Location = NOWHERE
+    only: Format | None = None
+    carried: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Mass:
+    """Mass (kg), centre of mass, and the inertia about it (kg m^2)."""
+
+    mass: float = 0.0
+    center: Vector3 = (0.0, 0.0, 0.0)
+    tensor: Symmetric = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    automatic: bool = False
+    where: Location = NOWHERE
+
+
+@dataclass(frozen=True, slots=True)
+class Body:
+    """A link; `frame` is its own frame."""
+
+    name: str
+    frame: Transform
+    mass: Mass
+    leaves: Leaves = field(default_factory=dict[str, Leaf])
+    parts: tuple[Part, ...] = ()
+    where: Location = NOWHERE
+
+
+@dataclass(frozen=True, slots=True)
+class Hinge:
+    """A joint between two bodies, or the world; `axes` are unit vectors."""
+
+    name: str
+    type: str
+    parent: str
+    child: str
+    frame: Transform
+    axes: tuple[Vector3, ...] = ()
+    leaves: Leaves = field(default_factory=dict[str, Leaf])
+    parts: tuple[Part, ...] = ()
+    where: Location = NOWHERE
+
+
+@dataclass(frozen=True, slots=True)
+class NamedFrame:
+    """A frame that moves with a body.
+
+    `was_link` and `was_joint` say that URDF has a link without mass in its place, or the joint of one. A `lumped` one
+    is what is left of a link or joint that went into another link.
+    """
+
+    name: str
+    body: str
+    pose: Transform
+    was_link: bool = False
+    was_joint: bool = False
+    lumped: bool = False
+    where: Location = NOWHERE
+
+
+@dataclass(frozen=True, slots=True)
+class Robot:
+    """A model; `world` is the frame of the world in the model's, and `models` are the names of nested ones."""
+
+    name: str
+    format: Format
+    world: Transform
+    bodies: Mapping[str, Body]
+    joints: Mapping[str, Hinge]
+    frames: Mapping[str, NamedFrame]
+    models: frozenset[str] = frozenset()
+    leaves: Leaves = field(default_factory=dict[str, Leaf])
+    parts: tuple[Part, ...] = ()
+    where: Location = NOWHERE
+
+
+def carriers(robot: Robot) -> Mapping[str, Hinge]:
+    """The joints that make a tree, by the bodies that hang from them: of several, a fixed one, or the first by name."""
+    above: dict[str, Hinge] = {}
+    for joint in sorted(robot.joints.values(), key=lambda joint: (joint.type != "fixed", joint.name)):
+        if joint.child not in above and not _is_below(joint.parent, joint.child, above):
+            above[joint.child] = joint
+    return above
+
+
+def _is_below(body: str, ancestor: str, above: Mapping[str, Hinge]) -> bool:
+    while body != ancestor and body in above:
+        body = above[body].parent
+    return body == ancestor

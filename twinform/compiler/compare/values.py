@@ -1,0 +1,219 @@
+"""The kinds of values that robots are compared by, and by how much two of a kind differ."""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Self
+
+from twinform.ir import Vector3
+from twinform.ir.principal_moments import Symmetric
+from twinform.ir.transform import Transform
+from twinform.schemas import format_value
+
+_DIGITS = 10
+
+
+@dataclass(frozen=True, slots=True)
+class Gap:
+    """By how much two values differ.
+
+    `scale` is what the tolerance is a share of, and `size` the larger one of the two; `aspect` says which part of the
+    values it is about.
+    """
+
+    absolute: float
+    scale: float
+    a: str
+    b: str
+    unit: str = ""
+    aspect: str = ""
+    size: float = 0.0
+
+    @property
+    def relative(self) -> float | None:
+        """The share of the size; None where there is none."""
+        return self.absolute / self.size if self.size and math.isfinite(self.absolute) else None
+
+    def exceeds(self, tolerance: float) -> bool:
+        """Whether it is more than rounding."""
+        return self.absolute > tolerance * self.scale
+
+
+class Value:
+    """A value of some kind. What is in space is seen from a frame before it is compared."""
+
+    __slots__ = ()
+
+    def seen_from(self, base: Transform) -> Self:
+        """The value in another frame than the model's."""
+        return self
+
+
+@dataclass(frozen=True, slots=True)
+class Words(Value):
+    """A text."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Flag(Value):
+    """Yes or no."""
+
+    on: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Numbers(Value):
+    """One number or several, in a unit; `floor` is the least size that they are measured against."""
+
+    values: tuple[float, ...]
+    unit: str = ""
+    floor: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Point(Value):
+    """A point in the model's frame, in metres."""
+
+    xyz: Vector3
+
+    def seen_from(self, base: Transform) -> "Point":
+        """The point in another frame."""
+        return Point(base.inverse().apply(self.xyz))
+
+
+@dataclass(frozen=True, slots=True)
+class Direction(Value):
+    """A unit vector in the model's frame."""
+
+    xyz: Vector3
+
+    def seen_from(self, base: Transform) -> "Direction":
+        """The direction in another frame."""
+        return Direction(base.inverse().rotate(self.xyz))
+
+
+@dataclass(frozen=True, slots=True)
+class Place(Value):
+    """A frame in the model's frame."""
+
+    pose: Transform
+
+    def seen_from(self, base: Transform) -> "Place":
+        """The frame in another one."""
+        return Place(base.inverse().compose(self.pose))
+
+
+@dataclass(frozen=True, slots=True)
+class Tensor(Value):
+    """A rotational inertia, kg m^2: xx, yy, zz, xy, xz, yz in the axes of the model's frame."""
+
+    moments: Symmetric
+
+    def seen_from(self, base: Transform) -> "Tensor":
+        """The same in the axes of another frame."""
+        return Tensor(turn_tensor(base.inverse(), self.moments))
+
+
+def turn_tensor(turn: Transform, moments: Symmetric) -> Symmetric:
+    """R I R^T for the rotation of a transform."""
+    xx, yy, zz, xy, xz, yz = moments
+    columns = [turn.rotate(column) for column in ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))]
+    rows = [turn.rotate((columns[0][i], columns[1][i], columns[2][i])) for i in range(3)]
+    return rows[0][0], rows[1][1], rows[2][2], rows[0][1], rows[0][2], rows[1][2]
+
+
+def gaps(a: Value, b: Value) -> Iterator[Gap]:
+    """By how much two values differ; nothing where they are exactly the same."""
+    if a == b:
+        return
+    match a, b:
+        case Numbers(), Numbers() if len(a.values) == len(b.values):
+            yield from _numbers(a, b)
+        case Place(), Place():
+            yield from _places(a.pose, b.pose)
+        case Point(), Point():
+            yield _distance(a.xyz, b.xyz)
+        case Direction(), Direction():
+            yield Gap(_angle_between(a.xyz, b.xyz), 1.0, _row(a.xyz), _row(b.xyz), "rad")
+        case Tensor(), Tensor():
+            yield from _tensors(a, b)
+        case _:
+            yield Gap(math.inf, 1.0, show(a), show(b))
+
+
+def show(value: Value) -> str:
+    """A value as text."""
+    match value:
+        case Words():
+            return repr(value.text)
+        case Flag():
+            return format_value(value.on)
+        case Numbers():
+            return _row(value.values) + (f" {value.unit}" if value.unit else "")
+        case Point() | Direction():
+            return _row(value.xyz)
+        case Place():
+            return f"{_row(value.pose.translation)} m, {_row(value.pose.rpy())} rad"
+        case Tensor():
+            return f"{_row(value.moments)} kg*m^2"
+        case _:
+            return ""
+
+
+def _numbers(a: Numbers, b: Numbers) -> Iterator[Gap]:
+    apart = [_apart(one, other) for one, other in zip(a.values, b.values, strict=True)]
+    finite = [abs(number) for number in (*a.values, *b.values) if math.isfinite(number)]
+    if any(apart):
+        unit = a.unit or b.unit
+        size = max(finite, default=0.0)
+        yield Gap(max(apart), max(a.floor, b.floor, size), show(a), show(b), unit, size=size)
+
+
+def _apart(one: float, other: float) -> float:
+    if one == other or (math.isnan(one) and math.isnan(other)):
+        return 0.0
+    gap = abs(one - other)
+    return gap if math.isfinite(gap) else math.inf
+
+
+def _places(a: Transform, b: Transform) -> Iterator[Gap]:
+    yield _distance(a.translation, b.translation)
+    yield Gap(_angle(a, b), 1.0, f"{_row(a.rpy())} rad", f"{_row(b.rpy())} rad", "rad", "rotation")
+
+
+def _distance(a: Vector3, b: Vector3) -> Gap:
+    size = max(math.hypot(*a), math.hypot(*b))
+    return Gap(math.dist(a, b), max(1.0, size), f"{_row(a)} m", f"{_row(b)} m", "m", "position", size)
+
+
+def _angle(a: Transform, b: Transform) -> float:
+    """The angle of the rotation between two: |A - B| is 2 sqrt(2) sin(angle / 2), which is exact where it is small."""
+    chord = math.dist(a.rotation, b.rotation)
+    return 2 * math.asin(min(1.0, chord / math.sqrt(8)))
+
+
+def _angle_between(a: Vector3, b: Vector3) -> float:
+    return 2 * math.asin(min(1.0, math.dist(a, b) / 2))
+
+
+_MOMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+
+
+def _tensors(a: Tensor, b: Tensor) -> Iterator[Gap]:
+    """The element that differs most, measured against the largest one."""
+    apart = [_apart(one, other) for one, other in zip(a.moments, b.moments, strict=True)]
+    worst = apart.index(max(apart))
+    scale = max(map(abs, (*a.moments, *b.moments)))
+    one, other = (f"{_number(each.moments[worst])} kg*m^2" for each in (a, b))
+    yield Gap(apart[worst], scale, one, other, "kg*m^2", _MOMENTS[worst], scale)
+
+
+def _row(values: Sequence[float]) -> str:
+    return " ".join(map(_number, values))
+
+
+def _number(value: float) -> str:
+    """To ten digits; zeros that rounding left are zeros."""
+    return f"{0.0 if abs(value) < 1e-15 else value:.{_DIGITS}g}"
