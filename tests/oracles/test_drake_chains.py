@@ -44,6 +44,34 @@ def test_universal_screw_and_ball_joints_move_as_their_chains_do(pitch: str):
             assert np.abs(here[link][1] - there[link][1]).max() < 1e-9
 
 
+def test_a_chain_is_as_heavy_to_turn_as_its_universal_joint():
+    sdf = SDF.format("")
+    one, other = _plant(sdf, "sdf"), _plant(twinform.convert(sdf.encode(), to="urdf").text, "urdf")
+    for u, v in np.random.default_rng(2).uniform(-1.2, 1.2, (SAMPLES, 2)):
+        here = _mass_matrix(one, {"u": [u, v]}, ["u"])
+        there = _mass_matrix(other, {"u_axis": [u], "u": [v]}, ["u_axis", "u"])
+        assert np.abs(here - there).max() < 1e-9
+
+
+def _mass_matrix(plant: Any, values: dict[str, list[float]], joints: list[str]) -> Any:
+    """The part of the mass matrix that belongs to these joints."""
+    context = _at(plant, values)
+    found = [plant.GetJointByName(name) for name in joints]
+    rows = [joint.velocity_start() + i for joint in found for i in range(joint.num_velocities())]
+    return plant.CalcMassMatrix(context)[np.ix_(rows, rows)]
+
+
+def _at(plant: Any, values: dict[str, list[float]]) -> Any:
+    """A context with the joints at these positions."""
+    context = plant.CreateDefaultContext()
+    positions = plant.GetPositions(context)
+    for name, value in values.items():
+        start = plant.GetJointByName(name).position_start()
+        positions[start : start + len(value)] = value
+    plant.SetPositions(context, positions)
+    return context
+
+
 def _plant(text: str, kind: str) -> Any:
     plant = importlib.import_module("pydrake.multibody.plant").MultibodyPlant(0.001)  # mimic asks for discrete time
     importlib.import_module("pydrake.multibody.parsing").Parser(plant).AddModelsFromString(text, kind)
@@ -53,15 +81,9 @@ def _plant(text: str, kind: str) -> Any:
 
 def _centres(plant: Any, values: dict[str, list[float]]) -> dict[str, tuple[Any, Any]]:
     """The centre of mass of each link and its rotation since all joints stood at zero, both in the link `a`."""
-    context = plant.CreateDefaultContext()
+    context, context_at_zero = _at(plant, values), plant.CreateDefaultContext()
     root = plant.GetBodyByName("a")
     frames = [plant.GetBodyByName(name) for name in "bcd"]
-    context_at_zero = plant.CreateDefaultContext()
-    positions = plant.GetPositions(context)
-    for name, value in values.items():
-        start = plant.GetJointByName(name).position_start()
-        positions[start : start + len(value)] = value
-    plant.SetPositions(context, positions)
     return {body.name(): _centre(plant, body, root, context, context_at_zero) for body in frames}
 
 
