@@ -2,12 +2,14 @@
 
 import os
 import time
+import tomllib
 from pathlib import Path
 
 import pytest
 
 import twinform
 from benchmarks import robots
+from benchmarks.known import Known
 from benchmarks.markdown import table
 from tests.oracles import urdfdom
 from twinform.testing.workers import Failure, run
@@ -50,6 +52,22 @@ def test_numbers_stand_to_the_right_and_bars_are_escaped():
         "| x\\|y | 1 |",
         "| z | 2.5 |",
     ]
+
+
+def test_a_file_is_explained_by_itself_or_by_all_of_its_rules():
+    known = Known({"a": "why"}, {"b": "so"}, {"one": "first", "two": "second"})
+    assert known.why_refused("a") == "why"
+    assert known.why_refused("b") == ""
+    assert known.why_not_converted("b", ("three",)) == "so"
+    assert known.why_not_converted("c", ("one", "two")) == "first; second"
+    assert known.why_not_converted("c", ("one", "three")) == ""
+
+
+@pytest.mark.parametrize("file", ["corpus_known.toml", "versions_known.toml"])
+def test_the_tables_of_reasons_hold_files_that_there_are(corpus: Path, file: str):
+    tables = tomllib.loads((Path(robots.__file__).parent / file).read_text())
+    names = [name for title, table in tables.items() if not title.endswith("_rules") for name in table]
+    assert [name for name in names if not (corpus / name).is_file()] == []
 
 
 def _task(number: int) -> int:

@@ -13,6 +13,7 @@ from twinform.ir.pose import Pose
 from twinform.ir.verify.scope import Scope
 from twinform.ir.world import World
 
+_NONE: frozenset[str] = frozenset()
 MODEL = "__model__"
 WORLD = "world"
 
@@ -29,7 +30,7 @@ class References:
         self.own = MODEL if isinstance(holder, Model) else WORLD
         self.notes = notes
         self._holder = holder
-        self._inner_frames: frozenset[str] = frozenset()
+        self._inner_frames = _NONE
 
     def verify(self) -> None:
         """Report every reference that leads nowhere, or to two things."""
@@ -61,7 +62,8 @@ class References:
 
     def _link(self, link: Link) -> None:
         self._pose(link.pose)
-        self._inner_frames = _frames_inside(link)
+        if not self.one_scope:
+            self._inner_frames = _frames_inside(link)
         for visual in link.visuals:
             self._pose(visual.pose)
         for collision in link.collisions:
@@ -69,7 +71,7 @@ class References:
         for sensor in link.sensors:
             self._pose(sensor.pose)
         self._lights(link.lights)
-        self._inner_frames = frozenset()
+        self._inner_frames = _NONE
 
     def _lights(self, lights: Iterable[Light]) -> None:
         for light in lights:
