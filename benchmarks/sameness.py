@@ -28,9 +28,9 @@ Made by `make sameness`; only the seconds differ from run to run.
 
 Every robot of the corpus that is accepted and converted is compared with what it became, by `twinform diff` with its
 tolerance of 1e-9 (of a file with several models the first three, one by one). The last line is about what libsdformat
-12 makes of URDF files that it takes itself, compared with a tolerance of {CUT_OFF:g}. It lumps all fixed joints, which is
-no difference; what differs is what that conversion changes. *With notes* are those of the same ones that say something
-in another way."""
+12 makes of URDF files that it takes itself, compared with a tolerance of {CUT_OFF:g}. It lumps all fixed joints, which
+is no difference; what differs is what that conversion changes. *With notes* are those of the same ones that say
+something in another way."""
 
 
 class Way(StrEnum):
@@ -94,10 +94,11 @@ def _judged(file: CorpusFile, way: Way, robot: str | None) -> Outcome:
     name = f"{file.name} {robot or ''}".strip()
     try:
         text = twinform.convert(file.path, to="sdf" if way is Way.TO_SDF else "urdf", model=robot).text
-        return _compared(file, name, way, text, robot)
     except twinform.CompileError as error:
         return Outcome(name, way, Verdict.REFUSED, ", ".join(rules_of(error.diagnostics)))
-    except Exception as error:  # noqa: BLE001 - every other exception is a fault to report
+    try:
+        return _compared(file, name, way, text, robot)
+    except Exception as error:  # noqa: BLE001 - every exception is a fault to report
         return Outcome(name, way, Verdict.CRASH, f"{type(error).__name__}: {error}")
 
 
