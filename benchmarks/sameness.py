@@ -12,10 +12,10 @@ from pathlib import Path
 
 import twinform
 from benchmarks.markdown import table, write
+from benchmarks.sdf_printing import available, printed
 from benchmarks.workers import Failure, run
 from tests.corpus.examine import robots, rules_of
 from tests.corpus.files import CORPUS, MISSING, ROOT, CorpusFile, Kind, models
-from tests.oracles import libsdformat
 
 PAGE = ROOT / "docs" / "reference" / "sameness.md"
 KNOWN = Path(__file__).with_name("sameness_known.toml")
@@ -85,7 +85,7 @@ def judge(file: CorpusFile) -> tuple[Outcome, ...]:
         return ()
     way = Way.TO_SDF if file.kind is Kind.URDF else Way.TO_URDF
     found = [_judged(file, way, robot) for robot in robots(checked.document)]
-    if way is Way.TO_SDF and libsdformat.available() and file.row.get("libsdformat12") == "ok":
+    if way is Way.TO_SDF and available() and file.row.get("libsdformat12") == "ok":
         found += _lumped(file)
     return tuple(found)
 
@@ -103,7 +103,7 @@ def _judged(file: CorpusFile, way: Way, robot: str | None) -> Outcome:
 
 
 def _lumped(file: CorpusFile) -> Iterator[Outcome]:
-    text = libsdformat.printed(file.path)
+    text = printed(file.path)
     if text is None:
         return
     try:
