@@ -1,10 +1,12 @@
 """Is every conversion the same robot, by our own comparison? `make sameness` writes docs/reference/sameness.md."""
 
+import multiprocessing
 import sys
 import time
 import tomllib
 from collections import Counter
 from collections.abc import Iterable, Iterator
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from enum import StrEnum
 from fnmatch import fnmatchcase
@@ -13,7 +15,6 @@ from pathlib import Path
 import twinform
 from benchmarks.markdown import table, write
 from benchmarks.sdf_printing import available, printed
-from benchmarks.workers import Failure, run
 from tests.corpus.examine import robots, rules_of
 from tests.corpus.files import CORPUS, MISSING, ROOT, CorpusFile, Kind, models
 
@@ -134,11 +135,9 @@ def _aspect(path: str) -> str:
 
 
 def _outcomes() -> Iterable[Outcome]:
-    for file, result in run(judge, models()):
-        if isinstance(result, Failure):
-            yield Outcome(file.name, Way.TO_SDF, Verdict.CRASH, result.cause)
-        else:
-            yield from result
+    with ProcessPoolExecutor(mp_context=multiprocessing.get_context("spawn")) as pool:
+        for found in pool.map(judge, models(), chunksize=4):
+            yield from found
 
 
 def _is_fault(outcome: Outcome) -> bool:
