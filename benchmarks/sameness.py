@@ -1,10 +1,12 @@
 """Is every conversion the same robot, by our own comparison? `make sameness` writes docs/reference/sameness.md."""
 
+import multiprocessing
 import sys
 import time
 import tomllib
 from collections import Counter
 from collections.abc import Iterable, Iterator
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from enum import StrEnum
 from fnmatch import fnmatchcase
@@ -12,10 +14,9 @@ from pathlib import Path
 
 import twinform
 from benchmarks.markdown import table, write
+from benchmarks.sdf_printing import available, printed
 from tests.corpus.examine import robots, rules_of
 from tests.corpus.files import CORPUS, MISSING, ROOT, CorpusFile, Kind, models
-from twinform.testing.oracles import libsdformat
-from twinform.testing.workers import Failure, run
 
 PAGE = ROOT / "docs" / "reference" / "sameness.md"
 KNOWN = Path(__file__).with_name("sameness_known.toml")
@@ -85,7 +86,7 @@ def judge(file: CorpusFile) -> tuple[Outcome, ...]:
         return ()
     way = Way.TO_SDF if file.kind is Kind.URDF else Way.TO_URDF
     found = [_judged(file, way, robot) for robot in robots(checked.document)]
-    if way is Way.TO_SDF and libsdformat.available() and file.row.get("libsdformat12") == "ok":
+    if way is Way.TO_SDF and available() and file.row.get("libsdformat12") == "ok":
         found += _lumped(file)
     return tuple(found)
 
@@ -94,15 +95,16 @@ def _judged(file: CorpusFile, way: Way, robot: str | None) -> Outcome:
     name = f"{file.name} {robot or ''}".strip()
     try:
         text = twinform.convert(file.path, to="sdf" if way is Way.TO_SDF else "urdf", model=robot).text
-        return _compared(file, name, way, text, robot)
     except twinform.CompileError as error:
         return Outcome(name, way, Verdict.REFUSED, ", ".join(rules_of(error.diagnostics)))
-    except Exception as error:  # noqa: BLE001 - every other exception is a fault to report
+    try:
+        return _compared(file, name, way, text, robot)
+    except Exception as error:  # noqa: BLE001 - every exception is a fault to report
         return Outcome(name, way, Verdict.CRASH, f"{type(error).__name__}: {error}")
 
 
 def _lumped(file: CorpusFile) -> Iterator[Outcome]:
-    text = libsdformat.printed(file.path)
+    text = printed(file.path)
     if text is None:
         return
     try:
@@ -133,11 +135,9 @@ def _aspect(path: str) -> str:
 
 
 def _outcomes() -> Iterable[Outcome]:
-    for file, result in run(judge, models()):
-        if isinstance(result, Failure):
-            yield Outcome(file.name, Way.TO_SDF, Verdict.CRASH, result.cause)
-        else:
-            yield from result
+    with ProcessPoolExecutor(mp_context=multiprocessing.get_context("spawn")) as pool:
+        for found in pool.map(judge, models(), chunksize=4):
+            yield from found
 
 
 def _is_fault(outcome: Outcome) -> bool:

@@ -10,7 +10,7 @@ import twinform
 from tests.corpus.examine import robots
 from tests.corpus.files import ROOT, CorpusFile, Kind, chunks
 
-_EVERY = 4
+_EVERY = 10
 """One file of so many is tried; `make sameness` tries all."""
 _KNOWN = tomllib.loads((ROOT / "benchmarks/sameness_known.toml").read_text(encoding="utf-8"))["different"]
 

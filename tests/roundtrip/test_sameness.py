@@ -13,11 +13,11 @@ from twinform.ir import Document
 from twinform.testing import strategies
 
 _SETTINGS = settings(
-    max_examples=25,
+    max_examples=20,
     deadline=None,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much],
 )
-_FEW = settings(_SETTINGS, max_examples=8)
+_FEW = settings(_SETTINGS, max_examples=3)
 
 
 def _text(document: Document) -> bytes:

@@ -150,8 +150,7 @@ class _Description:
             for element in _carried(frame):
                 if element.name == "model":
                     part = self.reading.element(element_xml(element), "model", self.reading.place(frame), Transform())
-                    leaves = {path: leaf for path, leaf in part.leaves.items() if path != "pose"}
-                    yield Part("model", frame.name, leaves, part.where, carried=True)
+                    yield Part("model", frame.name, part.leaves, part.where, carried=True)
 
     def _resolve(self, pose: Pose, holder: Transform) -> Transform:
         if pose.relative_to:

@@ -74,7 +74,9 @@ class Moving:
         if type == "prismatic":
             (axis,) = joint.axes
             return Transform(_times(axis, self._position(joint.name, 0, sample)))
-        axes = _AXES if type == "ball" else joint.axes
+        axes = joint.axes
+        if type == "ball":  # about axes that are the same in both robots
+            axes = tuple(map(self.bases.get(joint.parent, _STILL).rotate, _AXES))
         turned = _STILL
         for number, axis in enumerate(axes):
             angle = self._position(joint.name, number, sample)

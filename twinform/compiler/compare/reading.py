@@ -71,7 +71,7 @@ class Reading:
 
     def element(self, xml: XmlElement, tag: str, where: Location, frame: Transform) -> Part:
         """A part that is an element without a typed form."""
-        walk = Walk(self.resolve, lambda _: where)
+        walk = Walk(self.resolve, lambda _: where, _RESOLVED[Model] if tag == "model" else frozenset())
         unpack_sdf(xml, definition(tag))
         if definition(tag).any:
             walk.enter_free(xml, "")

@@ -1,5 +1,5 @@
 """libsdformat 12, the reference parser of SDF: what it says of files, and the robot that it sees in one."""
 
-from twinform.testing.oracles.libsdformat.library import MISSING, Reading, available, judge, printed
+from twinform.testing.oracles.libsdformat.library import MISSING, Reading, available, judge
 
-__all__ = ["MISSING", "Reading", "available", "judge", "printed"]
+__all__ = ["MISSING", "Reading", "available", "judge"]

@@ -14,8 +14,7 @@ from typing import NotRequired, TypedDict
 
 MISSING = "libsdformat 12 is not here: it needs libsdformat-dev, pkg-config and g++"
 
-_JUDGE = Path(__file__).with_name("sdf_load.cpp")
-_PRINTER = Path(__file__).with_name("sdf_print.cpp")
+_SOURCE = Path(__file__).with_name("sdf_load.cpp")
 _AT_ONCE = 50
 _SECONDS_PER_FILE = 20
 
@@ -51,6 +50,7 @@ class RobotRow(TypedDict):
     """A model, in its own frame."""
 
     pose: list[float]
+    static: bool
     links: list[LinkRow]
     joints: list[JointRow]
 
@@ -96,7 +96,7 @@ def describe(path: Path) -> RobotRow:
     Raises:
         RuntimeError: the library has errors for the file, or there is no model in it.
     """
-    command = [str(_program(_JUDGE)), "--robots", str(path)]
+    command = [str(_program()), "--robots", str(path)]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
     if done.returncode:
         raise RuntimeError(f"libsdformat ended with {done.returncode}")
@@ -108,16 +108,6 @@ def describe(path: Path) -> RobotRow:
     return row["robot"]
 
 
-def printed(path: Path) -> str | None:
-    """A file as the library prints it; None where it does not read it, or does not survive it."""
-    command = [str(_program(_PRINTER)), str(path)]
-    try:
-        done = subprocess.run(command, capture_output=True, check=False, timeout=_SECONDS_PER_FILE)
-    except subprocess.TimeoutExpired:
-        return None
-    return done.stdout.decode(errors="replace") if done.returncode == 0 and done.stdout else None
-
-
 def _chunks(paths: list[Path]) -> Iterator[list[Path]]:
     upcoming = iter(paths)
     while chunk := list(islice(upcoming, _AT_ONCE)):
@@ -126,7 +116,7 @@ def _chunks(paths: list[Path]) -> Iterator[list[Path]]:
 
 def _run(paths: list[Path]) -> dict[Path, Reading]:
     """The verdicts up to and including the first file that the library does not survive."""
-    command = [str(_program(_JUDGE)), *map(str, paths)]
+    command = [str(_program()), *map(str, paths)]
     try:
         seconds = _SECONDS_PER_FILE * len(paths)
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False, timeout=seconds)
@@ -143,10 +133,10 @@ def _reading(row: _Row) -> Reading:
 
 
 @cache
-def _program(source: Path) -> Path:
-    program = _folder() / f"{source.stem}-{hashlib.sha256(source.read_bytes()).hexdigest()[:12]}"
+def _program() -> Path:
+    program = _folder() / f"sdf_load-{hashlib.sha256(_SOURCE.read_bytes()).hexdigest()[:12]}"
     if not program.exists():
-        _build(source, program)
+        _build(program)
     return program
 
 
@@ -155,12 +145,12 @@ def _folder() -> Path:
     return Path(cache) / "twinform" / "oracles"
 
 
-def _build(source: Path, program: Path) -> None:
+def _build(program: Path) -> None:
     program.parent.mkdir(parents=True, exist_ok=True)
     flags = subprocess.run(
         ["pkg-config", "--cflags", "--libs", "sdformat12"], capture_output=True, text=True, check=True
     ).stdout.split()
     # two test processes may build at the same time: each builds its own, and the last one wins
     own = program.with_name(f"{program.name}.{os.getpid()}")
-    subprocess.run(["g++", "-O1", "-std=c++17", str(source), "-o", str(own), *flags], check=True)
+    subprocess.run(["g++", "-O1", "-std=c++17", str(_SOURCE), "-o", str(own), *flags], check=True)
     own.replace(program)
