@@ -50,6 +50,7 @@ class RobotRow(TypedDict):
     """A model, in its own frame."""
 
     pose: list[float]
+    static: bool
     links: list[LinkRow]
     joints: list[JointRow]
 
