@@ -12,7 +12,7 @@ SYNCED := .venv/.synced
 ORACLES := .venv/.oracles
 DEMO := out/demo
 
-.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle sameness bench clean
+.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness bench clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -77,11 +77,14 @@ corpus: $(SYNCED) ## every real file through the compiler; writes docs/reference
 versions: $(ORACLES) ## every SDF file in older versions and back, some before Drake; writes docs/reference/versions.md
 	$(BIN)/python -m benchmarks.versions
 
-oracle: $(ORACLES) ## Drake, libsdformat and urdfdom judge the conversions; writes docs/reference/oracle.md
+oracle: $(ORACLES) ## Drake and other engines, libsdformat and urdfdom judge the conversions; writes docs/reference/oracle.md
 	$(BIN)/python -m benchmarks.oracle
 
 sameness: $(SYNCED) ## every conversion against its source by `twinform diff`; writes docs/reference/sameness.md
 	$(BIN)/python -m benchmarks.sameness
+
+probes: $(ORACLES) ## what libsdformat makes of small URDF files beside what we make; writes docs/reference/probes.md
+	$(BIN)/python -m benchmarks.probes
 
 bench: $(SYNCED) ## how fast it is; writes docs/reference/performance.md
 	$(BIN)/python -m benchmarks.bench

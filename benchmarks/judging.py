@@ -53,6 +53,7 @@ class Outcome:
     cause: str = ""
     difference: float = 0.0
     output: Path | None = None
+    joints: int = 0
 
 
 def directions(file: CorpusFile) -> tuple[Direction, ...]:
@@ -95,7 +96,9 @@ def _judged(file: CorpusFile, direction: Direction, source: Robot | str) -> Outc
         found = versus(source, (file.path, output), (DRAKE, DRAKE))
     except oracles.UnreadableError as error:
         return Outcome(file.name, direction, Verdict.RESULT, cause(error.cause), output=output)
-    return Outcome(file.name, direction, _VERDICTS[found.alike], found.cause, found.deviation, output)
+    return Outcome(
+        file.name, direction, _VERDICTS[found.alike], found.cause, found.deviation, output, len(source.joints)
+    )
 
 
 def _convert(file: CorpusFile, direction: Direction) -> Path:

@@ -9,7 +9,10 @@ from concurrent.futures import ThreadPoolExecutor
 from fnmatch import fnmatchcase
 from pathlib import Path
 
+from benchmarks.agreeing import Agreement, Answer, agreements
+from benchmarks.agreement_report import KNOWN, agreement_section, explained, motion_section, reasons
 from benchmarks.judging import OUT, Direction, Outcome, Verdict, directions, judge, post_mortem, rewrite
+from benchmarks.moving import WANTED, WAYS, Motion, motions
 from benchmarks.oracle_report import Reader, report
 from tests.corpus.files import CORPUS, MISSING, ROOT, CorpusFile, Kind, corpus_files
 from tests.oracles import known, urdfdom
@@ -18,7 +21,6 @@ from twinform.testing.oracles import libsdformat
 from twinform.testing.workers import Failure, run
 
 PAGE = ROOT / "docs" / "reference" / "oracle.md"
-KNOWN = Path(__file__).with_name("oracle_known.toml")
 LEAST = {Direction.TO_SDF_9: 150, Direction.TO_URDF: 60}
 """So many corpus files must come out as the same robot."""
 
@@ -32,9 +34,12 @@ def main() -> int:
     shutil.rmtree(OUT, ignore_errors=True)
     outcomes = sorted(_outcomes(), key=lambda outcome: (outcome.direction, outcome.name))
     readers = _readers(outcomes)
-    known = _known(outcomes)
-    report(PAGE, outcomes, readers, known)
-    return _conclude(outcomes, readers, known)
+    known = _known("different", (one.name for one in outcomes if one.verdict is Verdict.DIFFERENT))
+    agreed, moved = agreements(outcomes), motions(outcomes)
+    known_motions = _known("motion", (one.outcome.name for one in moved if one.verdict is not None and not one.verdict))
+    report(PAGE, outcomes, readers, known, (agreement_section(agreed), motion_section(moved, known_motions)))
+    failures = [*_disagreements(agreed), *_astray(moved, known_motions)]
+    return _conclude(outcomes, readers, known, failures)
 
 
 def judged_files() -> list[CorpusFile]:
@@ -103,19 +108,33 @@ def _by_urdfdom(outputs: Mapping[Path, str]) -> dict[str, str] | None:
     return {name: "; ".join(urdfdom.complaints(path)) for path, name in outputs.items()}
 
 
-def _known(outcomes: list[Outcome]) -> dict[str, str]:
+def _known(table: str, names: Iterable[str]) -> dict[str, str]:
     """The reasons, by file, for which a result is knowingly another robot."""
-    reasons: dict[str, str] = tomllib.loads(KNOWN.read_text(encoding="utf-8"))["different"]
-    different = {one.name for one in outcomes if one.verdict is Verdict.DIFFERENT}
-    return {name: why for name in different for glob, why in reasons.items() if fnmatchcase(name, glob)}
+    reasons: dict[str, str] = tomllib.loads(KNOWN.read_text(encoding="utf-8"))[table]
+    return {name: why for name in names for glob, why in reasons.items() if fnmatchcase(name, glob)}
 
 
-def _conclude(outcomes: list[Outcome], readers: tuple[Reader, ...], known: dict[str, str]) -> int:
+def _disagreements(agreed: list[Agreement]) -> list[str]:
+    """What engines say that nobody has explained."""
+    known = reasons()
+    doubted = (one for one in agreed if one.answer in {Answer.DIFFERENT, Answer.RESULT} and not explained(one, known))
+    return [f"{one.question.engine}: {one.question.name}: {one.answer}: {one.cause}" for one in doubted]
+
+
+def _astray(moved: list[Motion], known: Mapping[str, str]) -> list[str]:
+    """Robots that move otherwise, for a reason that nobody knows, and ways on which too few move alike."""
+    alike = Counter(one.outcome.direction for one in moved if one.verdict)
+    few = [f"{way}: only {alike[way]} robots move alike, not {WANTED}" for way in WAYS if alike[way] < WANTED]
+    other = [one for one in moved if one.verdict is not None and not one.verdict and one.outcome.name not in known]
+    return few + [f"{one.outcome.direction}: {one.outcome.name}: {one.verdict}" for one in other]
+
+
+def _conclude(outcomes: list[Outcome], readers: tuple[Reader, ...], known: dict[str, str], failures: list[str]) -> int:
     same = Counter(one.direction for one in outcomes if one.verdict in {Verdict.FRAMES, Verdict.INERTIAL})
     counts = Counter(f"{one.direction}: {one.verdict}" for one in outcomes)
     print(*(f"{count:5} {what}" for what, count in sorted(counts.items())), sep="\n")
     print(f"written to {PAGE.relative_to(ROOT)}; the results are in {OUT.relative_to(ROOT)}")
-    failures = [f"{way}: only {same[way]} the same, not {least}" for way, least in LEAST.items() if same[way] < least]
+    failures += [f"{way}: only {same[way]} the same, not {least}" for way, least in LEAST.items() if same[way] < least]
     failures += [
         f"{one.direction}: {one.name}: {one.verdict}: {one.cause}"
         for one in outcomes

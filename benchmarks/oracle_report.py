@@ -52,10 +52,16 @@ class Reader:
         return {file: errors for file, errors in (self.verdicts or {}).items() if errors}
 
 
-def report(page: Path, outcomes: list[Outcome], readers: Sequence[Reader], known: Mapping[str, str]) -> None:
-    """Write the page."""
+def report(
+    page: Path,
+    outcomes: list[Outcome],
+    readers: Sequence[Reader],
+    known: Mapping[str, str],
+    more: Sequence[str],
+) -> None:
+    """Write the page, with the sections `more` before the lists of exceptions."""
     groups = (f"{title}\n\n{_group(outcomes, verdict, known)}" for verdict, title in _GROUPS)
-    write(page, INTRODUCTION, _counts(outcomes), _readers(readers), *groups)
+    write(page, INTRODUCTION, _counts(outcomes), _readers(readers), *more, *groups)
 
 
 def _counts(outcomes: list[Outcome]) -> str:

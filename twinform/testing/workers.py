@@ -111,7 +111,8 @@ def _unless_raised(result: Result | _Raised) -> Result:
 def _serve(pipe: Connection, task: Callable[[Job], Result]) -> None:
     # the engines that are judges here write their warnings straight to the terminal
     silence = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(silence, sys.stderr.fileno())
+    for stream in (sys.stdout, sys.stderr):
+        os.dup2(silence, stream.fileno())
     while True:
         try:
             job = pipe.recv()

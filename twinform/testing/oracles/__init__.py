@@ -9,7 +9,7 @@
 Engines come with `pip install 'twinform[oracles]'`, and are imported when they are asked.
 """
 
-from twinform.testing.oracles.asking import compare
+from twinform.testing.oracles.asking import compare, simulate
 from twinform.testing.oracles.engines import ENGINES, Engine, available
 from twinform.testing.oracles.verdict import Alike, EngineMissingError, OracleError, UnreadableError, Verdict
 
@@ -23,4 +23,5 @@ __all__ = [
     "Verdict",
     "available",
     "compare",
+    "simulate",
 ]

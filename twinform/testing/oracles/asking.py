@@ -45,6 +45,28 @@ def compare(
         raise _culprit(first, second, engines) from None
 
 
+def simulate(a: str | PathLike[str], b: str | PathLike[str], *, seconds: float = 1.0) -> Verdict:
+    """Whether two files move alike when Drake lets them go from the same state, without control or contact.
+
+    Args:
+        a: URDF or SDF.
+        b: likewise.
+        seconds: for how long.
+
+    Raises:
+        EngineMissingError: Drake is not installed.
+        UnreadableError: Drake cannot read or simulate a file.
+    """
+    from twinform.testing.oracles import dynamics  # noqa: PLC0415 - as above
+
+    required("drake")
+    first, second = Path(a).resolve(), Path(b).resolve()
+    try:
+        return call(dynamics.moved_alike, first, second, seconds)
+    except ChildDiedError:
+        raise _culprit(first, second, ("drake", "drake")) from None
+
+
 def _culprit(first: Path, second: Path, engines: tuple[str, str]) -> UnreadableError:
     """The file on which an engine ends its process."""
     from twinform.testing.oracles import looking  # noqa: PLC0415 - as above

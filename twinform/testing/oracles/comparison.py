@@ -29,7 +29,7 @@ class _Deviation:
 
 def renamed(source: Robot, result: Robot) -> dict[str, str]:
     """The joints that have a new name because a link had theirs: the old name by the new one."""
-    lost = (set(source.joints) - set(result.joints)) & set(source.links)
+    lost = (set(source.joints) - set(result.joints)) & {*source.links, *result.links}
     return {f"{name}_joint": name for name in lost if f"{name}_joint" in result.joints}
 
 

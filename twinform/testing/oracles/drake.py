@@ -44,11 +44,16 @@ def read(path: Path, view: View) -> Robot:
 
 
 def parts(path: Path) -> tuple[Any, Parts, Parts]:
-    """The plant of the first model of a file, and its bodies and joints; without shapes, so that no mesh is missed."""
+    """The plant of the first model of a file, and its bodies and joints; without shapes, so that no mesh is missed.
+
+    Joints that mimic others are free: Drake reads that in URDF, and in SDF only from an element of its own.
+    """
     logging.getLogger("drake").setLevel(logging.CRITICAL)
     plant = importlib.import_module("pydrake.multibody.plant").MultibodyPlant(0.0)
     parser = importlib.import_module("pydrake.multibody.parsing").Parser(plant)
     prefix = f"{plant.GetModelInstanceName(parser.AddModels(str(path))[0])}::"
+    for constraint in plant.GetConstraintIds():
+        plant.RemoveConstraint(constraint)
     plant.Finalize()
     index = importlib.import_module("pydrake.multibody.tree").BodyIndex
     bodies = _named(plant, (plant.get_body(index(number)) for number in range(plant.num_bodies())), prefix)

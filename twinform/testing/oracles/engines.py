@@ -1,6 +1,6 @@
 """The engines that can be asked, and what each of them reads."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from importlib.util import find_spec
@@ -11,23 +11,24 @@ from twinform.testing.oracles.verdict import EngineMissingError
 
 _EXTRA = "pip install 'twinform[oracles]'"
 _HERE = "twinform.testing.oracles"
-_SDF = frozenset({".sdf", ".world"})
-_URDF = frozenset({".urdf"})
+_EXACT, _COARSE = 1e-9, 1e-6
+_SDF = {".sdf": _EXACT, ".world": _EXACT}
+_URDF = {".urdf": _EXACT}
+_COARSE_URDF = {".urdf": _COARSE}
 
 
 @dataclass(frozen=True, slots=True)
 class Engine:
-    """An engine: its formats by suffix, what it `needs`, and the `tolerance` that its numbers allow.
+    """An engine: its formats by suffix, with the tolerance that its numbers allow, and what it `needs`.
 
     `module` has the `read` that looks at a file with it; nothing of the engine is imported before that.
     """
 
     name: str
-    formats: frozenset[str]
+    formats: Mapping[str, float]
     needs: str
     module: str
     present: Callable[[], bool]
-    tolerance: float = 1e-9
 
     def reads(self, path: Path) -> bool:
         """Whether it has the format of a file."""
@@ -44,10 +45,10 @@ def _libsdformat() -> bool:
 
 _LIST = (
     Engine("drake", _SDF | _URDF, _EXTRA, _HERE + ".drake", partial(_importable, "pydrake")),
-    Engine("libsdformat", _SDF | _URDF, libsdformat.MISSING, _HERE + ".libsdformat.robot", _libsdformat),
+    Engine("libsdformat", _SDF | _COARSE_URDF, libsdformat.MISSING, _HERE + ".libsdformat.robot", _libsdformat),
     Engine("mujoco", _URDF, _EXTRA, _HERE + ".mujoco", partial(_importable, "mujoco")),
     Engine("pinocchio", _URDF, _EXTRA, _HERE + ".pinocchio", partial(_importable, "pinocchio")),
-    Engine("pybullet", _URDF, _EXTRA, _HERE + ".pybullet", partial(_importable, "pybullet"), tolerance=1e-6),
+    Engine("pybullet", _COARSE_URDF, _EXTRA, _HERE + ".pybullet", partial(_importable, "pybullet")),
 )
 ENGINES = {engine.name: engine for engine in _LIST}
 """All engines by name, whether they are installed or not."""

@@ -37,7 +37,7 @@ def versus(first: Robot, files: tuple[Path, Path], engines: tuple[str, str], *, 
         second = look(result, after, View(names, first.reference))
     if second.reference != first.reference:
         first = look(source, before, View(reference=second.reference))
-    tolerance = max(required(engine).tolerance for engine in engines)
+    tolerance = max(required(engine).formats[path.suffix] for engine, path in zip(engines, files, strict=True))
     return judge(first, second, tolerance=tolerance, lumped=lumped)
 
 

@@ -1,7 +1,9 @@
 """MuJoCo's view of a URDF model, which it is given without shapes (`shapes.py`)."""
 
+import contextlib
 import importlib
 import math
+import tempfile
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
@@ -37,9 +39,7 @@ def read(path: Path, view: View) -> Robot:
     """
     mujoco: Any = importlib.import_module("mujoco")
     text = without_shapes(path)
-    spec = mujoco.MjSpec.from_string(text.decode())
-    spec.compiler.fusestatic = False
-    model = spec.compile()
+    model = _compiled(mujoco, text)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     bodies = {model.body(number).name: number for number in range(1, model.nbody)}
@@ -58,6 +58,14 @@ def read(path: Path, view: View) -> Robot:
         samples=tuple(sample(number) for number in range(view.count)),
         welds=_welds(model, bodies, root),
     )
+
+
+def _compiled(mujoco: Any, text: bytes) -> Any:
+    # it writes its warnings to a file in the working directory
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+        spec = mujoco.MjSpec.from_string(text.decode())
+        spec.compiler.fusestatic = False
+        return spec.compile()
 
 
 def _joints(mujoco: Any, model: Any, names: Mapping[str, str]) -> Numbers:

@@ -14,6 +14,8 @@ class Alike(StrEnum):
     """Everything but where the frames of links lie, or a massless link is missing."""
     LUMPED = "lumped"
     """Joints, limits, mass matrix and gravity, and links weighed together with those that are fixed to them."""
+    MOTION = "motion"
+    """From one state, both move alike."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -198,14 +198,26 @@ class _Fold:
         conflicts: list[str] = []
         merged = merge(node, read_content(kind, name, self.robot.name, content, self.notes), conflicts)
         for field in conflicts:
-            where = next((e.location for x in content for e in x.content if e.name == field), content[0].location)
-            self._conflict(node, field, "the first one", where)
+            self._again(node, field, content)
         return merged
 
-    def _conflict(self, node: Node, field: str, winner: str, where: Location) -> None:
+    def _again(self, node: Node, field: str, extensions: list[GazeboExtension]) -> None:
+        """Report what is said again, and carry the elements that say it."""
+        again = [(extension, each) for extension in extensions for each in extension.content if each.name == field]
+        if not again:
+            # it is deeper inside, beside what was merged
+            self._conflict(node, field, "the first one", extensions[0].location)
+            return
+        message = self._conflict(node, field, "the first one", again[0][1].location, accounted=False)
+        for extension, element in again:
+            self._keep(extension, [element], to_sdf.GAZEBO_CONFLICT, message)
+
+    def _conflict(self, node: Node, field: str, winner: str, where: Location, *, accounted: bool = True) -> str:
         message = f"<gazebo> says {field!r} of {node.__dict__['name']!r} again; {winner} stays"
         self.notes.report(to_sdf.GAZEBO_CONFLICT, message, where, found=field)
-        self.notes.account(Fate.DROPPED, to_sdf.GAZEBO_CONFLICT, message, where)
+        if accounted:
+            self.notes.account(Fate.DROPPED, to_sdf.GAZEBO_CONFLICT, message, where)
+        return message
 
 
 def _each(

@@ -7,7 +7,7 @@ import numpy as np
 from twinform.testing.oracles.kinematics import Joint, Link, Motion, robot
 from twinform.testing.oracles.libsdformat.library import JointRow, LinkRow, describe
 from twinform.testing.oracles.lumping import lumped
-from twinform.testing.oracles.robot import Matrix, Robot, View, limit, pose
+from twinform.testing.oracles.robot import WORLD, Matrix, Robot, View, limit, pose
 
 _MOTIONS = {2: Motion.TURNS, 3: Motion.FIXED, 5: Motion.SLIDES, 6: Motion.TURNS}
 """The kinds of joints that move in one way or not at all, by the library's numbers for them."""
@@ -22,9 +22,18 @@ def read(path: Path, view: View) -> Robot:
     found = describe(path)
     links = [_link(row) for row in found["links"]]
     joints = [_joint(row) for row in found["joints"]]
+    if found["static"]:
+        joints += _held(links, joints)
     seen = robot("libsdformat", links, joints, _pose(found["pose"]), view)
     # it weighs links together itself when it reads URDF
     return lumped(seen) if path.suffix == ".urdf" else seen
+
+
+def _held(links: list[Link], joints: list[Joint]) -> list[Joint]:
+    """What holds the roots of a static model where they are."""
+    children = {joint.child for joint in joints}
+    roots = (link for link in links if link.name not in children)
+    return [Joint(link.name, Motion.FIXED, WORLD, link.name, link.pose, np.zeros(3), {}) for link in roots]
 
 
 def _link(row: LinkRow) -> Link:

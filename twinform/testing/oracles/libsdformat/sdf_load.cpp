@@ -123,7 +123,8 @@ void describe(const sdf::Root &root) {
   const sdf::Model *model = first_model(root);
   if (model == nullptr) return;
   const char *separator = "";
-  std::cout << ", \"robot\": {\"pose\": " << written(model->RawPose()) << ", \"links\": [";
+  std::cout << ", \"robot\": {\"pose\": " << written(model->RawPose())
+            << ", \"static\": " << (model->Static() ? "true" : "false") << ", \"links\": [";
   describe_links(*model, "", Pose3d::Zero, separator);
   separator = "";
   std::cout << "], \"joints\": [";

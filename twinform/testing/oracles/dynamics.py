@@ -1,0 +1,119 @@
+"""Two models let go from the same state, in Drake: do they move alike?
+
+Gravity acts, motors and contacts do not. States are set and read by name, since the order of joints is an engine's own
+business; joints and free links start away from zero, and moving. Joints that mimic others move as they like, since
+Drake does not read that in SDF; friction and the ends of joints do not act, since it has none in continuous time.
+"""
+
+import importlib
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from twinform.testing.oracles import drake
+from twinform.testing.oracles.comparison import renamed
+from twinform.testing.oracles.looking import look
+from twinform.testing.oracles.robot import Matrix
+from twinform.testing.oracles.sampling import spread
+from twinform.testing.oracles.verdict import Alike, UnreadableError, Verdict
+
+TOLERANCE = 1e-6
+_ACCURACY = 1e-10
+_LARGEST_STEP = 0.01
+_TIMES = 10
+_SWING = 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class Trajectory:
+    """Positions and velocities at some times, by what they belong to; one row for each time."""
+
+    states: Mapping[str, Matrix]
+
+
+def moved_alike(first: Path, second: Path, seconds: float) -> Verdict:
+    """The verdict on two files.
+
+    Raises:
+        UnreadableError: Drake cannot read or simulate one of them.
+    """
+    names = renamed(look(first, "drake"), look(second, "drake"))
+    before, after = _trajectory(first, {}, seconds), _trajectory(second, names, seconds)
+    if cause := _other_parts(before, after):
+        return Verdict("drake", None, math.inf, "", cause)
+    gaps = {name: _gap(before.states[name], after.states[name]) for name in before.states}
+    worst = max(gaps, key=lambda name: gaps[name], default="")
+    size = gaps.get(worst, 0.0)
+    if size > TOLERANCE:
+        return Verdict("drake", None, size, worst, f"{worst} moves otherwise")
+    return Verdict("drake", Alike.MOTION, size, worst)
+
+
+def _gap(before: Matrix, after: Matrix) -> float:
+    """The largest difference, against one or the largest number where that is more."""
+    gap = float(np.abs(before - after).max()) / max(1.0, float(np.abs(before).max()))
+    return math.inf if math.isnan(gap) else gap
+
+
+def _other_parts(before: Trajectory, after: Trajectory) -> str:
+    lost, added = before.states.keys() - after.states.keys(), after.states.keys() - before.states.keys()
+    parts = [("only the first has", lost), ("only the second has", added)]
+    return "; ".join(f"{what} {', '.join(sorted(names))}" for what, names in parts if names)
+
+
+def _trajectory(path: Path, names: Mapping[str, str], seconds: float) -> Trajectory:
+    try:
+        return _simulated(path, names, seconds)
+    except (Exception, SystemExit) as error:
+        raise UnreadableError("drake", path, str(error)) from error
+
+
+def _simulated(path: Path, names: Mapping[str, str], seconds: float) -> Trajectory:
+    plant, bodies, found = drake.parts(path)
+    joints = {names.get(name, name): joint for name, joint in found.items() if joint.num_velocities() == 1}
+    loose = {name: body for name, body in bodies.items() if body.is_floating_base_body()}
+    analysis: Any = importlib.import_module("pydrake.systems.analysis")
+    simulator = analysis.Simulator(plant)
+    analysis.ResetIntegratorFromFlags(simulator, "runge_kutta5", _LARGEST_STEP)
+    simulator.get_mutable_integrator().set_target_accuracy(_ACCURACY)
+    context = simulator.get_mutable_context()
+    _start(plant, context, joints, loose)
+    rows: list[Mapping[str, Matrix]] = []
+    for number in range(_TIMES + 1):
+        simulator.AdvanceTo(seconds * number / _TIMES)
+        rows.append(_state(plant, context, joints, loose))
+    return Trajectory({name: np.array([row[name] for row in rows]) for name in rows[0]})
+
+
+def _start(plant: Any, context: Any, joints: Mapping[str, Any], loose: Mapping[str, Any]) -> None:
+    for name, joint in joints.items():
+        positions, speeds = plant.GetPositions(context), plant.GetVelocities(context)
+        positions[joint.position_start()] = _SWING * spread(f"{name}/position")
+        speeds[joint.velocity_start()] = spread(f"{name}/velocity")
+        plant.SetPositions(context, positions)
+        plant.SetVelocities(context, speeds)
+    maths: Any = importlib.import_module("pydrake.math")
+    algebra: Any = importlib.import_module("pydrake.multibody.math")
+    for name, body in loose.items():
+        turn = maths.RollPitchYaw(*(spread(f"{name}/turn/{axis}") for axis in range(3)))
+        place = np.array([spread(f"{name}/place/{axis}") for axis in range(3)])
+        motion = np.array([spread(f"{name}/motion/{axis}") for axis in range(6)])
+        plant.SetFreeBodyPose(context, body, maths.RigidTransform(turn, place))
+        plant.SetFreeBodySpatialVelocity(body, algebra.SpatialVelocity(motion[:3], motion[3:]), context)
+
+
+def _state(plant: Any, context: Any, joints: Mapping[str, Any], loose: Mapping[str, Any]) -> Mapping[str, Matrix]:
+    positions, speeds = plant.GetPositions(context), plant.GetVelocities(context)
+    state = {
+        f"joint {name}": np.array([positions[joint.position_start()], speeds[joint.velocity_start()]])
+        for name, joint in joints.items()
+    }
+    for name, body in loose.items():
+        pose = plant.EvalBodyPoseInWorld(context, body).GetAsMatrix34()
+        velocity = plant.EvalBodySpatialVelocityInWorld(context, body).get_coeffs()
+        state[f"link {name}"] = np.concatenate([pose.ravel(), velocity])
+    return state
