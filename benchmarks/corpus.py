@@ -27,7 +27,8 @@ Every URDF and SDF file of the corpus is read (*well-formed* says what a strict 
 that `twinform check` finds no error), converted to the other format (URDF to SDF {SDF_VERSION}; of a file with several
 models the first {MOST_ROBOTS}, one by one; includes only where there are no others), and written again in its own
 format and version. *Identical* means that a comparison of XML trees, which knows nothing of the compiler, finds the
-text equal to the file but for white space, comments, the spelling of numbers and the order of unlike siblings. *Home*
+text equal to the file but for white space, comments, the spelling of numbers and the order of unlike siblings.
+*Unaccounted* are elements and attributes that `convert --audit` finds neither in the result nor in the ledger. *Home*
 means that the result of the conversion was converted back, and that the document of the source came out of it: equal in
 the IR, in the version that it had.
 
@@ -140,7 +141,7 @@ def _xacro_row(title: str, found: list[Expanded]) -> tuple[object, ...]:
     )
 
 
-_COLUMNS = ("files", "well-formed", "accepted", "converted", "home", "identical", "seconds")
+_COLUMNS = ("files", "well-formed", "accepted", "converted", "unaccounted", "home", "identical", "seconds")
 
 
 def _row(title: str, found: list[Examined]) -> tuple[object, ...]:
@@ -150,6 +151,7 @@ def _row(title: str, found: list[Examined]) -> tuple[object, ...]:
         sum(one.well_formed for one in found),
         sum(one.accepted for one in found),
         sum(one.converted for one in found),
+        sum(len(one.unaccounted) for one in found),
         sum(one.home for one in found),
         sum(one.identical for one in found),
         f"{sum(one.seconds for one in found):.1f}",

@@ -6,13 +6,14 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import twinform
 from tests.corpus.files import CorpusFile
 from tests.corpus.ir_difference import first_difference as ir_difference
 from tests.oracles.xml_trees import first_difference, is_well_formed
 from twinform.compiler import Checked
+from twinform.compiler.audit import audit
 from twinform.compiler.emitting import emit
 from twinform.compiler.memory.document import forget
 from twinform.diagnostics import Diagnostic, Notes
@@ -35,6 +36,7 @@ class Examined:
     """What the compiler makes of a file. The rules are those of the errors that stopped it, each once.
 
     `without_robot` says that there is no model in it, so nothing to convert to URDF.
+    `unaccounted` are elements and attributes of it that an audit of the conversions does not find again.
     `difference` is the first place where the file and its own text from the compiler differ, `home` whether every
     conversion leads back to the model that it began with, and `astray` where the first one does not. `faults` are
     broken promises: tracebacks, and refusals that name no line.
@@ -49,6 +51,7 @@ class Examined:
     not_converted_by: tuple[str, ...] = ()
     identical: bool = False
     difference: str = ""
+    unaccounted: tuple[str, ...] = ()
     home: bool = False
     astray: str = ""
     faults: tuple[str, ...] = ()
@@ -90,23 +93,39 @@ def _converted(file: CorpusFile, document: Document, found: Examined) -> Examine
     try:
         if document.format is Format.SDF and not among:
             return replace(found, without_robot=True)
-        astray = [way for way in _ways_home(file, document, among) if way]
+        ways = list(_ways(file, document, among))
     except twinform.CompileError as error:
         faults = (*found.faults, *without_line(error.diagnostics))
         return replace(found, not_converted_by=rules_of(error.diagnostics), faults=faults)
     except Exception as error:  # noqa: BLE001 - every other exception is a fault to report
         return replace(found, faults=(*found.faults, fault(error)))
-    return replace(found, converted=True, home=not astray, astray=_short(astray[0]) if astray else "")
+    astray = next((_short(way.astray) for way in ways if way.astray), "")
+    lost = tuple(part for way in ways for part in way.unaccounted)
+    return replace(found, converted=True, home=not astray, astray=astray, unaccounted=lost)
 
 
-def _ways_home(file: CorpusFile, document: Document, among: list[str | None]) -> Iterator[str]:
-    """Convert each robot and go back; gives where the first difference to the source is, if there is any."""
+class _Way(NamedTuple):
+    """A conversion: the first difference to the source on its way back, and what an audit of it does not find."""
+
+    astray: str
+    unaccounted: tuple[str, ...]
+
+
+def _ways(file: CorpusFile, document: Document, among: list[str | None]) -> Iterator[_Way]:
+    """Convert each robot, count its parts, and go back."""
     if document.format is Format.URDF:
-        yield _way_home(document, twinform.convert(file.path, to="sdf", sdf_version=SDF_VERSION).text, "urdf")
+        there = twinform.convert(file.path, to="sdf", sdf_version=SDF_VERSION)
+        yield _Way(_way_home(document, there.text, "urdf"), _lost(there))
         return
     for robot in among:
-        there = twinform.convert(file.path, to="urdf", model=robot, paths=file.paths).text
-        yield _way_home(_chosen(file, document, robot), there, "sdf")
+        there = twinform.convert(file.path, to="urdf", model=robot, paths=file.paths)
+        yield _Way(_way_home(_chosen(file, document, robot), there.text, "sdf"), _lost(there))
+
+
+def _lost(made: twinform.Conversion) -> tuple[str, ...]:
+    assert made.source is not None
+    parts = audit(made.source, made.text, made.ledger).unaccounted
+    return tuple(f"line {part.location.line}: {part.location.path}: {part.says}" for part in parts)
 
 
 def _chosen(file: CorpusFile, document: Document, robot: str | None) -> Document:

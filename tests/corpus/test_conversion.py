@@ -29,3 +29,9 @@ def test_an_accepted_file_is_converted_or_the_rules_against_it_are_named(corpus:
 def test_the_way_back_of_a_conversion_leads_home(corpus: Path, chunk: str):
     assert corpus.is_dir()
     assert {found.name: found.astray for found in examined(CHUNKS[chunk]) if found.astray} == {}
+
+
+@pytest.mark.parametrize("chunk", CHUNKS)
+def test_every_part_of_a_file_is_accounted_for(corpus: Path, chunk: str):
+    assert corpus.is_dir()
+    assert {found.name: found.unaccounted for found in examined(CHUNKS[chunk]) if found.unaccounted} == {}
