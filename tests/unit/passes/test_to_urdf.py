@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
+import twinform
 from tests.oracles import urdfdom
 from twinform.diagnostics import Fate, Notes
 from twinform.ir import Document, Opaque
@@ -339,6 +340,19 @@ def test_joints_between_frames_connect_their_links() -> None:
     assert said(root, "/robot/joint[@name='j']/*/@link") == ["a", "b"]
     assert said(root, "/robot/joint[@name='j']/origin/@xyz") == ["0 0 1"]
     assert said(root, "/robot/joint[@name='j']/tf:sdf/*/text()") == ["f", "g"]
+
+
+def test_a_link_that_is_posed_by_the_joint_that_is_cut_stays_where_it_is() -> None:
+    text = (
+        "<sdf version='1.11'><model name='m'><link name='a'/><link name='b'><pose relative_to='cut'/></link>"
+        "<joint name='kept' type='revolute'><parent>a</parent><child>b</child></joint>"
+        "<joint name='cut' type='fixed'><pose relative_to='a'>1 0 0 0 0 0</pose><parent>a</parent><child>b</child>"
+        "</joint></model></sdf>"
+    )
+    joint = next(each for each in twinform.convert(text.encode(), to="urdf").document.models[0].joints)
+    assert joint.name == "kept"
+    assert joint.pose
+    assert joint.pose.xyz == (1.0, 0.0, 0.0)
 
 
 def test_a_loop_is_cut_and_closed_again_for_gazebo() -> None:

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 
 from twinform.ir import GazeboExtension, Joint, Model, Pose
-from twinform.ir.frames import FrameGraph
+from twinform.ir.frames import MODEL, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import to_element
 from twinform.passes.legalise.nodes import map_poses
@@ -14,7 +14,7 @@ def cut_joints(model: Model, kept: Sequence[Joint], cut: Sequence[Joint], parent
     """The model with only the joints that are kept, and each of the others in a `<gazebo>` element.
 
     `parent_joint` has the joint of the tree that holds a link: in URDF its frame is the link's, and the pose of what is
-    cut is in there. Poses relative to a joint that is cut become relative to its child.
+    cut is in there. Poses relative to a joint that is cut become relative to the model.
     """
     graph = FrameGraph(model)
     extensions = list(model.extensions)
@@ -25,14 +25,13 @@ def cut_joints(model: Model, kept: Sequence[Joint], cut: Sequence[Joint], parent
         blob = to_element(joint.model_copy(update={"pose": base.to_pose()}), "joint", "sdf")
         extensions.append(GazeboExtension(content=(blob,), source=joint.source))
     model = model.model_copy(update={"joints": tuple(kept), "extensions": tuple(extensions)})
-    children = {joint.name: joint.child or "" for joint in cut}
-    return map_poses(model, partial(_without_cut, graph, children))
+    names = frozenset(joint.name for joint in cut)
+    return map_poses(model, partial(_without_cut, graph, names))
 
 
-def _without_cut(graph: FrameGraph, children: dict[str, str], pose: Pose) -> Pose:
-    """A pose relative to a joint that was cut, relative to the joint's child."""
+def _without_cut(graph: FrameGraph, names: frozenset[str], pose: Pose) -> Pose:
+    """A pose relative to a joint that was cut, in the frame of the model: either of its links may be posed by it."""
     joint = pose.relative_to
-    if joint not in children:
+    if joint not in names:
         return pose
-    child = children[joint]
-    return graph.pose(joint, child, kind="joint").compose(Transform.from_pose(pose)).to_pose(child)
+    return graph.pose(joint, MODEL, kind="joint", base="model").compose(Transform.from_pose(pose)).to_pose(MODEL)
