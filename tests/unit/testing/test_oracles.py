@@ -137,6 +137,29 @@ def test_links_that_are_fixed_to_each_other_may_be_weighed_together(tmp_path: Pa
     assert oracles.compare(a, b, engine="drake", lumped=True).alike is oracles.Alike.LUMPED
 
 
+def test_a_ball_joint_is_the_same_as_a_chain_of_three_that_begin_with_its_name(tmp_path: Path):
+    hinge = '<joint name="{}" type="continuous"><parent link="{}"/><child link="{}"/><axis xyz="{}"/></joint>'
+    chain = [
+        hinge.format("socket_z", "base", "one", "0 0 1"),
+        hinge.format("socket_y", "one", "two", "0 1 0"),
+        hinge.format("socket", "two", "sledge", "1 0 0"),
+        '<link name="one"/><link name="two"/>',
+    ]
+    inertia = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
+    link = '<link name="{}"><inertial><mass value="{}"/>' + inertia + "</inertial></link>"
+    links = link.format("base", 2) + link.format("sledge", 1)
+    urdf = written(tmp_path / "a.urdf", f"<robot name='r'>{links}{''.join(chain)}</robot>")
+    sdf = """<sdf version="1.9"><model name="r">
+      <link name="base"><inertial><mass>2</mass></inertial></link>
+      <link name="sledge"><inertial><mass>1</mass></inertial></link>
+      <joint name="socket" type="ball"><parent>base</parent><child>sledge</child></joint>
+    </model></sdf>"""
+    verdict = oracles.compare(written(tmp_path / "a.sdf", sdf), urdf, engine=present("drake"))
+    assert verdict, verdict
+    assert oracles.compare(urdf, tmp_path / "a.sdf")
+    assert oracles.simulate(tmp_path / "a.sdf", urdf)
+
+
 @pytest.mark.parametrize("name", ["arm", "rover"])
 @pytest.mark.parametrize(("before", "after"), list(product(sorted(oracles.ENGINES), BOTH)))
 def test_an_example_becomes_the_same_robot_in_sdf(before: str, after: str, name: str, tmp_path: Path):

@@ -33,6 +33,16 @@ def renamed(source: Robot, result: Robot) -> dict[str, str]:
     return {f"{name}_joint": name for name in lost if f"{name}_joint" in result.joints}
 
 
+def chained(first: Robot, second: Robot) -> frozenset[str]:
+    """The joints of the second robot that are links of a chain: what one joint of the first becomes in URDF.
+
+    SDF's joints with several degrees of freedom, and its screws, become joints that have its name, or begin with it.
+    """
+    added = set(second.joints) - set(first.joints)
+    whole = set(first.others) - set(second.others)
+    return frozenset(name for name in added for joint in whole if name == joint or name.startswith(f"{joint}_"))
+
+
 def judge(first: Robot, second: Robot, *, tolerance: float = TOLERANCE, lumped: bool = False) -> Verdict:
     """The verdict on two robots that were read; `lumped` weighs links together that are fixed to each other."""
     if lumped or first.lumped or second.lumped:

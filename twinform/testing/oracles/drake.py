@@ -24,7 +24,8 @@ def read(path: Path, view: View) -> Robot:
         Exception: Drake cannot read it; it has no narrower type for that.
     """
     plant, bodies, joints = parts(path)
-    moving = {view.names.get(name, name): joint for name, joint in joints.items() if joint.num_velocities() == 1}
+    found = {view.names.get(name, name): joint for name, joint in joints.items()}
+    moving = {name: joint for name, joint in found.items() if is_simple(joint) and name not in view.still}
     reference = view.reference if view.reference in bodies else root(bodies, joints)
     origin = _pose(plant, plant.CreateDefaultContext(), bodies[reference]) if reference != WORLD else np.eye(4)
     plant.mutable_gravity_field().set_gravity_vector(origin[:3, :3] @ np.array([0.0, 0.0, -GRAVITY]))
@@ -40,7 +41,13 @@ def read(path: Path, view: View) -> Robot:
         limits={name: _limits(joint) for name, joint in moving.items()},
         samples=tuple(samples),
         welds=_welds(bodies, joints),
+        others=tuple(name for name, joint in found.items() if joint.num_velocities() and not is_simple(joint)),
     )
+
+
+def is_simple(joint: Any) -> bool:
+    """Whether a joint turns or slides along one axis."""
+    return joint.num_velocities() == 1 and joint.type_name() in {"revolute", "prismatic"}
 
 
 def parts(path: Path) -> tuple[Any, Parts, Parts]:

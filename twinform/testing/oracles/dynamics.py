@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 
 from twinform.testing.oracles import drake
-from twinform.testing.oracles.comparison import renamed
+from twinform.testing.oracles.comparison import chained, renamed
 from twinform.testing.oracles.looking import look
-from twinform.testing.oracles.robot import Matrix
+from twinform.testing.oracles.robot import Matrix, View
 from twinform.testing.oracles.sampling import spread
 from twinform.testing.oracles.verdict import Alike, UnreadableError, Verdict
 
@@ -41,8 +41,9 @@ def moved_alike(first: Path, second: Path, seconds: float) -> Verdict:
     Raises:
         UnreadableError: Drake cannot read or simulate one of them.
     """
-    names = renamed(look(first, "drake"), look(second, "drake"))
-    before, after = _trajectory(first, {}, seconds), _trajectory(second, names, seconds)
+    one, other = look(first, "drake"), look(second, "drake")
+    before = _trajectory(first, View(still=chained(other, one)), seconds)
+    after = _trajectory(second, View(renamed(one, other), still=chained(one, other)), seconds)
     if cause := _other_parts(before, after):
         return Verdict("drake", None, math.inf, "", cause)
     gaps = {name: _gap(before.states[name], after.states[name]) for name in before.states}
@@ -65,16 +66,17 @@ def _other_parts(before: Trajectory, after: Trajectory) -> str:
     return "; ".join(f"{what} {', '.join(sorted(names))}" for what, names in parts if names)
 
 
-def _trajectory(path: Path, names: Mapping[str, str], seconds: float) -> Trajectory:
+def _trajectory(path: Path, view: View, seconds: float) -> Trajectory:
     try:
-        return _simulated(path, names, seconds)
+        return _simulated(path, view, seconds)
     except (Exception, SystemExit) as error:
         raise UnreadableError("drake", path, str(error)) from error
 
 
-def _simulated(path: Path, names: Mapping[str, str], seconds: float) -> Trajectory:
+def _simulated(path: Path, view: View, seconds: float) -> Trajectory:
     plant, bodies, found = drake.parts(path)
-    joints = {names.get(name, name): joint for name, joint in found.items() if joint.num_velocities() == 1}
+    named = {view.names.get(name, name): joint for name, joint in found.items() if drake.is_simple(joint)}
+    joints = {name: joint for name, joint in named.items() if name not in view.still}
     loose = {name: body for name, body in bodies.items() if body.is_floating_base_body()}
     analysis: Any = importlib.import_module("pydrake.systems.analysis")
     simulator = analysis.Simulator(plant)

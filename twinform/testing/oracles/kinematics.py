@@ -77,7 +77,8 @@ class _Tree:
 
 def robot(engine: str, links: Sequence[Link], joints: Sequence[Joint], model: Matrix, view: View) -> Robot:
     """The robot of these parts, whose frame lies in the world at the pose `model`."""
-    moving = {view.names.get(joint.name, joint.name): joint for joint in joints if joint.moves}
+    named = ((view.names.get(joint.name, joint.name), joint) for joint in joints if joint.moves)
+    moving = {name: joint for name, joint in named if name not in view.still}
     tree = _Tree({link.name: link for link in links}, {joint.child: joint for joint in joints}, moving)
     reference = view.reference if view.reference in {*tree.links, WORLD} else _root(links, joints)
     # joints to the world say where in it a model stands; all others stand where their reference does
@@ -90,6 +91,7 @@ def robot(engine: str, links: Sequence[Link], joints: Sequence[Joint], model: Ma
         links=tuple(tree.links),
         limits={name: joint.limits for name, joint in moving.items()},
         samples=tuple(samples),
+        others=tuple(joint.name for joint in joints if joint.motion is Motion.OTHER),
         welds={joint.child: joint.parent for joint in joints if joint.motion is Motion.FIXED},
     )
 

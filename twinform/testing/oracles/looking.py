@@ -3,7 +3,7 @@
 from importlib import import_module
 from pathlib import Path
 
-from twinform.testing.oracles.comparison import judge, renamed
+from twinform.testing.oracles.comparison import chained, judge, renamed
 from twinform.testing.oracles.engines import required
 from twinform.testing.oracles.robot import Robot, View
 from twinform.testing.oracles.verdict import UnreadableError, Verdict
@@ -33,10 +33,12 @@ def versus(first: Robot, files: tuple[Path, Path], engines: tuple[str, str], *, 
     """
     (source, result), (before, after) = files, engines
     second = look(result, after, View(reference=first.reference))
-    if names := renamed(first, second):
-        second = look(result, after, View(names, first.reference))
-    if second.reference != first.reference:
-        first = look(source, before, View(reference=second.reference))
+    names = renamed(first, second)
+    here, there = chained(first, second), chained(second, first)
+    if names or here:
+        second = look(result, after, View(names, first.reference, here))
+    if second.reference != first.reference or there:
+        first = look(source, before, View(reference=second.reference, still=there))
     tolerance = max(required(engine).formats[path.suffix] for engine, path in zip(engines, files, strict=True))
     return judge(first, second, tolerance=tolerance, lumped=lumped)
 

@@ -4,7 +4,6 @@ import contextlib
 import importlib
 import math
 import tempfile
-from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -43,7 +42,7 @@ def read(path: Path, view: View) -> Robot:
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     bodies = {model.body(number).name: number for number in range(1, model.nbody)}
-    joints = _joints(mujoco, model, view.names)
+    joints = _joints(mujoco, model, view)
     root = root_link(text)
     reference = view.reference if view.reference in {*bodies, WORLD} else root
     origin = np.eye(4) if reference == WORLD else _pose(data, bodies[reference])
@@ -68,11 +67,12 @@ def _compiled(mujoco: Any, text: bytes) -> Any:
         return spec.compile()
 
 
-def _joints(mujoco: Any, model: Any, names: Mapping[str, str]) -> Numbers:
+def _joints(mujoco: Any, model: Any, view: View) -> Numbers:
     moving = {int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE)}
     numbers = (number for number in range(model.njnt) if int(model.jnt_type[number]) in moving)
     found = ((model.joint(number).name, number) for number in numbers)
-    return {names.get(name, name): number for name, number in found}
+    named = ((view.names.get(name, name), number) for name, number in found)
+    return {name: number for name, number in named if name not in view.still}
 
 
 def _welds(model: Any, bodies: Numbers, root: str) -> dict[str, str]:

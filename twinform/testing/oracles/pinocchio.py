@@ -30,7 +30,7 @@ def read(path: Path, view: View) -> Robot:
     reference = view.reference if view.reference in {*links, WORLD} else next(iter(links))
     origin = np.eye(4) if reference == WORLD else _pose(model, data, links[reference])
     model.gravity.linear = origin[:3, :3] @ np.array([0.0, 0.0, -GRAVITY])
-    joints = _joints(model, view.names)
+    joints = _joints(model, view)
     sample = partial(_sample, pinocchio, model, data, links, joints, inverse(origin))
     return Robot(
         engine="pinocchio",
@@ -43,9 +43,10 @@ def read(path: Path, view: View) -> Robot:
     )
 
 
-def _joints(model: Any, names: Mapping[str, str]) -> Joints:
+def _joints(model: Any, view: View) -> Joints:
     found = ((model.names[number], model.joints[number]) for number in range(1, model.njoints))
-    return {names.get(name, name): joint for name, joint in found if joint.nv == 1}
+    named = ((view.names.get(name, name), joint) for name, joint in found if joint.nv == 1)
+    return {name: joint for name, joint in named if name not in view.still}
 
 
 def _limits(model: Any, joint: Any) -> dict[str, float]:

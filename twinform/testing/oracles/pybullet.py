@@ -99,7 +99,7 @@ def _weighed(text: bytes) -> bytes:
 def _robot(world: _World, view: View) -> Robot:
     moving = {world.engine.JOINT_REVOLUTE, world.engine.JOINT_PRISMATIC}
     named = {joint.name.decode(): joint for joint in world.joints if joint.kind in moving}
-    joints = {view.names.get(name, name): joint for name, joint in named.items()}
+    joints = {view.names.get(name, name): joint for name, joint in named.items() if name not in view.still}
     numbers = {world.base: -1} | {joint.link.decode(): joint.number for joint in world.joints}
     reference = view.reference if view.reference in numbers else world.base
     origin = _poses(world, numbers[reference])[0]
@@ -141,8 +141,11 @@ def _sample(
 ) -> Sample:
     for name, joint in joints.items():
         world.ask("resetJointState", joint.number, position(name, sample))
-    order = {joint.number: place for place, joint in enumerate(sorted(joints.values()))}
-    places = [position(name, sample) for name, _ in sorted(joints.items(), key=lambda item: item[1].number)]
+    # it wants a position for every joint that can move, in its own order
+    names = {joint.number: name for name, joint in joints.items()}
+    movable = sorted(joint.number for joint in world.joints if joint.first_speed >= 0)
+    order = {number: place for place, number in enumerate(movable)}
+    places = [position(names[number], sample) if number in names else 0.0 for number in movable]
     rows = [order[joint.number] for joint in joints.values()]
     rest = [0.0] * len(places)
     matrix = np.array(world.ask("calculateMassMatrix", places)) if places else np.zeros((0, 0))

@@ -19,12 +19,13 @@ _UNLIMITED = 1e15
 class View:
     """How to look at a model: other `names` for some joints, and the link that poses and gravity are relative to.
 
-    Without a `reference`, or where the model does not have it, that is the world if something is joined to it, else
-    the root.
+    Joints that are `still` stay at zero and are none of the robot's. Without a `reference`, or where the model does not
+    have it, that is the world if something is joined to it, else the root.
     """
 
     names: Mapping[str, str] = field(default_factory=dict[str, str])
     reference: str = ""
+    still: frozenset[str] = frozenset()
     count: int = SAMPLES
 
 
@@ -54,7 +55,8 @@ class Sample:
 class Robot:
     """What one engine sees in one file.
 
-    `joints` are those with one degree of freedom; `welds` say which link is fixed to which. `lumped` is true where the
+    `joints` are those with one degree of freedom, and stand where the samples say; `others` are those with more, and
+    screws, and stand at zero. `welds` say which link is fixed to which. `lumped` is true where the
     engine weighs such links together, so that only the first of them has a body.
     """
 
@@ -66,6 +68,7 @@ class Robot:
     samples: tuple[Sample, ...]
     welds: Mapping[str, str] = field(default_factory=dict[str, str])
     lumped: bool = False
+    others: tuple[str, ...] = ()
 
 
 def limit(value: float) -> float:
