@@ -97,6 +97,12 @@ def test_the_version_of_the_source_comes_home_unless_another_is_asked_for():
     assert twinform.convert(there.encode(), to="sdf", sdf_version="1.9").document.version == "1.9"
 
 
+def test_marks_that_are_no_list_of_what_was_made_are_taken_off_too():
+    ball = "<gazebo><joint name='j' type='ball'><parent>base</parent><child>upper</child></joint></gazebo></robot>"
+    text = ARM.replace("</robot>", ball)
+    assert first_difference(twinform.loads(text), forget(home(over(text)).document)) is None
+
+
 NAMES = st.sampled_from(["a", "b", "c"])
 ATTRIBUTES = st.dictionaries(st.sampled_from(["name", "k", "link"]), NAMES, max_size=2)
 TEXTS = st.text(string.ascii_letters, max_size=3)

@@ -86,13 +86,15 @@ def _tree(document: Document, *, bare: bool) -> XmlElement:
 
 def _strip(element: XmlElement) -> None:
     """Take off our own attributes, and with a mark what it says that we have made."""
-    parent = element.getparent()
+    made = (element.get(MADE) or "").split()
     for name in [name for name in map(str, element.keys()) if name.startswith(_OURS[:-1])]:
-        made = element.attrib.pop(name) if name == MADE else ""
-        if made == "." and parent is not None:
-            parent.remove(element)
-        elif made in element.attrib:
-            del element.attrib[made]
+        del element.attrib[name]
+    parent = element.getparent()
+    if "." in made and parent is not None:
+        parent.remove(element)
+    for name in made:
+        if name in element.keys():  # noqa: SIM118 - lxml takes the dot for a bad name
+            del element.attrib[name]
 
 
 def _number(tree: XmlElement) -> None:
