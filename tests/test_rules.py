@@ -23,7 +23,6 @@ WITHOUT_CASE = {
     "missing-inertial": "unit/passes/test_check_inertia.py",
     "partial-limit": "unit/compiler/test_driver.py",
     "schema-disagreement": "unit/schemas/test_validator.py",
-    "stale-carrier": "unit/passes/test_sdf_versions.py",
     "too-many-includes": "unit/compiler/test_includes.py",
     "unfilled-limit": "unit/passes/test_fill_limits.py",
     "unreadable-file": "unit/compiler/test_parsing.py",
