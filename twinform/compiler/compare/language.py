@@ -14,7 +14,7 @@ from twinform.diagnostics import Notes
 from twinform.ir import Document, Format
 from twinform.ir.frames import FrameError
 from twinform.passes import Pass, Pipeline
-from twinform.passes.legalise.candidates import candidates, wanted_includes
+from twinform.passes.legalise.candidates import candidates, name_once_expanded, wanted_includes
 from twinform.passes.legalise.sdf_versions import raise_words
 from twinform.passes.legalise.to_sdf import to_sdf
 from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
@@ -40,7 +40,8 @@ def read_robots(source: str | Path | bytes, how: Reading, *, name: str, model: s
     checked = read(source, how, name=name)
     if checked.accepted:
         wanted = wanted_includes(checked.document, model) if model is not None else None
-        checked = expand(checked, how, wanted=wanted)
+        before, checked = checked.document, expand(checked, how, wanted=wanted)
+        model = name_once_expanded(before, checked.document, model)
     document = checked.document
     if document is None or not checked.accepted:
         raise CompileError(checked.diagnostics, unreadable=checked.unreadable)
