@@ -5,11 +5,10 @@ from collections.abc import Generator
 from contextlib import contextmanager
 from statistics import median
 
-from lxml import etree
-
 from twinform.compiler.driver import plan
-from twinform.compiler.emitting import written_version
+from twinform.compiler.emitting import serialised, written_version
 from twinform.compiler.loading import garbage_collection_paused
+from twinform.compiler.memory import remember
 from twinform.compiler.parsing import parse
 from twinform.compiler.sdf import back_end
 from twinform.compiler.urdf import front_end
@@ -57,7 +56,7 @@ def _convert(text: bytes, sdf_version: str, stages: Stages) -> None:
         context = Context(notes, notes.file, "urdf", (1, 0), clean=clean, simple=simple)
         data = front_end.lower(root, context)
     with stages.time("pydantic"):
-        document = Document.model_validate({**data})
+        document = source = Document.model_validate({**data})
     with stages.time("verify"):
         verify(document, notes)
     with stages.time("legalisation passes"):
@@ -70,5 +69,6 @@ def _convert(text: bytes, sdf_version: str, stages: Stages) -> None:
     with stages.time("XSD of the output"):
         libxml2_errors(root, "sdf", version)
     with stages.time("serialise"):
-        etree.indent(root, "  ")
-        etree.tostring(root, encoding="unicode")
+        made = serialised(root, document)
+    with stages.time("the way back, and what it does not find"):
+        remember(source, made.encode())

@@ -53,3 +53,8 @@ def test_a_reader_that_stops_early_sees_no_traceback() -> None:
         process.stdout.read(1)
         process.stdout.close()
         assert process.stderr.read() == b""
+
+
+def test_the_package_runs_as_the_command() -> None:
+    made = subprocess.run([sys.executable, "-m", "twinform", "--version"], capture_output=True, text=True, check=True)
+    assert made.stdout.endswith(f"{twinform.__version__}\n")
