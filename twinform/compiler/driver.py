@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from twinform.compiler.crossing import cross
 from twinform.compiler.emitting import emit
 from twinform.compiler.errors import CompileError
 from twinform.compiler.includes import expand
@@ -165,6 +164,8 @@ def _written(
     if order.to == "json":
         return document, document.model_dump_json(indent=2, exclude_defaults=True) + "\n"
     if order.to != document.format:
+        from twinform.compiler.crossing import cross  # noqa: PLC0415 - `check` does not need it
+
         crossing = cross(document, source, order, notes, watch)
         return crossing.document, crossing.text
     legal = order.legalisation(document)

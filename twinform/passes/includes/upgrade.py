@@ -2,7 +2,6 @@
 
 from twinform.diagnostics import Notes
 from twinform.ir import Document
-from twinform.passes.legalise.sdf_versions import raise_for_merging
 from twinform.schemas import parse_version, table
 
 
@@ -17,6 +16,8 @@ def upgrade_document(document: Document, version: str | None, notes: Notes, *, c
     known = table("sdf").versions
     if document.version == version or document.version not in known or version not in known:
         return document
+    from twinform.passes.legalise.sdf_versions import raise_for_merging  # noqa: PLC0415 - few files need all the steps
+
     own = Notes(document.location.file or notes.file, notes.strict, origins=notes.origins)
     for step in raise_for_merging(document.version, version, carriers=carriers):
         document = step.run(document, own)
