@@ -110,7 +110,7 @@ def _parts(root: XmlElement, fates: dict[_Place, Fate]) -> Iterator[_Piece]:
         for name, value in element.items():
             own = fates.get((line, f"{path}/@{_local(str(name))}"))
             yield _Piece(element, str(name), frozenset(_words(str(value))), fate or own)
-        stack += [(child, fate, path) for child in element if isinstance(child.tag, str)]
+        stack += [(child, fate, path) for child in reversed(element) if isinstance(child.tag, str)]
 
 
 def _bare(path: str) -> str:

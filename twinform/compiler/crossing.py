@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from twinform.compiler.emitting import serialised, valid_tree
-from twinform.compiler.memory import Memory, recall, remember, take_memory
+from twinform.compiler.memory import Memory, recall, recall_whole, remember, take_memory
 from twinform.compiler.orders import Order
 from twinform.diagnostics import Entry, Fate, Notes
 from twinform.diagnostics.rules.to_urdf import OUTSIDE_MODEL
@@ -53,10 +53,12 @@ def _legalised(
     """The document in the other format, and whether it is home again: in the version, too, that is remembered."""
     if memory is None or memory.format != order.to:
         return order.legalisation(document).run(document, notes, watch=watch), False
-    back = order.home(memory.version).legalisation(document).run(document, notes, watch=watch)
-    if notes.has_errors:
-        return back, False
-    back, fits = recall(memory, back, notes)
+    back, fits = recall_whole(memory, document), True
+    if back is None:
+        back = order.home(memory.version).legalisation(document).run(document, notes, watch=watch)
+        if notes.has_errors:
+            return back, False
+        back, fits = recall(memory, back, notes)
     more = order.legalisation(back)
     return more.run(back, notes, watch=watch), fits and not len(more)
 

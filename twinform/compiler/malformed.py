@@ -46,11 +46,11 @@ class Entry(Protocol):
     @property
     def line(self) -> int: ...  # noqa: D102 - the names say it
     @property
-    def column(self) -> int: ...  # noqa: D102
+    def column(self) -> int: ...  # noqa: D102 - as above
     @property
-    def message(self) -> str: ...  # noqa: D102
+    def message(self) -> str: ...  # noqa: D102 - as above
     @property
-    def type_name(self) -> str: ...  # noqa: D102
+    def type_name(self) -> str: ...  # noqa: D102 - as above
 
 
 class Flaw(NamedTuple):

@@ -5,11 +5,12 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from twinform.compiler.driver import Order
+from twinform.compiler.crossing import cross
 from twinform.compiler.emitting import emit
 from twinform.compiler.errors import CompileError
 from twinform.compiler.includes import expand
 from twinform.compiler.loading import Reading, garbage_collection_paused, read
+from twinform.compiler.orders import Order
 from twinform.diagnostics import Diagnostic, Ledger, Notes
 from twinform.diagnostics.rules import structure
 from twinform.ir import Document, Format, Include, Model, World
@@ -106,10 +107,7 @@ class _Files:
             update={"models": (model,), "worlds": (), "lights": (), "includes": (), "opaque": ()}
         )
         notes = Notes(self.notes.file, self.notes.strict, origins=self.notes.origins)
-        robot = self.order.legalisation(alone).run(alone, notes, watch=self.watch)
-        if not notes.has_errors:
-            verify(robot, notes)
-        text = "" if notes.has_errors else emit(robot, notes, fit=True)
+        text = cross(alone, alone, self.order, notes, self.watch).text
         self.notes.extend(notes.diagnostics)
         self.notes.entries.extend(notes.entries)
         return text

@@ -1,7 +1,9 @@
 """What is remembered of a source: there and back is home, and what a person edited on the way stays edited."""
 
 import string
+from pathlib import Path
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from lxml import etree
@@ -101,6 +103,38 @@ def test_marks_that_are_no_list_of_what_was_made_are_taken_off_too():
     ball = "<gazebo><joint name='j' type='ball'><parent>base</parent><child>upper</child></joint></gazebo></robot>"
     text = ARM.replace("</robot>", ball)
     assert first_difference(twinform.loads(text), forget(home(over(text)).document)) is None
+
+
+NO_WAY_BACK = ARM.replace(
+    "</robot>",
+    "<gazebo><link name='x'><inertial auto='true'/><collision name='c'><geometry><mesh><uri>model://p/m.stl</uri>"
+    "</mesh></geometry></collision></link></gazebo></robot>",
+)
+
+
+def test_a_source_without_a_way_back_is_remembered_whole():
+    assert first_difference(twinform.loads(NO_WAY_BACK), forget(home(over(NO_WAY_BACK)).document)) is None
+
+
+def test_a_source_that_is_remembered_whole_is_not_applied_to_an_edited_file():
+    with pytest.raises(twinform.CompileError, match="mesh"):
+        home(over(NO_WAY_BACK).replace("<mass>2</mass>", "<mass>7</mass>"))
+
+
+def test_the_ledger_says_what_is_carried_where_home_remembers_something_too():
+    text = over()
+    place = text.index("<tf:source")
+    made = home(text[:place] + "<enable_wind>true</enable_wind><tf:other/>" + text[place:])
+    assert "<tf:source" in made.text
+    assert made.ledger.entries
+
+
+def test_what_an_included_model_remembers_is_not_what_the_model_around_it_does(tmp_path: Path):
+    (tmp_path / "inner.sdf").write_text(over())
+    around = "<sdf version='1.11'><model name='m'><include merge='true'><uri>inner.sdf</uri></include></model></sdf>"
+    (tmp_path / "outer.sdf").write_text(around)
+    made = twinform.convert(tmp_path / "outer.sdf", to="urdf")
+    assert "stale-carrier" not in rules(made)
 
 
 NAMES = st.sampled_from(["a", "b", "c"])

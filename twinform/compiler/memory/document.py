@@ -5,6 +5,7 @@
 </tf:source>
 """
 
+from copy import deepcopy
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -52,7 +53,7 @@ class Memory:
             made.set("of", self.made_of)
         if not self.bare:
             made.set("with", PREFIX)
-        made.extend(list(self.edits))
+        made.extend(map(deepcopy, self.edits))
         return made
 
 
@@ -61,20 +62,20 @@ def take_memory(document: Document) -> tuple[Document, Memory | None]:
     if NAMESPACE not in {uri for _, uri in document.namespaces}:
         return document, None
     own = document.models[0].opaque if len(document.models) == 1 else ()
-    memories = [_memory(part) for part in own if is_memory(part)]
+    memories = [_memory(part) for part in own if _is_memory(part)]
     return forget(document), memories[0] if len(memories) == 1 else None
 
 
 def forget(node: AnyNode) -> AnyNode:
     """The node without memories, at any depth."""
-    kept = tuple(part for part in node.opaque if not is_memory(part))
+    kept = tuple(part for part in node.opaque if not _is_memory(part))
     if len(kept) != len(node.opaque):
         node = node.model_copy(update={"opaque": kept})
     models = getattr(node, "models", None) or getattr(node, "worlds", None)
     return map_children(node, forget) if models else node
 
 
-def is_memory(part: Opaque) -> bool:
+def _is_memory(part: Opaque) -> bool:
     """Whether an opaque part is the memory of a source."""
     return part.element is not None and part.element.name == SOURCE
 

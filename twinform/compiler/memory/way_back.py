@@ -36,7 +36,7 @@ def remember(source: Document, made: bytes) -> Memory:
     wanted, edits = document_tree(source), etree.Element("edits")
     if back is None:
         edits.append(wanted)
-        return Memory(source.format, version, edits, made_of=digest(etree.fromstring(made)))
+        return Memory(source.format, version, edits, made_of=digest(document_tree(document)))
     bare = not any(True for _ in wanted.iter(_OURS))
     edits.extend(changes(wanted, _tree(back, bare=bare)))
     return Memory(source.format, version, edits, bare=bare)
@@ -48,6 +48,15 @@ def way_back(document: Document, format_: Format, version: str, notes: Notes) ->
     target = Target(format_, version, urdf_version)
     found = Pipeline(legalisation(document.format, document.version, target)).run(document, notes)
     return None if notes.has_errors else found
+
+
+def recall_whole(memory: Memory, document: Document) -> Document | None:
+    """The source that is remembered whole, if nothing was edited in the document that was made of it."""
+    if memory.made_of is None or digest(document_tree(document)) != memory.made_of:
+        return None
+    tree = memory.edits[0]
+    _number(tree)
+    return lower_tree(tree, Notes())
 
 
 def recall(memory: Memory, back: Document, notes: Notes) -> tuple[Document, bool]:

@@ -30,13 +30,13 @@ def legalisation(source: Format, version: str | None, target: Target) -> tuple[P
     if source is target.format:
         if source is Format.URDF or version == target.sdf_version:
             return ()
-        from twinform.passes.legalise.sdf_versions import change_version  # noqa: PLC0415
+        from twinform.passes.legalise.sdf_versions import change_version  # noqa: PLC0415 - see above
 
         return change_version(version, target.sdf_version, carriers=target.carriers)
     if target.format is Format.SDF:
-        from twinform.passes.legalise.to_sdf import to_sdf  # noqa: PLC0415
+        from twinform.passes.legalise.to_sdf import to_sdf  # noqa: PLC0415 - see above
 
         return to_sdf(target.sdf_version, carriers=target.carriers)
-    from twinform.passes.legalise.to_urdf import to_urdf  # noqa: PLC0415
+    from twinform.passes.legalise.to_urdf import to_urdf  # noqa: PLC0415 - see above
 
     return to_urdf(model=target.model, urdf_version=target.urdf_version, carriers=target.carriers)

@@ -1,9 +1,9 @@
 """Inertias that SDF leaves to its reader, computed from the collisions as its readers do."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 from twinform.diagnostics import Location
-from twinform.ir import Collision, Inertia, Inertial, Link, Node, Opaque, Pose
+from twinform.ir import Collision, Inertia, Inertial, Link, Model, Node, Opaque, Pose
 from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import Solid, combined, placed, solid, with_mass
 from twinform.passes.legalise.carrier import to_element
@@ -18,6 +18,17 @@ class NoInertiaError(Exception):
     def __init__(self, message: str, location: Location) -> None:
         super().__init__(message)
         self.location = location
+
+
+def map_automatic(model: Model, write: Callable[[Link, Inertial, FrameGraph], Link]) -> Model:
+    """The model with each link written anew whose inertia is left to the reader."""
+    if not any(link.inertial and link.inertial.auto for link in model.links):
+        return model
+    graph = FrameGraph(model)
+    links = (
+        write(link, link.inertial, graph) if link.inertial and link.inertial.auto else link for link in model.links
+    )
+    return model.model_copy(update={"links": tuple(links)})
 
 
 def automatic(link: Link, inertial: Inertial, collisions: Iterable[Collision], graph: FrameGraph) -> Solid:

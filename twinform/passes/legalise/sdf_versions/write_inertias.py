@@ -4,9 +4,9 @@ from functools import partial
 from typing import ClassVar
 
 from twinform.diagnostics.rules import sdf_versions as rules
-from twinform.ir import Document, Link, Model
+from twinform.ir import Document, Inertial, Link
 from twinform.ir.frames import FrameGraph
-from twinform.passes.legalise.automatic_inertias import NoInertiaError, automatic, written_out
+from twinform.passes.legalise.automatic_inertias import NoInertiaError, automatic, map_automatic, written_out
 from twinform.passes.legalise.sdf_versions.base import VersionPass, map_models
 from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms
 
@@ -26,20 +26,10 @@ class WriteInertias(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with every inertia written out."""
-        return map_models(document, partial(_write_all, keeper))
+        return map_models(document, lambda model: map_automatic(model, partial(_write, keeper)))
 
 
-def _write_all(keeper: Keeper, model: Model) -> Model:
-    if not any(link.inertial and link.inertial.auto for link in model.links):
-        return model
-    graph = FrameGraph(model)
-    return model.model_copy(update={"links": tuple(_write(link, graph, keeper) for link in model.links)})
-
-
-def _write(link: Link, graph: FrameGraph, keeper: Keeper) -> Link:
-    inertial = link.inertial
-    if inertial is None or not inertial.auto:
-        return link
+def _write(keeper: Keeper, link: Link, inertial: Inertial, graph: FrameGraph) -> Link:
     try:
         found = automatic(link, inertial, link.collisions, graph)
     except NoInertiaError:

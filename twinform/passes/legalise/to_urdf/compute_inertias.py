@@ -1,11 +1,12 @@
 """Inertias that SDF leaves to its reader, URDF has to be told."""
 
+from functools import partial
 from typing import ClassVar
 
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Link, Model
+from twinform.ir import Inertial, Link, Model
 from twinform.ir.frames import FrameGraph
-from twinform.passes.legalise.automatic_inertias import NoInertiaError, automatic, written_out
+from twinform.passes.legalise.automatic_inertias import NoInertiaError, automatic, map_automatic, written_out
 from twinform.passes.legalise.marks import mark_made
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
@@ -25,16 +26,10 @@ class ComputeInertias(ToUrdfPass):
 
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model with every inertia written out."""
-        if not any(link.inertial and link.inertial.auto for link in model.links):
-            return model
-        graph = FrameGraph(model)
-        return model.model_copy(update={"links": tuple(_compute(link, graph, keeper) for link in model.links)})
+        return map_automatic(model, partial(_compute, keeper))
 
 
-def _compute(link: Link, graph: FrameGraph, keeper: Keeper) -> Link:
-    inertial = link.inertial
-    if inertial is None or not inertial.auto:
-        return link
+def _compute(keeper: Keeper, link: Link, inertial: Inertial, graph: FrameGraph) -> Link:
     try:
         found = automatic(link, inertial, link.collisions, graph)
     except NoInertiaError as error:
