@@ -143,8 +143,13 @@ def _keyed(element: XmlElement, rows: dict[str, Fact]) -> Iterator[tuple[str, Xm
             yield child.tag, child
             continue
         key = f"{child.tag}[{name}]" if row is not None and name else child.tag
-        seen[key] = seen.get(key, 0) + 1
-        yield (key if seen[key] == 1 else f"{key}[{seen[key]}]"), child
+        yield numbered(key, seen), child
+
+
+def numbered(key: str, seen: dict[str, int]) -> str:
+    """The key of the next one of its like; `seen` counts them."""
+    count = seen[key] = seen.get(key, 0) + 1
+    return key if count == 1 else f"{key}[{count}]"
 
 
 def _value(text: str, row: Fact | None) -> Value:

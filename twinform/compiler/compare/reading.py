@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from lxml import etree
 
 from twinform.compiler.compare.carried import definition, unpack_sdf, urdf_pieces
-from twinform.compiler.compare.leaves import CARRIED, Resolve, Walk
+from twinform.compiler.compare.leaves import CARRIED, Resolve, Walk, numbered
 from twinform.compiler.compare.robot import Leaf, Leaves, Part
 from twinform.compiler.compare.values import Words
 from twinform.diagnostics import NOWHERE, Location, Origins
@@ -122,6 +122,7 @@ class Reading:
         where = self.place(node)
         leaves: dict[str, Leaf] = {}
         parts: list[Part] = []
+        seen: dict[str, int] = {}
         for at, piece in urdf_pieces(xml):
             name = piece.get("attribute")
             if name is not None:
@@ -136,7 +137,7 @@ class Reading:
             elif str(piece.tag) not in _NOT_OF_THE_ROBOT and not (isinstance(node, Joint) and _is_idle(piece, node)):
                 walk = Walk(self.resolve, lambda _: where)
                 named = isinstance(node, Model) and not _is_foreign(piece)
-                walk.enter_free(piece, "" if named else str(piece.tag))
+                walk.enter_free(piece, "" if named else numbered(str(piece.tag), seen))
                 if named:
                     walk.found.pop("@name", None)
                     parts.append(Part(str(piece.tag), piece.get("name") or "", walk.found, where, only=Format.URDF))
