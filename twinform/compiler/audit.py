@@ -24,6 +24,8 @@ _SHAPE_NAME = re.compile(r"(.+)_(?:visual|collision)(?:_\d+)?")
 _SCHEME = re.compile(r"\b[a-z]+://")
 _SAID_BY = {"frame": "fixed"}
 """Elements of one format whose being there says a word of the other: a frame stands for a fixed joint."""
+_SAID_BY_NOT = {"turnGravityOff": {"0.0": "1.0", "1.0": "0.0"}}
+"""Truths of one format that the other says by their opposites."""
 _PREDICATE = re.compile(r"\[[^]]*\]|\{[^}]*\}|(?<=[/@])[\w.-]+:")
 _Place = tuple[int, str]
 """A line of the source, and the path of an element or attribute that begins there."""
@@ -106,7 +108,9 @@ def _parts(root: XmlElement, fates: dict[_Place, Fate]) -> Iterator[_Piece]:
             continue
         line, path = element.sourceline or 0, f"{around}/{_local(str(element.tag))}"
         fate = above or fates.get((line, path))
-        yield _Piece(element, None, frozenset(_words(element.text or "")), fate)
+        opposite = _SAID_BY_NOT.get(_local(str(element.tag)), {})
+        words = frozenset(opposite.get(word, word) for word in _words(element.text or ""))
+        yield _Piece(element, None, words, fate)
         for name, value in element.items():
             own = fates.get((line, f"{path}/@{_local(str(name))}"))
             yield _Piece(element, str(name), frozenset(_words(str(value))), fate or own)
@@ -149,7 +153,7 @@ def _words(text: str) -> Iterable[str]:
 
 def _spelt(word: str) -> str:
     if word in {"true", "false"}:
-        return "1" if word == "true" else "0"
+        return "1.0" if word == "true" else "0.0"
     try:
         return repr(float(word) + 0.0)
     except ValueError:
