@@ -129,6 +129,7 @@ def _accounted(file: CorpusFile, name: str, way: Way, made: twinform.Conversion,
     seconds = time.perf_counter() - start
     places = [_bare(entry.location.path) for entry in made.ledger.entries]
     names = [name for entry in made.ledger.entries for name in _NAME.findall(entry.location.path)]
+    names.append(made.document.models[0].name)  # of a model without links: URDF has to have one
     silent = [each.message for each in found.differences if not _is_listed(each, places, names)]
     silent += [f"{part.location.path}: {part.says}" for part in audit(made.source, made.text, made.ledger).unaccounted]
     verdict = Verdict.DIFFERENT if silent else Verdict.SAME if found.same else Verdict.LEDGER
@@ -138,7 +139,8 @@ def _accounted(file: CorpusFile, name: str, way: Way, made: twinform.Conversion,
 def _is_listed(found: Difference, places: list[str], names: list[str]) -> bool:
     """Whether a difference lies in a place of the ledger, or is a part that was made for one of the names in it."""
     if not found.a.location.line:
-        return any(found.name.rpartition("::")[2].startswith(name) for name in names)
+        called = (found.name, found.name.rpartition("::")[2])
+        return any(one.startswith(name) for one in called for name in names)
     place = _bare(found.a.location.path)
     return any(one.startswith(place) or place.startswith(one) for one in places)
 
