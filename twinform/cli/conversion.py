@@ -8,12 +8,12 @@ import click
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.findings import show
 from twinform.cli.targets import Job
+from twinform.cli.watching import Watching
 from twinform.compiler import CompileError, Conversion, Order, Reading, fulfil, read, write_atomically
 from twinform.compiler.audit import audit
 from twinform.diagnostics import Fate, Ledger
 from twinform.diagnostics.reporters import Findings
-from twinform.ir import Document
-from twinform.passes import BrokenPassError
+from twinform.passes import PassError
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -23,8 +23,8 @@ class Options:
     order: Order
     reading: Reading
     ledger: Path | None
-    dumps: tuple[str, ...]
     notes: bool
+    watching: Watching
     audit: bool = False
 
     def order_for(self, job: Job) -> Order:
@@ -34,24 +34,19 @@ class Options:
 
 def run_conversion(job: Job, options: Options, label: str) -> int:
     """Run one conversion; gives its exit code."""
-    seen: list[str] = []
-
-    def watch(name: str, document: Document) -> None:
-        seen.append(name)
-        if name in options.dumps:
-            click.echo(f"// {job.source.name} after {name}\n{_json(document)}", err=True)
-
+    source, watched = job.source, options.watching.begin(job.source.name)
     try:
-        source = job.source
-        conversion = fulfil(options.order_for(job), source.content, options.reading, name=source.name, watch=watch)
+        order = options.order_for(job)
+        conversion = fulfil(order, source.content, options.reading, name=source.name, watch=watched.watch)
     except CompileError as error:
+        watched.report()
         show(Findings(job.source.name, error.diagnostics), notes=options.notes, on_stderr=True)
         return UNUSABLE if error.unreadable else FINDINGS
-    except BrokenPassError as error:
-        click.echo(f"{job.source.name}: {error}", err=True)
+    except PassError as error:
+        watched.fault(error)
         return FINDINGS
     show(Findings(job.source.name, conversion.diagnostics), notes=options.notes, on_stderr=True)
-    _require_ran(options.dumps, seen)
+    watched.end()
     _write(conversion, job.path, options.ledger)
     click.echo(f"{label}{': ' if label else ''}{summary(conversion.ledger)}", err=True)
     return _audit(conversion, job.source.name) if options.audit else 0
@@ -68,16 +63,6 @@ def _audit(conversion: Conversion, name: str) -> int:
         )
     click.echo(f"audit: {found.total} parts, {len(found.unaccounted)} unaccounted", err=True)
     return FINDINGS if found.unaccounted else 0
-
-
-def _json(document: Document) -> str:
-    return document.model_dump_json(indent=2, exclude_defaults=True)
-
-
-def _require_ran(dumps: tuple[str, ...], seen: list[str]) -> None:
-    for name in dumps:
-        if name not in seen:
-            raise click.UsageError(f"--dump-ir-after {name}: no such pass ran; there were {', '.join(seen) or 'none'}")
 
 
 def _write(conversion: Conversion, path: Path | None, ledger: Path | None) -> None:

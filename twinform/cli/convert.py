@@ -12,6 +12,7 @@ from twinform.cli.inputs import HowToRead, how_to_read, inputs, reading_options
 from twinform.cli.source import Source
 from twinform.cli.splitting import run_split
 from twinform.cli.targets import TARGETS, Target, jobs
+from twinform.cli.watching import Watching, watching_options
 from twinform.compiler import Order, UrdfVersion
 from twinform.passes import Pipeline, PipelineError, RegistryError, parse_pipeline
 from twinform.schemas import table
@@ -54,7 +55,7 @@ def _pipeline(_ctx: click.Context, _option: click.Parameter, value: str | None) 
 @click.option("--audit", is_flag=True, help="Count what became of every element and attribute; fail if any is missing.")
 @reading_options
 @click.option("--print-pipeline", is_flag=True, help="Print every pass that would run, in order, and stop.")
-@click.option("--dump-ir-after", "dumps", metavar="PASS", multiple=True, help="Print the IR after a pass on stderr.")
+@watching_options
 @click.pass_context
 def command(
     ctx: click.Context,
@@ -72,6 +73,10 @@ def command(
     audit: bool,
     print_pipeline: bool,
     dumps: tuple[str, ...],
+    changes: bool,
+    times: bool,
+    statistics: bool,
+    reproducers: Path | None,
     notes: bool,
     expand_includes: bool,
     **how: Unpack[HowToRead],
@@ -95,7 +100,8 @@ def command(
         expand_includes=expand_includes,
     )
     reading = how_to_read(arguments, **how)
-    options = Options(order=order, reading=reading, ledger=ledger, dumps=dumps, notes=notes, audit=audit)
+    watching = Watching(dumps=dumps, changes=changes, times=times, statistics=statistics, reproducers=reproducers)
+    options = Options(order=order, reading=reading, ledger=ledger, notes=notes, watching=watching, audit=audit)
     if split:
         ctx.exit(run_split(_only(sources), options, _folder(out, target, model)))
     todo = jobs(sources, out, target)

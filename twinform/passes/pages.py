@@ -11,7 +11,7 @@ from pydantic.fields import FieldInfo
 
 from twinform.diagnostics.committed import main
 from twinform.passes.base import Pass
-from twinform.passes.pipeline import option_value
+from twinform.passes.options import option_value
 from twinform.passes.registry import registered_passes
 from twinform.passes.syntax import print_value
 
