@@ -7,11 +7,12 @@ import click
 
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.findings import show
+from twinform.cli.policy import Policy
 from twinform.cli.targets import Job
 from twinform.cli.watching import Watching
 from twinform.compiler import CompileError, Conversion, Order, Reading, fulfil, read, write_atomically
 from twinform.compiler.audit import audit
-from twinform.diagnostics import Fate, Ledger
+from twinform.diagnostics import Diagnostic, Fate, Ledger
 from twinform.diagnostics.reporters import Findings
 from twinform.passes import PassError
 
@@ -24,12 +25,19 @@ class Options:
     reading: Reading
     ledger: Path | None
     notes: bool
+    policy: Policy
     watching: Watching
     audit: bool = False
 
     def order_for(self, job: Job) -> Order:
         """What one input is to become."""
         return replace(self.order, to=job.target, sdf_version=self.order.sdf_version if job.target == "sdf" else None)
+
+    def show(self, name: str, diagnostics: tuple[Diagnostic, ...]) -> bool:
+        """Print the findings as the project wants to see them; whether none of them is an error."""
+        seen = self.policy.apply(diagnostics)
+        show(Findings(name, seen), notes=self.notes, on_stderr=True)
+        return not any(each.is_error for each in seen)
 
 
 def run_conversion(job: Job, options: Options, label: str) -> int:
@@ -40,13 +48,14 @@ def run_conversion(job: Job, options: Options, label: str) -> int:
         conversion = fulfil(order, source.content, options.reading, name=source.name, watch=watched.watch)
     except CompileError as error:
         watched.report()
-        show(Findings(job.source.name, error.diagnostics), notes=options.notes, on_stderr=True)
+        options.show(job.source.name, error.diagnostics)
         return UNUSABLE if error.unreadable else FINDINGS
     except PassError as error:
         watched.fault(error)
         return FINDINGS
-    show(Findings(job.source.name, conversion.diagnostics), notes=options.notes, on_stderr=True)
     watched.end()
+    if not options.show(job.source.name, conversion.diagnostics):
+        return FINDINGS
     _write(conversion, job.path, options.ledger)
     click.echo(f"{label}{': ' if label else ''}{summary(conversion.ledger)}", err=True)
     return _audit(conversion, job.source.name) if options.audit else 0
@@ -89,7 +98,7 @@ def print_plan(job: Job, options: Options, label: str) -> int:
     """Print the passes of one conversion; gives its exit code."""
     checked = read(job.source.content, options.reading, name=job.source.name)
     if checked.document is None or not checked.accepted:
-        show(Findings(checked.path, checked.diagnostics), notes=options.notes, on_stderr=True)
+        options.show(checked.path, checked.diagnostics)
         return UNUSABLE if checked.unreadable else FINDINGS
     click.echo(f"{label}{': ' if label else ''}{options.order_for(job).plan(checked.document)}")
     return 0

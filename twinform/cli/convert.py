@@ -4,11 +4,14 @@ from pathlib import Path
 from typing import Unpack
 
 import click
+from click.core import ParameterSource
 
+from twinform.cli.config import ConfigError, settings_of
 from twinform.cli.conversion import Options, print_plan, run_conversion
 from twinform.cli.failure import Unusable
 from twinform.cli.findings import notes_option
 from twinform.cli.inputs import HowToRead, how_to_read, inputs, reading_options
+from twinform.cli.policy import policy_of, policy_options
 from twinform.cli.source import Source
 from twinform.cli.splitting import run_split
 from twinform.cli.targets import TARGETS, Target, jobs
@@ -25,10 +28,13 @@ def _known_version(_ctx: click.Context, _option: click.Parameter, value: str | N
     return value
 
 
-def _pipeline(_ctx: click.Context, _option: click.Parameter, value: str | None) -> Pipeline:
+def _pipeline(ctx: click.Context, option: click.Parameter, value: str | None) -> Pipeline:
+    project = settings_of(ctx)
     try:
-        return parse_pipeline(value or "")
+        return parse_pipeline(value or "", names=project.names)
     except PipelineError as error:
+        if project.path and ctx.get_parameter_source(option.name or "") is ParameterSource.DEFAULT_MAP:
+            raise ConfigError(project.path, str(error), key="passes") from error
         raise click.BadParameter(str(error)) from error
     except RegistryError as error:
         raise Unusable(str(error)) from error
@@ -40,13 +46,16 @@ def _pipeline(_ctx: click.Context, _option: click.Parameter, value: str | None) 
 @click.option("--to", "target", type=click.Choice(TARGETS), help="The format; else OUT's suffix or the other format.")
 @click.option("--sdf-version", metavar="V", callback=_known_version, help="The version of SDF to write.")
 @click.option("--urdf-version", type=click.Choice(["1.0", "1.1", "1.2"]), default="1.0", help="Likewise of URDF.")
-@click.option("--passes", metavar="PIPELINE", callback=_pipeline, help="Passes to run, such as 'check-inertia'.")
+@click.option(
+    "--passes", metavar="PIPELINE", callback=_pipeline, help="Passes to run, such as 'check-inertia', or @NAME."
+)
 @click.option(
     "--ledger", type=click.Path(path_type=Path), metavar="FILE", help="Where to write what was not expressed."
 )
 @click.option("--carriers/--no-carriers", default=True, help="Whether to keep in our namespace what the target lacks.")
 @click.option("--model", metavar="NAME", help="The model of a world to convert.")
 @notes_option
+@policy_options
 @click.option(
     "--split",
     is_flag=True,
@@ -78,6 +87,8 @@ def command(
     statistics: bool,
     reproducers: Path | None,
     notes: bool,
+    allow: tuple[str, ...],
+    deny: tuple[str, ...],
     expand_includes: bool,
     **how: Unpack[HowToRead],
 ) -> None:
@@ -99,13 +110,16 @@ def command(
         model=model,
         expand_includes=expand_includes,
     )
-    reading = how_to_read(arguments, **how)
+    policy, reading = policy_of(ctx, allow, deny), how_to_read(arguments, **how)
     watching = Watching(dumps=dumps, changes=changes, times=times, statistics=statistics, reproducers=reproducers)
-    options = Options(order=order, reading=reading, ledger=ledger, notes=notes, watching=watching, audit=audit)
+    options = Options(
+        order=order, reading=reading, ledger=ledger, notes=notes, policy=policy, watching=watching, audit=audit
+    )
     if split:
         ctx.exit(run_split(_only(sources), options, _folder(out, target, model)))
     todo = jobs(sources, out, target)
-    if sdf_version is not None and all(job.target != "sdf" for job in todo):
+    asked = ctx.get_parameter_source("sdf_version") is ParameterSource.COMMANDLINE
+    if asked and all(job.target != "sdf" for job in todo):
         raise click.UsageError("--sdf-version is for --to sdf")
     run = print_plan if print_pipeline else run_conversion
     ctx.exit(max(run(job, options, label=job.source.name if len(todo) > 1 else "") for job in todo))

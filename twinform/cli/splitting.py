@@ -7,10 +7,8 @@ import click
 
 from twinform.cli.conversion import Options, summary
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
-from twinform.cli.findings import show
 from twinform.cli.source import Source
 from twinform.compiler import CompileError, Split, split, write_all_atomically
-from twinform.diagnostics.reporters import Findings
 from twinform.passes import PassError
 
 
@@ -22,13 +20,14 @@ def run_split(source: Source, options: Options, folder: Path) -> int:
         result = split(order, source.content, options.reading, name=source.name, watch=watched.watch)
     except CompileError as error:
         watched.report()
-        show(Findings(source.name, error.diagnostics), notes=options.notes, on_stderr=True)
+        options.show(source.name, error.diagnostics)
         return UNUSABLE if error.unreadable else FINDINGS
     except PassError as error:
         watched.fault(error)
         return FINDINGS
     watched.end()
-    show(Findings(source.name, result.diagnostics), notes=options.notes, on_stderr=True)
+    if not options.show(source.name, result.diagnostics):
+        return FINDINGS
     _write(result, folder, options.ledger)
     click.echo(f"{len(result.files)} files: {summary(result.ledger)}", err=True)
     return 0
