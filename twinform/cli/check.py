@@ -41,7 +41,7 @@ def command(
     without errors, 1 with errors, 2 where a file could not be read.
     """
     sources, arguments = inputs(words)
-    policy, reading = policy_of(ctx, allow, deny), how_to_read(arguments, **how)
+    policy, reading = policy_of(ctx, allow, deny), how_to_read(arguments, how)
     checked = [read(each.content, reading, name=each.name) for each in sources]
     checked = [expand(each, reading) for each in checked] if expand_includes else checked
     checked, seen = [replace(each, diagnostics=policy.apply(each.diagnostics)) for each in checked], checked

@@ -7,12 +7,11 @@ import click
 
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.findings import show
-from twinform.cli.policy import Policy
 from twinform.cli.targets import Job
 from twinform.cli.watching import Watching
 from twinform.compiler import CompileError, Conversion, Order, Reading, fulfil, read, write_atomically
 from twinform.compiler.audit import audit
-from twinform.diagnostics import Diagnostic, Fate, Ledger
+from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
 from twinform.diagnostics.reporters import Findings
 from twinform.passes import PassError
 

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypedDict, TypeVar, Unpack
+from typing import Any, TypedDict, TypeVar
 
 import click
 
@@ -63,7 +63,7 @@ class HowToRead(TypedDict):
     xacro: bool
 
 
-def how_to_read(arguments: Mapping[str, str], **how: Unpack[HowToRead]) -> Reading:
+def how_to_read(arguments: Mapping[str, str], how: HowToRead) -> Reading:
     """The options as the compiler takes them; the folders of the project come after those of the command line."""
     paths = (*how["paths"], *settings_of(click.get_current_context()).settings.paths)
     return Reading(how["strict"], how["engine"], SearchPath.of(paths), arguments, how["xacro"])

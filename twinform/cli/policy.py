@@ -1,33 +1,17 @@
-"""Which findings a project allows, and which it treats as errors."""
+"""`--allow` and `--deny`."""
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Callable
 from typing import Any, TypeVar
 
 import click
 
 from twinform.cli.config import ConfigError, settings_of
 from twinform.cli.failure import Unusable
-from twinform.diagnostics import Diagnostic, Severity
+from twinform.diagnostics import Policy
 from twinform.diagnostics.registry import RuleRegistryError, rules
 from twinform.passes.options import nearest
 
 Command = TypeVar("Command", bound=Callable[..., Any])
-
-
-@dataclass(frozen=True, slots=True)
-class Policy:
-    """Findings of `allow` are left out, unless they are errors: those stay. Findings of `deny` are errors."""
-
-    allow: frozenset[str] = frozenset()
-    deny: frozenset[str] = frozenset()
-
-    def apply(self, diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
-        """The findings as the project wants to see them."""
-        return tuple(self._seen(each) for each in diagnostics if each.is_error or each.rule.name not in self.allow)
-
-    def _seen(self, diagnostic: Diagnostic) -> Diagnostic:
-        return replace(diagnostic, severity=Severity.ERROR) if diagnostic.rule.name in self.deny else diagnostic
 
 
 def policy_options(command: Command) -> Command:
