@@ -11,6 +11,7 @@ COMMANDS: Mapping[str, str] = {
     "convert": "Compile robot models from one format into the other.",
     "check": "Find everything that is wrong with robot models.",
     "diff": "Say whether two files describe the same robot.",
+    "stats": "Say in numbers what models are made of.",
     "batch": "Compile every model of a folder.",
     "reproduce": "Run a pass again that failed.",
     "passes": "List the passes, or print the page of one.",
