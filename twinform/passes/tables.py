@@ -122,5 +122,5 @@ def _print(value: object) -> str:
     if isinstance(value, list):
         return f"[{', '.join(map(_print, cast('list[object]', value)))}]"
     if isinstance(value, float):
-        return repr(value)
+        return repr(value).removesuffix(".0") if value else repr(value)  # -0.0 keeps its sign only with its point
     return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
