@@ -1,6 +1,7 @@
 """`twinform check`."""
 
 from collections import Counter
+from dataclasses import replace
 from typing import Unpack
 
 import click
@@ -8,6 +9,7 @@ import click
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import notes_option, show
 from twinform.cli.inputs import HowToRead, how_to_read, inputs, reading_options
+from twinform.cli.policy import policy_of, policy_options
 from twinform.compiler import Checked, expand, read
 from twinform.diagnostics import Severity
 from twinform.diagnostics.reporters import REPORTERS, Findings
@@ -19,6 +21,7 @@ _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "
 @click.argument("words", metavar="IN... [NAME:=VALUE...]", nargs=-1, required=True)
 @click.option("--format", "style", type=click.Choice(list(REPORTERS)), default="text", help="How to print findings.")
 @notes_option
+@policy_options
 @reading_options
 @click.pass_context
 def command(
@@ -27,6 +30,8 @@ def command(
     style: str,
     *,
     notes: bool,
+    allow: tuple[str, ...],
+    deny: tuple[str, ...],
     expand_includes: bool,
     **how: Unpack[HowToRead],
 ) -> None:
@@ -36,16 +41,18 @@ def command(
     without errors, 1 with errors, 2 where a file could not be read.
     """
     sources, arguments = inputs(words)
-    reading = how_to_read(arguments, **how)
+    policy, reading = policy_of(ctx, allow, deny), how_to_read(arguments, how)
     checked = [read(each.content, reading, name=each.name) for each in sources]
     checked = [expand(each, reading) for each in checked] if expand_includes else checked
+    checked, seen = [replace(each, diagnostics=policy.apply(each.diagnostics)) for each in checked], checked
+    allowed = sum(len(each.diagnostics) for each in seen) - sum(len(each.diagnostics) for each in checked)
     findings = [Findings(each.path, each.diagnostics) for each in checked]
     if style == "text":
         for each in findings:
             show(each, notes=notes, on_stderr=False)
     else:
         click.echo(REPORTERS[style](findings), nl=False)
-    click.echo(_summary(checked), err=True)
+    click.echo(_summary(checked) + (f"; {allowed} allowed" if allowed else ""), err=True)
     ctx.exit(_exit_code(checked))
 
 

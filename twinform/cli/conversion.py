@@ -8,12 +8,12 @@ import click
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.findings import show
 from twinform.cli.targets import Job
+from twinform.cli.watching import Watching
 from twinform.compiler import CompileError, Conversion, Order, Reading, fulfil, read, write_atomically
 from twinform.compiler.audit import audit
-from twinform.diagnostics import Fate, Ledger
+from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
 from twinform.diagnostics.reporters import Findings
-from twinform.ir import Document
-from twinform.passes import BrokenPassError
+from twinform.passes import PassError
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -23,35 +23,38 @@ class Options:
     order: Order
     reading: Reading
     ledger: Path | None
-    dumps: tuple[str, ...]
     notes: bool
+    policy: Policy
+    watching: Watching
     audit: bool = False
 
     def order_for(self, job: Job) -> Order:
         """What one input is to become."""
         return replace(self.order, to=job.target, sdf_version=self.order.sdf_version if job.target == "sdf" else None)
 
+    def show(self, name: str, diagnostics: tuple[Diagnostic, ...]) -> bool:
+        """Print the findings as the project wants to see them; whether none of them is an error."""
+        seen = self.policy.apply(diagnostics)
+        show(Findings(name, seen), notes=self.notes, on_stderr=True)
+        return not any(each.is_error for each in seen)
+
 
 def run_conversion(job: Job, options: Options, label: str) -> int:
     """Run one conversion; gives its exit code."""
-    seen: list[str] = []
-
-    def watch(name: str, document: Document) -> None:
-        seen.append(name)
-        if name in options.dumps:
-            click.echo(f"// {job.source.name} after {name}\n{_json(document)}", err=True)
-
+    source, watched = job.source, options.watching.begin(job.source.name)
     try:
-        source = job.source
-        conversion = fulfil(options.order_for(job), source.content, options.reading, name=source.name, watch=watch)
+        order = options.order_for(job)
+        conversion = fulfil(order, source.content, options.reading, name=source.name, watch=watched.watch)
     except CompileError as error:
-        show(Findings(job.source.name, error.diagnostics), notes=options.notes, on_stderr=True)
+        watched.report()
+        options.show(job.source.name, error.diagnostics)
         return UNUSABLE if error.unreadable else FINDINGS
-    except BrokenPassError as error:
-        click.echo(f"{job.source.name}: {error}", err=True)
+    except PassError as error:
+        watched.fault(error)
         return FINDINGS
-    show(Findings(job.source.name, conversion.diagnostics), notes=options.notes, on_stderr=True)
-    _require_ran(options.dumps, seen)
+    watched.end()
+    if not options.show(job.source.name, conversion.diagnostics):
+        return FINDINGS
     _write(conversion, job.path, options.ledger)
     click.echo(f"{label}{': ' if label else ''}{summary(conversion.ledger)}", err=True)
     return _audit(conversion, job.source.name) if options.audit else 0
@@ -68,16 +71,6 @@ def _audit(conversion: Conversion, name: str) -> int:
         )
     click.echo(f"audit: {found.total} parts, {len(found.unaccounted)} unaccounted", err=True)
     return FINDINGS if found.unaccounted else 0
-
-
-def _json(document: Document) -> str:
-    return document.model_dump_json(indent=2, exclude_defaults=True)
-
-
-def _require_ran(dumps: tuple[str, ...], seen: list[str]) -> None:
-    for name in dumps:
-        if name not in seen:
-            raise click.UsageError(f"--dump-ir-after {name}: no such pass ran; there were {', '.join(seen) or 'none'}")
 
 
 def _write(conversion: Conversion, path: Path | None, ledger: Path | None) -> None:
@@ -104,7 +97,7 @@ def print_plan(job: Job, options: Options, label: str) -> int:
     """Print the passes of one conversion; gives its exit code."""
     checked = read(job.source.content, options.reading, name=job.source.name)
     if checked.document is None or not checked.accepted:
-        show(Findings(checked.path, checked.diagnostics), notes=options.notes, on_stderr=True)
+        options.show(checked.path, checked.diagnostics)
         return UNUSABLE if checked.unreadable else FINDINGS
     click.echo(f"{label}{': ' if label else ''}{options.order_for(job).plan(checked.document)}")
     return 0

@@ -50,7 +50,7 @@ def command(
         raise click.UsageError("diff compares two files")
     a, b = sources
     try:
-        reading, names = how_to_read(arguments, **how), (a.name, b.name)
+        reading, names = how_to_read(arguments, how), (a.name, b.name)
         found = compare_files(a.content, b.content, reading, names=names, model=model, tolerance=tolerance)
     except CompileError as error:
         show(Findings(a.name, error.diagnostics), notes=False, on_stderr=True)

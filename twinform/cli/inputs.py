@@ -3,10 +3,11 @@
 import re
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypedDict, TypeVar, Unpack
+from typing import Any, TypedDict, TypeVar
 
 import click
 
+from twinform.cli.config import config_options, settings_of
 from twinform.cli.source import Source, open_source
 from twinform.compiler import Reading, SearchPath
 from twinform.schemas import Engine
@@ -15,7 +16,7 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 
 _ARGUMENT = re.compile(r"(?P<name>[A-Za-z_][\w.-]*):=(?P<value>.*)", re.DOTALL)
 _OPTIONS = (
-    click.option("--strict", is_flag=True, help="Refuse what readers ignore, such as unknown names."),
+    click.option("--strict/--no-strict", default=False, help="Refuse what readers ignore, such as unknown names."),
     click.option(
         "--engine",
         type=click.Choice(["libxml2", "xmlschema"]),
@@ -42,10 +43,10 @@ _EXPAND_INCLUDES = click.option(
 
 
 def file_options(command: Command) -> Command:
-    """Give a command the options that say how a file is read."""
+    """Give a command the options that say how a file is read, and the settings of the project."""
     for option in reversed(_OPTIONS):
         command = option(command)
-    return command
+    return config_options(command)
 
 
 def reading_options(command: Command) -> Command:
@@ -62,9 +63,10 @@ class HowToRead(TypedDict):
     xacro: bool
 
 
-def how_to_read(arguments: Mapping[str, str], **how: Unpack[HowToRead]) -> Reading:
-    """The options as the compiler takes them."""
-    return Reading(how["strict"], how["engine"], SearchPath.of(how["paths"]), arguments, how["xacro"])
+def how_to_read(arguments: Mapping[str, str], how: HowToRead) -> Reading:
+    """The options as the compiler takes them; the folders of the project come after those of the command line."""
+    paths = (*how["paths"], *settings_of(click.get_current_context()).settings.paths)
+    return Reading(how["strict"], how["engine"], SearchPath.of(paths), arguments, how["xacro"])
 
 
 def inputs(words: Sequence[str]) -> tuple[list[Source], dict[str, str]]:

@@ -1,36 +1,90 @@
 """`twinform passes`."""
 
+import json
 from collections.abc import Collection, Iterator
+from typing import Literal
 
 import click
 
+from twinform.cli.config import config_options, settings_of
+from twinform.cli.config.options import Project
 from twinform.cli.failure import Unusable
 from twinform.cli.findings import heading
-from twinform.passes import Pass, Registered, RegistryError, registered_passes
-from twinform.passes.pages import OptionPage, description, options
+from twinform.passes import Pass, PipelineError, Registered, RegistryError, parse_pipeline, registered_passes
+from twinform.passes.options import nearest
+from twinform.passes.pages import OptionPage, description, options, summary
+from twinform.passes.registry import OWN
+from twinform.passes.tables import print_tables
+
+_TABLE_NAME = "mine"
 
 
 @click.command("passes")
 @click.argument("name", required=False)
-def command(name: str | None) -> None:
-    """List the passes, or print the page of one."""
+@click.option("--format", "style", type=click.Choice(["text", "json"]), default="text", help="How to print them.")
+@click.option("--table", metavar="PIPELINE", help="Print a pipeline as the table that a configuration would have.")
+@config_options
+@click.pass_context
+def command(ctx: click.Context, name: str | None, style: Literal["text", "json"], table: str | None) -> None:
+    """List the passes, or print the page of one.
+
+    Lists their options with defaults, an example of each, and the pipelines that the configuration names.
+    """
+    project = settings_of(ctx)
     try:
-        found = registered_passes()
-        if name is None:
-            click.echo("\n".join(_list(found.values())))
-        elif name in found:
-            click.echo("\n\n".join(_page(found[name].load(), found[name].owner)))
+        if table is not None:
+            click.echo(print_tables(parse_pipeline(table, names=project.names), _TABLE_NAME), nl=False)
+            return
+        found = _chosen(name)
+        if style == "json":
+            click.echo(_json(found, project))
+        elif name is None:
+            click.echo("\n".join([*_list(found), *_pipelines(project)]))
         else:
-            raise Unusable(f"no pass is called {name!r}; there are {', '.join(found)}")
+            click.echo("\n\n".join(_page(found[0].load(), found[0].owner)))
+    except PipelineError as error:
+        raise click.BadParameter(str(error), ctx, param_hint="--table") from error
     except RegistryError as error:
         raise Unusable(str(error)) from error
 
 
+def _chosen(name: str | None) -> list[Registered]:
+    found = registered_passes()
+    if name is None:
+        return list(found.values())
+    if name not in found:
+        raise Unusable(f"no pass is called {name!r}{nearest(name, list(found))}")
+    return [found[name]]
+
+
 def _list(found: Collection[Registered]) -> Iterator[str]:
-    width = max((len(each.name) for each in found), default=0)
     for each in found:
-        summary = description(each.load()).partition("\n")[0]
-        yield f"{each.name:{width}}  {summary}{'' if each.owner == 'twinform' else f' (from {each.owner})'}"
+        kind = each.load()
+        yield f"{heading(each.name)}{_from(each.owner)}"
+        yield f"    {summary(kind)}"
+        words = ", ".join(map(_option, options(kind)))
+        if words:
+            yield click.wrap_text(f"options: {words}", 110, "    ", "      ")
+        yield f"    example: {kind.example}"
+
+
+def _option(option: OptionPage) -> str:
+    """An option with its default, if it has one."""
+    if not option.given:
+        return f"{option.name} (needed)"
+    return option.name if option.value is None else f"{option.name}={option.default}"
+
+
+def _from(owner: str) -> str:
+    return "" if owner == OWN else f" (from {owner})"
+
+
+def _pipelines(project: Project) -> Iterator[str]:
+    names = list(project.settings.pipelines)
+    if names:
+        yield f"\npipelines of {project.path}"
+    for name in names:
+        yield f"{heading(f'@{name}')}\n    {project.names(name)}"
 
 
 def _page(kind: type[Pass], owner: str) -> Iterator[str]:
@@ -45,3 +99,30 @@ def _page(kind: type[Pass], owner: str) -> Iterator[str]:
 
 def _row(option: OptionPage) -> str:
     return f"  {option.name}: {option.type} (default: {option.default})\n      {option.text}"
+
+
+def _json(found: Collection[Registered], project: Project) -> str:
+    pipelines = [{"name": name, "pipeline": str(project.names(name))} for name in project.settings.pipelines]
+    return json.dumps(
+        {"passes": [_object(each.load(), each.owner) for each in found], "pipelines": pipelines}, indent=2
+    )
+
+
+def _object(kind: type[Pass], owner: str) -> dict[str, object]:
+    return {
+        "name": kind.name,
+        "owner": owner,
+        "summary": summary(kind),
+        "description": description(kind),
+        "options": [
+            {
+                "name": option.name,
+                "type": option.type,
+                "required": not option.given,
+                "default": option.value,
+                "description": option.text,
+            }
+            for option in options(kind)
+        ],
+        "example": kind.example,
+    }

@@ -7,25 +7,27 @@ import click
 
 from twinform.cli.conversion import Options, summary
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
-from twinform.cli.findings import show
 from twinform.cli.source import Source
 from twinform.compiler import CompileError, Split, split, write_all_atomically
-from twinform.diagnostics.reporters import Findings
-from twinform.passes import BrokenPassError
+from twinform.passes import PassError
 
 
 def run_split(source: Source, options: Options, folder: Path) -> int:
     """Split one world into a folder; gives the exit code. Nothing is written where one of the files has an error."""
+    watched = options.watching.begin(source.name)
     try:
         order = replace(options.order, to="urdf", model=None)
-        result = split(order, source.content, options.reading, name=source.name)
+        result = split(order, source.content, options.reading, name=source.name, watch=watched.watch)
     except CompileError as error:
-        show(Findings(source.name, error.diagnostics), notes=options.notes, on_stderr=True)
+        watched.report()
+        options.show(source.name, error.diagnostics)
         return UNUSABLE if error.unreadable else FINDINGS
-    except BrokenPassError as error:
-        click.echo(f"{source.name}: {error}", err=True)
+    except PassError as error:
+        watched.fault(error)
         return FINDINGS
-    show(Findings(source.name, result.diagnostics), notes=options.notes, on_stderr=True)
+    watched.end()
+    if not options.show(source.name, result.diagnostics):
+        return FINDINGS
     _write(result, folder, options.ledger)
     click.echo(f"{len(result.files)} files: {summary(result.ledger)}", err=True)
     return 0

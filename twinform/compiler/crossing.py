@@ -1,6 +1,5 @@
 """From one format to the other, and what has to be remembered so that the way back leads home."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from twinform.compiler.emitting import serialised, valid_tree
@@ -10,12 +9,11 @@ from twinform.diagnostics import Entry, Fate, Notes
 from twinform.diagnostics.rules.to_urdf import OUTSIDE_MODEL
 from twinform.ir import Document, Format, Opaque
 from twinform.ir.verify import verify_again
+from twinform.passes import Watch
 from twinform.passes.includes import has_includes
 from twinform.passes.legalise.carrier import NAMESPACE, PREFIX, from_xml
 from twinform.passes.legalise.to_urdf.select_model import SelectModel
 from twinform.schemas import XmlElement
-
-Watch = Callable[[str, Document], None]
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,6 @@
 """The way of the data: load, the user's passes, legalisation, back end."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -15,7 +15,7 @@ from twinform.diagnostics.rules.model import MISSING_LIMIT
 from twinform.diagnostics.rules.structure import MISSING_ATTRIBUTE
 from twinform.ir import Document
 from twinform.ir.verify import verify, verify_again
-from twinform.passes import Pass, Pipeline, parse_pipeline
+from twinform.passes import Pass, Pipeline, Watch, parse_pipeline
 from twinform.passes.legalise.candidates import name_once_expanded, wanted_includes
 from twinform.schemas import Engine, XmlElement
 
@@ -72,15 +72,16 @@ def convert(
     arguments: Mapping[str, str] | None = None,
     xacro: bool = True,
     expand_includes: bool = False,
-    watch: Callable[[str, Document], None] | None = None,
+    watch: Watch | None = None,
 ) -> Conversion:
-    """Compile a file, or the bytes of one, into the target's language; `watch` sees the document after each pass.
+    """Compile a file, or the bytes of one, into the target's language; `watch` is told of each pass.
 
     `paths`, `arguments` and `xacro` are those of `check`. URDF has no includes: for it, those in the model are always
     expanded.
 
     Raises:
         CompileError: the source, a pass or the result has an error.
+        PassError: a pass is at fault.
         PipelineError: `passes` is not a pipeline.
     """
     order = Order(
@@ -102,7 +103,7 @@ def fulfil(
     how: Reading,
     *,
     name: str = "",
-    watch: Callable[[str, Document], None] | None = None,
+    watch: Watch | None = None,
 ) -> Conversion:
     """`convert`, with all that is asked for in one place.
 
@@ -132,7 +133,7 @@ def _run(
     order: Order,
     *,
     strict: bool,
-    watch: Callable[[str, Document], None] | None,
+    watch: Watch | None,
 ) -> Conversion:
     """The rest of the way of a document that was read; `said` is what it was before its includes were expanded."""
     kept = [each for each in checked.diagnostics if not each.is_error]
@@ -156,7 +157,7 @@ def _written(
     source: Document,
     order: Order,
     notes: Notes,
-    watch: Callable[[str, Document], None] | None,
+    watch: Watch | None,
     *,
     fit: bool,
 ) -> tuple[Document, str]:

@@ -17,6 +17,7 @@ from twinform.ir import Document, Format, Include, Model, World
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.ir.verify import verify
+from twinform.passes import Watch
 from twinform.passes.includes import detach
 
 _UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
@@ -38,7 +39,7 @@ def split(
     how: Reading,
     *,
     name: str = "",
-    watch: Callable[[str, Document], None] | None = None,
+    watch: Watch | None = None,
 ) -> Split:
     """Every model of an SDF file as URDF, and the file with includes in their place under the name of the source.
 
@@ -80,7 +81,7 @@ class _Files:
 
     order: Order
     notes: Notes
-    watch: Callable[[str, Document], None] | None
+    watch: Watch | None
     texts: dict[str, str] = field(default_factory=dict[str, str])
 
     def add(self, document: Document, stem: str) -> None:

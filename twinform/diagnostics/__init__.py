@@ -6,6 +6,7 @@ from twinform.diagnostics.ledger import Entry, Fate, Ledger
 from twinform.diagnostics.location import NOWHERE, Location, Source
 from twinform.diagnostics.notes import Notes
 from twinform.diagnostics.origins import Origins
+from twinform.diagnostics.policy import Policy
 from twinform.diagnostics.rule import Rule, Severity
 
 __all__ = [
@@ -17,6 +18,7 @@ __all__ = [
     "Location",
     "Notes",
     "Origins",
+    "Policy",
     "Rule",
     "Severity",
     "Source",

@@ -1,7 +1,9 @@
 """Passes: steps from IR to IR, pipelines of them, and the registry that finds them."""
 
 from twinform.passes.base import Pass
-from twinform.passes.pipeline import BrokenPassError, Pipeline, Verifier, Watch, parse_pipeline, print_pipeline
+from twinform.passes.errors import BrokenPassError, FailedPassError, PassError
+from twinform.passes.named import Names, UnknownPipelineError
+from twinform.passes.pipeline import Pipeline, Verifier
 from twinform.passes.registry import (
     GROUP,
     Registered,
@@ -12,21 +14,27 @@ from twinform.passes.registry import (
     registered_passes,
 )
 from twinform.passes.syntax import PipelineError
+from twinform.passes.text import parse_pipeline
+from twinform.passes.watch import Watch, Watches
 
 __all__ = [
     "GROUP",
     "BrokenPassError",
+    "FailedPassError",
+    "Names",
     "Pass",
+    "PassError",
     "Pipeline",
     "PipelineError",
     "Registered",
     "RegistryError",
     "UnknownPassError",
+    "UnknownPipelineError",
     "Verifier",
     "Watch",
+    "Watches",
     "collect",
     "find_pass",
     "parse_pipeline",
-    "print_pipeline",
     "registered_passes",
 ]

@@ -7,13 +7,11 @@ from inspect import cleandoc
 from types import NoneType, UnionType
 from typing import Literal, NamedTuple, Union, cast, get_args, get_origin
 
-from pydantic.fields import FieldInfo
-
 from twinform.diagnostics.committed import main
 from twinform.passes.base import Pass
-from twinform.passes.pipeline import option_value
-from twinform.passes.registry import registered_passes
-from twinform.passes.syntax import print_value
+from twinform.passes.options import option_value
+from twinform.passes.registry import OWN, registered_passes
+from twinform.passes.syntax import Value, print_value
 
 _INTRODUCTION = """\
 # Passes
@@ -22,17 +20,21 @@ Steps from IR to IR, sorted by name. `twinform passes NAME` prints one page, and
 packages. A pipeline is text, such as `check-inertia,fill-limits{effort=100}`; quote it, as shells give braces a
 meaning. This file is made by `python -m twinform.passes.pages docs/reference/passes.md`; do not edit it.
 """
-_OWNER = "twinform"
 _WORDS: dict[object, str] = {str: "text", float: "number", int: "whole number", bool: "true or false"}
 
 
 class OptionPage(NamedTuple):
-    """What a user has to know about an option."""
+    """What a user has to know about an option.
+
+    `default` is in words and `value` for programs; where nothing is `given` by default, the user has to.
+    """
 
     name: str
     type: str
     default: str
     text: str
+    given: bool
+    value: Value
 
 
 def description(kind: type[Pass]) -> str:
@@ -40,17 +42,23 @@ def description(kind: type[Pass]) -> str:
     return cleandoc(kind.__doc__ or "")
 
 
+def summary(kind: type[Pass]) -> str:
+    """What a pass does, in a sentence."""
+    return description(kind).partition("\n")[0]
+
+
 def options(kind: type[Pass]) -> Iterator[OptionPage]:
     """The options in the order of the class."""
     for name, field in kind.model_fields.items():
-        yield OptionPage(field.alias or name, _words(field.annotation), _default(field), field.description or "")
+        given = not field.is_required()
+        default: object = field.get_default(call_default_factory=True, validated_data={}) if given else None
+        value = option_value(default)
+        words = _default(value) if given else "has to be given"
+        yield OptionPage(field.alias or name, _words(field.annotation), words, field.description or "", given, value)
 
 
-def _default(field: FieldInfo) -> str:
-    if field.is_required():
-        return "has to be given"
-    default: object = field.get_default(call_default_factory=True, validated_data={})
-    return "not set" if default is None else print_value(option_value(default))
+def _default(value: Value) -> str:
+    return "not set" if value is None else print_value(value)
 
 
 def _words(annotation: object) -> str:
@@ -70,7 +78,7 @@ def _words(annotation: object) -> str:
 
 def passes_page() -> str:
     """Our own passes in Markdown."""
-    ours = [each.load() for each in registered_passes().values() if each.owner == _OWNER]
+    ours = [each.load() for each in registered_passes().values() if each.owner == OWN]
     return "\n".join([_INTRODUCTION, *map(_chapter, ours)])
 
 

@@ -8,6 +8,8 @@ from importlib.metadata import EntryPoint, entry_points
 from twinform.passes.base import Pass
 
 GROUP = "twinform.passes"
+OWN = "twinform"
+"""The distribution that brings the built-in passes."""
 
 
 class RegistryError(Exception):

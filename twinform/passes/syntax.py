@@ -1,15 +1,17 @@
 r"""The text of a pipeline: its grammar, and its parser and printer without any knowledge of passes.
 
-    pipeline = [ pass { "," pass } ]
+    pipeline = [ part { "," part } ]
+    part     = pass | "@" key
     pass     = name [ "{" [ option { separator option } ] "}" ]
     option   = name "=" value
     value    = scalar | "[" [ scalar { "," scalar } ] "]"
     scalar   = number | "true" | "false" | "null" | word | string
 
-A `name` is kebab-case: `fill-limits`. A `separator` is a comma, or blanks, or both. Blanks may stand around commas,
-inside brackets and braces, and at both ends. A `number` is written as in Python, or is `inf` or `-inf`. A `word` is any
-run of characters without blanks, quotes and `, = { } [ ]` that is not one of the other scalars; all other text is a
-`string`: in double quotes, with the escapes of JSON.
+A `name` is kebab-case: `fill-limits`. A `key` is letters, digits, `_` and `-`, which is what TOML writes as a key
+without quotes; `@key` stands for the passes of the pipeline that a configuration calls so. A `separator` is a comma, or
+blanks, or both. Blanks may stand around commas, inside brackets and braces, and at both ends. A `number` is written as
+in Python, or is `inf` or `-inf`. A `word` is any run of characters without blanks, quotes and `, = { } [ ]` that is not
+one of the other scalars; all other text is a `string`: in double quotes, with the escapes of JSON.
 
     lump-fixed-joints{keep=tool0},check-inertia,fill-limits{effort=100 joints="arm_[0-9]"}
 """
@@ -25,6 +27,8 @@ Value = Scalar | list[Scalar]
 
 _BLANKS = re.compile(r"\s*")
 _NAME = re.compile(r"[a-z][a-z0-9]*(?:-[a-z0-9]+)*")
+KEY = re.compile(r"[A-Za-z0-9_-]+")
+"""The name of a pipeline."""
 _STRING = re.compile(r'"(?:[^"\\]|\\.)*"', re.DOTALL)
 _WORD = re.compile(r'[^\s,={}\[\]"]+')
 _INTEGER = re.compile(r"[-+]?[0-9]+")
@@ -68,8 +72,16 @@ class Call:
     position: int
 
 
-def parse_calls(text: str) -> tuple[Call, ...]:
-    """The passes that a text names.
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """`@name`, which stands for a pipeline; `position` is that of the `@`."""
+
+    name: str
+    position: int
+
+
+def parse_calls(text: str) -> tuple[Call | Reference, ...]:
+    """The passes and pipelines that a text names.
 
     Raises:
         PipelineError: the text does not follow the grammar.
@@ -111,15 +123,25 @@ class _Scanner:
     def __init__(self, text: str) -> None:
         self.text, self.at = text, 0
 
-    def pipeline(self) -> Iterator[Call]:
+    def pipeline(self) -> Iterator[Call | Reference]:
         self.take(_BLANKS)
         if self.at == len(self.text):
             return
-        yield self.call()
+        yield self.part()
         while self.skip(","):
-            yield self.call()
+            yield self.part()
         if self.at < len(self.text):
             raise self.expected("',' or the end")
+
+    def part(self) -> Call | Reference:
+        position = self.at
+        if not self.skip("@", blanks=False):
+            return self.call()
+        key = self.take(KEY)
+        if not key:
+            raise self.expected("the name of a pipeline")
+        self.take(_BLANKS)
+        return Reference(key, position)
 
     def call(self) -> Call:
         position, name = self.at, self.name("a pass")

@@ -27,9 +27,10 @@ def install(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Install]:
     registered_passes.cache_clear()
 
 
-def write_distribution(folder: Path, distribution: str, passes: Mapping[str, str]) -> None:
+def write_distribution(folder: Path, distribution: str, entries: Mapping[str, str], group: str = GROUP) -> None:
+    """Put the metadata of a distribution with these entry points into a folder."""
     info = folder / f"{distribution}-1.0.dist-info"
     info.mkdir()
     (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {distribution}\nVersion: 1.0\n")
-    lines = [f"{name} = {value}" for name, value in passes.items()]
-    (info / "entry_points.txt").write_text("\n".join([f"[{GROUP}]", *lines]) + "\n")
+    lines = [f"{name} = {value}" for name, value in entries.items()]
+    (info / "entry_points.txt").write_text("\n".join([f"[{group}]", *lines]) + "\n")

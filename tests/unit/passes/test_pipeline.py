@@ -9,7 +9,18 @@ from pydantic import Field
 
 from twinform.diagnostics import Notes, Rule, Severity
 from twinform.ir import Document, Format
-from twinform.passes import BrokenPassError, Pass, Pipeline, PipelineError, parse_pipeline, print_pipeline
+from twinform.passes import (
+    BrokenPassError,
+    FailedPassError,
+    Pass,
+    PassError,
+    Pipeline,
+    PipelineError,
+    UnknownPipelineError,
+    Watch,
+    Watches,
+    parse_pipeline,
+)
 
 from .conftest import Install
 
@@ -95,7 +106,7 @@ def test_printing_is_canonical(pipeline: Pipeline) -> None:
     assert str(parse_pipeline(str(pipeline))) == str(pipeline)
 
 
-@given(st.text(alphabet='ab-1{}[],= "\\\t\n.e_', max_size=20))
+@given(st.text(alphabet='@ab-1{}[],= "\\\t\n.e_', max_size=20))
 def test_any_text_is_a_pipeline_or_a_readable_error(text: str) -> None:
     try:
         parse_pipeline(text)
@@ -162,7 +173,11 @@ def test_a_text_has_one_canonical_spelling(text: str, canonical: str) -> None:
         (r'sample{word="a\q"}', 14, "no such escape"),
         ("sample{real=1e400}", 12, "the number is too large"),
         (f"sample{{whole={'9' * 5000}}}", 13, "the number is too large"),
-        ("sample{flag=true hole=1}", 17, "sample has no option hole; it has flag, kinds, maybe, numbers, "),
+        ("sample{flag=true hole=1}", 17, "sample has no option hole; did you mean whole?"),
+        ("sample{flag=true xyz=1}", 17, "sample has no option xyz; it has flag, kinds, maybe, numbers, "),
+        ("sample,@", 8, "expected the name of a pipeline, not the end"),
+        ("sample,@{a=1}", 8, "expected the name of a pipeline, not '{'"),
+        ("sample,@robot", 7, "no pipeline is called robot: no configuration names any"),
         ("sample{whole=1.5}", 13, "option whole of sample: should be a valid integer"),
         ("sample{small=12}", 13, "option small of sample: should be less than or equal to 9"),
         ("sample{word=5}", 12, "option word of sample: should be a valid string; quote it to make it text"),
@@ -187,7 +202,7 @@ def test_an_error_shows_the_line_and_a_caret() -> None:
 
 def test_an_option_that_the_text_cannot_say_is_an_error() -> None:
     with pytest.raises(TypeError, match="a pipeline cannot say"):
-        print_pipeline([Sample.model_construct(word=b"bytes")])
+        str(Pipeline((Sample.model_construct(word=b"bytes"),)))
 
 
 def test_a_negative_zero_keeps_its_sign() -> None:
@@ -199,15 +214,36 @@ def test_a_negative_zero_keeps_its_sign() -> None:
 DOCUMENT = Document(format=Format.SDF)
 
 
+class Diary(Watch):
+    """Writes down all that it is told."""
+
+    def __init__(self, seen: list[str] | None = None, name: str = "") -> None:
+        self.seen: list[str] = [] if seen is None else seen
+        self.name = name
+
+    def before(self, step: Pass, document: Document, notes: Notes) -> None:
+        self.seen.append(f"{self.name}before {step.name}: {document.version}")
+
+    def after(self, step: Pass, old: Document, new: Document, notes: Notes) -> None:
+        self.seen.append(f"{self.name}after {step.name}: {old.version}, {new.version}")
+
+    def failed(self, step: Pass, error: PassError, notes: Notes) -> None:
+        self.seen.append(f"{self.name}failed {step.name}: {type(error).__name__}")
+
+
 def refuse(document: Document, notes: Notes) -> None:
     notes.report(INVALID, f"version {document.version}")
 
 
 def test_passes_run_in_order_and_are_watched() -> None:
-    seen: list[tuple[str, str | None]] = []
     pipeline = parse_pipeline("sample{word=one},needs-2-options{must=1},sample{word=two}")
-    result = pipeline.run(DOCUMENT, Notes(), watch=lambda name, document: seen.append((name, document.version)))
-    assert seen == [("sample", "one"), ("needs-2-options", "one"), ("sample", "two")]
+    diary = Diary()
+    result = pipeline.run(DOCUMENT, Notes(), watch=diary)
+    assert [words for words in diary.seen if words.startswith("after")] == [
+        "after sample: None, one",
+        "after needs-2-options: one, one",
+        "after sample: one, two",
+    ]
     assert result == DOCUMENT.model_copy(update={"version": "two"})
 
 
@@ -222,9 +258,38 @@ def test_a_document_that_did_not_change_is_not_verified_again() -> None:
 
 def test_an_exception_says_in_which_pass_it_was_raised(monkeypatch: pytest.MonkeyPatch) -> None:
     def stop(_pass: Pass, _document: Document, _notes: Notes) -> Document:
-        raise ZeroDivisionError
+        raise ZeroDivisionError("no parts")
 
     monkeypatch.setattr(Sample, "run", stop)
-    with pytest.raises(ZeroDivisionError) as caught:
-        parse_pipeline("sample").run(DOCUMENT, Notes())
-    assert caught.value.__notes__ == ["in the pass sample"]
+    diary = Diary()
+    with pytest.raises(FailedPassError, match="the pass sample failed: ZeroDivisionError: no parts") as caught:
+        parse_pipeline("sample").run(DOCUMENT, Notes(), watch=diary)
+    assert isinstance(caught.value.__cause__, ZeroDivisionError)
+    assert (caught.value.name, caught.value.document) == ("sample", DOCUMENT)
+    assert diary.seen == ["before sample: None", "failed sample: FailedPassError"]
+
+
+def test_a_watch_sees_what_a_broken_pass_made() -> None:
+    diary = Diary()
+    with pytest.raises(BrokenPassError):
+        parse_pipeline("sample{word=new}").run(DOCUMENT, Notes(), watch=diary, verify=refuse)
+    assert diary.seen == ["before sample: None", "after sample: None, new", "failed sample: BrokenPassError"]
+
+
+def test_watches_nest_like_brackets() -> None:
+    seen: list[str] = []
+    watches = Watches([Diary(seen, "one "), Diary(seen, "two ")])
+    parse_pipeline("needs-2-options{must=1}").run(DOCUMENT, Notes(), watch=watches)
+    assert [words.partition(" needs")[0] for words in seen] == ["one before", "two before", "two after", "one after"]
+
+
+def test_a_name_stands_for_its_pipeline() -> None:
+    def names(name: str) -> Pipeline:
+        if name != "Two_1":
+            raise UnknownPipelineError(name)
+        return parse_pipeline("sample{word=a},sample{word=b}")
+
+    assert str(parse_pipeline(" @Two_1 , sample", names=names)) == "sample{word=a},sample{word=b},sample"
+    with pytest.raises(PipelineError) as caught:
+        parse_pipeline("sample,@three", names=names)
+    assert (caught.value.problem, caught.value.position) == ("three", 7)

@@ -13,11 +13,12 @@ def json(files: Sequence[Findings]) -> str:
 
     Only a finding in another file than the one that was asked for, such as an included one, names its `file`.
     """
-    rows = [{"path": path, "diagnostics": [_row(each, path) for each in found]} for path, found in files]
+    rows = [{"path": path, "diagnostics": [row(each, path) for each in found]} for path, found in files]
     return jsonlib.dumps({"files": rows}, indent=2) + "\n"
 
 
-def _row(diagnostic: Diagnostic, file: str) -> dict[str, object]:
+def row(diagnostic: Diagnostic, file: str) -> dict[str, object]:
+    """One finding about a file."""
     return {
         "rule": diagnostic.rule.name,
         "severity": str(diagnostic.severity),

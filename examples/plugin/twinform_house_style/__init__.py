@@ -1,0 +1,1 @@
+"""A pass and a rule of somebody else's."""

@@ -1,0 +1,77 @@
+from collections.abc import Callable
+
+import pytest
+
+import twinform
+from twinform.ir import Document, Link, Model
+from twinform.ir.changes import changes, count_changes
+
+ROBOT = """
+<sdf version="1.11"><model name="m">
+  <link name="a"><inertial><mass>1</mass></inertial>
+    <visual name="v"><geometry><box><size>1 1 1</size></box></geometry></visual></link>
+  <link name="b"><mine:tag xmlns:mine="urn:mine">1</mine:tag></link>
+  <plugin name="p" filename="lib"><gain>1</gain><gain>2</gain></plugin>
+</model></sdf>
+"""
+OLD = twinform.loads(ROBOT)
+
+
+def said(text: str) -> list[str]:
+    """The changes that lead to a text, without their values where a node is new or gone."""
+    new = twinform.loads(text)
+    return [f"{each.how} {each.path}" for each in changes(OLD, new)]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("", "", []),
+        ("<mass>1", "<mass>2", ["~ /models['m']/links['a']/inertial/mass"]),
+        (
+            "<inertial><mass>1</mass></inertial>",
+            "",
+            ["- /models['m']/links['a']/inertial", "- /models['m']/links['a']/inertial/mass"],
+        ),
+        ('<link name="b">', '<link name="c">', ["~ /models['m']/links['c']/name"]),
+        (
+            "<box><size>1 1 1</size></box>",
+            "<sphere><radius>1</radius></sphere>",
+            [
+                "- /models['m']/links['a']/visuals['v']/geometry/shape",
+                "- /models['m']/links['a']/visuals['v']/geometry/shape/kind",
+                "- /models['m']/links['a']/visuals['v']/geometry/shape/size",
+                "+ /models['m']/links['a']/visuals['v']/geometry/shape",
+                "+ /models['m']/links['a']/visuals['v']/geometry/shape/kind",
+                "+ /models['m']/links['a']/visuals['v']/geometry/shape/radius",
+            ],
+        ),
+        (">1</mine", ">3</mine", ["- /models['m']/links['b']/opaque[0]", "+ /models['m']/links['b']/opaque[0]"]),
+        (
+            "<gain>1</gain><gain>2</gain>",
+            "<gain>2</gain><gain>1</gain>",
+            ["> /models['m']/plugins['p']/content"],
+        ),
+        ("</model>", '<link name="a2"/></model>', ["+ /models['m']/links['a2']", "+ /models['m']/links['a2']/name"]),
+    ],
+)
+def test_each_change_has_its_path(old: str, new: str, expected: list[str]) -> None:
+    assert said(ROBOT.replace(old, new, 1) if old else ROBOT) == expected
+
+
+def with_links(change: Callable[[tuple[Link, ...]], tuple[Link, ...]]) -> Document:
+    model: Model = OLD.models[0]
+    return OLD.model_copy(update={"models": (model.model_copy(update={"links": change(model.links)}),)})
+
+
+def test_another_order_is_one_change() -> None:
+    (only,) = changes(OLD, with_links(lambda links: links[::-1]))
+    assert f"{only.how} {only.path} {only.new}" == """> /models['m']/links ["['b']", "['a']"]"""
+
+
+def test_nodes_are_counted_once() -> None:
+    new = with_links(lambda links: (links[0].model_copy(update={"kinematic": True, "gravity": False}), *links[1:]))
+    assert count_changes(OLD, new) == (1, 0, 0)
+    assert count_changes(OLD, with_links(lambda links: links[1:])) == (0, 0, 5)
+    assert count_changes(with_links(lambda links: links[1:]), OLD) == (0, 5, 0)
+    assert count_changes(OLD, OLD) == (0, 0, 0)

@@ -1,0 +1,81 @@
+"""Finding a configuration, and reading its file."""
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import cast
+
+from twinform.cli.config.errors import ConfigError
+
+OWN = "twinform.toml"
+_SHARED = "pyproject.toml"
+_LARGEST = 2**20
+_LINE = re.compile(r" \(at line (\d+), column \d+\)")
+Table = Mapping[str, object]
+
+
+def find(start: Path) -> tuple[Path, Table] | None:
+    """The nearest configuration in a folder and those above it; `twinform.toml` goes before `pyproject.toml`.
+
+    Raises:
+        ConfigError: there is one, and it cannot be read.
+    """
+    for folder in (start, *start.parents):
+        for name in (OWN, _SHARED):
+            path = folder / name
+            found = _look(path) if path.is_file() else None
+            if found is not None:
+                return path, found
+    return None
+
+
+def _look(path: Path) -> Table | None:
+    """What a file on the way up says, if it says anything for us. Another project's faults are not our business."""
+    if path.name == _SHARED and b"twinform" not in _bytes(path):
+        return None
+    return section(path)
+
+
+def section(path: Path) -> Table | None:
+    """Our part of a file; None where a `pyproject.toml` has none.
+
+    Raises:
+        ConfigError: the file cannot be read.
+    """
+    found = _parsed(path)
+    if path.name != _SHARED:
+        return found
+    tool = _table(found.get("tool", {}), path, "tool")
+    return _table(tool["twinform"], path, "tool.twinform") if "twinform" in tool else None
+
+
+def _table(value: object, path: Path, key: str) -> Table:
+    if not isinstance(value, dict):
+        raise ConfigError(path, f"{key} has to be a table")
+    return cast("Table", value)
+
+
+def _parsed(path: Path) -> Table:
+    import tomllib  # noqa: PLC0415 - most folders have no configuration
+
+    try:
+        return tomllib.loads(_bytes(path).decode("utf-8-sig"))
+    except UnicodeDecodeError as error:
+        line = _bytes(path)[: error.start].count(b"\n") + 1
+        raise ConfigError(path, "the file is not UTF-8", line=line) from error
+    except tomllib.TOMLDecodeError as error:
+        at = _LINE.search(str(error))
+        raise ConfigError(path, _LINE.sub("", str(error)), line=int(at[1]) if at else None) from error
+    except RecursionError as error:
+        raise ConfigError(path, "it is nested too deeply") from error
+
+
+def _bytes(path: Path) -> bytes:
+    try:
+        with path.open("rb") as file:
+            data = file.read(_LARGEST + 1)
+    except OSError as error:
+        raise ConfigError(path, f"cannot be read: {error.strerror}") from error
+    if len(data) > _LARGEST:
+        raise ConfigError(path, f"is larger than {_LARGEST} bytes")
+    return data

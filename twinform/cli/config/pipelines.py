@@ -1,0 +1,53 @@
+"""The pipelines that a configuration names; each is parsed when it is asked for."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from twinform.cli.config.errors import ConfigError
+from twinform.passes import Pipeline, PipelineError, UnknownPipelineError, parse_pipeline
+from twinform.passes.options import nearest
+from twinform.passes.syntax import KEY
+from twinform.passes.tables import TableError, parse_tables
+
+
+class NamedPipelines:
+    """Called with a name, gives its pipeline. A pipeline may name others, but not itself."""
+
+    def __init__(self, path: Path, raw: Mapping[str, object]) -> None:
+        """`raw` has what the file at `path` says of each.
+
+        Raises:
+            ConfigError: a name cannot be said as `@NAME`.
+        """
+        self.path, self.raw = path, raw
+        self._open: list[str] = []
+        for name in raw:
+            if not KEY.fullmatch(name):
+                problem = "the name of a pipeline takes letters, digits, _ and -"
+                raise ConfigError(path, problem, key=f'pipelines."{name}"')
+
+    def __call__(self, name: str) -> Pipeline:
+        """The pipeline of this name.
+
+        Raises:
+            UnknownPipelineError: there is none, or it is needed for itself.
+            ConfigError: what the file says is no pipeline.
+        """
+        if name not in self.raw:
+            raise UnknownPipelineError(f"no pipeline is called {name} in {self.path}{nearest(name, list(self.raw))}")
+        if name in self._open:
+            raise UnknownPipelineError(f"a pipeline stands for itself: {' -> '.join((*self._open, name))}")
+        self._open.append(name)
+        try:
+            return self._parsed(name)
+        finally:
+            self._open.pop()
+
+    def _parsed(self, name: str) -> Pipeline:
+        raw, key = self.raw[name], f"pipelines.{name}"
+        try:
+            return parse_pipeline(raw, names=self) if isinstance(raw, str) else parse_tables(raw, names=self)
+        except PipelineError as error:
+            raise ConfigError(self.path, str(error), key=key) from error
+        except TableError as error:
+            raise ConfigError(self.path, error.problem, key=key + error.key) from error

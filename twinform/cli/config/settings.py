@@ -1,0 +1,71 @@
+"""What can be set."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
+
+from twinform.cli.config.errors import ConfigError
+from twinform.cli.config.files import Table
+from twinform.passes.options import nearest
+from twinform.schemas import table
+
+UrdfVersion = Literal["1.0", "1.1", "1.2"]
+
+
+class Settings(BaseModel):
+    """The settings of a project; `None` where nothing is set. `paths` are relative to the folder of the file."""
+
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", strict=True, alias_generator=lambda name: name.replace("_", "-")
+    )
+
+    sdf_version: str | None = None
+    urdf_version: UrdfVersion | None = None
+    strict: bool | None = None
+    carriers: bool | None = None
+    passes: str | None = None
+    paths: list[str] = Field(default_factory=list[str])
+    allow: list[str] = Field(default_factory=list[str])
+    deny: list[str] = Field(default_factory=list[str])
+    pipelines: Mapping[str, object] = Field(default_factory=dict[str, object])
+
+    @field_validator("sdf_version")
+    @classmethod
+    def _exists(cls, version: str | None) -> str | None:
+        versions = table("sdf").versions
+        if version is not None and version not in versions:
+            raise ValueError(f"SDF has no version {version!r}; it has {', '.join(versions)}")
+        return version
+
+
+def parse_settings(path: Path, found: Table) -> Settings:
+    """The settings in a file.
+
+    Raises:
+        ConfigError: a key is unknown, or has a value that it does not take.
+    """
+    try:
+        settings = Settings.model_validate(found)
+    except ValidationError as error:
+        raise _readable(path, error) from error
+    folders = [str(path.parent / each) for each in settings.paths]
+    for folder, each in zip(folders, settings.paths, strict=True):
+        if not Path(folder).is_dir():
+            raise ConfigError(path, f"{each!r} is no folder", key="paths")
+    return settings.model_copy(update={"paths": folders})
+
+
+def _readable(path: Path, error: ValidationError) -> ConfigError:
+    """Pydantic's first complaint."""
+    problem = error.errors(include_url=False)[0]
+    key = ".".join(map(str, problem["loc"]))
+    if problem["type"] == "extra_forbidden":
+        known = sorted(field.alias or name for name, field in Settings.model_fields.items())
+        return ConfigError(path, f"there is no such key{nearest(key, known)}", key=key)
+    return ConfigError(
+        path,
+        problem["msg"].removeprefix("Value error, ").removeprefix("Input ").replace("dictionary", "table"),
+        key=key,
+    )

@@ -1,0 +1,80 @@
+"""What a file is to become: options that several commands share."""
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import click
+from click.core import ParameterSource
+
+from twinform.cli.config import ConfigError, settings_of
+from twinform.cli.failure import Unusable
+from twinform.cli.inputs import HowToRead
+from twinform.compiler import URDF_VERSIONS, Language, Order, UrdfVersion
+from twinform.passes import Pipeline, PipelineError, RegistryError, parse_pipeline
+from twinform.schemas import table
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+
+def _known_version(_ctx: click.Context, _option: click.Parameter, value: str | None) -> str | None:
+    versions = table("sdf").versions
+    if value is not None and value not in versions:
+        raise click.BadParameter(f"SDF has no version {value!r}; it has {', '.join(versions)}")
+    return value
+
+
+def _pipeline(ctx: click.Context, option: click.Parameter, value: str | None) -> Pipeline:
+    project = settings_of(ctx)
+    try:
+        return parse_pipeline(value or "", names=project.names)
+    except PipelineError as error:
+        if project.path and ctx.get_parameter_source(option.name or "") is ParameterSource.DEFAULT_MAP:
+            raise ConfigError(project.path, str(error), key="passes") from error
+        raise click.BadParameter(str(error)) from error
+    except RegistryError as error:
+        raise Unusable(str(error)) from error
+
+
+_OPTIONS = (
+    click.option("--sdf-version", metavar="V", callback=_known_version, help="The version of SDF to write."),
+    click.option("--urdf-version", type=click.Choice(URDF_VERSIONS), default="1.0", help="Likewise of URDF."),
+    click.option(
+        "--passes",
+        metavar="PIPELINE",
+        callback=_pipeline,
+        help="Passes to run, such as 'check-inertia', or @NAME for one that the configuration names.",
+    ),
+    click.option(
+        "--carriers/--no-carriers", default=True, help="Whether to keep in our namespace what the target lacks."
+    ),
+)
+
+
+def ordering_options(command: Command) -> Command:
+    """Give a command the options that say what a file is to become."""
+    for option in reversed(_OPTIONS):
+        command = option(command)
+    return command
+
+
+class Asked(HowToRead):
+    """What these options, and those for reading, give a command."""
+
+    sdf_version: str | None
+    urdf_version: UrdfVersion
+    passes: Pipeline
+    carriers: bool
+    expand_includes: bool
+
+
+def order_of(asked: Asked, to: Language, model: str | None = None) -> Order:
+    """The options as the compiler takes them."""
+    return Order(
+        to=to,
+        sdf_version=asked["sdf_version"],
+        urdf_version=asked["urdf_version"],
+        passes=asked["passes"],
+        carriers=asked["carriers"],
+        model=model,
+        expand_includes=asked["expand_includes"],
+    )

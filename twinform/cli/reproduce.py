@@ -1,0 +1,51 @@
+"""`twinform reproduce`."""
+
+import traceback
+from pathlib import Path
+
+import click
+
+from twinform import __version__
+from twinform.cli.failure import FINDINGS, Unusable
+from twinform.compiler import read_reproducer
+from twinform.passes import PassError, PipelineError, RegistryError
+from twinform.passes.hooks import Reproducer
+
+
+@click.command("reproduce")
+@click.argument("file", type=click.Path(path_type=Path))
+@click.pass_context
+def command(ctx: click.Context, file: Path) -> None:
+    """Run a pass again that failed.
+
+    It is given the document that it failed on. FILE is what `twinform convert` names where a pass is at fault. Exit
+    code: 0 the pass does its work now, 1 it fails again, with the whole traceback, 2 the file could not be read.
+    """
+    found = _read(file)
+    click.echo(f"{found.pipeline} on a document of {found.source}; failed under twinform {found.twinform}", err=True)
+    if found.twinform != __version__:
+        click.echo(f"this is twinform {__version__}", err=True)
+    error = _run(found, file)
+    if error is None:
+        other = "" if found.again else ", as it did when this file was written: it needs the source, lines and all"
+        click.echo(f"it does not fail{other}", err=True)
+        ctx.exit(0)
+    cause = error.__cause__
+    click.echo("".join(traceback.format_exception(cause)) if cause else str(error), err=True, nl=cause is None)
+    ctx.exit(FINDINGS)
+
+
+def _read(file: Path) -> Reproducer:
+    try:
+        return read_reproducer(file)
+    except OSError as error:
+        raise Unusable(f"cannot read {file}: {error.strerror}") from error
+    except ValueError as error:
+        raise Unusable(f"{file} is no reproducer: {str(error).splitlines()[0]}") from error
+
+
+def _run(found: Reproducer, file: Path) -> PassError | None:
+    try:
+        return found.run()
+    except (PipelineError, RegistryError) as error:
+        raise Unusable(f"{file}: {error}") from error

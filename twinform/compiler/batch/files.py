@@ -1,0 +1,68 @@
+"""Which files of a folder are models, and what each becomes."""
+
+import os
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path, PurePosixPath
+
+PATTERNS = ("*.urdf", "*.sdf", "*.world", "*.urdf.xacro", "*.sdf.xacro", "*.world.xacro")
+"""Files that are models by their names; other xacro files are mostly parts of models."""
+_ENDINGS = frozenset({".urdf", ".sdf", ".world", ".xml", ".json", ".xacro"})
+
+
+class FolderError(ValueError):
+    """A batch cannot be made from one folder into the other."""
+
+
+def require_apart(source: Path, dest: Path) -> None:
+    """Raise where results would become sources of the next run, or be written over them.
+
+    Raises:
+        FolderError: the source is no folder, or is the target, or lies in it.
+    """
+    if not source.is_dir():
+        raise FolderError(f"{source} is no folder")
+    if dest.exists() and not dest.is_dir():
+        raise FolderError(f"{dest} is no folder")
+    if source.resolve().is_relative_to(dest.resolve()):
+        raise FolderError(f"{dest} is {source} or has it inside; the results need a folder of their own")
+
+
+def models(source: Path, dest: Path, patterns: Sequence[str]) -> list[PurePosixPath]:
+    """The models below a folder, relative to it and sorted; hidden folders and that of the results are left out."""
+    results = dest.resolve()
+    found: list[PurePosixPath] = []
+    for place, folders, files in os.walk(source):
+        here = Path(place)
+        folders[:] = [name for name in folders if not name.startswith(".") and (here / name).resolve() != results]
+        inside = PurePosixPath(here.relative_to(source).as_posix())
+        found += [inside / name for name in files if any((inside / name).match(pattern) for pattern in patterns)]
+    return sorted(found)
+
+
+def outputs(names: Iterable[PurePosixPath], to: str) -> Mapping[PurePosixPath, PurePosixPath]:
+    """Where each model goes: under its own name with the new ending.
+
+    Where two would go to one place, as `a.urdf` and `a.sdf` do, both keep their old endings before the new one.
+    """
+    plain = {name: _stem(name).with_name(f"{_stem(name).name}.{to}") for name in names}
+    taken = Counter(_folded(path) for path in plain.values())
+    return {
+        name: path if taken[_folded(path)] == 1 else name.with_name(f"{name.name}.{to}") for name, path in plain.items()
+    }
+
+
+def _stem(name: PurePosixPath) -> PurePosixPath:
+    while name.suffix.lower() in _ENDINGS and name.stem:
+        name = name.with_suffix("")
+    return name
+
+
+def _folded(path: PurePosixPath) -> str:
+    """Paths that some file systems take for one are one."""
+    return str(path).casefold()
+
+
+def alone(name: PurePosixPath, content: bytes) -> bool:
+    """Whether a model is surely made of this file alone, so that its digest says whether anything has changed."""
+    return name.suffix.lower() != ".xacro" and b"<include" not in content and b"\0" not in content

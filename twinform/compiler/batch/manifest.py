@@ -1,0 +1,70 @@
+"""What is known of earlier runs: a line of JSON for each model that was worked on, the last one counts."""
+
+import hashlib
+import json
+from dataclasses import asdict
+from pathlib import Path
+
+from pydantic import TypeAdapter, ValidationError
+
+from twinform.compiler.batch.record import Record
+
+_FOLDER = ".twinform-batch"
+_FILE = "manifest.jsonl"
+_RECORD = TypeAdapter(Record)
+
+
+def digest(content: bytes) -> str:
+    """What tells contents apart."""
+    return hashlib.sha256(content).hexdigest()
+
+
+class Manifest:
+    """The records in the folder of the results. A run that is stopped loses nothing that was done."""
+
+    def __init__(self, dest: Path) -> None:
+        self.folder = dest / _FOLDER
+        self._path = self.folder / _FILE
+        self.records = _read(self._path)
+
+    def add(self, record: Record) -> None:
+        """Keep a record, at once and for later runs.
+
+        Raises:
+            OSError: it cannot be written.
+        """
+        self.records[record.source] = record
+        with self._path.open("a", encoding="ascii", newline="\n") as file:
+            file.write(_line(record))
+
+    def begin(self) -> None:
+        """Make the folder, and write the file anew with one line for each model.
+
+        Raises:
+            OSError: it cannot be written.
+        """
+        self.folder.mkdir(parents=True, exist_ok=True)
+        draft = self._path.with_suffix(".draft")
+        draft.write_text("".join(map(_line, self.records.values())), encoding="ascii", newline="\n")
+        draft.replace(self._path)
+
+
+def _line(record: Record) -> str:
+    return json.dumps(asdict(record)) + "\n"
+
+
+def _read(path: Path) -> dict[str, Record]:
+    """The records of a file; lines that are none, such as one that was cut off, are left out."""
+    try:
+        lines = path.read_bytes().splitlines()
+    except OSError:
+        return {}
+    found = (_record(line) for line in lines)
+    return {record.source: record for record in found if record}
+
+
+def _record(line: bytes) -> Record | None:
+    try:
+        return _RECORD.validate_python(json.loads(line))
+    except (ValueError, ValidationError, RecursionError):
+        return None

@@ -1,0 +1,8 @@
+"""What a model is made of, in numbers."""
+
+from twinform.compiler.statistics.driver import FileStatistics, WorldStatistics, measure
+from twinform.compiler.statistics.meshes import MeshCost
+from twinform.compiler.statistics.model import ModelStatistics
+from twinform.compiler.statistics.reporters import REPORTERS
+
+__all__ = ["REPORTERS", "FileStatistics", "MeshCost", "ModelStatistics", "WorldStatistics", "measure"]

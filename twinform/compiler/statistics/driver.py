@@ -1,0 +1,78 @@
+"""The numbers of a file: of each model in it."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from twinform.compiler.loading import Checked
+from twinform.compiler.statistics.meshes import MeshFiles
+from twinform.compiler.statistics.model import ModelStatistics, model_statistics
+from twinform.compiler.uris import SearchPath
+from twinform.diagnostics import Notes
+from twinform.ir import Document, Format, Link, Model, walk
+from twinform.passes import Pipeline
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorldStatistics:
+    """The models of a world; `includes` are those that were not read."""
+
+    name: str
+    models: tuple[ModelStatistics, ...]
+    plugins: tuple[str, ...]
+    lights: int
+    joints: int
+    includes: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FileStatistics:
+    """The worlds of a file, and the models outside of them."""
+
+    path: str
+    format: Format
+    version: str | None
+    worlds: tuple[WorldStatistics, ...]
+    models: tuple[ModelStatistics, ...]
+
+
+def measure(checked: Checked, document: Document, search: SearchPath, *, meshes: bool = True) -> FileStatistics:
+    """Count what a file holds. `meshes` says whether to look into mesh files, which `search` finds."""
+    whole = _spoken(document)
+    files = MeshFiles(search, Path(checked.path), meshes)
+
+    def counted(models: Iterable[Model]) -> tuple[ModelStatistics, ...]:
+        return tuple(model_statistics(model, document.format, files.costs(model)) for model in models)
+
+    worlds = tuple(
+        WorldStatistics(
+            name=world.name,
+            models=counted(world.models),
+            plugins=tuple(plugin.filename or "" for plugin in world.plugins),
+            lights=len(world.lights),
+            joints=len(world.joints),
+            includes=len(world.includes),
+        )
+        for world in whole.worlds
+    )
+    return FileStatistics(
+        path=checked.path,
+        format=document.format,
+        version=document.version,
+        worlds=worlds,
+        models=counted(whole.models),
+    )
+
+
+def _spoken(document: Document) -> Document:
+    """The document with what its `<gazebo>` elements say and what its readers compute in their places."""
+    notes = Notes()
+    if document.format is Format.URDF:
+        from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo  # noqa: PLC0415 - SDF does not need it
+
+        return Pipeline((FoldGazebo(),)).run(document, notes)
+    if not any(isinstance(node, Link) and node.inertial and node.inertial.auto for node in walk(document)):
+        return document
+    from twinform.passes.legalise.sdf_versions.write_inertias import WriteInertias  # noqa: PLC0415 - likewise
+
+    return Pipeline((WriteInertias(version="1.10"),)).run(document, notes)

@@ -1,0 +1,117 @@
+"""What meshes cost: the bytes of their files, and the triangles that have to be drawn or to be tested for contact.
+
+`trimesh` counts the triangles; without it, only the bytes are known.
+"""
+
+import importlib
+import io
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from twinform.compiler.uris import SearchPath, UriError
+from twinform.ir import Collision, Mesh, Model, Visual, walk
+
+_READ = frozenset({"stl", "dae", "obj"})
+_LARGEST = 2**28
+"""A file of a quarter of a gigabyte has five million triangles."""
+_READERS = frozenset({"trimesh", "collada"})
+_INSTALL = "pip install 'twinform[meshes]'"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MeshCost:
+    """One mesh file of a model: how often it is drawn and how often it touches, and what one of it costs.
+
+    `bytes` and `triangles` are None where they are not known; `problem` says why.
+    """
+
+    uri: str
+    visuals: int = 0
+    collisions: int = 0
+    bytes: int | None = None
+    triangles: int | None = None
+    problem: str = ""
+
+
+class _File(NamedTuple):
+    bytes: int | None = None
+    triangles: int | None = None
+    problem: str = ""
+
+
+@dataclass(slots=True)
+class MeshFiles:
+    """The mesh files that the document in the file `beside` names; each is read once."""
+
+    search: SearchPath
+    beside: Path
+    look: bool = True
+    _known: dict[Path, _File] = field(default_factory=dict[Path, _File])
+
+    def costs(self, model: Model) -> tuple[MeshCost, ...]:
+        """The mesh files of a model, in the order of their URIs."""
+        drawn, touched = _uses(model, Visual), _uses(model, Collision)
+        return tuple(self._cost(uri, drawn[uri], touched[uri]) for uri in sorted({*drawn, *touched}))
+
+    def _cost(self, uri: str, visuals: int, collisions: int) -> MeshCost:
+        found = self._file(uri) if self.look else _File()
+        return MeshCost(uri=uri, visuals=visuals, collisions=collisions, **found._asdict())
+
+    def _file(self, uri: str) -> _File:
+        try:
+            path = self.search.find(uri, self.beside)
+        except UriError as error:
+            return _File(problem=error.message)
+        if path not in self._known:
+            self._known[path] = _looked_at(path)
+        return self._known[path]
+
+
+def _uses(model: Model, kind: type[Visual] | type[Collision]) -> Mapping[str, int]:
+    return Counter(_meshes(model, kind))
+
+
+def _meshes(model: Model, kind: type[Visual] | type[Collision]) -> Iterator[str]:
+    for node in walk(model):
+        if isinstance(node, kind) and node.geometry and isinstance(node.geometry.shape, Mesh):
+            yield (node.geometry.shape.uri or "").strip()
+
+
+def _looked_at(path: Path) -> _File:
+    kind = path.suffix.lower().removeprefix(".")
+    try:
+        size = path.stat().st_size
+        if not path.is_file():
+            return _File(problem="it is no file")
+        if kind not in _READ:
+            return _File(size, problem=f"triangles are counted in {', '.join(sorted(_READ))}")
+        if size > _LARGEST:
+            return _File(size, problem=f"it is larger than {_LARGEST >> 20} MiB")
+        return _counted(path.read_bytes(), kind)
+    except OSError as error:
+        return _File(problem=f"it cannot be read: {error.strerror}")
+
+
+def _counted(content: bytes, kind: str) -> _File:
+    size = len(content)
+    if kind == "dae" and b"<!" in content.replace(b"<!--", b"").replace(b"<![CDATA[", b""):
+        return _File(size, problem="it declares a document type, which may name other files")
+    try:
+        triangles = _triangles(content, kind)
+    except Exception as error:  # noqa: BLE001 - readers of three formats raise whatever they like
+        if isinstance(error, ImportError) and error.name in _READERS:
+            return _File(size, problem=f"{error.name} is not installed: {_INSTALL}")
+        return _File(size, problem=f"it cannot be read: {str(error) or type(error).__name__}")
+    return _File(size, triangles, "" if triangles else "it has no triangles")
+
+
+def _triangles(content: bytes, kind: str) -> int:
+    """All triangles of a file, those of a part as often as the file places it."""
+    trimesh: Any = importlib.import_module("trimesh")
+    # without a resolver nothing is read but this file
+    scene = trimesh.load_scene(io.BytesIO(content), file_type=kind, resolver=None, skip_materials=True, process=False)
+    placed = (scene.graph[node][1] for node in scene.graph.nodes_geometry)
+    return sum(len(getattr(scene.geometry[name], "faces", ())) for name in placed)

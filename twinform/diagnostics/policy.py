@@ -1,0 +1,22 @@
+"""Which findings a project allows, and which it treats as errors."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+from twinform.diagnostics.diagnostic import Diagnostic
+from twinform.diagnostics.rule import Severity
+
+
+@dataclass(frozen=True, slots=True)
+class Policy:
+    """Findings of `allow` are left out, unless they are errors: those stay. Findings of `deny` are errors."""
+
+    allow: frozenset[str] = frozenset()
+    deny: frozenset[str] = frozenset()
+
+    def apply(self, diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+        """The findings as the project wants to see them."""
+        return tuple(self._seen(each) for each in diagnostics if each.is_error or each.rule.name not in self.allow)
+
+    def _seen(self, diagnostic: Diagnostic) -> Diagnostic:
+        return replace(diagnostic, severity=Severity.ERROR) if diagnostic.rule.name in self.deny else diagnostic

@@ -1,0 +1,197 @@
+"""What differs between two states of one document: by node and field, for people who look over a pass's shoulder.
+
+Nodes are matched by their names; those that are left by what they say, which finds what was only renamed; and those
+without a name at last by their order. Parts that are one object
+in both documents are not looked into, so that what a pass left alone costs nothing.
+"""
+
+from collections import defaultdict
+from collections.abc import Callable, Hashable, Iterator, Sequence
+from enum import StrEnum
+from typing import NamedTuple, TypeVar, cast
+
+from twinform.ir.node import Node
+from twinform.ir.sourced import Sourced
+
+_ABOUT = frozenset({"source", "spelling"})
+_NAMES = ("name", "reference", "uri")
+"""Fields that tell nodes of one kind apart, the best first."""
+Part = TypeVar("Part", bound=Sourced)
+
+
+class How(StrEnum):
+    """What became of a node or value; the value is the sign that stands for it."""
+
+    ADDED = "+"
+    REMOVED = "-"
+    CHANGED = "~"
+    REORDERED = ">"
+
+
+class Change(NamedTuple):
+    """One value or node. `node` is the path of the node that it belongs to, or of itself; `path` is its own.
+
+    Paths are those of the JSON of a document, with names in brackets where lists have names.
+    """
+
+    how: How
+    node: str
+    path: str
+    old: object = None
+    new: object = None
+
+    @property
+    def is_node(self) -> bool:
+        """Whether a whole node was added or removed."""
+        return self.node == self.path
+
+
+def changes(old: Node, new: Node) -> Iterator[Change]:
+    """Every difference, from the outside in."""
+    return _inside(old, new, "")
+
+
+def _inside(old: Node, new: Node, path: str) -> Iterator[Change]:
+    if old is new:
+        return
+    for name, before in old.__dict__.items():
+        after = new.__dict__[name]
+        if before is not after and name not in _ABOUT:
+            yield from _field(before, after, path, f"{path}/{name}")
+
+
+def _field(old: object, new: object, node: str, path: str) -> Iterator[Change]:
+    if isinstance(old, Node) and type(old) is type(new):
+        yield from _inside(old, cast("Node", new), path)
+    elif isinstance(old, Node) or isinstance(new, Node):
+        yield from _whole(How.REMOVED, old, path)
+        yield from _whole(How.ADDED, new, path)
+    elif _has_parts(old) or _has_parts(new):
+        yield from _lists(cast("Sequence[Sourced]", old or ()), cast("Sequence[Sourced]", new or ()), node, path)
+    elif old != new:
+        yield Change(How.CHANGED, node, path, old, new)
+
+
+def _has_parts(value: object) -> bool:
+    parts = cast("tuple[object, ...]", value) if isinstance(value, tuple) else ()
+    return bool(parts) and isinstance(parts[0], Sourced)
+
+
+def _whole(how: How, part: object, path: str) -> Iterator[Change]:
+    """A node that only one document has, and all values in it."""
+    if not isinstance(part, Node):
+        return
+    yield Change(how, path, path)
+    for name, value in part.__dict__.items():
+        if name in _ABOUT or value is None or value == ():
+            continue
+        inner = f"{path}/{name}"
+        if isinstance(value, Node):
+            yield from _whole(how, value, inner)
+        elif _has_parts(value):
+            for each, label in zip(value, _labels(value), strict=True):
+                yield from _alone(how, each, path, inner + label)
+        else:
+            yield _value(how, value, path, inner)
+
+
+def _value(how: How, value: object, node: str, path: str) -> Change:
+    return Change(how, node, path, *((value, None) if how is How.REMOVED else (None, value)))
+
+
+def _alone(how: How, part: Sourced, node: str, path: str) -> Iterator[Change]:
+    """A part of a list that only one document has."""
+    if isinstance(part, Node):
+        yield from _whole(how, part, path)
+    else:
+        yield _value(how, part, node, path)
+
+
+def _lists(old: Sequence[Sourced], new: Sequence[Sourced], node: str, path: str) -> Iterator[Change]:
+    pairs = _matched(old, new)
+    old_labels, new_labels = _labels(old), _labels(new)
+    for at, part in enumerate(old):
+        if at not in pairs:
+            yield from _alone(How.REMOVED, part, node, path + old_labels[at])
+    if [pairs[at] for at in sorted(pairs)] != sorted(pairs.values()):
+        yield Change(How.REORDERED, node, path, old_labels, new_labels)
+    back = {after: before for before, after in pairs.items()}
+    for at, part in enumerate(new):
+        if at not in back:
+            yield from _alone(How.ADDED, part, node, path + new_labels[at])
+            continue
+        before = old[back[at]]
+        if isinstance(before, Node) and isinstance(part, Node):  # others are pairs only where they are equal
+            yield from _inside(before, part, path + new_labels[at])
+
+
+def _matched(old: Sequence[Sourced], new: Sequence[Sourced]) -> dict[int, int]:
+    """Which place in the old list is which in the new one."""
+    pairs = dict[int, int]()
+    for key in (_name, _rest, _kind):
+        taken = set(pairs.values())
+        pairs |= _pair(_by(key, old, set(pairs)), _by(key, new, taken))
+    return pairs
+
+
+def _pair(old: dict[Hashable, list[int]], new: dict[Hashable, list[int]]) -> dict[int, int]:
+    """The first with the first of each key, and so on."""
+    return {a: b for key, places in old.items() for a, b in zip(places, new.get(key, ()), strict=False)}
+
+
+def _by(
+    key: Callable[[Sourced], Hashable | None], parts: Sequence[Sourced], but: set[int]
+) -> dict[Hashable, list[int]]:
+    """The places of the parts that have such a key."""
+    found: dict[Hashable, list[int]] = defaultdict(list)
+    for at, part in enumerate(parts):
+        word = None if at in but else key(part)
+        if word is not None:
+            found[word].append(at)
+    return found
+
+
+def _name(part: Sourced) -> Hashable | None:
+    name = name_of(part)
+    return None if name is None else (type(part), name)
+
+
+def _rest(part: Sourced) -> Hashable:
+    """All but the name."""
+    return part.model_copy(update={"name": None}) if isinstance(part, Node) and hasattr(part, "name") else part
+
+
+def _kind(part: Sourced) -> Hashable | None:
+    return type(part) if isinstance(part, Node) and name_of(part) is None else None
+
+
+def name_of(part: Sourced) -> str | None:
+    """What tells a node apart from others of its kind; None for what has no name."""
+    if not isinstance(part, Node):
+        return None
+    return next((name for key in _NAMES if isinstance(name := getattr(part, key, None), str)), None)
+
+
+def _labels(parts: Sequence[Sourced]) -> list[str]:
+    return [f"[{at}]" if (name := name_of(part)) is None else f"[{name!r}]" for at, part in enumerate(parts)]
+
+
+class Sizes(NamedTuple):
+    """How many nodes differ."""
+
+    changed: int
+    added: int
+    removed: int
+
+
+def count_changes(old: Node, new: Node) -> Sizes:
+    """How many nodes have other values or another order of parts, and how many are new or gone."""
+    changed, added, removed = set[str](), 0, 0
+    whole = set[str]()
+    for each in changes(old, new):
+        if each.is_node:
+            added, removed = added + (each.how is How.ADDED), removed + (each.how is How.REMOVED)
+            whole.add(each.path)
+        elif each.node not in whole:
+            changed.add(each.node)
+    return Sizes(len(changed), added, removed)

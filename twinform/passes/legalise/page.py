@@ -1,0 +1,83 @@
+"""The page of the pipeline: `python -m twinform.passes.legalise.page FILE [--check]` writes or checks it."""
+
+import sys
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+from twinform.diagnostics.committed import main
+from twinform.ir import Format
+from twinform.passes.base import Pass
+from twinform.passes.legalise import Target, legalisation
+from twinform.passes.pages import summary
+from twinform.passes.pipeline import Pipeline
+from twinform.schemas import table
+
+_INTRODUCTION = """\
+# The pipeline
+
+What happens to a document between reading and writing, in order. `twinform convert --print-pipeline` prints it for one
+file, `--dump-ir-after PASS` and `--print-changes` show it happening, `--time-passes` says how long each takes.
+This file is made by `python -m twinform.passes.legalise.page docs/explanation/pipeline.md`; do not edit it.
+
+1. **Reading.** Parsing, the schema of the format and version, the typed document, and what it must keep beyond its
+   schema. Findings up to here are those of `twinform check`.
+2. **Includes**, where they are asked for or the target has none, are put in their place.
+3. **Your passes**, those of `--passes`, [each with its page](../reference/passes.md). The document is verified after
+   each that changed something.
+4. **Legalisation**: the passes below, which turn what the target cannot say into what it can. The document is verified
+   after the last of them.
+5. **The way back** is tried in memory: the same, from the target to the source. What it does not find is remembered in
+   the file ([why](decisions.md#every-conversion-goes-the-way-back-once-and-remembers-what-it-does-not-find-there)).
+   Where the source has such a memory itself, it is recalled before anything is written.
+6. **Writing**, and the schema of the target once more.
+"""
+_CARRIERS = """\
+Without `--no-carriers`, what the target has no words for travels along in our own namespace; each of these passes says
+in its docstring what it changes, what it never touches and what it reports.
+"""
+_SOURCE = "../.."
+"""From the page to the folder that the package is in."""
+
+
+class Way(NamedTuple):
+    """From one format and version to another."""
+
+    title: str
+    source: Format
+    version: str | None
+    target: Target
+    remark: str
+
+
+def ways() -> Iterator[Way]:
+    """Those of the page; between them they have every pass."""
+    versions = table("sdf").versions
+    oldest, newest = versions[0], versions[-1]
+    older = "An older version takes some of the passes of the last chapter, before the last one of these."
+    usual = Target(Format.SDF)
+    yield Way(f"From URDF to SDF {usual.sdf_version}", Format.URDF, None, usual, older)
+    remark = "What is read in another version is said in the newest one first."
+    yield Way("From SDF to URDF", Format.SDF, newest, Target(Format.URDF), remark)
+    remark = "Of these, those run that lie between the two versions."
+    yield Way("From older SDF to newer", Format.SDF, oldest, Target(Format.SDF, newest), remark)
+    yield Way("From newer SDF to older", Format.SDF, newest, Target(Format.SDF, oldest), remark)
+
+
+def pipeline_page() -> str:
+    """The whole page in Markdown."""
+    return "\n".join([_INTRODUCTION, "## Legalisation", "", _CARRIERS, *map(_chapter, ways())])
+
+
+def _chapter(way: Way) -> str:
+    passes = legalisation(way.source, way.version, way.target)
+    return "\n".join([f"### {way.title}", "", way.remark, "", *_items(passes), ""])
+
+
+def _items(passes: Iterable[Pass]) -> Iterator[str]:
+    for number, each in enumerate(passes, 1):
+        path = f"{_SOURCE}/{type(each).__module__.replace('.', '/')}.py"
+        yield f"{number}. [`{Pipeline((each,))}`]({path}): {summary(type(each))}"
+
+
+if __name__ == "__main__":
+    sys.exit(main(pipeline_page(), sys.argv[1:]))
