@@ -12,6 +12,7 @@ from pydantic.fields import FieldInfo
 
 from twinform.diagnostics import Diagnostic, Notes
 from twinform.ir import Document
+from twinform.passes.assets import AssetPass, Assets
 from twinform.passes.base import Pass
 from twinform.passes.registry import UnknownPassError, find_pass, registered_passes
 from twinform.passes.syntax import Call, Option, PipelineError, Scalar, Value, parse_calls, print_call
@@ -53,6 +54,11 @@ class Pipeline:
             if watch:
                 watch(each.name, document)
         return document
+
+    def with_assets(self, assets: Assets) -> "Pipeline":
+        """The same passes; those that open files know where they are."""
+        bound = (each.with_assets(assets) if isinstance(each, AssetPass) else each for each in self.passes)
+        return Pipeline(tuple(bound))
 
     def __iter__(self) -> Iterator[Pass]:
         return iter(self.passes)
