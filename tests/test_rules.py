@@ -9,7 +9,7 @@ import pytest
 
 import twinform
 from twinform.diagnostics import Diagnostic, Entry, catalogue
-from twinform.testing import Case, cases
+from twinform.testing import Case, cases, pass_cases
 
 _TESTS = Path(__file__).parent
 _CASES = _TESTS / "cases"
@@ -21,7 +21,6 @@ WITHOUT_CASE = {
     "joint-type-unsupported": "unit/passes/test_to_urdf.py",
     "merged-away": "unit/compiler/test_includes.py",
     "mesh-reader-missing": "unit/passes/test_meshes.py",
-    "missing-inertial": "unit/passes/inertia/test_check_inertia.py",
     "open-mesh": "unit/passes/test_meshes.py",
     "partial-limit": "unit/compiler/test_driver.py",
     "schema-disagreement": "unit/schemas/test_validator.py",
@@ -51,6 +50,8 @@ def _found() -> dict[str, set[str]]:
         found[_name(case)] = set(_of_conversion(case, None))
     for case in cases(_CASES / "versions"):
         found[_name(case)] = set(_of_conversion(case, "1.4"))
+    for case in pass_cases(_CASES / "passes"):
+        found[_name(case)] = _rules(case.diagnostics)
     return found
 
 

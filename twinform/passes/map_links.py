@@ -1,6 +1,6 @@
 """Change the links of a document, wherever they are."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 from twinform.ir import Document, Link, Model, Node, map_children
 
@@ -22,3 +22,12 @@ def map_links(document: Document, change: Change) -> Document:
         return node if same else node.model_copy(update={"models": models})
 
     return map_children(document, visit)
+
+
+def movable_models(document: Document) -> Iterator[Model]:
+    """Every model that is not static, nor in a static one; nested ones after those around them."""
+    models = [*document.models, *(model for world in document.worlds for model in world.models)]
+    for model in models:  # grows while it is walked
+        if not model.static:
+            yield model
+            models.extend(model.models)
