@@ -28,12 +28,14 @@ def moving_bodies(document: Document) -> list[Body]:
 
 
 def neighbours(document: Document) -> Iterator[Neighbours]:
-    """The joints that move and have two bodies of which none is held by the world, in document order."""
+    """The joints that move a body, in document order; the parent is empty where the world holds it."""
     bodies, ground, groups = _grouped(document)
     for joint, scope in _joints(document):
-        ends = [groups.find(_key(scope, name)) for name in (joint.parent, joint.child) if name]
-        if joint.type != "fixed" and len(ends) > 1 and ground not in ends and all(end in bodies for end in ends):
-            yield Neighbours(joint, tuple(bodies[ends[0]]), tuple(bodies[ends[1]]))
+        if joint.type == "fixed" or not joint.parent or not joint.child:
+            continue
+        parent, child = (groups.find(_key(scope, name)) for name in (joint.parent, joint.child))
+        if child != ground and child in bodies and (parent == ground or parent in bodies):
+            yield Neighbours(joint, () if parent == ground else tuple(bodies[parent]), tuple(bodies[child]))
 
 
 def _grouped(document: Document) -> "tuple[dict[str, list[Link]], str, _Groups]":
