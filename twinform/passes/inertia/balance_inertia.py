@@ -8,7 +8,7 @@ from pydantic import Field
 
 from twinform.diagnostics import Notes, Severity
 from twinform.diagnostics.rules.inertia import BALANCED_INERTIA, UNBALANCED_INERTIA
-from twinform.ir import Document, Inertia, Inertial, Link, Model
+from twinform.ir import Document, Format, Inertia, Inertial, Link, Model
 from twinform.ir.principal_moments import Symmetric, principal_moments
 from twinform.ir.verify.inertia import inertia_matrix
 from twinform.passes.base import Pass
@@ -28,7 +28,8 @@ class BalanceInertia(Pass):
     It changes the `<inertia>` of links whose name matches `links`, where
 
     1. a principal moment is zero or less;
-    2. a principal moment exceeds the sum of the other two, be it by a digit that was cut off: libsdformat refuses that.
+    2. a principal moment exceeds the sum of the other two, be it by a digit that was cut off: libsdformat refuses that;
+    3. in URDF, a link has a mass and no `<inertia>`, which is taken as zero.
 
     Nearest means the least sum of squared changes of the nine elements. So that engines need not divide by zero, the
     mass is left with some extent along every axis: `thickness`, or the part `margin` of the trace if that is more. It
@@ -67,6 +68,8 @@ class BalanceInertia(Pass):
             if inertial is None or inertial.auto or not any(fnmatchcase(link.name, each) for each in self.links):
                 return link
             matrix = inertia_matrix(inertial.inertia, DEFAULT_MOMENT[document.format])
+            if inertial.inertia is None and document.format is Format.URDF and has_mass(inertial):
+                matrix = _NOTHING
             return link if matrix is None else self._balance(link, inertial, matrix, notes)
 
         return map_links(document, balance)
