@@ -17,7 +17,6 @@ _PARTS = _CASES / "includes/parts"
 
 WITHOUT_CASE = {
     "automatic-inertia": "unit/passes/test_to_urdf.py",
-    "filled-limit": "unit/passes/limits/test_fill_limits.py",
     "joint-type-unsupported": "unit/passes/test_to_urdf.py",
     "merged-away": "unit/compiler/test_includes.py",
     "mesh-reader-missing": "unit/passes/test_meshes.py",
@@ -25,7 +24,6 @@ WITHOUT_CASE = {
     "partial-limit": "unit/compiler/test_driver.py",
     "schema-disagreement": "unit/schemas/test_validator.py",
     "too-many-includes": "unit/compiler/test_includes.py",
-    "unfilled-limit": "unit/passes/limits/test_fill_limits.py",
     "unreadable-mesh": "unit/passes/test_meshes.py",
     "unreadable-file": "unit/compiler/test_parsing.py",
     "unused-argument": "unit/compiler/test_xacro.py",
