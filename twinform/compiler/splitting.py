@@ -11,6 +11,7 @@ from twinform.compiler.errors import CompileError
 from twinform.compiler.includes import expand
 from twinform.compiler.loading import Reading, garbage_collection_paused, read
 from twinform.compiler.orders import Order
+from twinform.compiler.other_documents import OtherDocuments
 from twinform.diagnostics import Diagnostic, Ledger, Notes
 from twinform.diagnostics.rules import structure
 from twinform.ir import Document, Format, Include, Model, World
@@ -54,7 +55,8 @@ def split(
         notes = Notes(
             checked.path, how.strict, list(checked.diagnostics), list(checked.entries), origins=dict(checked.origins)
         )
-        document = order.passes.run(checked.document, notes, watch=watch, verify=verify)
+        reader = OtherDocuments(how, checked.path).read
+        document = order.passes.run(checked.document, notes, watch, verify, reader)
         files = _Files(order, notes, watch)
         if document.format is not Format.SDF:
             message = "the file is URDF, which holds one robot; --split is for SDF"

@@ -1,6 +1,7 @@
 """Passes: steps from IR to IR, pipelines of them, and the registry that finds them."""
 
 from twinform.passes.base import Pass
+from twinform.passes.other_documents import DocumentPass, DocumentReader
 from twinform.passes.pipeline import BrokenPassError, Pipeline, Verifier, Watch, parse_pipeline, print_pipeline
 from twinform.passes.registry import (
     GROUP,
@@ -16,6 +17,8 @@ from twinform.passes.syntax import PipelineError
 __all__ = [
     "GROUP",
     "BrokenPassError",
+    "DocumentPass",
+    "DocumentReader",
     "Pass",
     "Pipeline",
     "PipelineError",

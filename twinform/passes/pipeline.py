@@ -13,6 +13,7 @@ from pydantic.fields import FieldInfo
 from twinform.diagnostics import Diagnostic, Notes
 from twinform.ir import Document
 from twinform.passes.base import Pass
+from twinform.passes.other_documents import DocumentPass, DocumentReader
 from twinform.passes.registry import UnknownPassError, find_pass, registered_passes
 from twinform.passes.syntax import Call, Option, PipelineError, Scalar, Value, parse_calls, print_call
 
@@ -39,15 +40,22 @@ class Pipeline:
     passes: tuple[Pass, ...] = ()
 
     def run(
-        self, document: Document, notes: Notes, watch: Watch | None = None, verify: Verifier | None = None
+        self,
+        document: Document,
+        notes: Notes,
+        watch: Watch | None = None,
+        verify: Verifier | None = None,
+        reader: DocumentReader | None = None,
     ) -> Document:
         """The document after all passes; a document that a pass changed is verified.
+
+        `reader` is for passes that need other documents.
 
         Raises:
             BrokenPassError: a pass made IR that the verifier refuses.
         """
         for each in self.passes:
-            before, document = document, _run(each, document, notes)
+            before, document = document, _run(each, document, notes, reader)
             if verify and document is not before:
                 _require_valid(document, each.name, verify)
             if watch:
@@ -64,8 +72,10 @@ class Pipeline:
         return print_pipeline(self)
 
 
-def _run(each: Pass, document: Document, notes: Notes) -> Document:
+def _run(each: Pass, document: Document, notes: Notes, reader: DocumentReader | None) -> Document:
     try:
+        if reader is not None and isinstance(each, DocumentPass):
+            return each.run_with(document, notes, reader)
         return each.run(document, notes)
     except Exception as error:
         error.add_note(f"in the pass {each.name}")

@@ -43,6 +43,13 @@ def renamed_model(model: Model, scope: Scope, format_: Format, notes: Notes) -> 
     return _Renamer(scope, format_, notes).model(model)
 
 
+def renamed_contents(model: Model, scope: Scope, format_: Format, notes: Notes) -> Model:
+    """The model with the names of the scope in its plugins and untyped parts alone."""
+    renamer = _Renamer(scope, format_, notes)
+    plugins = tuple(renamer.plugin(plugin) for plugin in model.plugins)
+    return _changed(model, {"plugins": plugins, "opaque": renamer.opaque(model.opaque, model.location)})
+
+
 @dataclass(frozen=True, slots=True)
 class _Renamer:
     """The references of one model. In URDF a link's pose names its joint, and a joint's pose a link."""
