@@ -99,7 +99,7 @@ def _clash(model: Model, guest: Model, mount: Mount, notes: Notes, kinds: Iterab
             if other is not None:
                 message = f"both models have {node.name!r}"
                 notes.report(
-                    rules.NAME_CLASH, message, node.location, found=node.name, related=(other.location,),
+                    rules.NAME_CLASH, message, other.location, found=node.name, related=(node.location,),
                     help="give the attached model a prefix",
                 )  # fmt: skip
                 clash = True

@@ -84,8 +84,7 @@ class _Lumping:
     def run(self) -> Model:
         hosts = {host: self._host(host, names) for host, names in self.guests.items()}
         hosts_of = self.planned.hosts
-        self._report_dangling()
-        return self.model.model_copy(
+        made = self.model.model_copy(
             update={
                 "links": tuple(hosts.get(each.name, each) for each in self.model.links if each.name not in hosts_of),
                 "joints": tuple(self._joint(each) for each in self.model.joints if not self._goes(each)),
@@ -94,6 +93,8 @@ class _Lumping:
                 ),
             }
         )
+        self._report_dangling(made)
+        return made
 
     def _goes(self, joint: Joint) -> bool:
         going = self.planned.joints.get(joint.child or "")
@@ -181,9 +182,9 @@ class _Lumping:
         children = tuple(self._followed(child) for child in element.children)
         return element.model_copy(update={"children": children}) if children != element.children else element
 
-    def _report_dangling(self) -> None:
+    def _report_dangling(self, made: Model) -> None:
         """Names of what goes in places that libsdformat leaves as they are."""
-        named = mentions(self.model)
+        named = mentions(made)
         gone = {joint.name for joint in self.planned.joints.values()}
         for name, holder in named.links.items():
             if name in self.planned.hosts:

@@ -17,7 +17,6 @@ from twinform.passes.structure.model_edit import Place
 from twinform.schemas import table
 
 Posed = TypeVar("Posed", Visual, Collision, Sensor, Light)
-Shape = TypeVar("Shape", Visual, Collision)
 _SETTINGS: dict[str, object] = {"gravity": True, "enable_wind": False, "self_collide": None, "kinematic": False}
 """What a link says of its body, and what it means to say nothing."""
 _OF_BODY = frozenset({"velocity_decay"})
@@ -147,39 +146,34 @@ def _host(link: Link, guests: list[Link], graph: FrameGraph) -> Link:
         return link
     solids = [placed(body_of(guest, graph, Format.SDF), graph.pose(guest.name, link.name)) for guest in guests]
     heavy = with_guests(link, body_of(link, graph, Format.SDF), solids)
-    visuals, collisions = link.visuals, link.collisions
+    into = heavy
     for guest in guests:
-        visuals = (*visuals, *_moved(guest, guest.visuals, visuals))
-        collisions = (*collisions, *_moved(guest, guest.collisions, collisions))
-    moved = [part for guest in guests for part in guest.opaque if _name(part) in _posed()]
-    return heavy.model_copy(
-        update={
-            "visuals": visuals,
-            "collisions": collisions,
-            "sensors": (
-                *link.sensors,
-                *(_sensor(each, guest, collisions) for guest in guests for each in guest.sensors),
-            ),
-            "lights": (*link.lights, *(_in_frame(each, guest.name) for guest in guests for each in guest.lights)),
-            "opaque": (
-                *link.opaque,
-                *(_element_in_frame(part, guest.name) for guest in guests for part in guest.opaque if part in moved),
-            ),
-        }
-    )
+        collisions = _moved(guest, guest.collisions, into.collisions)
+        sensors = tuple(_sensor(each, guest, collisions) for each in guest.sensors)
+        moved = tuple(_element_in_frame(part, guest.name) for part in guest.opaque if _name(part) in _posed())
+        into = into.model_copy(
+            update={
+                "visuals": (*into.visuals, *_moved(guest, guest.visuals, into.visuals)),
+                "collisions": (*into.collisions, *collisions),
+                "sensors": (*into.sensors, *_moved(guest, sensors, into.sensors)),
+                "lights": (*into.lights, *_moved(guest, guest.lights, into.lights)),
+                "opaque": (*into.opaque, *moved),
+            }
+        )
+    return into
 
 
-def _moved(guest: Link, shapes: tuple[Shape, ...], there: tuple[Shape, ...]) -> list[Shape]:
-    """Shapes posed in the frame of their old link; one whose name is taken gets that of the link before it."""
-    taken = {shape.name for shape in there}
-    made: list[Shape] = []
-    for shape in shapes:
-        name = shape.name
+def _moved(guest: Link, parts: tuple[Posed, ...], there: tuple[Posed, ...]) -> list[Posed]:
+    """Parts posed in the frame of their old link; one whose name is taken gets that of the link before it."""
+    taken = {part.name for part in there}
+    made: list[Posed] = []
+    for part in parts:
+        name = part.name
         if name in taken:
-            name = unique_name(f"{guest.name}_{name}", taken | {each.name for each in shapes})
+            name = unique_name(f"{guest.name}_{name}", taken | {each.name for each in parts})
         taken.add(name)
-        placed_shape = _in_frame(shape, guest.name)
-        made.append(placed_shape if name == shape.name else placed_shape.model_copy(update={"name": name}))
+        placed_part = _in_frame(part, guest.name)
+        made.append(placed_part if name == part.name else placed_part.model_copy(update={"name": name}))
     return made
 
 
@@ -188,22 +182,17 @@ def _in_frame(node: Posed, frame: str) -> Posed:
     return node.model_copy(update={"pose": _based(node.pose, frame)})
 
 
-def _sensor(sensor: Sensor, guest: Link, collisions: tuple[Collision, ...]) -> Sensor:
-    """A sensor in its old frame; one of contact names its collision by the name that this has now."""
-    there = {each.name for each in collisions}
-    renamed = {
-        each.name: f"{guest.name}_{each.name}"
-        for each in guest.collisions
-        if f"{guest.name}_{each.name}" in there and each.name
-    }
-    placed_sensor = _in_frame(sensor, guest.name)
+def _sensor(sensor: Sensor, guest: Link, collisions: list[Collision]) -> Sensor:
+    """A sensor of contact names its collision by the name that this has now; `collisions` are those of the guest."""
+    pairs = zip(guest.collisions, collisions, strict=True)
+    renamed = {old.name: new.name for old, new in pairs if old.name and new.name and old.name != new.name}
     if not renamed or sensor.type != "contact":
-        return placed_sensor
+        return sensor
     parts = tuple(
         part if part.element is None else part.model_copy(update={"element": _recalled(part.element, renamed)})
         for part in sensor.opaque
     )
-    return placed_sensor.model_copy(update={"opaque": parts})
+    return sensor.model_copy(update={"opaque": parts})
 
 
 def _recalled(element: Element, names: dict[str, str]) -> Element:

@@ -185,7 +185,8 @@ class _Renamer:
     def attribute(self, element: Element, key: str, value: str, where: Location) -> str:
         kind = kind_of_attribute(element, key)
         if kind is None or (key == "name" and element.name not in _DEFINES and kind == "frame"):
-            self.report_unfollowed(value, f"{key!r} of <{element.name}>", where)
+            if key != "name":  # which is a thing's own
+                self.report_unfollowed(value, f"{key!r} of <{element.name}>", where)
             return value
         return self.scope.follow(kind, value) or value
 
