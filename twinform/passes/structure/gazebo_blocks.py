@@ -6,6 +6,7 @@ from twinform.ir import Element, GazeboExtension
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import to_element
 from twinform.passes.legalise.element_poses import read_pose
+from twinform.passes.legalise.nodes import unique_name
 from twinform.passes.legalise.to_sdf.gazebo_tags import JOINT_TAGS, LINK_TAGS, TRUE, value_text
 
 Blocks = Mapping[str, list[GazeboExtension]]
@@ -77,6 +78,28 @@ def says_something(element: Element) -> bool:
     """Whether a joint's element would do anything in Gazebo."""
     tag = JOINT_TAGS.get(element.name)
     return tag is None or tag.target != "ignored"
+
+
+def posed_names(elements: Iterable[Element]) -> set[tuple[str, str]]:
+    """Sensors, lights and the like among elements, by kind and name."""
+    return {(element.name, element.get("name") or "") for element in elements if element.name in _POSED}
+
+
+def named_apart(elements: Iterable[Element], taken: set[tuple[str, str]], link: str) -> tuple[Element, ...]:
+    """The elements, with the name of their link before the name of a sensor or light that is taken; takes them all."""
+    return tuple(_apart(element, taken, link) for element in elements)
+
+
+def _apart(element: Element, taken: set[tuple[str, str]], link: str) -> Element:
+    key = (element.name, element.get("name") or "")
+    if element.name not in _POSED or not key[1]:
+        return element
+    if key in taken:
+        name = unique_name(f"{link}_{key[1]}", {name for kind, name in taken if kind == element.name})
+        pairs = tuple((field, name if field == "name" else value) for field, value in element.attributes)
+        element, key = element.model_copy(update={"attributes": pairs}), (element.name, name)
+    taken.add(key)
+    return element
 
 
 def in_host(element: Element, at: Transform) -> Element:

@@ -21,7 +21,9 @@ from twinform.passes.structure.gazebo_blocks import (
     content,
     in_host,
     is_preserved,
+    named_apart,
     of_shapes,
+    posed_names,
     says_something,
 )
 from twinform.passes.structure.lumping_plan import Plan, plan
@@ -80,6 +82,7 @@ class _Lumping:
         self.links = {link.name: link for link in model.links}
         self.guests = planned.guests()
         self.mixed: set[tuple[str, str]] = set()
+        self.taken: dict[str, set[tuple[str, str]]] = {}
 
     def run(self) -> Model:
         hosts = {host: self._host(host, names) for host, names in self.guests.items()}
@@ -157,7 +160,9 @@ class _Lumping:
         elements = extension.content
         if host is not None:
             at = self.graph.pose(name, host)
-            elements = tuple(in_host(element, at) for element in self._unmixed(extension))
+            taken = self.taken.setdefault(host, posed_names(content(self.there, host)))
+            apart = named_apart(self._unmixed(extension), taken, name)
+            elements = tuple(in_host(element, at) for element in apart)
         elements = tuple(self._followed(element) for element in elements)
         if host is None and elements == extension.content:
             return extension

@@ -11,7 +11,17 @@ from twinform.passes.legalise.carrier import is_ours
 from twinform.passes.legalise.nodes import unique_name
 from twinform.passes.legalise.notation import in_radians
 from twinform.passes.structure.bodies import body_of, with_guests
-from twinform.passes.structure.gazebo_blocks import Blocks, blocks, content, is_preserved, measures, of_body, of_shapes
+from twinform.passes.structure.gazebo_blocks import (
+    Blocks,
+    blocks,
+    content,
+    is_preserved,
+    measures,
+    named_apart,
+    of_body,
+    of_shapes,
+    posed_names,
+)
 from twinform.passes.structure.lumping_plan import Plan, plan
 from twinform.passes.structure.mentions import Mentions, mentions
 from twinform.passes.structure.model_edit import Place
@@ -61,7 +71,7 @@ class _Lumping:
 
     def __init__(self, model: Model, graph: FrameGraph, there: Blocks, planned: Plan, place: Place) -> None:
         self.model, self.graph, self.there, self.place = model, graph, there, place
-        self.guests = planned.guests()
+        self.planned, self.guests = planned, planned.guests()
         self.links = {link.name: link for link in model.links}
         self.spent: dict[str, set[str]] = {}
 
@@ -71,7 +81,8 @@ class _Lumping:
         links = tuple(self.links[link.name] for link in self.model.links)
         if all(new is old for new, old in zip(links, self.model.links, strict=True)):
             return self.model
-        extensions = tuple(each for one in self.model.extensions if (each := self._rest(one)) is not None)
+        taken = {host: posed_names(content(self.there, host)) for host in self.guests}
+        extensions = tuple(each for one in self.model.extensions if (each := self._rest(one, taken)) is not None)
         return self.model.model_copy(update={"links": links, "extensions": extensions})
 
     def _host(self, host: str, names: list[str]) -> None:
@@ -107,13 +118,22 @@ class _Lumping:
         tools = tuple(part.element for part in link.opaque if part.element and not is_ours(part))
         return (*of_shapes(content(self.there, link.name), field), *(tools if field == "collisions" else ()))
 
-    def _rest(self, extension: GazeboExtension) -> GazeboExtension | None:
-        """The extension without what is said of the shapes' new link in the same words."""
-        fields = self.spent.get(extension.reference or "", set())
+    def _rest(self, extension: GazeboExtension, taken: dict[str, set[tuple[str, str]]]) -> GazeboExtension | None:
+        """The extension of a link that gave what it had.
+
+        What the new link of its shapes says in the same words goes. Sensors keep their place; where another one of the
+        body is called so, the link's name comes before theirs.
+        """
+        name = extension.reference or ""
+        host = self.planned.hosts.get(name)
+        if host is None:
+            return extension
+        fields = self.spent.get(name, set())
         kept = tuple(
             element for element in extension.content if not any(of_shapes((element,), field) for field in fields)
         )
-        if len(kept) == len(extension.content):
+        kept = named_apart(kept, taken[host], name)
+        if kept == extension.content:
             return extension
         return extension.model_copy(update={"content": kept}) if kept or extension.opaque else None
 
