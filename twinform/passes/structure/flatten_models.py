@@ -8,7 +8,9 @@ from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import edits as rules
 from twinform.diagnostics.rules.to_urdf import INCLUDE_NOT_EXPANDED
 from twinform.ir import Document, Format, Frame, Link, Model, World
+from twinform.ir.frames import FrameGraph
 from twinform.passes.legalise.flattening import flatten
+from twinform.passes.legalise.joint_ends import report_self_joint, resolve_ends
 from twinform.passes.legalise.marks import without_marks
 from twinform.passes.structure.model_edit import ModelEdit, Place
 from twinform.passes.structure.renaming import renamed_contents, renamed_model
@@ -31,7 +33,7 @@ class FlattenModels(ModelEdit):
     are as libsdformat writes them before 1.8, and the result is SDF 1.7, since later versions forbid `::` in names.
     Never touches: where anything is; URDF, which has no models in models.
     Diagnostics: `include-not-expanded`; `nested-setting` where a nested model is static, or may not rest, and the outer
-    one says otherwise; `name-clash`; `unfollowed-name`.
+    one says otherwise; `self-joint`; `name-clash`; `unfollowed-name`.
     """
 
     name: ClassVar[str] = "flatten-models"
@@ -57,13 +59,11 @@ class FlattenModels(ModelEdit):
         _report_settings(model, place)
         flat = without_marks(flatten(_prepared(model), _plain))
         flat = _with_rest(flat, model, place)
-        if self.separator == _SCOPE:
-            return flat
+        if _has_self_joint(flat, place.notes):
+            return model
         scope = scope_of(flat, self._choose)
-        # names with colons are new here, so that only what they become can clash
-        return model if report_clashes(flat, scope, place.format, place.notes) else self._renamed(flat, scope, place)
-
-    def _renamed(self, flat: Model, scope: Scope, place: Place) -> Model:
+        if self.separator != _SCOPE and report_clashes(flat, scope, place.format, place.notes):
+            return model
         return renamed_model(flat, scope, place.format, place.notes)
 
     def _choose(self, part: Part, name: str) -> str:
@@ -76,7 +76,7 @@ class FlattenModels(ModelEdit):
 
         def scope(model: Model) -> Scope:
             bare = flatten(model, _plain) if model.models else model
-            return scope_of(bare, self._choose if self.separator != _SCOPE else _kept)
+            return scope_of(bare, self._choose)
 
         return followed(before, after, scope, self.model)
 
@@ -84,11 +84,6 @@ class FlattenModels(ModelEdit):
 def _plain(frame: Frame, shell: Model) -> Frame:
     del shell
     return frame
-
-
-def _kept(part: Part, name: str) -> str:
-    del part
-    return name
 
 
 def _has_includes(model: Model, notes: Notes) -> bool:
@@ -100,6 +95,18 @@ def _has_includes(model: Model, notes: Notes) -> bool:
         found = True
     inner = [_has_includes(nested, notes) for nested in model.models]  # every one has its say
     return found or any(inner)
+
+
+def _has_self_joint(model: Model, notes: Notes) -> bool:
+    """Report joints of a link with itself, which libsdformat lets pass in nested models alone."""
+    graph, found = FrameGraph(model), False
+    links = {link.name for link in model.links}
+    for joint in model.joints:
+        resolved, _ = resolve_ends(joint, links, graph)
+        if resolved.parent == resolved.child:
+            report_self_joint(joint, resolved, notes)
+            found = True
+    return found
 
 
 def _report_settings(model: Model, place: Place) -> None:

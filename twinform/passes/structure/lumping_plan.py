@@ -7,7 +7,7 @@ from fnmatch import fnmatchcase
 
 from twinform.diagnostics.rules import edits as rules
 from twinform.ir import Joint, Link, Model
-from twinform.ir.frames import WORLD, FrameGraph
+from twinform.ir.frames import WORLD, FrameError, FrameGraph
 from twinform.passes.structure.model_edit import Place
 
 Obstacle = Callable[[Joint, Link, Link], str | None]
@@ -74,7 +74,10 @@ def plan(model: Model, graph: FrameGraph, keep: tuple[str, ...], obstacle: Obsta
 def _body(name: str | None, links: Mapping[str, Link], graph: FrameGraph) -> str:
     if not name or name in links or name == WORLD:
         return name or ""
-    return graph.body(name)
+    try:
+        return graph.body(name)
+    except FrameError:  # it is in the model of an include that was not read
+        return name
 
 
 def _kept(each: Candidate, keep: Iterable[str]) -> bool:

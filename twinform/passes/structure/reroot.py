@@ -20,10 +20,10 @@ class Reroot(ModelEdit):
     Changes: 1. parent and child of the joints between the two roots; 2. their axes, which point the other way, so that
     positions, limits, damping, springs, mimics and calibrations keep their meaning; 3. in URDF their origins; where a
     link's origin is beside the axis on which it now hangs, a link without mass, `JOINT_reversed`, is put on the axis,
-    so that no link's frame moves; it goes again when the root comes back; 4. in SDF the canonical link, if that was the
-    old root, and frames that moved with a reversed joint; 5. sensors of force and torque on these joints count from the
-    other side.
-    Never touches: where links are in each other, names, masses, shapes.
+    so that no link's frame moves; it goes again when the root comes back; 4. in SDF frames that moved with a reversed
+    joint, which are attached to the link that they moved with; 5. sensors of force and torque on these joints count
+    from the other side.
+    Never touches: where links are in each other, names, masses, shapes, the canonical link of SDF.
     Diagnostics: `unknown-name`; `irreversible-joint` for joints with two axes, planar joints, a joint to the world, and
     one with a sensor that measures in axes of its own.
     """
@@ -46,7 +46,7 @@ class Reroot(ModelEdit):
         """The model with another root."""
         if all(link.name != self.link for link in model.links):
             return model
-        way, old = _way_up(model, self.link)
+        way = _way_up(model, self.link)
         if not way or self._refuses(model, way, place):
             return model
         # imported here: a document needs one way only
@@ -56,7 +56,7 @@ class Reroot(ModelEdit):
             return reroot_urdf(model, self.link, way)
         from twinform.passes.structure.reroot_sdf import reroot_sdf  # noqa: PLC0415 - see above
 
-        return reroot_sdf(model, self.link, way, old)
+        return reroot_sdf(model, way)
 
     def _refuses(self, model: Model, way: list[Joint], place: Place) -> bool:
         there = blocks(model.extensions)
@@ -72,8 +72,8 @@ class Reroot(ModelEdit):
         return found
 
 
-def _way_up(model: Model, link: str) -> tuple[list[Joint], str]:
-    """The joints from a link up to its root, and that root; of several joints with one child, the first holds it."""
+def _way_up(model: Model, link: str) -> list[Joint]:
+    """The joints from a link up to its root; of several joints with one child, the first holds it."""
     graph = FrameGraph(model)
     links = {each.name for each in model.links}
     above: dict[str, tuple[Joint, str]] = {}
@@ -91,7 +91,7 @@ def _way_up(model: Model, link: str) -> tuple[list[Joint], str]:
             break
         seen.add(parent)
         link = parent
-    return way, link
+    return way
 
 
 def _why_not(joint: Joint) -> str:

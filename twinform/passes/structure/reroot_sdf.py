@@ -1,21 +1,19 @@
 """Another root for a model of SDF: parents and children change their roles, and nothing moves."""
 
 from twinform.ir import Format, Frame, Joint, Model, Pose
-from twinform.ir.frames import MODEL, FrameGraph
 from twinform.passes.structure.reversal import axis_of, opposite, swapped_sensors, with_axis
 
 
-def reroot_sdf(model: Model, root: str, way: list[Joint], old: str) -> Model:
-    """The model with another root; `way` has the joints from it up to the `old` one."""
+def reroot_sdf(model: Model, way: list[Joint]) -> Model:
+    """The model with another root; `way` has the joints from it up to the old one.
+
+    The canonical link stays: the model's frame, and all that is attached to it, moves with the same body as before.
+    """
     made = {joint.name: _reversed(joint) for joint in way}
     children = {joint.name: joint.child or "" for joint in way}
     joints = tuple(made.get(joint.name, joint) for joint in model.joints)
     frames = tuple(_reattached(frame, children) for frame in model.frames)
-    changed = model.model_copy(update={"joints": joints, "frames": frames})
-    if FrameGraph(model).body(MODEL, kind="model") != old:
-        return changed
-    first = model.links[0].name if model.links else None
-    return changed.model_copy(update={"canonical_link": None if first == root else root})
+    return model.model_copy(update={"joints": joints, "frames": frames})
 
 
 def _reversed(joint: Joint) -> Joint:

@@ -41,10 +41,13 @@ class Scope:
         if first in self.inner:
             inside = rest if rest == MODEL else self.inner[first].find(kind, rest)
             return None if inside is None else f"{self.own['model'].get(first, first)}::{inside}"
+        if first in self.own["model"]:  # an include, of which only the file knows what is in it
+            return f"{self.own['model'][first]}::{rest}"
         if first == self.name:  # Gazebo calls things by the model's name too
             inside = self.find(kind, rest)
             return None if inside is None else f"{first}::{inside}"
-        return self._find_own(kind, name)  # before 1.8 a name may have colons in it
+        # before 1.8 a name may have colons in it, and a frame stands for a model that was flattened
+        return self._find_own(kind, name) or self._find_own("frame", name.removesuffix(f"::{MODEL}"))
 
     def follow(self, kind: Kind, name: str | None) -> str | None:
         """The new name for an old one; what names nothing of this model stays as it is."""
