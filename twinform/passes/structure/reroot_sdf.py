@@ -19,14 +19,12 @@ def reroot_sdf(model: Model, way: list[Joint]) -> Model:
 def _reversed(joint: Joint) -> Joint:
     """The same joint from the other side. Its frame stays where it is, and moves with the new child."""
     pose = joint.pose or Pose()
-    if not pose.relative_to:
-        pose = pose.model_copy(update={"relative_to": joint.child})
-    if pose == Pose(relative_to=joint.parent):  # where it is without saying so
-        pose = None
+    base = pose.relative_to or joint.child
+    pose = pose.model_copy(update={"relative_to": None if base == joint.parent else base})
     update = {
         "parent": joint.child,
         "child": joint.parent,
-        "pose": pose,
+        "pose": None if pose == Pose() else pose,
         "axis": with_axis(joint, opposite(axis_of(joint, Format.SDF))),
         "sensors": swapped_sensors(joint),
     }
