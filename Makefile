@@ -12,7 +12,7 @@ SYNCED := .venv/.synced
 ORACLES := .venv/.oracles
 DEMO := out/demo
 
-.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness equipment bench inertia clean
+.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness equipment bench inertia lumping clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -84,6 +84,9 @@ oracle: $(ORACLES) ## Drake and other engines, libsdformat and urdfdom judge the
 
 sameness: $(SYNCED) ## every conversion against its source by `twinform diff`; writes docs/reference/sameness.md
 	$(BIN)/python -m benchmarks.sameness
+
+lumping: $(ORACLES) ## fixed joints lumped beside libsdformat 12, and let go in Drake; writes docs/reference/lumping.md
+	$(BIN)/python -m benchmarks.lumping
 
 probes: $(ORACLES) ## what libsdformat makes of small URDF files beside what we make; writes docs/reference/probes.md
 	$(BIN)/python -m benchmarks.probes

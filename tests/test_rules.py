@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import twinform
+from tests.pipelines import ran, structure_cases
 from twinform.diagnostics import Diagnostic, Entry, catalogue
 from twinform.testing import Case, cases, pass_cases
 
@@ -25,7 +26,6 @@ WITHOUT_CASE = {
     "schema-disagreement": "unit/schemas/test_validator.py",
     "too-many-includes": "unit/compiler/test_includes.py",
     "unreadable-mesh": "unit/passes/test_meshes.py",
-    "unreadable-file": "unit/compiler/test_parsing.py",
     "unused-argument": "unit/compiler/test_xacro.py",
     "xacro-message": "unit/compiler/test_xacro.py",
     "xacro-missing": "unit/compiler/test_xacro.py",
@@ -50,6 +50,8 @@ def _found() -> dict[str, set[str]]:
         found[_name(case)] = set(_of_conversion(case, "1.4"))
     for case in pass_cases(_CASES / "passes"):
         found[_name(case)] = _rules(case.diagnostics)
+    for case in structure_cases():
+        found[_name(case)] = _rules(ran(case).diagnostics)
     return found
 
 
