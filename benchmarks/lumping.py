@@ -167,7 +167,8 @@ def _motion_page(motions: list[Moved]) -> Iterable[str]:
     yield "## The same motion"
     yield """Robots with fixed joints are let go in Drake from the same state, as they are and lumped, for one second
 without control: positions and velocities of all joints, and of the base where it is free, at eleven times. They are
-from as many repositories as there are; those that Drake cannot simulate at all are passed over."""
+from as many repositories as there are; passed over are those that Drake cannot simulate at
+all, and those with inertias that no body can have, in the place of which Drake puts others."""
     head = ["mode", "robot", "links", "lumped", "largest gap", "verdict"]
     yield table(head, [(one.mode, one.name, one.links, one.lumped, f"{one.gap:.1e}", one.word) for one in motions])
 

@@ -107,7 +107,14 @@ def _joint(name: str, theirs: JointRow, ours: JointRow) -> Iterator[Difference]:
         yield from _numbers("axis", part, np.array(theirs["axis"]), np.array(ours["axis"]))
     limits = theirs.get("limits", {}), ours.get("limits", {})
     for key in sorted(limits[0].keys() & limits[1].keys()):
-        yield from _numbers(key, part, np.array([limits[0][key]]), np.array([limits[1][key]]))
+        yield from _numbers(key, part, _limit(key, limits[0][key]), _limit(key, limits[1][key]))
+
+
+def _limit(key: str, value: float) -> Matrix:
+    """A limit; a negative effort or speed is none, and so is a very large one."""
+    if key in {"effort", "velocity"} and (value < 0 or value >= _UNLIMITED):
+        return np.array([np.inf])
+    return np.array([value])
 
 
 def _kind(row: JointRow) -> int:

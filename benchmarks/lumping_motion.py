@@ -18,23 +18,26 @@ OUT = ROOT / "out" / "lumping" / "motion"
 WANTED = 20
 _SECONDS = 1.0
 _PATIENCE = 40
-_JOINTS = 2
+_JOINTS = 1
 
 
 @dataclass(frozen=True, slots=True)
 class Mode:
-    """A way to lump, and the format of the robots that it is tried on."""
+    """A way to lump, the format of the robots that it is tried on, and that of the result."""
 
     name: str
-    language: Literal["urdf", "sdf"]
+    source: Literal["urdf", "sdf"]
+    target: Literal["urdf", "sdf"]
     passes: str
 
 
 MODES = (
-    Mode("URDF", "urdf", "lump-fixed-joints"),
-    Mode("URDF, as libsdformat", "urdf", "lump-fixed-joints{compat=libsdformat}"),
-    Mode("SDF", "sdf", "lump-fixed-joints"),
+    Mode("URDF", "urdf", "urdf", "lump-fixed-joints"),
+    Mode("URDF to SDF, as libsdformat", "urdf", "sdf", "lump-fixed-joints{compat=libsdformat}"),
+    Mode("SDF", "sdf", "sdf", "lump-fixed-joints"),
 )
+_UNFIT = frozenset({"impossible-inertia", "indefinite-inertia"})
+"""Drake puts inertias of its own in the place of these, and others when links are lumped."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +69,7 @@ class Moved:
 
 def moved(mode: Mode) -> list[Moved]:
     """As many robots as are wanted that Drake can simulate, from as many repositories as there are."""
-    candidates = list(_in_turn(file for file in models() if file.kind is Kind(_KINDS[mode.language])))
+    candidates = list(_in_turn(file for file in models() if file.kind is Kind(_KINDS[mode.source])))
     found: list[Moved] = []
     while candidates and len(found) < WANTED:
         now, candidates = candidates[:WANTED], candidates[WANTED:]
@@ -90,9 +93,9 @@ def _move(job: tuple[Mode, CorpusFile]) -> Moved:
     nothing = Moved(mode.name, file.name)
     try:
         plain = twinform.load(file.path)
-        if not _is_interesting(plain):
+        if not _is_interesting(plain) or _UNFIT & {each.rule.name for each in twinform.check(file.path).diagnostics}:
             return nothing
-        made = twinform.convert(file.path, to=mode.language, passes=mode.passes, paths=file.paths)
+        made = twinform.convert(file.path, to=mode.target, passes=mode.passes, paths=file.paths)
     except twinform.CompileError:
         return nothing
     links = _bodies(plain)
@@ -105,7 +108,8 @@ def _move(job: tuple[Mode, CorpusFile]) -> Moved:
     except oracles.UnreadableError as error:
         if error.path != output:
             return nothing
-        verdict = oracles.Verdict("drake", None, math.inf, "", f"only the source can be simulated: {error.cause}")
+        cause = error.cause.replace(str(output), output.name)
+        verdict = oracles.Verdict("drake", None, math.inf, "", f"only the source can be simulated: {cause}")
     return Moved(mode.name, file.name, links, lumped, verdict, verdict.cause)
 
 
@@ -126,8 +130,8 @@ def _bodies(document: Document) -> int:
 
 
 def _written(mode: Mode, file: CorpusFile, text: str) -> Path:
-    """The lumped robot; meshes are looked for around the source, so it lies in a folder of the same name."""
-    path = OUT / mode.name.replace(" ", "_") / f"{file.name}.{mode.language}"
+    """The lumped robot in a file; Drake is not asked for meshes."""
+    path = OUT / mode.name.replace(" ", "_").replace(",", "") / f"{file.name}.{mode.target}"
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text, encoding="utf-8")
     return path

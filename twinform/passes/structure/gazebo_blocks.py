@@ -24,7 +24,8 @@ _OF_BODY = {
 }  # fmt: skip
 """Elements that are about the body of a link, and what they say something of."""
 _USUAL = {"gravity": True, "kinematic": False, "enable_wind": False}
-_PRESERVE = ("preserveFixedJoint", "disableFixedJointLumping")
+_DISABLE = "disableFixedJointLumping"
+_PRESERVE = ("preserveFixedJoint", _DISABLE)
 _POSED = frozenset({"sensor", "light", "projector", "particle_emitter", "audio_source", "battery"})
 
 
@@ -64,6 +65,12 @@ def of_body(elements: Iterable[Element]) -> dict[str, object]:
 def is_preserved(elements: Iterable[Element]) -> bool:
     """Whether the author asks for the fixed joint to stay, by a word that libsdformat knows."""
     return any(element.name in _PRESERVE and value_text(element).lower() in TRUE for element in elements)
+
+
+def turns_by_nothing(elements: Iterable[Element]) -> bool:
+    """Whether libsdformat makes a joint that turns by nothing of a fixed one that is to stay."""
+    said = {element.name for element in elements if value_text(element).lower() in TRUE}
+    return _DISABLE in said and _PRESERVE[0] not in said
 
 
 def measures(elements: Iterable[Element]) -> bool:

@@ -8,7 +8,20 @@ from typing import TypeVar
 
 from twinform.diagnostics import Fate
 from twinform.diagnostics.rules import edits as rules
-from twinform.ir import Collision, Element, Format, GazeboExtension, Joint, Link, Model, Visual, count_parts
+from twinform.ir import (
+    Axis,
+    Collision,
+    Dynamics,
+    Element,
+    Format,
+    GazeboExtension,
+    Joint,
+    Limit,
+    Link,
+    Model,
+    Visual,
+    count_parts,
+)
 from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import placed
 from twinform.ir.transform import Transform
@@ -25,6 +38,7 @@ from twinform.passes.structure.gazebo_blocks import (
     of_shapes,
     posed_names,
     says_something,
+    turns_by_nothing,
 )
 from twinform.passes.structure.lumping_plan import Plan, plan
 from twinform.passes.structure.mentions import mentions
@@ -33,6 +47,8 @@ from twinform.passes.structure.moved_plugins import moved_plugin
 
 Shape = TypeVar("Shape", Visual, Collision)
 _LUMP = "_fixed_joint_lump__"
+_UNLIMITED = 1e16
+"""What stands for infinity in URDF."""
 _FIELDS = {"visuals": "visual", "collisions": "collision"}
 
 
@@ -49,9 +65,21 @@ def lump_as_libsdformat(model: Model, keep: tuple[str, ...], place: Place) -> Mo
     planned = plan(model.model_copy(update={"joints": joints}), graph, keep, why, place)
     made = _Lumping(model, graph, there, planned, place).run() if planned.joints else model
     links = tuple(_named(link) for link in made.links)
-    if all(new is old for new, old in zip(links, made.links, strict=True)):
+    joints = tuple(_turning(joint) if _stays(joint, there) else joint for joint in made.joints)
+    if links == made.links and joints == made.joints:
         return made
-    return made.model_copy(update={"links": links})
+    return made.model_copy(update={"links": links, "joints": joints})
+
+
+def _stays(joint: Joint, there: Blocks) -> bool:
+    return joint.type == "fixed" and turns_by_nothing(content(there, joint.name))
+
+
+def _turning(joint: Joint) -> Joint:
+    """What libsdformat makes of a fixed joint with `disableFixedJointLumping`: it turns about z, from 0 to 0."""
+    limit = Limit(lower=0.0, upper=0.0, effort=_UNLIMITED, velocity=_UNLIMITED)
+    axis = Axis(xyz=(0.0, 0.0, 1.0), limit=limit, dynamics=Dynamics(damping=0.0, friction=0.0))
+    return joint.model_copy(update={"type": "revolute", "axis": axis})
 
 
 def _named(link: Link) -> Link:
@@ -195,11 +223,11 @@ class _Lumping:
             if name in self.planned.hosts:
                 message = f"{holder} names link {name!r}, which is a part of {self.planned.hosts[name]!r} now"
                 where = self.links[name].location
-                self.place.notes.report(rules.UNFOLLOWED_NAME, message, where, found=name)
+                self.place.notes.report(rules.LUMPED_AWAY, message, where, found=name)
         for joint in self.planned.joints.values():
             if joint.name in gone & named.joints.keys():
                 message = f"{named.joints[joint.name]} names joint {joint.name!r}, which is gone"
-                self.place.notes.report(rules.UNFOLLOWED_NAME, message, joint.location, found=joint.name)
+                self.place.notes.report(rules.LUMPED_AWAY, message, joint.location, found=joint.name)
 
 
 def _moved(shapes: tuple[Shape, ...], link: str, at: Transform) -> Iterable[Shape]:

@@ -17,10 +17,11 @@ class LumpFixedJoints(ModelEdit):
     link above, posed in the old link's frame, each with its own surface; 3. in URDF, which has no frames, the link and
     its joint stay, without mass; its shapes move as well, unless `<gazebo>` says other things of the two links' shapes;
     4. with `compat=libsdformat` URDF becomes what libsdformat 12 makes of it: the link and the joint go, shapes are
-    called `HOST_fixed_joint_lump__NAME`, joints and `<gazebo>` elements of the link go to the link above.
-    Never touches: joints to `world`; links and joints that `keep` names; joints with `preserveFixedJoint` or
-    `disableFixedJointLumping`. Without `compat` also: a joint with a sensor, links and joints that a plugin, a
-    transmission or another tool names, links with other gravity, wind, damping or self collision than their parent,
+    called `HOST_fixed_joint_lump__NAME`, joints and `<gazebo>` elements of the link go to the link above, and a fixed
+    joint with `disableFixedJointLumping` turns by nothing.
+    Never touches: joints to `world`; links and joints that `keep` names; joints with `preserveFixedJoint`, or, without
+    `compat`, `disableFixedJointLumping`. Without `compat` also: a joint with a sensor, links and joints that a plugin,
+    a transmission or another tool names, links with other gravity, wind, damping or self collision than their parent,
     loops of fixed joints.
     Diagnostics: `link-not-lumped`, `shapes-not-moved`; with `compat` `lumped-away`; `not-for-format` for `compat` in
     SDF, where libsdformat lumps nothing.
