@@ -5,10 +5,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from twinform.compiler.loading import Checked, Reading, read
+from twinform.compiler.model_config import manifest, model_file
 from twinform.compiler.uris import UriError
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules.edits import UNREAD_DOCUMENT
 from twinform.ir import Document, Format
+from twinform.schemas import parse_version
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,12 +37,13 @@ class OtherDocuments:
     def _find(self, path: str, around: Document, notes: Notes) -> Path | None:
         """A path is relative to the working directory, as on the command line; URIs are searched for."""
         if "://" not in path:
-            return Path(path)
+            return _file(Path(path), around, notes)
         try:
-            return self.how.search.find(path, Path(self.file or "."))
+            found = self.how.search.find(path, Path(self.file or "."))
         except UriError as error:
             notes.report(UNREAD_DOCUMENT, error.message, around.location, found=path, help=error.help)
             return None
+        return _file(found, around, notes)
 
     def _read(self, path: Path) -> Checked:
         how = replace(self.how, arguments={})  # those of the command line are for the file that it names
@@ -69,3 +72,12 @@ class OtherDocuments:
         """The folder of a file, as the file that the document was read from would say it."""
         here = Path(self.file).parent if self.file else Path()
         return Path(os.path.relpath(path.resolve().parent, here.resolve())).as_posix()
+
+
+def _file(path: Path, around: Document, notes: Notes) -> Path | None:
+    """The path, or of the folder of a model the file that its `model.config` names; None after an error."""
+    config = manifest(path) if path.is_dir() else None
+    if config is None:
+        return path
+    asked = parse_version(around.version) if around.format is Format.SDF else None
+    return model_file(config, asked, notes)
