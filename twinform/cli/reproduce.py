@@ -7,9 +7,9 @@ import click
 
 from twinform import __version__
 from twinform.cli.failure import FINDINGS, Unusable
-from twinform.compiler import read_reproducer
+from twinform.compiler.reproducing import read_reproducer
 from twinform.passes import PassError, PipelineError, RegistryError
-from twinform.passes.hooks import Reproducer
+from twinform.passes.hooks.reproducer import Reproducer
 
 
 @click.command("reproduce")

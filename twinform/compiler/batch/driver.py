@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from importlib.metadata import version
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 
 from twinform.compiler.batch.files import PATTERNS, alone, models, outputs, require_apart
 from twinform.compiler.batch.manifest import Manifest, digest
@@ -69,8 +69,9 @@ def batch(asked: Batch) -> Iterator[tuple[Record, bool]]:
     manifest = Manifest(asked.dest)
     manifest.begin()
     todo: dict[Path, _Job] = {}
+    order = asked.digest
     for name, output in outputs(models(asked.source, asked.dest, asked.patterns), asked.order.to).items():
-        job = _look(name, output, asked, manifest)
+        job = _look(asked.source / name, str(name), str(output), order, manifest)
         if isinstance(job, Record):
             manifest.add(job)
             yield job, False
@@ -94,14 +95,14 @@ def _worked(todo: Mapping[Path, _Job], asked: Batch, faults: Path) -> Iterator[R
         yield record
 
 
-def _look(name: PurePosixPath, output: PurePosixPath, asked: Batch, manifest: Manifest) -> _Job | Record:
+def _look(path: Path, name: str, output: str, order: str, manifest: Manifest) -> _Job | Record:
     """A model before the work on it; one that cannot be read has its record already."""
-    blank = Record(source=str(name), digest="", order=asked.digest, output=str(output), outcome=Outcome.UNREADABLE)
+    blank = Record(source=name, digest="", order=order, output=output, outcome=Outcome.UNREADABLE)
     try:
-        content = (asked.source / name).read_bytes()
+        content = path.read_bytes()
     except OSError as error:
         return replace(blank, message=f"it cannot be read: {error.strerror}")
-    blank = replace(blank, digest=digest(content), alone=alone(name, content))
+    blank = replace(blank, digest=digest(content), alone=alone(path, content))
     return _Job(blank, manifest.records.get(blank.source))
 
 

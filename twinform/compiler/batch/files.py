@@ -63,6 +63,6 @@ def _folded(path: PurePosixPath) -> str:
     return str(path).casefold()
 
 
-def alone(name: PurePosixPath, content: bytes) -> bool:
+def alone(path: Path, content: bytes) -> bool:
     """Whether a model is surely made of this file alone, so that its digest says whether anything has changed."""
-    return name.suffix.lower() != ".xacro" and b"<include" not in content and b"\0" not in content
+    return path.suffix.lower() != ".xacro" and b"<include" not in content and b"\0" not in content
