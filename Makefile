@@ -12,7 +12,7 @@ SYNCED := .venv/.synced
 ORACLES := .venv/.oracles
 DEMO := out/demo
 
-.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness bench clean
+.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness equipment bench inertia clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -87,6 +87,12 @@ sameness: $(SYNCED) ## every conversion against its source by `twinform diff`; w
 
 probes: $(ORACLES) ## what libsdformat makes of small URDF files beside what we make; writes docs/reference/probes.md
 	$(BIN)/python -m benchmarks.probes
+
+equipment: $(SYNCED) ## sensors and plugins of SDF as libsdformat finds them in URDF; writes docs/reference/equipment.md
+	$(BIN)/python -m benchmarks.equipment
+
+inertia: $(ORACLES) ## corpus robots that engines refuse for their inertias, mended; writes docs/reference/inertia.md
+	$(BIN)/python -m benchmarks.inertia
 
 bench: $(SYNCED) ## how fast it is; writes docs/reference/performance.md
 	$(BIN)/python -m benchmarks.bench

@@ -1,6 +1,7 @@
 """Is every conversion the same robot, by our own comparison? `make sameness` writes docs/reference/sameness.md."""
 
 import multiprocessing
+import re
 import sys
 import time
 import tomllib
@@ -11,18 +12,23 @@ from dataclasses import dataclass
 from enum import StrEnum
 from fnmatch import fnmatchcase
 from pathlib import Path
+from typing import Literal
 
 import twinform
 from benchmarks.markdown import table, write
 from benchmarks.sdf_printing import available, printed
 from tests.corpus.examine import robots, rules_of
 from tests.corpus.files import CORPUS, MISSING, ROOT, CorpusFile, Kind, models
+from twinform.compiler.audit import audit
+from twinform.compiler.compare.comparison import Difference
 
 PAGE = ROOT / "docs" / "reference" / "sameness.md"
 KNOWN = Path(__file__).with_name("sameness_known.toml")
 CUT_OFF = 1e-5
 """The tolerance for what libsdformat prints, which keeps six digits of some numbers."""
 MOST_SHOWN = 40
+_PREDICATE = re.compile(r"\[[^]]*\]")
+_NAME = re.compile(r"@name='([^']*)'")
 INTRODUCTION = f"""# Is it still the same robot?
 
 Made by `make sameness`; only the seconds differ from run to run.
@@ -31,7 +37,12 @@ Every robot of the corpus that is accepted and converted is compared with what i
 tolerance of 1e-9 (of a file with several models the first three, one by one). The last line is about what libsdformat
 12 makes of URDF files that it takes itself, compared with a tolerance of {CUT_OFF:g}. It lumps all fixed joints, which
 is no difference; what differs is what that conversion changes. *With notes* are those of the same ones that say
-something in another way."""
+something in another way.
+
+Without carriers something may be lost, and then the ledger has to say so. *As the ledger says* are results in which
+every single difference lies in a part of the source that the ledger lists as approximated or dropped, or is a part
+that was made for one of these; and in all of them the audit counts no element or attribute that is neither in the
+result nor in the ledger."""
 
 
 class Way(StrEnum):
@@ -39,6 +50,8 @@ class Way(StrEnum):
 
     TO_SDF = "URDF -> SDF"
     TO_URDF = "SDF -> URDF"
+    BARE_TO_SDF = "URDF -> SDF, no carriers"
+    BARE_TO_URDF = "SDF -> URDF, no carriers"
     LUMPED = "URDF -> SDF by libsdformat 12"
 
 
@@ -46,6 +59,7 @@ class Verdict(StrEnum):
     """What became of one conversion."""
 
     SAME = "same"
+    LEDGER = "as the ledger says"
     COLOURS = "same but for materials"
     DIFFERENT = "different"
     REFUSED = "not converted"
@@ -84,23 +98,55 @@ def judge(file: CorpusFile) -> tuple[Outcome, ...]:
     checked = twinform.check(file.path)
     if checked.document is None or not checked.accepted:
         return ()
-    way = Way.TO_SDF if file.kind is Kind.URDF else Way.TO_URDF
-    found = [_judged(file, way, robot) for robot in robots(checked.document)]
-    if way is Way.TO_SDF and available() and file.row.get("libsdformat12") == "ok":
+    is_urdf = file.kind is Kind.URDF
+    way, bare = (Way.TO_SDF, Way.BARE_TO_SDF) if is_urdf else (Way.TO_URDF, Way.BARE_TO_URDF)
+    among = robots(checked.document)
+    found = [_judged(file, way, robot) for robot in among] + [_judged(file, bare, robot) for robot in among]
+    if is_urdf and available() and file.row.get("libsdformat12") == "ok":
         found += _lumped(file)
     return tuple(found)
 
 
 def _judged(file: CorpusFile, way: Way, robot: str | None) -> Outcome:
     name = f"{file.name} {robot or ''}".strip()
+    bare = way in {Way.BARE_TO_SDF, Way.BARE_TO_URDF}
+    target: Literal["sdf", "urdf"] = "sdf" if way in {Way.TO_SDF, Way.BARE_TO_SDF} else "urdf"
     try:
-        text = twinform.convert(file.path, to="sdf" if way is Way.TO_SDF else "urdf", model=robot).text
+        made = twinform.convert(file.path, to=target, model=robot, carriers=not bare)
     except twinform.CompileError as error:
         return Outcome(name, way, Verdict.REFUSED, ", ".join(rules_of(error.diagnostics)))
     try:
-        return _compared(file, name, way, text, robot)
+        return _accounted(file, name, way, made, robot) if bare else _compared(file, name, way, made.text, robot)
     except Exception as error:  # noqa: BLE001 - every exception is a fault to report
         return Outcome(name, way, Verdict.CRASH, f"{type(error).__name__}: {error}")
+
+
+def _accounted(file: CorpusFile, name: str, way: Way, made: twinform.Conversion, robot: str | None) -> Outcome:
+    """Whether the ledger has every difference, and the audit nothing that is not accounted for."""
+    assert made.source is not None
+    start = time.perf_counter()
+    found = twinform.diff(file.path, made.text.encode(), model=robot)
+    seconds = time.perf_counter() - start
+    places = [_bare(entry.location.path) for entry in made.ledger.entries]
+    names = [name for entry in made.ledger.entries for name in _NAME.findall(entry.location.path)]
+    names.append(made.document.models[0].name)  # of a model without links: URDF has to have one
+    silent = [each.message for each in found.differences if not _is_listed(each, places, names)]
+    silent += [f"{part.location.path}: {part.says}" for part in audit(made.source, made.text, made.ledger).unaccounted]
+    verdict = Verdict.DIFFERENT if silent else Verdict.SAME if found.same else Verdict.LEDGER
+    return Outcome(name, way, verdict, next(iter(silent), ""), notes=len(found.notes), seconds=seconds)
+
+
+def _is_listed(found: Difference, places: list[str], names: list[str]) -> bool:
+    """Whether a difference lies in a place of the ledger, or is a part that was made for one of the names in it."""
+    if not found.a.location.line:
+        called = (found.name, found.name.rpartition("::")[2])
+        return any(one.startswith(name) for one in called for name in names)
+    place = _bare(found.a.location.path)
+    return any(one.startswith(place) or place.startswith(one) for one in places)
+
+
+def _bare(path: str) -> str:
+    return _PREDICATE.sub("", path)
 
 
 def _lumped(file: CorpusFile) -> Iterator[Outcome]:

@@ -15,6 +15,7 @@ from twinform.compiler.urdf import front_end
 from twinform.diagnostics import Notes
 from twinform.ir import Document
 from twinform.ir.verify import verify
+from twinform.passes import NO_ASSETS
 from twinform.schemas import Context, libxml2_errors
 
 
@@ -71,4 +72,4 @@ def _convert(text: bytes, sdf_version: str, stages: Stages) -> None:
     with stages.time("serialise"):
         made = serialised(root, document)
     with stages.time("the way back, and what it does not find"):
-        remember(source, made.encode())
+        remember(source, made.encode(), NO_ASSETS)

@@ -9,7 +9,7 @@ import pytest
 
 import twinform
 from twinform.diagnostics import Diagnostic, Entry, catalogue
-from twinform.testing import Case, cases
+from twinform.testing import Case, cases, pass_cases
 
 _TESTS = Path(__file__).parent
 _CASES = _TESTS / "cases"
@@ -17,14 +17,14 @@ _PARTS = _CASES / "includes/parts"
 
 WITHOUT_CASE = {
     "automatic-inertia": "unit/passes/test_to_urdf.py",
-    "filled-limit": "unit/passes/test_fill_limits.py",
     "joint-type-unsupported": "unit/passes/test_to_urdf.py",
     "merged-away": "unit/compiler/test_includes.py",
-    "missing-inertial": "unit/passes/test_check_inertia.py",
+    "mesh-reader-missing": "unit/passes/test_meshes.py",
+    "open-mesh": "unit/passes/test_meshes.py",
     "partial-limit": "unit/compiler/test_driver.py",
     "schema-disagreement": "unit/schemas/test_validator.py",
     "too-many-includes": "unit/compiler/test_includes.py",
-    "unfilled-limit": "unit/passes/test_fill_limits.py",
+    "unreadable-mesh": "unit/passes/test_meshes.py",
     "unreadable-file": "unit/compiler/test_parsing.py",
     "unused-argument": "unit/compiler/test_xacro.py",
     "xacro-message": "unit/compiler/test_xacro.py",
@@ -48,6 +48,8 @@ def _found() -> dict[str, set[str]]:
         found[_name(case)] = set(_of_conversion(case, None))
     for case in cases(_CASES / "versions"):
         found[_name(case)] = set(_of_conversion(case, "1.4"))
+    for case in pass_cases(_CASES / "passes"):
+        found[_name(case)] = _rules(case.diagnostics)
     return found
 
 

@@ -24,6 +24,8 @@ _SHAPE_NAME = re.compile(r"(.+)_(?:visual|collision)(?:_\d+)?")
 _SCHEME = re.compile(r"\b[a-z]+://")
 _SAID_BY = {"frame": "fixed"}
 """Elements of one format whose being there says a word of the other: a frame stands for a fixed joint."""
+_SAID_BY_NOT = {"turnGravityOff": {"0.0": "1.0", "1.0": "0.0"}}
+"""Truths of one format that the other says by their opposites."""
 _PREDICATE = re.compile(r"\[[^]]*\]|\{[^}]*\}|(?<=[/@])[\w.-]+:")
 _Place = tuple[int, str]
 """A line of the source, and the path of an element or attribute that begins there."""
@@ -53,24 +55,46 @@ class Audit:
         return self.expressed + self.carried + self.approximated + self.dropped + len(self.unaccounted)
 
 
+class Met(NamedTuple):
+    """An element, or one attribute of it, and what became of it; no fate where it is expressed or unaccounted.
+
+    `missing` are the words that nothing accounts for.
+    """
+
+    element: XmlElement
+    attribute: str | None
+    fate: Fate | None
+    missing: tuple[str, ...] = ()
+
+
 def audit(source: XmlElement, result: str, ledger: Ledger) -> Audit:
     """Count the fates of all parts of `source` in the XML of `result`."""
-    inside, outside = _words_of(etree.fromstring(result.encode()))
-    fates = {(entry.location.line, _bare(entry.location.path)): entry.fate for entry in reversed(ledger.entries)}
     count = dict.fromkeys(("expressed", *Fate), 0)
     unaccounted: list[Part] = []
-    for part in _parts(source, fates):
-        if part.fate is not None:
-            count[part.fate] += 1
-        elif part.computed or all(word in outside or _implied(word, outside) for word in part.words):
-            count["expressed"] += 1
-        elif part.words <= inside | outside:
-            count[Fate.CARRIED] += 1
+    for met in fates(source, result, ledger):
+        if met.missing:
+            path = path_of(met.element)
+            path = f"{path}/@{met.attribute}" if met.attribute else path
+            unaccounted.append(Part(Location(line=met.element.sourceline or 0, path=path), ", ".join(met.missing)))
         else:
-            missing = ", ".join(sorted(part.words - inside - outside))
-            unaccounted.append(Part(Location(line=part.line, path=part.path()), missing))
+            count[met.fate or "expressed"] += 1
     carried, approximated, dropped = (count[fate] for fate in Fate)
     return Audit(count["expressed"], carried, approximated, dropped, tuple(unaccounted))
+
+
+def fates(source: XmlElement, result: str, ledger: Ledger) -> Iterator[Met]:
+    """What became of each element and attribute of `source`, from the outside in."""
+    inside, outside = _words_of(etree.fromstring(result.encode()))
+    listed = {(entry.location.line, _bare(entry.location.path)): entry.fate for entry in reversed(ledger.entries)}
+    for part in _parts(source, listed):
+        if part.fate is not None:
+            yield Met(part.element, part.attribute, part.fate)
+        elif part.computed or all(word in outside or _implied(word, outside) for word in part.words):
+            yield Met(part.element, part.attribute, None)
+        elif part.words <= inside | outside:
+            yield Met(part.element, part.attribute, Fate.CARRIED)
+        else:
+            yield Met(part.element, part.attribute, None, tuple(sorted(part.words - inside - outside)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,18 +107,10 @@ class _Piece:
     fate: Fate | None
 
     @property
-    def line(self) -> int:
-        return self.element.sourceline or 0
-
-    @property
     def computed(self) -> bool:
         if self.attribute == "version" and self.element.getparent() is None:
             return True  # it is about the language of the file, and the result has its own
         return str(self.element.tag) in _COMPUTED and all(map(_is_number, self.words))
-
-    def path(self) -> str:
-        path = path_of(self.element)
-        return f"{path}/@{self.attribute}" if self.attribute else path
 
 
 def _parts(root: XmlElement, fates: dict[_Place, Fate]) -> Iterator[_Piece]:
@@ -106,7 +122,9 @@ def _parts(root: XmlElement, fates: dict[_Place, Fate]) -> Iterator[_Piece]:
             continue
         line, path = element.sourceline or 0, f"{around}/{_local(str(element.tag))}"
         fate = above or fates.get((line, path))
-        yield _Piece(element, None, frozenset(_words(element.text or "")), fate)
+        opposite = _SAID_BY_NOT.get(_local(str(element.tag)), {})
+        words = frozenset(opposite.get(word, word) for word in _words(element.text or ""))
+        yield _Piece(element, None, words, fate)
         for name, value in element.items():
             own = fates.get((line, f"{path}/@{_local(str(name))}"))
             yield _Piece(element, str(name), frozenset(_words(str(value))), fate or own)
@@ -149,7 +167,7 @@ def _words(text: str) -> Iterable[str]:
 
 def _spelt(word: str) -> str:
     if word in {"true", "false"}:
-        return "1" if word == "true" else "0"
+        return "1.0" if word == "true" else "0.0"
     try:
         return repr(float(word) + 0.0)
     except ValueError:

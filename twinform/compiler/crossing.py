@@ -37,7 +37,7 @@ def cross(document: Document, source: Document, order: Order, notes: Notes, watc
     text = serialised(root, made)
     new = None
     if order.carriers and not (at_home and has_includes(made)):  # what it includes would have to be read again
-        new = remember(_without_the_rest(take_memory(source)[0], document, order), text.encode())
+        new = remember(_without_the_rest(take_memory(source)[0], document, order), text.encode(), order.assets)
         if not (at_home and new.goes_without_saying):
             made, text = _with_memory(made, root, new, source)
     all_is_said = at_home and (new is None or new.says_nothing)

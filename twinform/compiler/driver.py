@@ -9,7 +9,7 @@ from twinform.compiler.errors import CompileError
 from twinform.compiler.includes import expand
 from twinform.compiler.loading import Checked, Reading, garbage_collection_paused, read
 from twinform.compiler.orders import Language, Order, UrdfVersion
-from twinform.compiler.uris import SearchPath
+from twinform.compiler.uris import LocalAssets, SearchPath
 from twinform.diagnostics import Diagnostic, Ledger, Notes
 from twinform.diagnostics.rules.model import MISSING_LIMIT
 from twinform.diagnostics.rules.structure import MISSING_ATTRIBUTE
@@ -113,6 +113,7 @@ def fulfil(
     with garbage_collection_paused():
         checked = read(source, how, name=name)
         said = checked.document
+        order = replace(order, assets=LocalAssets(how.search, Path(checked.path)))
         if checked.accepted and (order.expand_includes or order.to == "urdf"):
             wanted = None if order.expand_includes else wanted_includes(checked.document, order.model)
             before, checked = checked, expand(checked, how, wanted=wanted, carriers=order.carriers)
@@ -138,7 +139,8 @@ def _run(
     """The rest of the way of a document that was read; `said` is what it was before its includes were expanded."""
     kept = [each for each in checked.diagnostics if not each.is_error]
     notes = Notes(checked.path, strict, kept, list(checked.entries), origins=dict(checked.origins))
-    changed = order.passes.run(document, notes, watch=watch, verify=verify if checked.accepted else None)
+    passes = order.passes.with_assets(order.assets)
+    changed = passes.run(document, notes, watch=watch, verify=verify if checked.accepted else None)
     if not checked.accepted:
         verify(changed, notes)
     source = changed if changed is not document or said is None else said

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field, replace
 from typing import Literal, get_args
 
 from twinform.ir import Document, Format
-from twinform.passes import Pipeline
+from twinform.passes import NO_ASSETS, Assets, Pipeline
 from twinform.passes.legalise import Target, legalisation
 
 Language = Literal["sdf", "urdf", "json"]
@@ -16,7 +16,7 @@ DEFAULT_SDF_VERSION = "1.11"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Order:
-    """What a conversion is asked for; `passes` are the user's."""
+    """What a conversion is asked for; `passes` are the user's, and `assets` the files beside the source."""
 
     to: Language
     sdf_version: str | None = None
@@ -25,6 +25,7 @@ class Order:
     carriers: bool = True
     model: str | None = None
     expand_includes: bool = False
+    assets: Assets = field(default=NO_ASSETS, compare=False, repr=False)
 
     def plan(self, source: Document) -> Pipeline:
         """Every pass that a conversion of this document runs, in order: the user's, then those of the target."""
@@ -47,4 +48,4 @@ class Order:
         own = source.version if source.format is Format.SDF else None
         version = self.sdf_version or own or DEFAULT_SDF_VERSION
         target = Target(Format(self.to), version, self.urdf_version or "1.0", self.carriers, self.model)
-        return Pipeline(legalisation(source.format, source.version, target))
+        return Pipeline(legalisation(source.format, source.version, target)).with_assets(self.assets)

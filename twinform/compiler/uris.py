@@ -11,21 +11,15 @@ from urllib.parse import unquote, urlsplit
 from twinform.compiler import fuel
 from twinform.compiler.packages import PackageIndex, is_package
 from twinform.compiler.surroundings import folders_around
-from twinform.diagnostics import Rule
 from twinform.diagnostics.rules import files as rules
+from twinform.passes import AssetError
 
 _MODEL_VARIABLES = ("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "SDF_PATH", "GAZEBO_MODEL_PATH")
 _MOST_SHOWN = 6
 
 
-class UriError(Exception):
+class UriError(AssetError):
     """A URI that leads nowhere, or where it must not lead."""
-
-    def __init__(self, rule: Rule, message: str, help: str | None = None) -> None:
-        super().__init__(message)
-        self.rule = rule
-        self.message = message
-        self.help = help
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,3 +151,24 @@ def _searched(folders: Iterable[Path], advice: str) -> str:
     more = f" and {len(names) - _MOST_SHOWN} more" if len(names) > _MOST_SHOWN else ""
     looked = f"looked in {', '.join(names[:_MOST_SHOWN])}{more}; " if names else ""
     return looked + advice
+
+
+@dataclass(frozen=True, slots=True)
+class LocalAssets:
+    """The files that the document in the file `beside` names, for its passes."""
+
+    search: SearchPath
+    beside: Path
+
+    @property
+    def folder(self) -> Path | None:
+        """The folder of the document; None for a text that came from no file."""
+        return self.beside.parent if _exists(self.beside) else None
+
+    def find(self, uri: str) -> Path:
+        """The file or folder that a URI names.
+
+        Raises:
+            UriError: there is none, or it must not be read.
+        """
+        return self.search.find(uri, self.beside)

@@ -1,4 +1,4 @@
-"""The principal moments of an inertia matrix."""
+"""The principal moments of an inertia matrix, and their axes."""
 
 import math
 
@@ -11,6 +11,10 @@ _PLANES = ((0, 1, 3, 4, 5), (0, 2, 4, 3, 5), (1, 2, 5, 3, 4))
 _EPSILON = 2.0**-53
 _SWEEPS = 40
 """Five or six are enough; the rest is for matrices whose elements differ by hundreds of orders of magnitude."""
+
+
+Axes = tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
+"""Three unit vectors at right angles."""
 
 
 def principal_moments(matrix: Symmetric) -> tuple[float, float, float]:
@@ -30,11 +34,38 @@ def principal_moments(matrix: Symmetric) -> tuple[float, float, float]:
     return smallest, middle, largest
 
 
-def _rotate(entries: list[float], first: int, second: int, off: int, with_first: int, with_second: int) -> bool:
-    """Turn the two axes so that the element between them becomes zero; false where it is as good as zero already."""
+def principal_axes(matrix: Symmetric) -> tuple[tuple[float, float, float], Axes]:
+    """The eigenvalues and the eigenvector of each, in no order; all elements have to be finite."""
+    scale = max(map(abs, matrix)) or 1.0
+    entries = [element / scale for element in matrix]
+    axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+    for _ in range(_SWEEPS):
+        turns = [(plane[:2], _rotate(entries, *plane)) for plane in _PLANES]
+        for (first, second), turn in turns:
+            if turn:
+                _turn_axes(axes[first], axes[second], *turn)
+        if not any(turn for _, turn in turns):
+            break
+    one, two, three = ((axis[0], axis[1], axis[2]) for axis in axes)
+    return (entries[0] * scale, entries[1] * scale, entries[2] * scale), (one, two, three)
+
+
+def _turn_axes(one: list[float], other: list[float], cosine: float, sine: float) -> None:
+    """Two axes turned as the matrix was."""
+    for i in range(3):
+        one[i], other[i] = cosine * one[i] - sine * other[i], sine * one[i] + cosine * other[i]
+
+
+def _rotate(
+    entries: list[float], first: int, second: int, off: int, with_first: int, with_second: int
+) -> tuple[float, float] | None:
+    """Turn the two axes so that the element between them becomes zero; None where it is as good as zero already.
+
+    Gives the cosine and the sine of the angle.
+    """
     coupling = entries[off]
     if abs(coupling) <= _EPSILON * math.sqrt(abs(entries[first] * entries[second])):
-        return False
+        return None
     entries[off] = 0.0
     ratio = (entries[second] - entries[first]) / 2 / coupling
     tangent = math.copysign(1.0, ratio) / (abs(ratio) + math.hypot(ratio, 1.0))
@@ -44,4 +75,4 @@ def _rotate(entries: list[float], first: int, second: int, off: int, with_first:
     entries[second] += tangent * coupling
     one, other = entries[with_first], entries[with_second]
     entries[with_first], entries[with_second] = cosine * one - sine * other, sine * one + cosine * other
-    return True
+    return cosine, sine

@@ -53,7 +53,7 @@ def _box(shape: Box) -> _Moments:
 def _sphere(shape: Sphere) -> _Moments:
     """Radius r: I = 2/5 m r^2; problem 2 (b)."""
     r = _or(shape.radius, 1.0)
-    return 4 / 3 * math.pi * r**3, 0.0, (r * r / 5, r * r / 5, r * r / 5)
+    return 4 / 3 * math.pi * r * r * r, 0.0, (r * r / 5, r * r / 5, r * r / 5)
 
 
 def _ellipsoid(shape: Ellipsoid) -> _Moments:
@@ -81,7 +81,7 @@ def _capsule(shape: Capsule) -> _Moments:
     and the integral of z over it. Moved by h/2, <z^2> is r^2 / 5 + 3/8 r h + h^2 / 4.
     """
     r, h = _or(shape.radius, 0.5), _or(shape.length, 1.0)
-    middle, ends = math.pi * r * r * h, 4 / 3 * math.pi * r**3
+    middle, ends = math.pi * r * r * h, 4 / 3 * math.pi * r * r * r
     whole = middle + ends
     if not whole:
         return 0.0, 0.0, _ORIGIN

@@ -1,5 +1,6 @@
 """Passes: steps from IR to IR, pipelines of them, and the registry that finds them."""
 
+from twinform.passes.assets import NO_ASSETS, AssetError, AssetPass, Assets
 from twinform.passes.base import Pass
 from twinform.passes.errors import BrokenPassError, FailedPassError, PassError
 from twinform.passes.named import Names, UnknownPipelineError
@@ -19,6 +20,10 @@ from twinform.passes.watch import Watch, Watches
 
 __all__ = [
     "GROUP",
+    "NO_ASSETS",
+    "AssetError",
+    "AssetPass",
+    "Assets",
     "BrokenPassError",
     "FailedPassError",
     "Names",

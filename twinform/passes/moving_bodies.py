@@ -1,6 +1,7 @@
 """Which links are one rigid body, and which of these bodies move."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
 
 from twinform.ir import Document, Joint, Link, Model
 
@@ -8,8 +9,37 @@ _GROUND = "world"
 """What both formats call the thing that never moves: SDF as the end of a joint, URDF as a root link."""
 
 
-def moving_bodies(document: Document) -> list[tuple[Link, ...]]:
+Body = tuple[Link, ...]
+"""The links that fixed joints hold together, in document order."""
+
+
+class Neighbours(NamedTuple):
+    """A joint that moves, and the two bodies that it connects."""
+
+    joint: Joint
+    parent: Body
+    child: Body
+
+
+def moving_bodies(document: Document) -> list[Body]:
     """The links that fixed joints hold together, for each body that is not held by the world, in document order."""
+    bodies, ground, _ = _grouped(document)
+    return [tuple(body) for root, body in bodies.items() if root != ground]
+
+
+def neighbours(document: Document) -> Iterator[Neighbours]:
+    """The joints that move a body, in document order; the parent is empty where the world holds it."""
+    bodies, ground, groups = _grouped(document)
+    for joint, scope in _joints(document):
+        if joint.type == "fixed" or not joint.parent or not joint.child:
+            continue
+        parent, child = (groups.find(_key(scope, name)) for name in (joint.parent, joint.child))
+        if child != ground and child in bodies and (parent == ground or parent in bodies):
+            yield Neighbours(joint, () if parent == ground else tuple(bodies[parent]), tuple(bodies[child]))
+
+
+def _grouped(document: Document) -> "tuple[dict[str, list[Link]], str, _Groups]":
+    """The links of each group by the name that stands for it, and that of the group which cannot move."""
     groups, links = _Groups(), dict[str, Link]()
     for model in document.models:
         _collect(model, "", groups, links, static=False)
@@ -17,13 +47,21 @@ def moving_bodies(document: Document) -> list[tuple[Link, ...]]:
         for model in world.models:
             _collect(model, "", groups, links, static=False)
         _join_fixed(world.joints, "", groups)
-    ground = groups.find(_GROUND)
     bodies: dict[str, list[Link]] = {}
     for name, link in links.items():
-        root = groups.find(name)
-        if root != ground:
-            bodies.setdefault(root, []).append(link)
-    return [tuple(body) for body in bodies.values()]
+        bodies.setdefault(groups.find(name), []).append(link)
+    return bodies, groups.find(_GROUND), groups
+
+
+def _joints(document: Document) -> Iterator[tuple[Joint, str]]:
+    """Every joint, and the scope of the names in it."""
+    for world in document.worlds:
+        yield from ((joint, "") for joint in world.joints)
+    models = [(model, "") for model in (*document.models, *(each for one in document.worlds for each in one.models))]
+    for model, scope in models:  # grows while it is walked, so that nothing recurses
+        inside = f"{scope}{model.name}::"
+        yield from ((joint, inside) for joint in model.joints)
+        models.extend((nested, inside) for nested in model.models)
 
 
 def _collect(model: Model, scope: str, groups: "_Groups", links: dict[str, Link], *, static: bool) -> None:

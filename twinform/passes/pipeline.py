@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from twinform.diagnostics import Diagnostic, Notes
 from twinform.ir import Document
+from twinform.passes.assets import AssetPass, Assets
 from twinform.passes.base import Pass
 from twinform.passes.errors import BrokenPassError, FailedPassError
 from twinform.passes.options import chosen
@@ -34,6 +35,11 @@ class Pipeline:
         for step in self.passes:
             document = _run(step, document, notes, watch, verify)
         return document
+
+    def with_assets(self, assets: Assets) -> "Pipeline":
+        """The same passes; those that open files know where they are."""
+        bound = (each.with_assets(assets) if isinstance(each, AssetPass) else each for each in self.passes)
+        return Pipeline(tuple(bound))
 
     def __iter__(self) -> Iterator[Pass]:
         return iter(self.passes)

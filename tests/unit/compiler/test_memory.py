@@ -117,7 +117,7 @@ def test_a_source_without_a_way_back_is_remembered_whole():
 
 
 def test_a_source_that_is_remembered_whole_is_not_applied_to_an_edited_file():
-    with pytest.raises(twinform.CompileError, match="mesh"):
+    with pytest.raises(twinform.CompileError, match="is not found"):
         home(over(NO_WAY_BACK).replace("<mass>2</mass>", "<mass>7</mass>"))
 
 

@@ -1,5 +1,9 @@
 """Inertias that SDF leaves to its reader: numbers in URDF, and left to the reader again in SDF."""
 
+import importlib
+from pathlib import Path
+from typing import Any
+
 import pytest
 
 import twinform
@@ -101,3 +105,46 @@ def test_what_has_no_inside_is_an_error_at_its_line(inside: str, words: str):
     assert [each.rule.name for each in errors] == ["automatic-inertia"]
     assert words in errors[0].message
     assert errors[0].location.line == 2
+
+
+WEDGE = "<collision name='w'><density>300</density><geometry><mesh><uri>wedge.stl</uri></mesh></geometry></collision>"
+
+
+@pytest.fixture
+def wedge(tmp_path: Path) -> Path:
+    """A model of SDF beside the mesh of a box of 1 x 2 x 3 m."""
+    trimesh: Any = importlib.import_module("trimesh")
+    trimesh.creation.box((1, 2, 3)).export(tmp_path / "wedge.stl")
+    path = tmp_path / "model.sdf"
+    path.write_text(ROBOT.format(AUTO.format("") + WEDGE))
+    return path
+
+
+def test_a_mesh_beside_the_model_gives_what_the_box_gives(wedge: Path):
+    box = WEDGE.replace("<mesh><uri>wedge.stl</uri></mesh>", "<box><size>1 2 3</size></box>")
+    made, expected = inertial(twinform.convert(wedge, to="urdf").text), inertial(urdf(AUTO.format("") + box))
+    assert made.mass == pytest.approx(expected.mass)
+    assert made.inertia
+    assert expected.inertia
+    for moment in ("ixx", "iyy", "izz"):
+        assert getattr(made.inertia, moment) == pytest.approx(getattr(expected.inertia, moment))
+
+
+def test_a_mesh_is_looked_into_on_the_way_back_too(wedge: Path):
+    there = wedge.with_suffix(".urdf")
+    there.write_text(twinform.convert(wedge, to="urdf").text)
+    back = twinform.convert(there, to="sdf")
+    assert [each.rule.name for each in back.diagnostics if each.severity > 1] == []
+    assert inertial(back.text) == inertial(wedge.read_text())
+    there.write_text(there.read_text().replace('mass value="1800"', 'mass value="5"'))
+    assert "stale-carrier" in [each.rule.name for each in twinform.convert(there, to="sdf").diagnostics]
+
+
+def test_a_mesh_in_an_sdf_before_1_11_is_written_out(wedge: Path):
+    assert inertial(twinform.convert(wedge, to="sdf", sdf_version="1.10").text).mass == pytest.approx(1800)
+
+
+def test_a_mesh_that_is_not_found_is_an_error(wedge: Path):
+    wedge.with_name("wedge.stl").unlink()
+    with pytest.raises(twinform.CompileError, match=r"wedge\.stl.* is not found"):
+        twinform.convert(wedge, to="urdf")

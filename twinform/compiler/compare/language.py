@@ -10,10 +10,11 @@ from twinform.compiler.compare.robot import Robot
 from twinform.compiler.errors import CompileError
 from twinform.compiler.includes import expand
 from twinform.compiler.loading import Checked, Reading, read
+from twinform.compiler.uris import LocalAssets
 from twinform.diagnostics import Notes
 from twinform.ir import Document, Format
 from twinform.ir.frames import FrameError
-from twinform.passes import Pass, Pipeline
+from twinform.passes import Assets, Pass, Pipeline
 from twinform.passes.legalise.candidates import candidates, name_once_expanded, wanted_includes
 from twinform.passes.legalise.sdf_versions import raise_words
 from twinform.passes.legalise.to_sdf import to_sdf
@@ -47,7 +48,7 @@ def read_robots(source: str | Path | bytes, how: Reading, *, name: str, model: s
         raise CompileError(checked.diagnostics, unreadable=checked.unreadable)
     notes = Notes(checked.path, how.strict, origins=dict(checked.origins))
     try:
-        robots = dict(_robots(checked, document, model, notes))
+        robots = dict(_robots(checked, document, model, notes, LocalAssets(how.search, Path(checked.path))))
     except FrameError as error:
         error.report(notes)
         robots = {}
@@ -56,9 +57,11 @@ def read_robots(source: str | Path | bytes, how: Reading, *, name: str, model: s
     return Robots(checked.path, document.format, robots)
 
 
-def _robots(checked: Checked, document: Document, model: str | None, notes: Notes) -> Iterator[tuple[str, Robot]]:
+def _robots(
+    checked: Checked, document: Document, model: str | None, notes: Notes, assets: Assets
+) -> Iterator[tuple[str, Robot]]:
     """Each robot by its name, with its world's where several are called so."""
-    said = Pipeline(_into_words_of_sdf(document)).run(document, notes)
+    said = Pipeline(_into_words_of_sdf(document)).with_assets(assets).run(document, notes)
     if notes.has_errors:
         return
     names = list(dict.fromkeys(one.full_name for one in candidates(said)))

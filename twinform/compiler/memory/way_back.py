@@ -14,7 +14,7 @@ from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Document, Format
 from twinform.ir.verify import verify
-from twinform.passes import Pipeline
+from twinform.passes import Assets, Pipeline
 from twinform.passes.legalise import Target, legalisation
 from twinform.passes.legalise.carrier import NAMESPACE
 from twinform.passes.legalise.marks import MADE
@@ -25,14 +25,14 @@ _MADE = "<made>"
 _OURS = f"{{{NAMESPACE}}}*"
 
 
-def remember(source: Document, made: bytes) -> Memory:
+def remember(source: Document, made: bytes, assets: Assets) -> Memory:
     """What has to be known of the source besides the file that was made of it, to get it back from there.
 
     The file is taken the whole way back, as it will be when somebody asks for that, and compared with the source.
     """
     version = print_version(written_version(source))
     document = lower_tree(etree.fromstring(made), Notes(_MADE), valid=True)
-    back = way_back(document, source.format, version, Notes(_MADE))
+    back = way_back(document, source.format, version, Notes(_MADE), assets)
     wanted, edits = document_tree(source), etree.Element("edits")
     if back is None:
         edits.append(wanted)
@@ -42,11 +42,11 @@ def remember(source: Document, made: bytes) -> Memory:
     return Memory(source.format, version, edits, bare=bare)
 
 
-def way_back(document: Document, format_: Format, version: str, notes: Notes) -> Document | None:
+def way_back(document: Document, format_: Format, version: str, notes: Notes, assets: Assets) -> Document | None:
     """The document in the other format, as it is without any memory; None where it cannot be."""
     urdf_version: Any = version if format_ is Format.URDF else "1.0"
     target = Target(format_, version, urdf_version)
-    found = Pipeline(legalisation(document.format, document.version, target)).run(document, notes)
+    found = Pipeline(legalisation(document.format, document.version, target)).with_assets(assets).run(document, notes)
     return None if notes.has_errors else found
 
 

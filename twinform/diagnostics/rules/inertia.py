@@ -1,4 +1,4 @@
-"""Rules about masses and inertias that no body can have. `check` reports them; the pass `check-inertia` asks more."""
+"""Rules about masses and inertias. `check` reports the first ones; the pass `check-inertia` asks more."""
 
 from twinform.diagnostics.rule import Rule, Severity
 
@@ -49,4 +49,81 @@ INERTIA_FROM_NOTHING = Rule(
     example="`<link name='a'><inertial auto='true'/></link>`",
     better="Add the collisions, or write the mass and the inertia.",
     references="libsdformat: ELEMENT_MISSING",
+)
+DISTANT_CENTRE_OF_MASS = Rule(
+    name="distant-centre-of-mass",
+    severity=Severity.WARNING,
+    finds="A centre of mass outside of the box around the shapes of its link.",
+    matters="The link swings about a point in the air. Most often the inertial was written in millimetres, or in the "
+    "frame of the drawing and not of the link.",
+    example="`<inertial><origin xyz='0 0 45'/>...` in a link whose collision is 90 mm long.",
+    better="Write the centre of mass in metres, in the link frame.",
+)
+IMPLAUSIBLE_DENSITY = Rule(
+    name="implausible-density",
+    severity=Severity.WARNING,
+    finds="A mass that is too small or too large for the volume of the link's shapes: by default less than 1 kg/m^3, "
+    "which is air, or more than 23,000 kg/m^3, which is osmium.",
+    matters="A wrong unit is the usual reason (grams for kilograms), and the robot moves like a balloon or like a "
+    "safe.",
+    example="`<mass value='850'/>` for a gripper finger of 5 cm^3.",
+    better="Write the mass in kilograms, or correct the size of the shapes.",
+)
+OVERSIZED_INERTIA = Rule(
+    name="oversized-inertia",
+    severity=Severity.WARNING,
+    finds="An inertia that is larger than the mass of the link can have inside of the box around its shapes.",
+    matters="No arrangement of the mass within the shapes has such moments, so the link turns as sluggishly as a much "
+    "larger one. Most often they are in g mm^2, or not about the centre of mass.",
+    example="`<mass value='0.1'/><inertia ixx='25' iyy='25' izz='25' .../>` for a cube of 10 cm.",
+    better="Write the inertia in kg m^2 about the centre of mass, or let `fill-inertia{replace=all}` compute it.",
+    references="T. Popoviciu 1935: a spread over a length l has a variance of at most l^2 / 4.",
+)
+MASS_RATIO = Rule(
+    name="mass-ratio",
+    severity=Severity.INFO,
+    finds="Two bodies that a joint connects and of which one is many times as heavy as the other.",
+    matters="Solvers that iterate over constraints (ODE, Bullet, PhysX, DART's PGS) converge slowly or not at all: "
+    "joints stretch and shake, above all where the lighter body carries the heavier one.",
+    example="A wheel hub of 1 g between a wheel of 5 kg and a chassis of 100 kg.",
+    better="Give the light body more of the real mass, or fix it to a neighbour; `split-massless` spreads mass along a "
+    "chain. Solvers in reduced coordinates (Drake, MuJoCo) do not mind.",
+)
+FILLED_INERTIA = Rule(
+    name="filled-inertia",
+    severity=Severity.INFO,
+    finds="A link whose mass and inertia were computed from its shapes.",
+    matters="The numbers are those of evenly filled shapes, not of the real part.",
+    example="`fill-inertia{density=2700}` on a link with a collision and no `<inertial>`.",
+    better="Write what the drawing or a scale says into the source; then there is nothing to compute.",
+)
+UNFILLED_INERTIA = Rule(
+    name="unfilled-inertia",
+    severity=Severity.WARNING,
+    finds="A link whose inertia was to be computed from its shapes and could not be: a shape has no inside, a mesh is "
+    "open, not found or not readable, or a body that moves has no shape at all.",
+    matters="The link stays as it was, and part of a link's shapes would give a wrong mass.",
+    example="`fill-inertia` on a link whose collision is a `<plane>`, or an open mesh.",
+    better="Name other shapes (`shapes=visual`), take the hull of open meshes (`open-meshes=hull`), say with `--path "
+    "DIR` where the meshes are, or write the numbers.",
+)
+BALANCED_INERTIA = Rule(
+    name="balanced-inertia",
+    severity=Severity.WARNING,
+    finds="A link whose impossible inertia was replaced by the nearest one that a body can have; an info where they "
+    "differ by no more than digits that were cut off.",
+    matters="The new numbers let a simulator run; whether they are the real part's nobody knows. The message says how "
+    "far they are from the old ones.",
+    example="`balance-inertia` on `<inertia ixx='1' iyy='0.1' izz='0.1' .../>`, which becomes 0.733, 0.367, 0.367.",
+    better="Compute the inertia from the shape and the mass, as `fill-inertia{replace=impossible}` does.",
+    references="P. Wensing, S. Kim and J.-J. Slotine 2018, Linear matrix inequalities for physically-consistent "
+    "inertial parameter identification.",
+)
+UNBALANCED_INERTIA = Rule(
+    name="unbalanced-inertia",
+    severity=Severity.WARNING,
+    finds="An impossible inertia that has no nearest possible one: its link has no positive mass, or it is not finite.",
+    matters="The link stays as it was, and simulators will refuse it.",
+    example="`balance-inertia` on `<mass value='0'/><inertia ixx='0' .../>`.",
+    better="Write a mass, or let `fill-inertia{replace=impossible}` or `split-massless` give it one.",
 )

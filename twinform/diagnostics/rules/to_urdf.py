@@ -56,10 +56,11 @@ AUTOMATIC_INERTIA = Rule(
     name="automatic-inertia",
     severity=Severity.ERROR,
     finds="An inertial that asks the reader to compute it (`auto='true'`), in a link without collisions, or with one "
-    "whose shape has no inside that is known: a mesh, a plane, a heightmap.",
+    "whose shape has no inside that is known: a plane, a heightmap, a mesh that is open or not found.",
     matters="URDF can only write the numbers.",
-    example="`<inertial auto='true'/>` beside a `<collision>` that is a `<mesh>`.",
-    better="Use simple shapes for the collision, or compute it first: `gz sdf --print --expand-auto-inertials`.",
+    example="`<inertial auto='true'/>` beside a `<collision>` that is a `<plane>`.",
+    better="Use simple shapes for the collision, or say with `--path DIR` where the meshes are. To look into "
+    "meshes needs `pip install 'twinform[meshes]'`.",
 )
 COMPUTED_INERTIA = Rule(
     name="computed-inertia",

@@ -3,21 +3,21 @@
 from collections.abc import Callable, Iterable
 
 from twinform.diagnostics import Location
-from twinform.ir import Collision, Inertia, Inertial, Link, Model, Node, Opaque, Pose
+from twinform.ir import Collision, Inertial, Link, Mesh, Model, Opaque
 from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import Solid, combined, placed, solid, with_mass
+from twinform.passes.inertia.shapes import WATER, inertial_of, own_density
 from twinform.passes.legalise.carrier import to_element
-
-_DENSITY = 1000.0
-"""SDF's default: water, kg/m^3."""
+from twinform.passes.meshes import MeshError, Meshes
 
 
 class NoInertiaError(Exception):
     """Why an inertia cannot be computed, and where that is said."""
 
-    def __init__(self, message: str, location: Location) -> None:
+    def __init__(self, message: str, location: Location, help: str | None = None) -> None:
         super().__init__(message)
         self.location = location
+        self.help = help
 
 
 def map_automatic(model: Model, write: Callable[[Link, Inertial, FrameGraph], Link]) -> Model:
@@ -31,18 +31,20 @@ def map_automatic(model: Model, write: Callable[[Link, Inertial, FrameGraph], Li
     return model.model_copy(update={"links": tuple(links)})
 
 
-def automatic(link: Link, inertial: Inertial, collisions: Iterable[Collision], graph: FrameGraph) -> Solid:
+def automatic(
+    link: Link, inertial: Inertial, collisions: Iterable[Collision], graph: FrameGraph, meshes: Meshes
+) -> Solid:
     """The mass, centre and inertia of a link in its own frame.
 
     Every collision is filled with its own `<density>`, else with that of the inertial, else with water. A mass that is
     written stays: the inertia is scaled to it. Other readers agree: libsdformat, Link::ResolveAutoInertials.
 
     Raises:
-        NoInertiaError: there is no collision, or one of a shape without an inside.
+        NoInertiaError: there is no collision, or one of a shape without an inside, or of a mesh that is not found.
         FrameError: a collision is posed in a frame that is not known.
     """
-    usual = _density(inertial)
-    parts = [_filled(link, one, usual, graph) for one in collisions]
+    usual = own_density(inertial)
+    parts = [_filled(link, one, usual, graph, meshes) for one in collisions]
     if not parts:
         raise NoInertiaError(f"link {link.name!r} has no collision to compute its inertia from", inertial.location)
     whole = combined(parts)
@@ -58,30 +60,20 @@ def written_out(inertial: Inertial, found: Solid) -> tuple[Inertial, list[Opaque
     overlooked = to_element(inertial.model_copy(update={"mass": None, "opaque": ()}), "inertial", "sdf")
     pieces = [Opaque(attribute=pair) for pair in overlooked.attributes]
     pieces += [Opaque(element=child) for child in overlooked.children]
-    xx, yy, zz, xy, xz, yz = found.inertia
-    update = {
-        "auto": None,
-        "mass": found.mass,
-        "pose": Pose(xyz=found.centre, rpy=(0.0, 0.0, 0.0)) if any(found.centre) else None,
-        "inertia": Inertia(ixx=xx, ixy=xy, ixz=xz, iyy=yy, iyz=yz, izz=zz),
-    }
     made = ("pose", "inertia") if inertial.mass is not None else ("mass", "pose", "inertia")
-    return inertial.model_copy(update=update), pieces, made
+    return inertial_of(found, inertial), pieces, made
 
 
-def _filled(link: Link, collision: Collision, usual: float | None, graph: FrameGraph) -> Solid:
+def _filled(link: Link, collision: Collision, usual: float | None, graph: FrameGraph, meshes: Meshes) -> Solid:
     shape = collision.geometry.shape if collision.geometry else None
-    own = _density(collision)
-    density = own if own is not None else _DENSITY if usual is None else usual
-    filled = solid(shape, density)
+    own = own_density(collision)
+    density = own if own is not None else WATER if usual is None else usual
+    computed = f"the inertia of link {link.name!r} is computed from collision {collision.name!r}"
+    try:
+        filled = meshes.solid(shape, density) if isinstance(shape, Mesh) else solid(shape, density)
+    except MeshError as error:
+        raise NoInertiaError(f"{computed}: {error.message}", collision.location, error.help) from error
     if filled is None:
         what = f"a {shape.kind}" if shape else "no shape"
-        message = f"the inertia of link {link.name!r} is computed from collision {collision.name!r}, which is {what}"
-        raise NoInertiaError(message, collision.location)
+        raise NoInertiaError(f"{computed}, which is {what}", collision.location)
     return placed(filled, graph.resolve(collision.pose, link.name, link.name))
-
-
-def _density(node: Node) -> float | None:
-    """What `<density>` says in a node; the last one, should there be several."""
-    texts = [part.element.text for part in node.opaque if part.element and part.element.name == "density"]
-    return float(texts[-1] or "nan") if texts else None

@@ -6,14 +6,16 @@ from typing import ClassVar
 from twinform.diagnostics.rules import sdf_versions as rules
 from twinform.ir import Document, Inertial, Link
 from twinform.ir.frames import FrameGraph
+from twinform.passes.assets import AssetPass
 from twinform.passes.legalise.automatic_inertias import NoInertiaError, automatic, map_automatic, written_out
 from twinform.passes.legalise.sdf_versions.base import VersionPass, map_models
 from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms
+from twinform.passes.meshes import Meshes
 
 _SINCE = (1, 11)
 
 
-class WriteInertias(VersionPass):
+class WriteInertias(VersionPass, AssetPass):
     """Write the inertias that newer versions leave to their reader (`<inertial auto="true">`).
 
     Changes: mass, pose and inertia of such a link are those of its collisions, filled with their densities; a mass that
@@ -26,12 +28,13 @@ class WriteInertias(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with every inertia written out."""
-        return map_models(document, lambda model: map_automatic(model, partial(_write, keeper)))
+        write = partial(_write, keeper, Meshes(self._assets))
+        return map_models(document, lambda model: map_automatic(model, write))
 
 
-def _write(keeper: Keeper, link: Link, inertial: Inertial, graph: FrameGraph) -> Link:
+def _write(keeper: Keeper, meshes: Meshes, link: Link, inertial: Inertial, graph: FrameGraph) -> Link:
     try:
-        found = automatic(link, inertial, link.collisions, graph)
+        found = automatic(link, inertial, link.collisions, graph, meshes)
     except NoInertiaError:
         return link
     written, pieces, made = written_out(inertial, found)

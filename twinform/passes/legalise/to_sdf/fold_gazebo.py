@@ -174,8 +174,11 @@ class _Fold:
             attributes.insert(0, ("reference", extension.reference))
         element = Element(name="gazebo", attributes=tuple(attributes), text=text or None, children=content)
         fate = Fate.CARRIED if self.carriers else Fate.DROPPED
-        where = place_of(content[0], extension) if content else extension.location
-        self.notes.account(fate, rule, message, where, max(1, element.weight - 1))
+        if content == extension.content:
+            self.notes.account(fate, rule, message, extension.location, element.weight)
+        else:
+            for part in content or (element,):
+                self.notes.account(fate, rule, message, place_of(part, extension), part.weight)
         self.kept.append(Opaque(element=element))
 
     def _into_shapes(self, link: Link, blob: Blob) -> Link:

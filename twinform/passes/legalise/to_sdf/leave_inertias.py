@@ -10,12 +10,14 @@ from twinform.ir import Collision, Inertial, Link, Model, Opaque
 from twinform.ir.frames import FrameError, FrameGraph
 from twinform.ir.solids import Solid, placed
 from twinform.ir.transform import Transform
+from twinform.passes.assets import AssetPass
 from twinform.passes.legalise.automatic_inertias import NoInertiaError, automatic
 from twinform.passes.legalise.carrier import is_carrier, unpack
 from twinform.passes.legalise.marks import made_fields, without_mark
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb
 from twinform.passes.legalise.sdf_versions.carriers import Terms
+from twinform.passes.meshes import Meshes
 from twinform.schemas import parse_version, table
 
 _SINCE = (1, 11)
@@ -24,7 +26,7 @@ _CLOSE = 1e-9
 """How far numbers may be apart that were computed from one shape, relative to the largest of their kind."""
 
 
-class LeaveInertias(ModelPass):
+class LeaveInertias(ModelPass, AssetPass):
     """Say `<inertial auto="true">` where SDF said so before.
 
     Changes: 1. an inertial that carries `auto`, and has the numbers that its collisions give, is automatic again, with
@@ -42,7 +44,8 @@ class LeaveInertias(ModelPass):
         if parse_version(self.version) < _SINCE or not any(map(_was_automatic, model.links)):
             return model
         graph = FrameGraph(model)
-        links = tuple(_leave(link, graph, notes) if _was_automatic(link) else link for link in model.links)
+        meshes = Meshes(self._assets)
+        links = tuple(_leave(link, graph, meshes, notes) if _was_automatic(link) else link for link in model.links)
         return model.model_copy(update={"links": links})
 
 
@@ -55,7 +58,7 @@ def _is_auto(part: Opaque) -> bool:
     return any(piece.attribute and piece.attribute[0] == "auto" and not piece.at for piece in pieces)
 
 
-def _leave(link: Link, graph: FrameGraph, notes: Notes) -> Link:
+def _leave(link: Link, graph: FrameGraph, meshes: Meshes, notes: Notes) -> Link:
     inertial = link.inertial or Inertial()
     made = made_fields(inertial)
     left = inertial.model_copy(update=dict.fromkeys(_FIELDS if "mass" in made else _FIELDS[1:]))
@@ -63,7 +66,7 @@ def _leave(link: Link, graph: FrameGraph, notes: Notes) -> Link:
         left = without_mark(left, field)
     try:
         left = _unpacked(left)
-        found = automatic(link, left, _collisions(link), graph)
+        found = automatic(link, left, _collisions(link), graph, meshes)
     except (CarrierError, NoInertiaError, FrameError) as error:
         return _stale(link, inertial, str(error), notes)
     if not _is_the_same(found, inertial):

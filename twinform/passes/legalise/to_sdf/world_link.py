@@ -29,6 +29,10 @@ class WorldLink(ModelPass):
         links = tuple(link for link in model.links if link is not world)
         joints = tuple(_on_model(joint) for joint in model.joints)
         model = model.model_copy(update={"links": links, "joints": joints})
+        if not any(joint.parent == "world" and joint.type != "floating" for joint in joints):
+            fate = Fate.CARRIED if self.carriers else Fate.DROPPED
+            message = "nothing is fixed to the link 'world', and SDF has a world without saying so"
+            notes.account(fate, to_sdf.URDF_ONLY, message, world.location, count_parts(world))
         body = world.model_copy(update={"opaque": tuple(part for part in world.opaque if not is_ours(part))})
         return self._keep_body(model, body, notes) if count_parts(body) > 2 else model
 

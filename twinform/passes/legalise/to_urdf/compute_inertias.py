@@ -6,34 +6,36 @@ from typing import ClassVar
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Inertial, Link, Model
 from twinform.ir.frames import FrameGraph
+from twinform.passes.assets import AssetPass
 from twinform.passes.legalise.automatic_inertias import NoInertiaError, automatic, map_automatic, written_out
 from twinform.passes.legalise.marks import mark_made
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.meshes import Meshes
 
 
-class ComputeInertias(ToUrdfPass):
+class ComputeInertias(ToUrdfPass, AssetPass):
     """Write the inertia that a reader of SDF would compute (`<inertial auto="true">`).
 
     Changes: mass, pose and inertia of such a link are those of its collisions, filled with their densities; a mass that
     is written stays. That they were computed travels in a carrier, and so do a pose and an inertia that were written,
     which readers of SDF overlook.
     Diagnostics: `automatic-inertia` for a link without collisions, and for shapes without an inside, such as planes and
-    meshes; in the ledger `computed-inertia`.
+    meshes that are open or not found; in the ledger `computed-inertia`.
     """
 
     name: ClassVar[str] = "compute-inertias"
 
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model with every inertia written out."""
-        return map_automatic(model, partial(_compute, keeper))
+        return map_automatic(model, partial(_compute, keeper, Meshes(self._assets)))
 
 
-def _compute(keeper: Keeper, link: Link, inertial: Inertial, graph: FrameGraph) -> Link:
+def _compute(keeper: Keeper, meshes: Meshes, link: Link, inertial: Inertial, graph: FrameGraph) -> Link:
     try:
-        found = automatic(link, inertial, link.collisions, graph)
+        found = automatic(link, inertial, link.collisions, graph, meshes)
     except NoInertiaError as error:
-        keeper.notes.report(rules.AUTOMATIC_INERTIA, str(error), error.location)
+        keeper.notes.report(rules.AUTOMATIC_INERTIA, str(error), error.location, help=error.help)
         return link
     written, pieces, made = written_out(inertial, found)
     message = f"the inertia of link {link.name!r} is computed from its collisions"

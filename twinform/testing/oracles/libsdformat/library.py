@@ -46,6 +46,22 @@ class JointRow(TypedDict):
     limits: NotRequired[dict[str, float]]
 
 
+class SensorRow(TypedDict):
+    """A sensor: the pose is a position and a quaternion, the text is its XML without the pose."""
+
+    name: str
+    kind: str
+    pose: list[float]
+    text: str
+
+
+class PluginRow(TypedDict):
+    """A plugin: its XML, and the tag of the element that it is in."""
+
+    inside: str
+    text: str
+
+
 class RobotRow(TypedDict):
     """A model, in its own frame."""
 
@@ -53,6 +69,8 @@ class RobotRow(TypedDict):
     static: bool
     links: list[LinkRow]
     joints: list[JointRow]
+    sensors: list[SensorRow]
+    plugins: list[PluginRow]
 
 
 class _Row(TypedDict):

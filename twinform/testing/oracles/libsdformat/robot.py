@@ -24,7 +24,7 @@ def read(path: Path, view: View) -> Robot:
     joints = [_joint(row) for row in found["joints"]]
     if found["static"]:
         joints += _held(links, joints)
-    seen = robot("libsdformat", links, joints, _pose(found["pose"]), view)
+    seen = robot("libsdformat", links, joints, pose_matrix(found["pose"]), view)
     # it weighs links together itself when it reads URDF
     return lumped(seen) if path.suffix == ".urdf" else seen
 
@@ -39,7 +39,7 @@ def _held(links: list[Link], joints: list[Joint]) -> list[Joint]:
 def _link(row: LinkRow) -> Link:
     xx, yy, zz, xy, xz, yz = row["moments"]
     inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    return Link(row["name"], _pose(row["pose"]), row["mass"], _pose(row["centre"]), inertia)
+    return Link(row["name"], pose_matrix(row["pose"]), row["mass"], pose_matrix(row["centre"]), inertia)
 
 
 def _joint(row: JointRow) -> Joint:
@@ -49,13 +49,14 @@ def _joint(row: JointRow) -> Joint:
         _MOTIONS.get(row["kind"], Motion.OTHER),
         row["parent"],
         row["child"],
-        _pose(row["pose"]),
+        pose_matrix(row["pose"]),
         np.array(row.get("axis", [0.0, 0.0, 1.0])),
         limits,
     )
 
 
-def _pose(numbers: list[float]) -> Matrix:
+def pose_matrix(numbers: list[float]) -> Matrix:
+    """A pose as a 4 x 4 matrix, from a position and a quaternion with its real part first."""
     w, *vector = numbers[3:]
     x, y, z = vector
     skew = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

@@ -114,21 +114,75 @@ void describe_joints(const sdf::Model &model, const std::string &scope, const Po
   }
 }
 
+// the XML of an element, without its pose, which is told apart
+std::string said(const sdf::ElementPtr &element) {
+  const sdf::ElementPtr copy = element->Clone();
+  if (copy->HasElement("pose")) copy->RemoveChild(copy->GetElement("pose"));
+  return quoted(copy->ToString(""));
+}
+
+void describe_sensor(const sdf::Sensor &sensor, const Pose3d &model, const char *&separator) {
+  std::cout << separator << "{\"name\": " << quoted(sensor.Name()) << ", \"kind\": " << quoted(sensor.TypeStr())
+            << ", \"pose\": " << written(model * resolved(sensor.SemanticPose(), "__model__"))
+            << ", \"text\": " << said(sensor.Element()) << "}";
+  separator = ", ";
+}
+
+void describe_sensors(const sdf::Model &model, const Pose3d &pose, const char *&separator) {
+  for (uint64_t i = 0; i < model.LinkCount(); ++i) {
+    const sdf::Link &link = *model.LinkByIndex(i);
+    for (uint64_t k = 0; k < link.SensorCount(); ++k) describe_sensor(*link.SensorByIndex(k), pose, separator);
+  }
+  for (uint64_t i = 0; i < model.JointCount(); ++i) {
+    const sdf::Joint &joint = *model.JointByIndex(i);
+    for (uint64_t k = 0; k < joint.SensorCount(); ++k) describe_sensor(*joint.SensorByIndex(k), pose, separator);
+  }
+  for (uint64_t i = 0; i < model.ModelCount(); ++i) {
+    const sdf::Model &inner = *model.ModelByIndex(i);
+    describe_sensors(inner, pose * resolved(inner.SemanticPose(), "__model__"), separator);
+  }
+}
+
+// plugins at any depth, with the kind of element that they are in
+void describe_plugins(const sdf::ElementPtr &element, const char *&separator) {
+  for (sdf::ElementPtr child = element->GetFirstElement(); child; child = child->GetNextElement()) {
+    if (child->GetName() == "plugin") {
+      std::cout << separator << "{\"inside\": " << quoted(element->GetName())
+                << ", \"text\": " << quoted(child->ToString("")) << "}";
+      separator = ", ";
+    } else {
+      describe_plugins(child, separator);
+    }
+  }
+}
+
 const sdf::Model *first_model(const sdf::Root &root) {
   if (root.Model() != nullptr) return root.Model();
   return root.WorldCount() == 0 ? nullptr : root.WorldByIndex(0)->ModelByIndex(0);
+}
+
+// the place of a model in its world, which is where the file has it unless it is relative to something there
+Pose3d in_world(const sdf::Model &model) {
+  Pose3d pose;
+  return model.SemanticPose().Resolve(pose).empty() ? pose : model.RawPose();
 }
 
 void describe(const sdf::Root &root) {
   const sdf::Model *model = first_model(root);
   if (model == nullptr) return;
   const char *separator = "";
-  std::cout << ", \"robot\": {\"pose\": " << written(model->RawPose())
+  std::cout << ", \"robot\": {\"pose\": " << written(in_world(*model))
             << ", \"static\": " << (model->Static() ? "true" : "false") << ", \"links\": [";
   describe_links(*model, "", Pose3d::Zero, separator);
   separator = "";
   std::cout << "], \"joints\": [";
   describe_joints(*model, "", Pose3d::Zero, separator);
+  separator = "";
+  std::cout << "], \"sensors\": [";
+  describe_sensors(*model, Pose3d::Zero, separator);
+  separator = "";
+  std::cout << "], \"plugins\": [";
+  describe_plugins(model->Element(), separator);
   std::cout << "]}";
 }
 

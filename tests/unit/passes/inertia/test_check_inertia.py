@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from twinform.diagnostics import Notes, Source
 from twinform.ir import Document, Format, Frame, Inertia, Inertial, Joint, Link, Model, World
-from twinform.passes.check_inertia import CheckInertia
+from twinform.passes.inertia.check_inertia import CheckInertia
 
 LINK_LINE = Source("robot", 3, None, "link")
 INERTIAL_LINE = Source("robot", 4, LINK_LINE, "inertial")

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from twinform.diagnostics import Notes
 from twinform.ir import Axis, Document, Format, Joint, JointType, Limit, Model, World
 from twinform.passes import parse_pipeline
-from twinform.passes.fill_limits import FillLimits
+from twinform.passes.limits.fill_limits import FillLimits
 
 ALL = FillLimits(effort=100, velocity=2, lower=-1, upper=1)
 

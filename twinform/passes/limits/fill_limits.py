@@ -1,4 +1,4 @@
-"""Fill the limits that joints lack."""
+"""Fill the limits, damping and friction that joints lack."""
 
 from fnmatch import fnmatchcase
 from typing import ClassVar, Self
@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 
 from twinform.diagnostics import Location, Notes
 from twinform.diagnostics.rules.limits import FILLED_LIMIT, UNFILLED_LIMIT
-from twinform.ir import Axis, Document, Format, Joint, Limit
+from twinform.ir import Axis, Document, Dynamics, Format, Joint, Limit, Node
 from twinform.passes.base import Pass
 from twinform.passes.map_joints import map_joints
 
@@ -16,15 +16,16 @@ _DRIVEN = _BOUNDED | {"continuous"}
 
 
 class FillLimits(Pass):
-    """Fills limits that are missing with values of the user's choice; without options it changes nothing.
+    """Fills limits, damping and friction that are missing with the user's values; without options it changes nothing.
 
     It changes joints with one axis whose name matches `joints`:
 
     1. `effort` and `velocity` of revolute, prismatic and continuous joints;
     2. `lower` and `upper` of revolute and prismatic joints, unless the range would be upside down;
-    3. where the whole `<limit>` is missing it is made, in URDF for joints without an `<axis>` too.
+    3. where the whole `<limit>` is missing it is made, in URDF for joints without an `<axis>` too;
+    4. `damping` and `friction` of the same joints as 1, and a whole `<dynamics>` where it is missing.
 
-    It never touches a limit that is written, nor joints of SDF without an `<axis>`.
+    It never touches a value that is written, nor joints of SDF without an `<axis>`.
     It reports `filled-limit` for each joint that it fills, and `unfilled-limit` where case 2 left an end open.
     """
 
@@ -42,6 +43,12 @@ class FillLimits(Pass):
     )
     upper: float | None = Field(
         default=None, allow_inf_nan=False, description="The upper end of the range, in rad or m."
+    )
+    damping: float | None = Field(
+        default=None, ge=0, allow_inf_nan=False, description="The damping, in N m s/rad or N s/m."
+    )
+    friction: float | None = Field(
+        default=None, ge=0, allow_inf_nan=False, description="The static friction, in N m or N."
     )
     joints: str = Field(default="*", description="Only joints with such a name; `*`, `?` and `[...]` are wildcards.")
 
@@ -66,12 +73,20 @@ class FillLimits(Pass):
         if _is_upside_down(limit, values):
             _report_open_end(joint, limit, values, notes)
             values = {name: value for name, value in values.items() if name not in {"lower", "upper"}}
-        if not values:
+        dynamics = axis.dynamics or Dynamics()
+        forces = self._missing_forces(dynamics)
+        if not values and not forces:
             return joint
-        _report_filled(joint, limit, values, notes)
-        return joint.model_copy(
-            update={"axis": axis.model_copy(update={"limit": limit.model_copy(update=values)})},
-        )
+        _report_filled(joint, limit, values | forces, notes)
+        update: dict[str, Node] = {"limit": limit.model_copy(update=values)} if values else {}
+        if forces:
+            update["dynamics"] = dynamics.model_copy(update=forces)
+        return joint.model_copy(update={"axis": axis.model_copy(update=update)})
+
+    def _missing_forces(self, dynamics: Dynamics) -> dict[str, float]:
+        """The values that the options give for forces which are not written."""
+        chosen = {"damping": self.damping, "friction": self.friction}
+        return {name: value for name, value in chosen.items() if value is not None and getattr(dynamics, name) is None}
 
     def _missing(self, type_: str, limit: Limit) -> dict[str, float]:
         """The values that the options give for limits which this type of joint has and which are not written."""

@@ -1,0 +1,113 @@
+"""Replace impossible inertias by the nearest that a body can have."""
+
+import math
+from fnmatch import fnmatchcase
+from typing import ClassVar
+
+from pydantic import Field
+
+from twinform.diagnostics import Notes, Severity
+from twinform.diagnostics.rules.inertia import BALANCED_INERTIA, UNBALANCED_INERTIA
+from twinform.ir import Document, Format, Inertia, Inertial, Link, Model
+from twinform.ir.principal_moments import Symmetric, principal_moments
+from twinform.ir.verify.inertia import inertia_matrix
+from twinform.passes.base import Pass
+from twinform.passes.inertia.nearest import distance, nearest_possible, second_moments
+from twinform.passes.inertia.possible import DEFAULT_MOMENT, has_mass
+from twinform.passes.map_links import map_links
+
+_NOTHING_MUCH = 1e-3
+"""A change of so small a part of an inertia is that of digits which were cut off, and no news."""
+_NOTHING: Symmetric = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+_FIELDS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+
+
+class BalanceInertia(Pass):
+    """Replaces inertias that no body can have by the nearest one that a body can have, with the same axes.
+
+    It changes the `<inertia>` of links whose name matches `links`, where
+
+    1. a principal moment is zero or less;
+    2. a principal moment exceeds the sum of the other two, be it by a digit that was cut off: libsdformat refuses that;
+    3. in URDF, a link has a mass and no `<inertia>`, which is taken as zero.
+
+    Nearest means the least sum of squared changes of the nine elements. So that engines need not divide by zero, the
+    mass is left with some extent along every axis: `thickness`, or the part `margin` of the trace if that is more. It
+    runs only where it is asked for: the numbers that come out are possible, not measured.
+
+    It never touches an inertia that is possible, masses, centres of mass, and inertias that the simulator computes. It
+    reports `balanced-inertia` with the change for each link, and `unbalanced-inertia` for links without a positive mass
+    and for numbers that are not finite.
+    """
+
+    name = "balance-inertia"
+    example: ClassVar[str] = "balance-inertia{thickness=0.001}"
+
+    links: tuple[str, ...] = Field(
+        default=("*",), description="Only links with such a name; `*`, `?` and `[...]` are wildcards."
+    )
+    thickness: float = Field(
+        default=1e-4,
+        ge=0,
+        allow_inf_nan=False,
+        description="The least root mean square extent of the mass along an axis, in m.",
+    )
+    margin: float = Field(
+        default=1e-6,
+        ge=0,
+        le=0.1,
+        allow_inf_nan=False,
+        description="The least second moment of mass along an axis, as a part of the trace: digits are cut off again.",
+    )
+
+    def run(self, document: Document, notes: Notes) -> Document:
+        """The document with inertias that bodies can have."""
+
+        def balance(link: Link, _model: Model) -> Link:
+            inertial = link.inertial
+            if inertial is None or inertial.auto or not any(fnmatchcase(link.name, each) for each in self.links):
+                return link
+            matrix = inertia_matrix(inertial.inertia, DEFAULT_MOMENT[document.format])
+            if inertial.inertia is None and document.format is Format.URDF and has_mass(inertial):
+                matrix = _NOTHING
+            return link if matrix is None else self._balance(link, inertial, matrix, notes)
+
+        return map_links(document, balance)
+
+    def _balance(self, link: Link, inertial: Inertial, matrix: Symmetric, notes: Notes) -> Link:
+        finite = all(map(math.isfinite, matrix))
+        if finite and _is_possible(matrix):
+            return link
+        if not finite or not has_mass(inertial):
+            what = "has no positive mass" if finite else "is not finite"
+            message = f"the inertia of link {link.name!r} {what}, so no possible one is nearest to it"
+            notes.report(UNBALANCED_INERTIA, message, inertial.location, help="fill-inertia{replace=impossible}")
+            return link
+        found = nearest_possible(matrix, self._floor(inertial.mass or 0.0, matrix))
+        _report(link, inertial, matrix, found, notes)
+        written = inertial.inertia or Inertia()
+        update: dict[str, float] = dict(zip(_FIELDS, found, strict=True))
+        return link.model_copy(
+            update={"inertial": inertial.model_copy(update={"inertia": written.model_copy(update=update)})}
+        )
+
+    def _floor(self, mass: float, matrix: Symmetric) -> float:
+        """The least second moment of mass along an axis, in kg m^2."""
+        return max(self.margin * abs(matrix[0] + matrix[1] + matrix[2]), mass * self.thickness**2)
+
+
+def _is_possible(matrix: Symmetric) -> bool:
+    """Whether there is a body with this inertia, without forgiving any rounding but our own."""
+    moments = principal_moments(matrix)
+    least = -1e-15 * abs(sum(moments))
+    return moments[0] > 0 and min(second_moments(moments)) >= least
+
+
+def _report(link: Link, inertial: Inertial, old: Symmetric, new: Symmetric, notes: Notes) -> None:
+    was, now = (", ".join(f"{moment:.6g}" for moment in principal_moments(each)) for each in (old, new))
+    size = distance(old, _NOTHING)
+    part = distance(old, new) / size if size else math.inf
+    change = f"by {part:.2g} of its size" if size else "from nothing"
+    message = f"the inertia of link {link.name!r} is changed {change}: its principal moments were {was} and are {now}"
+    severity = Severity.INFO if part < _NOTHING_MUCH else None
+    notes.report(BALANCED_INERTIA, message, inertial.location, found=was, expected=now, severity=severity)

@@ -1,0 +1,127 @@
+"""Check that bodies which move have a mass and an inertia that a body can have."""
+
+from collections.abc import Iterator
+from typing import ClassVar, Self
+
+from pydantic import Field, model_validator
+
+from twinform.diagnostics import Notes, Severity
+from twinform.diagnostics.rules.inertia import MASS_RATIO, MISSING_INERTIAL, NON_POSITIVE_MASS
+from twinform.ir import Document, Format, Inertial, Joint, Link
+from twinform.ir.verify.inertia import inertia_matrix, report_moments
+from twinform.passes.assets import AssetPass
+from twinform.passes.inertia.plausible import Plausible
+from twinform.passes.inertia.possible import DEFAULT_MOMENT, DIGITS, ROUNDING
+from twinform.passes.inertia.shapes import Places
+from twinform.passes.map_links import movable_models
+from twinform.passes.meshes import Meshes
+from twinform.passes.moving_bodies import Body, moving_bodies, neighbours
+
+
+class CheckInertia(AssetPass):
+    """Finds masses and inertias that no moving body can have, or that none is likely to have.
+
+    It changes nothing. It reports, at the `<inertial>` of a link, or at the link where it has none:
+
+    1. `missing-inertial`: in URDF a body, that is links held together by fixed joints, of which no link has an
+       `<inertial>`; in SDF a link without one;
+    2. `non-positive-mass`: a mass of zero or less;
+    3. `indefinite-inertia`: a principal moment of zero or less;
+    4. `impossible-inertia`: a principal moment that is larger than the sum of the other two;
+    5. `distant-centre-of-mass`: a centre of mass outside of the box around the link's shapes;
+    6. `oversized-inertia`: moments that the mass cannot have within that box;
+    7. `implausible-density`: a mass that is too small or too large for the volume of the shapes;
+    8. `mass-ratio`, at the joint: two bodies of which one weighs more than `ratio` times as much as the other.
+
+    It never looks at what cannot move (static models, and links that fixed joints hold to the world), at inertias that
+    the simulator computes (`auto`), and at models that an `<include>` names. 5 to 7 are left out for links with a mesh
+    unless `meshes=true`, and with shapes that have no ends.
+    """
+
+    name = "check-inertia"
+    example: ClassVar[str] = "check-inertia{eps=0.001 meshes=true}"
+
+    eps: float = Field(
+        default=DIGITS,
+        ge=0,
+        lt=1,
+        allow_inf_nan=False,
+        description="How far the largest principal moment may exceed the sum of the others, as a part of the trace: "
+        "files round.",
+    )
+    least_density: float = Field(
+        default=1.0, ge=0, allow_inf_nan=False, description="The least plausible density, in kg/m^3."
+    )
+    greatest_density: float = Field(
+        default=23000.0, gt=0, description="The greatest plausible density, in kg/m^3; `inf` for none."
+    )
+    ratio: float = Field(
+        default=100.0, ge=1, description="The greatest ratio of the masses of neighbours; `inf` for any."
+    )
+    meshes: bool = Field(
+        default=False, description="Whether meshes are looked into as well; it needs `pip install 'twinform[meshes]'`."
+    )
+
+    @model_validator(mode="after")
+    def _check_densities(self) -> Self:
+        if not self.least_density <= self.greatest_density:
+            raise ValueError("least-density is above greatest-density")
+        return self
+
+    def run(self, document: Document, notes: Notes) -> Document:
+        """The same document."""
+        bodies = moving_bodies(document)
+        for body in bodies:
+            _check_presence(body, document.format, notes)
+            for link in body:
+                if link.inertial and not link.inertial.auto:
+                    _check_inertial(link, link.inertial, document.format, self.eps, notes)
+        self._check_shapes(document, {id(link) for body in bodies for link in body}, notes)
+        for joint, parent, child in neighbours(document):
+            _check_ratio(joint, parent, child, self.ratio, notes)
+        return document
+
+    def _check_shapes(self, document: Document, moving: set[int], notes: Notes) -> None:
+        meshes = Meshes(self._assets) if self.meshes else None
+        densities = (self.least_density, self.greatest_density)
+        for model in movable_models(document):
+            check = Plausible(Places(model), meshes, densities, DEFAULT_MOMENT[document.format], notes)
+            for link in model.links:
+                if id(link) in moving and link.inertial and not link.inertial.auto:
+                    check.link(link, link.inertial)
+
+
+def _check_presence(body: Body, format_: Format, notes: Notes) -> None:
+    if format_ is Format.SDF:
+        for link in body:
+            if link.inertial is None:
+                message = f"link {link.name!r} moves but has no <inertial>; simulators take 1 kg and 1 kg m^2"
+                notes.report(MISSING_INERTIAL, message, link.location, expected="<inertial>")
+    elif not any(link.inertial for link in body):
+        first, *others = body
+        joined = f", nor has any of the {len(others)} fixed to it" if others else ""
+        message = f"link {first.name!r} moves but has no <inertial>{joined}"
+        related = tuple(link.location for link in others)
+        notes.report(MISSING_INERTIAL, message, first.location, expected="<inertial>", related=related)
+
+
+def _check_inertial(link: Link, inertial: Inertial, format_: Format, eps: float, notes: Notes) -> None:
+    mass, matrix = inertial.mass, inertia_matrix(inertial.inertia, DEFAULT_MOMENT[format_])
+    if mass is not None and not mass > 0 and not notes.has(NON_POSITIVE_MASS, inertial.location, Severity.WARNING):
+        message = f"the mass of link {link.name!r}, which moves, is {mass:g}; it has to be positive"
+        notes.report(NON_POSITIVE_MASS, message, inertial.location, found=f"{mass:g}", expected="more than 0")
+    if matrix is not None and (mass != 0 or any(matrix)):
+        report_moments(link, inertial, matrix, eps, notes, least=ROUNDING)
+
+
+def _check_ratio(joint: Joint, parent: Body, child: Body, limit: float, notes: Notes) -> None:
+    light, heavy = sorted(sum(_masses(body)) for body in (parent, child))
+    if not light > 0 or not heavy / light > limit:
+        return
+    ends = " and ".join(f"{body[0].name!r} with {sum(_masses(body)):.4g} kg" for body in (parent, child))
+    message = f"joint {joint.name!r} connects {ends}"
+    notes.report(MASS_RATIO, message, joint.location, found=f"{heavy / light:.4g}", expected=f"at most {limit:g}")
+
+
+def _masses(body: Body) -> Iterator[float]:
+    return (link.inertial.mass for link in body if link.inertial and link.inertial.mass is not None)

@@ -1,0 +1,176 @@
+"""Compute masses and inertias from shapes."""
+
+import math
+from fnmatch import fnmatchcase
+from typing import ClassVar, Literal, NamedTuple, Self
+
+from pydantic import Field, model_validator
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules.inertia import FILLED_INERTIA, UNFILLED_INERTIA
+from twinform.ir import Document, Format, Inertial, Link, Model
+from twinform.ir.frames import FrameError
+from twinform.ir.solids import Solid, combined, with_mass
+from twinform.passes.assets import AssetPass
+from twinform.passes.inertia.possible import has_mass, is_possible
+from twinform.passes.inertia.shapes import Kind, NoSolidError, PlacedShape, Places, inertial_of, solid_of
+from twinform.passes.map_links import map_links, movable_models
+from twinform.passes.meshes import Meshes
+from twinform.passes.moving_bodies import moving_bodies
+
+_AMOUNTS = ("density", "mass", "total_mass")
+
+
+class _Filling(NamedTuple):
+    """What a link is to get: a solid in its frame, whether its mass was written, and of how many shapes it is made."""
+
+    solid: Solid
+    keeps_mass: bool
+    shapes: int
+
+
+class FillInertia(AssetPass):
+    """Computes mass, centre of mass and inertia of links from their shapes, filled evenly.
+
+    It changes the `<inertial>` of links whose name matches `links`, which are, by `replace`:
+
+    1. `missing`: links without an inertial, or with one that lacks its mass or its inertia;
+    2. `impossible`: those, and links whose mass or moments no body can have;
+    3. `all`: every link with shapes.
+
+    The shapes are added up in the link frame: box, sphere, cylinder, capsule, ellipsoid and cone in closed form, and
+    closed meshes (`pip install 'twinform[meshes]'`) found as `--path` and the variables of ROS and Gazebo say. A
+    positive mass that is written stays and the inertia is scaled to it, unless an amount is given together with
+    `replace=all`. All other links get their mass from one of `density`, `mass` and `total-mass`; without these, from
+    the `<density>` of each SDF collision, or water.
+
+    It never touches links without shapes, links of static models, and inertias that the simulator computes (`auto`,
+    unless `replace=all`). A link of which one shape cannot be used stays as it is. It reports `filled-inertia` for each
+    link that it fills, and `unfilled-inertia` at a shape that it cannot use and at a body that moves and is left
+    without a mass.
+    """
+
+    name = "fill-inertia"
+    example: ClassVar[str] = "fill-inertia{density=2700 shapes=visual},check-inertia"
+
+    links: tuple[str, ...] = Field(
+        default=("*",), description="Only links with such a name; `*`, `?` and `[...]` are wildcards."
+    )
+    shapes: Kind = Field(
+        default="collision", description="Which shapes are filled; `either`: visuals of links without collisions."
+    )
+    replace: Literal["missing", "impossible", "all"] = Field(
+        default="missing", description="Which inertias are computed; see above."
+    )
+    density: float | None = Field(default=None, gt=0, allow_inf_nan=False, description="The density, in kg/m^3.")
+    mass: float | None = Field(default=None, gt=0, allow_inf_nan=False, description="The mass of each link, in kg.")
+    total_mass: float | None = Field(
+        default=None,
+        gt=0,
+        allow_inf_nan=False,
+        description="The mass of all links together that get one, in kg, spread by their volumes.",
+    )
+    open_meshes: Literal["report", "hull"] = Field(
+        default="report", description="What is done with meshes without an inside: `hull` takes their convex hull."
+    )
+
+    @model_validator(mode="after")
+    def _check_amounts(self) -> Self:
+        given = [name.replace("_", "-") for name in _AMOUNTS if getattr(self, name) is not None]
+        if len(given) > 1:
+            raise ValueError(f"{' and '.join(given)} are given; one says all")
+        return self
+
+    def run(self, document: Document, notes: Notes) -> Document:
+        """The document with inertias."""
+        fillings = self._fillings(document, notes)
+        amounts = [one.solid.mass for one in fillings.values() if not one.keeps_mass]
+        factor = self.total_mass / math.fsum(amounts) if self.total_mass is not None and amounts else 1.0
+
+        def fill(link: Link, _model: Model) -> Link:
+            filling = fillings.get(id(link))
+            return _filled(link, filling, 1.0 if filling.keeps_mass else factor, notes) if filling else link
+
+        filled = map_links(document, fill)
+        _report_empty(filled, self.links, notes)
+        return filled
+
+    def _fillings(self, document: Document, notes: Notes) -> dict[int, _Filling]:
+        """What each link is to get, by its identity: equal links are still two."""
+        meshes, found = Meshes(self._assets, self.open_meshes == "hull"), dict[int, _Filling]()
+        for model in movable_models(document):
+            places = Places(model)
+            for link in model.links:
+                if not _matches(link, self.links) or not self._is_wanted(link.inertial, document.format):
+                    continue
+                filling = self._filling(link, places, meshes, notes)
+                if filling:
+                    found[id(link)] = filling
+        return found
+
+    def _is_wanted(self, inertial: Inertial | None, format_: Format) -> bool:
+        if inertial is None or self.replace == "all":
+            return True
+        if inertial.auto:
+            return False
+        if inertial.mass is None or inertial.inertia is None:
+            return True
+        return self.replace == "impossible" and not is_possible(inertial, format_)
+
+    def _filling(self, link: Link, places: Places, meshes: Meshes, notes: Notes) -> _Filling | None:
+        """The solid of a link; None where it has no shape, or one that cannot be used."""
+        try:
+            shapes = tuple(places.shapes(link, self.shapes))
+            whole = combined([solid_of(one, self.density, meshes) for one in shapes])
+        except NoSolidError as error:
+            message = f"the inertia of link {link.name!r} is not computed: {error}"
+            notes.report(UNFILLED_INERTIA, message, error.location, help=error.help)
+            return None
+        except FrameError as error:
+            error.report(notes)
+            return None
+        if not shapes or not _is_solid(link, whole, shapes, notes):
+            return None
+        return self._weighed(link.inertial, whole, len(shapes))
+
+    def _weighed(self, inertial: Inertial | None, whole: Solid, shapes: int) -> _Filling:
+        """The solid with the mass that it is to have, but for its part of the total."""
+        overrides = self.replace == "all" and any(getattr(self, name) is not None for name in _AMOUNTS)
+        if inertial is not None and inertial.mass is not None and has_mass(inertial) and not overrides:
+            return _Filling(with_mass(whole, inertial.mass), keeps_mass=True, shapes=shapes)
+        return _Filling(whole if self.mass is None else with_mass(whole, self.mass), keeps_mass=False, shapes=shapes)
+
+
+def _matches(link: Link, patterns: tuple[str, ...]) -> bool:
+    return any(fnmatchcase(link.name, pattern) for pattern in patterns)
+
+
+def _is_solid(link: Link, whole: Solid, shapes: tuple[PlacedShape, ...], notes: Notes) -> bool:
+    """Whether the numbers are those of a body: sizes may be zero, or so large that their powers overflow."""
+    numbers = (whole.mass, *whole.centre, *whole.inertia)
+    if all(map(math.isfinite, numbers)) and whole.mass > 0 and all(moment > 0 for moment in whole.inertia[:3]):
+        return True
+    names = ", ".join(one.name for one in shapes)
+    message = f"the inertia of link {link.name!r} is not computed: {names} fill no volume that has one"
+    notes.report(UNFILLED_INERTIA, message, shapes[0].holder.location, found=f"{whole.mass:g} kg")
+    return False
+
+
+def _filled(link: Link, filling: _Filling, factor: float, notes: Notes) -> Link:
+    found = with_mass(filling.solid, filling.solid.mass * factor) if factor != 1.0 else filling.solid
+    kept = ", which was written" if filling.keeps_mass else ""
+    count = f"{filling.shapes} shape{'' if filling.shapes == 1 else 's'}"
+    message = f"link {link.name!r} got the inertia of {count}, with {found.mass:.6g} kg{kept}"
+    place = link.inertial.location if link.inertial and link.inertial.source else link.location
+    notes.report(FILLED_INERTIA, message, place, found=f"{found.mass:.6g} kg")
+    return link.model_copy(update={"inertial": inertial_of(found, link.inertial)})
+
+
+def _report_empty(document: Document, patterns: tuple[str, ...], notes: Notes) -> None:
+    """Name the bodies that move and have nothing to compute a mass from."""
+    for body in moving_bodies(document):
+        if any(link.inertial for link in body) or any(link.collisions or link.visuals for link in body):
+            continue
+        if _matches(body[0], patterns):
+            message = f"link {body[0].name!r} moves and has no shape to compute a mass from"
+            notes.report(UNFILLED_INERTIA, message, body[0].location, help="split-massless gives it one")

@@ -1,0 +1,93 @@
+"""The masses of a document's links while they change, and taking a share of one for another."""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from twinform.ir import Document, Inertia, Inertial, Link, Model
+from twinform.ir.frames import FrameGraph
+from twinform.ir.principal_moments import Symmetric
+from twinform.ir.solids import Solid, placed, with_mass
+from twinform.ir.verify.inertia import inertia_matrix
+from twinform.passes.inertia.possible import DEFAULT_MOMENT, is_possible
+from twinform.passes.inertia.shapes import inertial_of
+
+_NOTHING: Symmetric = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+_MOMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+
+
+class _Home(NamedTuple):
+    """Where a link is: the model at the root, and the link's name in it."""
+
+    root: Model
+    name: str
+
+
+class Masses:
+    """What the links of a document have by now. Links are known by their identity: equal ones are still two."""
+
+    def __init__(self, document: Document) -> None:
+        self._default = DEFAULT_MOMENT[document.format]
+        self._format = document.format
+        self._homes = dict(_homes(document))
+        self._graphs: dict[int, FrameGraph] = {}
+        self._changed: dict[int, Inertial] = {}
+
+    def of(self, link: Link) -> Inertial | None:
+        """The inertial of a link."""
+        return self._changed.get(id(link), link.inertial)
+
+    def can_give(self, link: Link) -> bool:
+        """Whether a link has a mass and an inertia that can be divided."""
+        inertial = self.of(link)
+        return inertial is not None and not inertial.auto and is_possible(inertial, self._format)
+
+    def mass(self, link: Link) -> float:
+        """What a link weighs, in kg; zero where nothing is written."""
+        inertial = self.of(link)
+        return inertial.mass or 0.0 if inertial else 0.0
+
+    def give(self, link: Link, what: Solid) -> None:
+        """Set what a link weighs to a solid in its own frame."""
+        self._changed[id(link)] = inertial_of(what, link.inertial)
+
+    def share(self, donor: Link, taker: Link, part: float) -> float:
+        """Let a link take a part of what another weighs, at the place that it has with the joints at zero.
+
+        Gives the mass that it took, in kg.
+
+        Raises:
+            FrameError: where the links are cannot be resolved.
+        """
+        inertial = self.of(donor) or Inertial()
+        mass, matrix = inertial.mass or 0.0, inertia_matrix(inertial.inertia, self._default) or _NOTHING
+        home = self._homes[id(donor)]
+        graph = self._graph(home.root)
+        at = graph.resolve(inertial.pose, home.name, self._homes[id(taker)].name)
+        taken = placed(with_mass(Solid(mass, (0.0, 0.0, 0.0), matrix), part * mass), at)
+        self._changed[id(donor)] = _scaled(inertial, matrix, 1 - part)
+        self.give(taker, taken)
+        return taken.mass
+
+    def applied(self, link: Link) -> Link:
+        """The link with what it has by now."""
+        changed = self._changed.get(id(link))
+        return link if changed is None else link.model_copy(update={"inertial": changed})
+
+    def _graph(self, root: Model) -> FrameGraph:
+        return self._graphs.setdefault(id(root), FrameGraph(root))
+
+
+def _homes(document: Document) -> Iterator[tuple[int, _Home]]:
+    for root in (*document.models, *(model for world in document.worlds for model in world.models)):
+        models = [(root, "")]
+        for model, scope in models:  # grows while it is walked
+            yield from ((id(link), _Home(root, scope + link.name)) for link in model.links)
+            models.extend((nested, f"{scope}{nested.name}::") for nested in model.models)
+
+
+def _scaled(inertial: Inertial, matrix: Symmetric, factor: float) -> Inertial:
+    """The same distribution of a part of the mass."""
+    written = inertial.inertia or Inertia()
+    moments: dict[str, float] = dict(zip(_MOMENTS, (factor * each for each in matrix), strict=True))
+    update = {"mass": (inertial.mass or 0.0) * factor, "inertia": written.model_copy(update=moments)}
+    return inertial.model_copy(update=update)

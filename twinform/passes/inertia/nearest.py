@@ -1,0 +1,68 @@
+"""The nearest inertia that a body can have.
+
+An inertia I is that of a body where its second moments of mass S = tr(I)/2 - I are positive definite, which holds the
+triangle inequality and the positive moments at once: P. Wensing, S. Kim and J.-J. Slotine 2018, "Linear matrix
+inequalities for physically-consistent inertial parameter identification", IEEE Robotics and Automation Letters 3(1).
+These inertias are a convex cone that depends on the principal moments alone, so that the nearest of them (by the sum of
+the squares of all nine elements) has the same axes, and its moments are the nearest of three numbers in a cone with
+three sides: A. Lewis 1996, "Convex analysis on the Hermitian matrices", SIAM Journal on Optimization 6(1).
+"""
+
+import math
+
+from twinform.ir.principal_moments import Axes, Symmetric, principal_axes
+
+Moments = tuple[float, float, float]
+
+
+def nearest_possible(matrix: Symmetric, floor: float) -> Symmetric:
+    """The nearest inertia of which every second moment of mass is at least `floor`, in kg m^2."""
+    moments, axes = principal_axes(matrix)
+    return _composed(nearest_moments(moments, floor), axes)
+
+
+def nearest_moments(moments: Moments, floor: float) -> Moments:
+    """The principal moments of the nearest inertia, in the same order.
+
+    A body with second moments f along all axes has the moments 2f: taken off first, they leave a cone with its tip at
+    zero.
+    """
+    order = sorted(range(3), key=lambda axis: moments[axis])
+    smallest, middle, largest = (moments[axis] - 2 * floor for axis in order)
+    found = [0.0, 0.0, 0.0]
+    for axis, value in zip(order, _onto_cone(smallest, middle, largest), strict=True):
+        found[axis] = value + 2 * floor
+    return found[0], found[1], found[2]
+
+
+def _onto_cone(smallest: float, middle: float, largest: float) -> Moments:
+    """The nearest to three sorted moments of which none exceeds the sum of the others."""
+    excess = largest - smallest - middle
+    if excess <= 0 <= smallest:
+        return smallest, middle, largest
+    if smallest + excess / 3 >= 0 < excess:  # onto the side where the largest is the sum of the others
+        return smallest + excess / 3, middle + excess / 3, largest - excess / 3
+    edge = max((middle + largest) / 2, 0.0)  # onto the edge where the smallest is zero: a rod without thickness
+    return 0.0, edge, edge
+
+
+def second_moments(moments: Moments) -> Moments:
+    """The second moments of mass along the principal axes, in kg m^2: the spread of the mass along each of them."""
+    half = sum(moments) / 2
+    return half - moments[0], half - moments[1], half - moments[2]
+
+
+def distance(one: Symmetric, other: Symmetric) -> float:
+    """The root of the sum of the squared differences of all nine elements, in kg m^2."""
+    return math.sqrt(
+        math.fsum((a - b) ** 2 * (1 if index < 3 else 2) for index, (a, b) in enumerate(zip(one, other, strict=True)))
+    )
+
+
+def _composed(moments: Moments, axes: Axes) -> Symmetric:
+    """The matrix with these moments about these axes."""
+
+    def entry(i: int, j: int) -> float:
+        return math.fsum(moment * axis[i] * axis[j] for moment, axis in zip(moments, axes, strict=True)) + 0.0
+
+    return entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)

@@ -1,0 +1,147 @@
+"""Give bodies that move and weigh nothing a mass."""
+
+from fnmatch import fnmatchcase
+from typing import ClassVar, Literal
+
+from pydantic import Field
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules.massless import SPLIT_MASS, TOKEN_MASS
+from twinform.ir import Document, Format, Joint, Link, Sphere
+from twinform.ir.frames import FrameError
+from twinform.ir.solids import Solid, solid, with_mass
+from twinform.passes.base import Pass
+from twinform.passes.inertia.masses import Masses
+from twinform.passes.inertia.possible import has_mass
+from twinform.passes.map_joints import map_joints
+from twinform.passes.map_links import map_links
+from twinform.passes.moving_bodies import Body, Neighbours, moving_bodies, neighbours
+
+_NOTHING = Solid(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+
+
+class SplitMassless(Pass):
+    """Gives bodies that move and weigh nothing a mass, so that simulators neither drop them nor divide by zero.
+
+    A body is what fixed joints hold together. It changes, for bodies of which no link has a positive mass:
+
+    1. a body that carries others by joints: it takes the part `share` of the nearest one with a mass, as if that had
+    been
+       split: with the joints at zero, mass, centre of mass and inertia of the whole robot stay what they were;
+    2. a body that carries nothing of any mass: with `ends=weigh` it gets a ball of `mass` and `radius` at the origin of
+       its link, with `ends=fix` the joint that moves it becomes a fixed one.
+
+    Bodies without an `<inertial>` are those of URDF; in SDF they weigh 1 kg, and a mass of zero has to be written.
+    It never touches bodies that weigh something, but for what they give, and what cannot move.
+    It reports `split-mass` for case 1, and `token-mass` for case 2.
+    """
+
+    name = "split-massless"
+    example: ClassVar[str] = "split-massless{share=0.05},check-inertia"
+
+    links: tuple[str, ...] = Field(
+        default=("*",), description="Only bodies with such a link; `*`, `?` and `[...]` are wildcards."
+    )
+    share: float = Field(default=0.01, gt=0, lt=1, description="The part of the carried body that the carrier takes.")
+    ends: Literal["weigh", "fix"] = Field(
+        default="weigh", description="Whether the end of a chain gets a small ball, or its joint is fixed."
+    )
+    mass: float = Field(default=0.001, gt=0, allow_inf_nan=False, description="The mass of the ball, in kg.")
+    radius: float = Field(default=0.01, gt=0, allow_inf_nan=False, description="The radius of the ball, in m.")
+
+    def run(self, document: Document, notes: Notes) -> Document:
+        """The document without bodies that weigh nothing."""
+        bodies = moving_bodies(document)
+        light = [body for body in bodies if self._is_meant(body) and not _weighs(body, document.format)]
+        if not light:
+            return document
+        tree, masses, fixed = _Tree(document), Masses(document), set[int]()
+        for body in light:
+            donor = tree.nearest_carried(body, masses)
+            taker = tree.carrier(body)
+            if donor is not None and self._split(donor, taker, masses, notes):
+                continue
+            joints = tree.moving(body)
+            if self.ends == "fix" and joints:
+                fixed.update(map(id, joints))
+                _report_fixed(taker, joints, notes)
+            else:
+                self._weigh(taker, masses, notes)
+        document = map_joints(document, lambda joint: _fixed(joint) if id(joint) in fixed else joint)
+        return map_links(document, lambda link, _: masses.applied(link))
+
+    def _is_meant(self, body: Body) -> bool:
+        return any(fnmatchcase(link.name, each) for link in body for each in self.links)
+
+    def _split(self, donor: Link, taker: Link, masses: Masses, notes: Notes) -> bool:
+        """Let one link take a share of another; false where it is not known where they are."""
+        try:
+            mass = masses.share(donor, taker, self.share)
+        except FrameError:
+            return False
+        message = f"link {taker.name!r}, which weighs nothing, took {mass:.4g} kg of what {donor.name!r} weighs"
+        notes.report(SPLIT_MASS, message, taker.location, found="0 kg", related=(donor.location,))
+        return True
+
+    def _weigh(self, link: Link, masses: Masses, notes: Notes) -> None:
+        masses.give(link, with_mass(solid(Sphere(radius=self.radius), 1.0) or _NOTHING, self.mass))
+        message = (
+            f"link {link.name!r}, which moves and weighs nothing, got a ball of {self.mass:g} kg and {self.radius:g} m"
+        )
+        notes.report(TOKEN_MASS, message, link.location, found="0 kg")
+
+
+class _Tree:
+    """Which body carries which, and by which joints. A body is known by the identity of its first link."""
+
+    def __init__(self, document: Document) -> None:
+        self._carried: dict[int, list[Neighbours]] = {}
+        self._moving: dict[int, list[Joint]] = {}
+        for each in neighbours(document):
+            self._moving.setdefault(id(each.child[0]), []).append(each.joint)
+            if each.parent:
+                self._carried.setdefault(id(each.parent[0]), []).append(each)
+
+    def moving(self, body: Body) -> list[Joint]:
+        """The joints that a body is the child of."""
+        return self._moving.get(id(body[0]), [])
+
+    def carrier(self, body: Body) -> Link:
+        """The link by which a body is held, or its first one."""
+        ends = {joint.child for joint in self.moving(body)}
+        return next((link for link in body if link.name in ends), body[0])
+
+    def nearest_carried(self, body: Body, masses: Masses) -> Link | None:
+        """The heaviest link of the nearest body that this one carries and that has a mass to give."""
+        seen, queue = {id(body[0])}, [body]
+        for each in queue:  # grows while it is walked
+            for one in self._carried.get(id(each[0]), []):
+                able = [link for link in one.child if masses.can_give(link)]
+                if able:
+                    return max(able, key=masses.mass)
+                if id(one.child[0]) not in seen:
+                    seen.add(id(one.child[0]))
+                    queue.append(one.child)
+        return None
+
+
+def _weighs(body: Body, format_: Format) -> bool:
+    return any(_has_mass(link, format_) for link in body)
+
+
+def _has_mass(link: Link, format_: Format) -> bool:
+    """Whether a link has a mass: its own, the default of SDF, or one that is computed."""
+    inertial = link.inertial
+    if inertial is None or inertial.mass is None:
+        return format_ is Format.SDF
+    return bool(inertial.auto) or has_mass(inertial)
+
+
+def _fixed(joint: Joint) -> Joint:
+    return joint.model_copy(update={"type": "fixed", "axis": None, "axis2": None})
+
+
+def _report_fixed(link: Link, joints: list[Joint], notes: Notes) -> None:
+    names = " and ".join(repr(joint.name) for joint in joints)
+    message = f"joint {names} is fixed now: link {link.name!r} weighs nothing and carries nothing"
+    notes.report(TOKEN_MASS, message, joints[0].location, found="0 kg")

@@ -1,0 +1,145 @@
+"""Check that limits of joints are those of a robot."""
+
+import math
+from collections.abc import Iterator
+from fnmatch import fnmatchcase
+from typing import ClassVar, NamedTuple
+
+from pydantic import Field
+
+from twinform.diagnostics import Location, Notes, Rule
+from twinform.diagnostics.rules import limits as rules
+from twinform.diagnostics.rules.to_urdf import UNBOUNDED_LIMIT
+from twinform.ir import Axis, Document, Format, Joint, Limit
+from twinform.passes.base import Pass
+from twinform.passes.limits.soft_limits import soft_limits
+from twinform.passes.map_joints import map_joints
+
+_BOUNDED = frozenset({"revolute", "prismatic"})
+_TURNING = frozenset({"revolute", "universal", "revolute2"})
+_DRIVEN = _BOUNDED | {"continuous"}
+_UNLIMITED = 1e16
+"""What stands for infinity in SDF before 1.10, and in URDF."""
+
+
+class _Finding(NamedTuple):
+    rule: Rule
+    message: str
+    where: Location
+    found: str
+    expected: str | None = None
+
+
+class CheckLimits(Pass):
+    """Finds limits, damping and friction of joints that a robot is not likely to have.
+
+    It changes nothing. Of joints whose name matches `joints` it reports:
+
+    1. `empty-range`: lower and upper limits that are equal;
+    2. `range-in-degrees`: a turning joint that may turn more than `turns` times;
+    3. `zero-out-of-range`: limits that the zero position is not between;
+    4. `unbounded-limit`: no limit of effort or velocity, or an infinite one;
+    5. `implausible-limit`: more than `effort` or `velocity`;
+    6. `soft-limit-outside`: soft limits that are not inside of the hard ones;
+    7. `negative-dynamics`: damping or friction below zero.
+
+    What `check` finds already it leaves alone: limits that are missing or upside down, and those of zero.
+    It never looks at joints without an axis, and at models that an `<include>` names.
+    """
+
+    name = "check-limits"
+    example: ClassVar[str] = "check-limits{effort=500 velocity=20}"
+
+    turns: float = Field(default=2.0, gt=0, description="The most turns either way; `inf` for any.")
+    effort: float = Field(default=1e5, gt=0, description="The greatest plausible effort, in N m or N; `inf` for any.")
+    velocity: float = Field(default=1e3, gt=0, description="The greatest plausible speed, in rad/s or m/s.")
+    joints: str = Field(default="*", description="Only joints with such a name; `*`, `?` and `[...]` are wildcards.")
+
+    def run(self, document: Document, notes: Notes) -> Document:
+        """The same document."""
+
+        def look(joint: Joint) -> Joint:
+            if fnmatchcase(joint.name, self.joints):
+                for each in self._findings(joint, document.format):
+                    notes.report(each.rule, each.message, each.where, found=each.found, expected=each.expected)
+            return joint
+
+        return map_joints(document, look)
+
+    def _findings(self, joint: Joint, format_: Format) -> Iterator[_Finding]:
+        for axis in (joint.axis, joint.axis2):
+            if axis is None:
+                continue
+            if joint.type in _BOUNDED | _TURNING:
+                yield from self._range(joint, axis.limit or Limit(), format_)
+            if joint.type in _DRIVEN:
+                yield from self._drive(joint, axis.limit or Limit())
+            yield from _dynamics(joint, axis)
+        yield from _soft(joint)
+
+    def _range(self, joint: Joint, limit: Limit, format_: Format) -> Iterator[_Finding]:
+        lower, upper = limit.lower, limit.upper
+        if format_ is Format.URDF and limit.source:  # what a <limit> of URDF does not say is zero
+            lower, upper = lower or 0.0, upper or 0.0
+        if lower is None or upper is None or not lower <= upper:
+            return
+        where, found = _place(joint, limit), f"{lower:g} to {upper:g}"
+        named = f"joint {joint.name!r} can only be between {lower:g} and {upper:g}"
+        if lower == upper:
+            yield _Finding(rules.EMPTY_RANGE, f"joint {joint.name!r} can only be at {lower:g}", where, found)
+        most = self.turns * math.tau
+        if joint.type in _TURNING and most < max(-lower, upper) < _UNLIMITED:
+            message = f"joint {joint.name!r} turns from {lower:g} to {upper:g} rad; are these degrees?"
+            yield _Finding(rules.RANGE_IN_DEGREES, message, where, found, f"at most {most:.4g}")
+        if not lower <= 0 <= upper:
+            yield _Finding(rules.ZERO_OUT_OF_RANGE, f"{named}, and starts at 0", where, found)
+
+    def _drive(self, joint: Joint, limit: Limit) -> Iterator[_Finding]:
+        where = _place(joint, limit)
+        open_ends = [name for name in ("effort", "velocity") if _is_open(getattr(limit, name))]
+        if open_ends:
+            message = f"joint {joint.name!r} has no limit of {' and '.join(open_ends)}"
+            yield _Finding(UNBOUNDED_LIMIT, message, where, "none")
+        for name, most in (("effort", self.effort), ("velocity", self.velocity)):
+            value = getattr(limit, name)
+            if not _is_open(value) and value > most:
+                message = f"joint {joint.name!r} has a limit of {name} of {value:g}, which is more than actuators reach"
+                yield _Finding(rules.IMPLAUSIBLE_LIMIT, message, where, f"{value:g}", f"at most {most:g}")
+
+
+def _is_open(value: float | None) -> bool:
+    """Whether a limit is none: SDF also says so by a negative one, and by a number that stands for infinity."""
+    return value is None or value < 0 or value >= _UNLIMITED
+
+
+def _dynamics(joint: Joint, axis: Axis) -> Iterator[_Finding]:
+    if axis.dynamics is None:
+        return
+    for name in ("damping", "friction"):
+        value = getattr(axis.dynamics, name)
+        if value is not None and value < 0:
+            message = f"the {name} of joint {joint.name!r} is {value:g}"
+            yield _Finding(rules.NEGATIVE_DYNAMICS, message, axis.dynamics.location, f"{value:g}", "0 or more")
+
+
+def _soft(joint: Joint) -> Iterator[_Finding]:
+    soft, limit = soft_limits(joint), joint.axis.limit if joint.axis else None
+    if soft is None:
+        return
+    said, where = str(soft), joint.location.at("safety_controller")
+    if _less(soft.upper, soft.lower):
+        message = f"the soft limits of joint {joint.name!r} are upside down: {said}"
+        yield _Finding(rules.SOFT_LIMIT_OUTSIDE, message, where, said)
+        return
+    hard = limit if joint.type in _BOUNDED else None
+    if hard and (_less(soft.lower, hard.lower) or _less(hard.upper, soft.upper)):
+        message = f"the soft limits of joint {joint.name!r}, {said}, are outside of the hard ones"
+        yield _Finding(rules.SOFT_LIMIT_OUTSIDE, message, where, said)
+
+
+def _less(one: float | None, other: float | None) -> bool:
+    return one is not None and other is not None and one < other
+
+
+def _place(joint: Joint, limit: Limit) -> Location:
+    return limit.location if limit.source else joint.location

@@ -1,0 +1,75 @@
+"""Move the limits of joints inward."""
+
+import math
+from fnmatch import fnmatchcase
+from typing import ClassVar
+
+from pydantic import Field
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules.limits import TIGHTENED_LIMIT, UNTIGHTENED_LIMIT
+from twinform.ir import Document, Joint, Limit
+from twinform.passes.base import Pass
+from twinform.passes.limits.soft_limits import SoftLimits, soft_limits
+from twinform.passes.map_joints import map_joints
+
+_BOUNDED = frozenset({"revolute", "prismatic"})
+
+
+class TightenLimits(Pass):
+    """Moves the limits of joints inward: to the soft ones of a `<safety_controller>`, and by a margin.
+
+    It changes revolute and prismatic joints whose name matches `joints`:
+
+    1. with `soft`, a lower or upper limit that is outside of the soft one becomes that, also where it comes from a URDF
+       file and travels in a carrier; one that is not written is made;
+    2. limits that are written are moved inward by `margin`, on top of that.
+
+    It never moves a limit outward, and never touches the `<safety_controller>`, effort and velocity, or joints without
+    an `<axis>`. It reports `tightened-limit` for each joint that it changes, and `untightened-limit` where no range
+    would be left. With a margin it moves limits again when it runs again.
+    """
+
+    name = "tighten-limits"
+    example: ClassVar[str] = 'tighten-limits{margin=0.02 joints="arm_*"}'
+
+    soft: bool = Field(default=True, description="Whether soft limits become hard ones.")
+    margin: float = Field(default=0.0, ge=0, allow_inf_nan=False, description="How far inward, in rad or m.")
+    joints: str = Field(default="*", description="Only joints with such a name; `*`, `?` and `[...]` are wildcards.")
+
+    def run(self, document: Document, notes: Notes) -> Document:
+        """The document with tighter limits."""
+        return map_joints(document, lambda joint: self._tighten(joint, notes))
+
+    def _tighten(self, joint: Joint, notes: Notes) -> Joint:
+        if joint.type not in _BOUNDED or joint.axis is None or not fnmatchcase(joint.name, self.joints):
+            return joint
+        limit = joint.axis.limit or Limit()
+        lower, upper = self._range(limit, (soft_limits(joint) if self.soft else None) or SoftLimits(None, None))
+        if (lower, upper) == (limit.lower, limit.upper):
+            return joint
+        where = limit.location if limit.source else joint.location
+        was, now = (_words(*ends) for ends in ((limit.lower, limit.upper), (lower, upper)))
+        if lower is not None and upper is not None and lower > upper:
+            message = f"the limits of joint {joint.name!r} stay {was}: {now} is no range"
+            notes.report(UNTIGHTENED_LIMIT, message, where, found=was)
+            return joint
+        message = f"the limits of joint {joint.name!r} were {was} and are {now}"
+        notes.report(TIGHTENED_LIMIT, message, where, found=was, expected=now)
+        tight = limit.model_copy(update={"lower": lower, "upper": upper})
+        return joint.model_copy(update={"axis": joint.axis.model_copy(update={"limit": tight})})
+
+    def _range(self, limit: Limit, soft: SoftLimits) -> tuple[float | None, float | None]:
+        """The ends as they are to be; None where there is none."""
+        lower = max((each for each in (limit.lower, soft.lower) if each is not None), default=None)
+        upper = min((each for each in (limit.upper, soft.upper) if each is not None), default=None)
+        return _moved(lower, self.margin), _moved(upper, -self.margin)
+
+
+def _moved(end: float | None, by: float) -> float | None:
+    return end if end is None or not by or math.isinf(end) else end + by
+
+
+def _words(lower: float | None, upper: float | None) -> str:
+    low, high = ("open" if end is None else f"{end:g}" for end in (lower, upper))
+    return f"{low} to {high}"

@@ -1,0 +1,1 @@
+"""How models look and touch: materials, surfaces, and where their files are."""

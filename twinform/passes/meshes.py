@@ -1,0 +1,182 @@
+"""Mesh files as solids: what `trimesh` knows of them, in the frame of the shape."""
+
+import importlib
+import io
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from twinform.diagnostics import Rule
+from twinform.diagnostics.rules import meshes as rules
+from twinform.ir import Element, Mesh, Vector3
+from twinform.ir.solids import Solid
+from twinform.passes.assets import AssetError, Assets
+
+_READ = frozenset({"stl", "obj", "dae", "ply", "off", "glb"})
+"""Formats that hold all of a mesh in one file, or what else they name is only its looks."""
+_LARGEST = 2**28
+"""A file of a quarter of a gigabyte has five million triangles."""
+_EXTRA = "pip install 'twinform[meshes]'"
+
+_Triangles = Any
+"""A `trimesh.Trimesh`."""
+
+
+class MeshError(Exception):
+    """Why nothing can be computed from a mesh, as a diagnostic would say it."""
+
+    def __init__(self, rule: Rule, message: str, help: str | None = None) -> None:
+        super().__init__(message)
+        self.rule = rule
+        self.message = message
+        self.help = help
+
+
+@dataclass(frozen=True, slots=True)
+class Meshes:
+    """The mesh files of a document, each read once. Where `hull`, an open mesh stands for its convex hull.
+
+    Lengths are in metres: COLLADA says its unit, and all other formats are taken to be in metres, as simulators do.
+    Like Gazebo and RViz this does not turn a mesh whose file says that another axis than z points up.
+    """
+
+    assets: Assets
+    hull: bool = False
+    _read: dict[tuple[Path, str | None, bool], _Triangles] = field(
+        default_factory=dict[tuple[Path, str | None, bool], _Triangles], repr=False
+    )
+
+    def solid(self, mesh: Mesh, density: float) -> Solid:
+        """The mesh filled with a density in kg/m^3, in the frame of its shape.
+
+        Raises:
+            MeshError: the file is not there, cannot be read, or its mesh has no inside.
+        """
+        triangles = self._closed(mesh, self._scaled(mesh))
+        with_unit_density = triangles.mass_properties
+        mass = density * float(with_unit_density["volume"])
+        x, y, z = map(float, with_unit_density["center_mass"])
+        rows = [[density * float(entry) + 0.0 for entry in row] for row in with_unit_density["inertia"]]  # never -0
+        inertia = (rows[0][0], rows[1][1], rows[2][2], rows[0][1], rows[0][2], rows[1][2])
+        return Solid(mass, (x, y, z), inertia)
+
+    def bounds(self, mesh: Mesh) -> tuple[Vector3, Vector3]:
+        """The least and the greatest coordinates of the mesh, in the frame of its shape.
+
+        Raises:
+            MeshError: the file is not there, or cannot be read.
+        """
+        least, greatest = self._scaled(mesh).bounds.tolist()
+        return (least[0], least[1], least[2]), (greatest[0], greatest[1], greatest[2])
+
+    def _scaled(self, mesh: Mesh) -> _Triangles:
+        try:
+            path = self.assets.find(mesh.uri or "")
+        except AssetError as error:
+            raise MeshError(error.rule, error.message, error.help) from error
+        key = (path, *_submesh(mesh))
+        if key not in self._read:
+            self._read[key] = _read(path, mesh.uri or "", *_submesh(mesh))
+        triangles = self._read[key].copy()
+        triangles.apply_scale(mesh.scale or (1.0, 1.0, 1.0))
+        return triangles
+
+    def _closed(self, mesh: Mesh, triangles: _Triangles) -> _Triangles:
+        """The mesh, or its hull, with faces that look outward."""
+        if triangles.is_watertight and triangles.is_winding_consistent and triangles.volume:
+            if triangles.volume < 0:  # turned inside out, by the file or by a negative scale
+                triangles.invert()
+            return triangles
+        if self.hull:
+            return _hull(mesh, triangles)
+        message = f"the mesh {mesh.uri!r} has no inside: {_fault(triangles)}"
+        raise MeshError(rules.OPEN_MESH, message, "close it, or use its convex hull")
+
+
+def _fault(triangles: _Triangles) -> str:
+    if not triangles.is_watertight:
+        return "its surface has holes"
+    return "it encloses nothing" if triangles.is_winding_consistent else "its faces do not agree which side is outside"
+
+
+def _hull(mesh: Mesh, triangles: _Triangles) -> _Triangles:
+    try:
+        hull = triangles.convex_hull
+    except ImportError as error:
+        raise MeshError(rules.MESH_READER_MISSING, f"convex hulls need scipy: {error}", _EXTRA) from error
+    except Exception as error:  # flat, or of fewer than four points; scipy raises an error of its own
+        message = f"the mesh {mesh.uri!r} has no convex hull with an inside"
+        raise MeshError(rules.OPEN_MESH, message) from error
+    if not hull.volume > 0:
+        raise MeshError(rules.OPEN_MESH, f"the mesh {mesh.uri!r} is flat")
+    return hull
+
+
+def _submesh(mesh: Mesh) -> tuple[str | None, bool]:
+    """The part of the file that `<submesh>` names, and whether it is moved to the origin."""
+    found = next((part.element for part in mesh.opaque if part.element and part.element.name == "submesh"), None)
+    if found is None:
+        return None, False
+    return _text(found, "name"), _text(found, "center") in {"1", "true"}
+
+
+def _text(element: Element, name: str) -> str | None:
+    child = element.find(name)
+    return (child.text or "").strip() if child else None
+
+
+def _read(path: Path, uri: str, submesh: str | None, center: bool) -> _Triangles:
+    kind = path.suffix.lower().removeprefix(".")
+    if not path.is_file():
+        raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} is no file")
+    if kind not in _READ:
+        message = f"the mesh {uri!r} is in no format that is read here: {', '.join(sorted(_READ))}"
+        raise MeshError(rules.UNREADABLE_MESH, message)
+    try:
+        trimesh: Any = importlib.import_module("trimesh")
+        triangles = _triangles(trimesh, path, kind, submesh)
+    except ImportError as error:
+        message = f"the mesh {uri!r} is not looked into: {error.name} is not installed"
+        raise MeshError(rules.MESH_READER_MISSING, message, _EXTRA) from error
+    except Exception as error:  # readers of six formats raise whatever they like
+        message = f"the mesh {uri!r} cannot be read: {str(error) or type(error).__name__}"
+        raise MeshError(rules.UNREADABLE_MESH, message) from error
+    if center:
+        triangles.apply_translation(-triangles.bounds.mean(axis=0))
+    return triangles
+
+
+def _triangles(trimesh: Any, path: Path, kind: str, submesh: str | None) -> _Triangles:
+    """The triangles of a file in metres, with vertices merged that are at one place.
+
+    Raises:
+        Exception: what the reader of the format raises, or ours where nothing is left.
+    """
+    if path.stat().st_size > _LARGEST:
+        raise ValueError(f"it is larger than {_LARGEST >> 20} MiB")
+    # without a resolver nothing is read but this file
+    scene = trimesh.load_scene(io.BytesIO(path.read_bytes()), file_type=kind, resolver=None, skip_materials=True)
+    whole = scene.to_mesh() if submesh is None else _part(trimesh, scene, submesh)
+    meter = _unit(trimesh, scene.geometry.values()) if kind == "dae" else 1.0
+    # made anew, so that vertices which differ in their looks are merged as well
+    triangles = trimesh.Trimesh(vertices=whole.vertices * meter, faces=whole.faces, process=True)
+    if not len(triangles.faces):
+        raise ValueError("it has no triangles")
+    return triangles
+
+
+def _part(trimesh: Any, scene: Any, name: str) -> _Triangles:
+    """One submesh, wherever the file puts it."""
+    placed = (scene.graph[node] for node in scene.graph.nodes_geometry)
+    found = [scene.geometry[name].copy().apply_transform(at) for at, which in placed if which == name]
+    if not found:
+        known = ", ".join(sorted(map(str, scene.geometry))[:6])
+        raise ValueError(f"it has no submesh {name!r}, it has {known}")
+    return trimesh.util.concatenate(found)
+
+
+def _unit(trimesh: Any, geometry: Iterable[Any]) -> float:
+    """The unit of a COLLADA file in metres, which `trimesh` leaves in the notes of its meshes."""
+    said = next((str(each.metadata["units"]) for each in geometry if each.metadata.get("units")), "meters")
+    return float(trimesh.units.unit_conversion(said, "meters"))
