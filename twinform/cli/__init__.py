@@ -35,6 +35,18 @@ class _Commands(click.Group):
             return None
         return getattr(import_module(f"{__name__}.{cmd_name}"), "command", None)
 
+    def invoke(self, ctx: click.Context) -> object:
+        """Run the command; a fault of a pass that it does not expect ends it with a message."""
+        try:
+            return super().invoke(ctx)
+        except (click.ClickException, click.exceptions.Exit, click.Abort, OSError):
+            raise
+        except Exception as error:
+            from twinform.cli.fault import end_with  # noqa: PLC0415 - it seldom happens
+
+            end_with(error, ctx)
+            raise
+
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         with formatter.section("Commands"):
             formatter.write_dl(list(COMMANDS.items()))

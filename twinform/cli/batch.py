@@ -39,6 +39,7 @@ from twinform.compiler.batch import PATTERNS, Batch, FolderError, Outcome, Recor
     help=f"Which files are models; repeatable. Else {', '.join(PATTERNS)}.",
 )
 @click.option("--fresh", is_flag=True, help="Work on every model again, also where nothing has changed.")
+@click.option("--ledgers", is_flag=True, help="Write beside each result what was not expressed.")
 @click.option("--report", "report_file", type=click.Path(path_type=Path), metavar="FILE", help="A report as JSON.")
 @policy_options
 @reading_options
@@ -53,6 +54,7 @@ def command(
     timeout: float,
     patterns: tuple[str, ...],
     fresh: bool,
+    ledgers: bool,
     report_file: Path | None,
     allow: tuple[str, ...],
     deny: tuple[str, ...],
@@ -75,6 +77,7 @@ def command(
         jobs=jobs,
         seconds=timeout,
         fresh=fresh,
+        ledgers=ledgers,
     )
     try:
         found = list(_shown(batch(whole)))

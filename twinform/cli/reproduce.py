@@ -7,15 +7,24 @@ import click
 
 from twinform import __version__
 from twinform.cli.failure import FINDINGS, Unusable
-from twinform.compiler import read_reproducer
-from twinform.passes import PassError, PipelineError, RegistryError
-from twinform.passes.hooks import Reproducer
+from twinform.compiler.reproducing import read_reproducer
+from twinform.compiler.uris import LocalAssets, SearchPath
+from twinform.passes import Assets, PassError, PipelineError, RegistryError
+from twinform.passes.hooks.reproducer import Reproducer
 
 
 @click.command("reproduce")
 @click.argument("file", type=click.Path(path_type=Path))
+@click.option(
+    "--path",
+    "paths",
+    metavar="DIR",
+    multiple=True,
+    type=click.Path(exists=True, file_okay=False, path_type=Path),
+    help="A folder of models or packages, for passes that open files; repeatable.",
+)
 @click.pass_context
-def command(ctx: click.Context, file: Path) -> None:
+def command(ctx: click.Context, file: Path, paths: tuple[Path, ...]) -> None:
     """Run a pass again that failed.
 
     It is given the document that it failed on. FILE is what `twinform convert` names where a pass is at fault. Exit
@@ -25,7 +34,7 @@ def command(ctx: click.Context, file: Path) -> None:
     click.echo(f"{found.pipeline} on a document of {found.source}; failed under twinform {found.twinform}", err=True)
     if found.twinform != __version__:
         click.echo(f"this is twinform {__version__}", err=True)
-    error = _run(found, file)
+    error = _run(found, file, LocalAssets(SearchPath.of(paths), Path(found.source)))
     if error is None:
         other = "" if found.again else ", as it did when this file was written: it needs the source, lines and all"
         click.echo(f"it does not fail{other}", err=True)
@@ -44,8 +53,8 @@ def _read(file: Path) -> Reproducer:
         raise Unusable(f"{file} is no reproducer: {str(error).splitlines()[0]}") from error
 
 
-def _run(found: Reproducer, file: Path) -> PassError | None:
+def _run(found: Reproducer, file: Path, assets: Assets) -> PassError | None:
     try:
-        return found.run()
+        return found.run(assets)
     except (PipelineError, RegistryError) as error:
         raise Unusable(f"{file}: {error}") from error

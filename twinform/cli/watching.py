@@ -7,7 +7,6 @@ from typing import Any, TypeVar
 
 import click
 
-from twinform.compiler import write_reproducer
 from twinform.passes import PassError, Watch, Watches
 from twinform.passes.hooks import Dumps, PrintChanges, Statistics, table
 
@@ -92,17 +91,24 @@ class Watched:
     def fault(self, error: PassError) -> None:
         """Print what a pass did wrong, and the file that makes it come again."""
         self.report()
-        self._print(str(error))
-        try:
-            path = write_reproducer(error, self.name, self.options.reproducers)
-        except (OSError, TypeError, ValueError) as problem:
-            reason = problem.strerror if isinstance(problem, OSError) else problem
-            click.echo(f"    nothing could be written that makes it come again: {reason}", err=True)
-        else:
-            click.echo(f"    to see it again: twinform reproduce {click.format_filename(path)}", err=True)
+        show_fault(error, self.name, self.options.reproducers)
 
     def _dump(self, step: str, document: str) -> None:
         click.echo(f"// {self.name} after {step}\n{document}", err=True)
 
     def _print(self, text: str) -> None:
         click.echo(f"{self.name}: {text}", err=True)
+
+
+def show_fault(error: PassError, name: str, folder: Path | None = None) -> None:
+    """Print what a pass did wrong to the input that messages call `name`, and write what makes it come again."""
+    from twinform.compiler.reproducing import write_reproducer  # noqa: PLC0415 - passes seldom fail
+
+    click.echo(f"{name}: {error}", err=True)
+    try:
+        path = write_reproducer(error, name, folder)
+    except (OSError, TypeError, ValueError) as problem:
+        reason = problem.strerror if isinstance(problem, OSError) else problem
+        click.echo(f"    nothing could be written that makes it come again: {reason}", err=True)
+    else:
+        click.echo(f"    to see it again: twinform reproduce {click.format_filename(path)}", err=True)

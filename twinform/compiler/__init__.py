@@ -6,7 +6,6 @@ from twinform.compiler.files import write_all_atomically, write_atomically
 from twinform.compiler.includes import expand
 from twinform.compiler.loading import Checked, Reading, check, load, loads, read
 from twinform.compiler.orders import DEFAULT_SDF_VERSION, URDF_VERSIONS, Language, Order, UrdfVersion
-from twinform.compiler.reproducing import read_reproducer, write_reproducer
 from twinform.compiler.splitting import Split, split
 from twinform.compiler.uris import SearchPath, UriError
 
@@ -31,9 +30,7 @@ __all__ = [
     "loads",
     "plan",
     "read",
-    "read_reproducer",
     "split",
     "write_all_atomically",
     "write_atomically",
-    "write_reproducer",
 ]

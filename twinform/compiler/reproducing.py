@@ -7,7 +7,7 @@ from pathlib import Path
 
 from twinform import __version__
 from twinform.passes import PassError
-from twinform.passes.hooks import Reproducer
+from twinform.passes.hooks.reproducer import Reproducer
 
 _UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
 _LONGEST = 60

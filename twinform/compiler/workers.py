@@ -3,6 +3,7 @@
 import multiprocessing
 import os
 import sys
+import threading
 import time
 import traceback
 from collections.abc import Callable, Iterable, Iterator
@@ -137,11 +138,20 @@ def _unless_raised(result: Result | _Raised) -> Result:
     raise RuntimeError(result.traceback)
 
 
+def _go_with_parent() -> None:
+    """End this process when the one that started it is gone, also in the middle of a job."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        wait([parent.sentinel])
+        os._exit(1)
+
+
 def _serve(pipe: Connection, task: Callable[[Job], Result]) -> None:
     # the engines that are judges, and some passes, write straight to the terminal
     silence = os.open(os.devnull, os.O_WRONLY)
     for stream in (sys.stdout, sys.stderr):
         os.dup2(silence, stream.fileno())
+    threading.Thread(target=_go_with_parent, daemon=True).start()
     pipe.send(_Ready())
     while True:
         try:

@@ -55,7 +55,7 @@ class AssetPass(Pass):
     Files are not among its options: whoever runs it says where they are, by `with_assets`. Otherwise there are none.
     """
 
-    _assets: Assets = PrivateAttr(default=NO_ASSETS)
+    _assets: Assets = PrivateAttr(default_factory=lambda: NO_ASSETS)  # one object, so that equal passes are equal
 
     def with_assets(self, assets: Assets) -> Self:
         """The same pass, with these files."""

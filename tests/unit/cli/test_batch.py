@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 import pytest
 
 from tests.unit.passes.conftest import write_distribution
-from twinform.compiler.batch.files import outputs
+from twinform.compiler.batch.files import alone, outputs
 from twinform.diagnostics import Notes
 from twinform.ir import Document
 from twinform.passes import Pass, registered_passes
@@ -161,6 +161,16 @@ def test_the_result_of_a_model_that_is_wrong_now_goes(run: Run, here: Path) -> N
     assert results() == ["deep/warned.sdf", "one.sdf"]
 
 
+def test_ledgers_lie_beside_the_results(run: Run, here: Path) -> None:
+    run("batch", "src", "out", "--to", "sdf")
+    assert "(" not in run("batch", "src", "out", "--to", "sdf", "--ledgers", "--jobs", "1").stderr
+    ledger = Path("out/deep/warned.sdf.ledger.json")
+    assert [each["rule"] for each in json.loads(ledger.read_text())["entries"]]
+    Path("src/deep/warned.urdf").write_text(WRONG)
+    run("batch", "src", "out", "--to", "sdf", "--ledgers", "--jobs", "1")
+    assert not ledger.exists()
+
+
 def test_two_models_for_one_place_keep_their_endings(run: Run, here: Path) -> None:
     report(run)
     sdf = '<sdf version="1.11"><model name="one"><link name="base"/></model></sdf>'
@@ -181,6 +191,22 @@ def test_a_model_of_several_files_is_always_done_again(run: Run, here: Path) -> 
     )
     report(run)
     assert "(3 known from before)" in run("batch", "src", "out", "--to", "sdf").stderr
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "expected"),
+    [
+        ("a.urdf", b"<robot/>", True),
+        ("a.sdf", b"<mesh/>", True),
+        ("a.sdf", b"<inertial auto='true'/>", True),
+        ("a.sdf", b"<inertial auto='true'/><mesh/>", False),
+        ("a.sdf", b"<include/>", False),
+        ("a.sdf", "<include/>".encode("utf-16"), False),
+        ("a.urdf.XACRO", b"<robot/>", False),
+    ],
+)
+def test_a_model_is_alone_if_nothing_else_can_change_it(name: str, content: bytes, *, expected: bool) -> None:
+    assert alone(Path(name), content) is expected
 
 
 def test_lines_of_the_manifest_that_are_none_are_read_around(run: Run, here: Path) -> None:

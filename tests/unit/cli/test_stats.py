@@ -154,6 +154,18 @@ def test_a_mesh_costs_bytes_and_triangles(
     assert (unseen["bytes"], unseen["visuals"]) == (None, 1)
 
 
+def test_a_mesh_that_is_filled_weighs_what_it_holds(run: Run, tmp_path: Path) -> None:
+    pytest.importorskip("trimesh")
+    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+    model = tmp_path / "model.sdf"
+    model.write_text(
+        '<sdf version="1.11"><model name="m"><link name="a"><inertial auto="true"><density>6</density></inertial>'
+        '<collision name="c"><geometry><mesh><uri>a.obj</uri></mesh></geometry></collision></link></model></sdf>'
+    )
+    assert stats(run, model)["models"][0]["mass"] == pytest.approx(1)
+    assert stats(run, model, "--no-meshes")["models"][0]["masses_unknown"] == 1
+
+
 def test_a_mesh_that_is_not_there_says_so(run: Run, tmp_path: Path) -> None:
     (tmp_path / "arm.urdf").write_text((_EXAMPLES / "arm.urdf").read_text())
     costs = stats(run, tmp_path / "arm.urdf")["models"][0]["meshes"]

@@ -12,6 +12,7 @@ from tests.unit.passes.conftest import write_distribution
 from twinform.diagnostics import Notes
 from twinform.ir import Document
 from twinform.passes import Pass, registered_passes
+from twinform.passes.legalise.to_sdf.bodies import UrdfBodies
 
 from .conftest import GOOD, Run
 
@@ -188,3 +189,14 @@ def test_a_reproducer_of_a_pass_that_is_not_installed_is_wrong_usage(run: Run, h
     path.write_text(json.dumps(found | {"pipeline": "gone"}))
     done = run("reproduce", path)
     assert (done.exit_code, "no pass is called gone" in done.stderr) == (2, True)
+
+
+def test_a_fault_that_no_command_expects_is_named_too(run: Run, here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def stop(*_: object) -> Document:
+        raise ZeroDivisionError("no parts")
+
+    monkeypatch.setattr(UrdfBodies, "run", stop)
+    done = run("diff", "good.urdf", "good.urdf")
+    assert done.exit_code == 2
+    assert "the pass urdf-bodies failed: ZeroDivisionError: no parts" in done.stderr
+    assert Path("twinform-urdf-bodies-twinform_diff.json").exists()

@@ -5,23 +5,30 @@ from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from importlib.metadata import version
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 
 from twinform.compiler.batch.files import PATTERNS, alone, models, outputs, require_apart
 from twinform.compiler.batch.manifest import Manifest, digest
 from twinform.compiler.batch.record import Outcome, Record
 from twinform.compiler.batch.task import Done, Task, work
-from twinform.compiler.files import write_atomically
+from twinform.compiler.files import write_all_atomically
 from twinform.compiler.loading import Reading
 from twinform.compiler.orders import Order
 from twinform.compiler.workers import Failure, run
 from twinform.diagnostics import Policy
-from twinform.passes import registered_passes
+from twinform.passes import AssetPass, registered_passes
+
+LEDGER = ".ledger.json"
+"""What the name of a result has more where it is that of its ledger."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Batch:
-    """What a run is asked for. A model may take so many `seconds`; `fresh` works on all of them again."""
+    """What a run is asked for.
+
+    A model may take so many `seconds`; `fresh` works on all of them again; `ledgers` puts beside each result the ledger
+    of what was not expressed.
+    """
 
     source: Path
     dest: Path
@@ -32,15 +39,21 @@ class Batch:
     jobs: int | None = None
     seconds: float = 60.0
     fresh: bool = False
+    ledgers: bool = False
 
     @property
     def digest(self) -> str:
         """What tells orders apart: all that has a say in the results besides the model."""
         order, reading = self.order, self.reading
         asked: list[object] = [version("twinform"), order.to, order.sdf_version, order.urdf_version, order.carriers]
-        asked += [str(order.passes), order.expand_includes, reading.strict, reading.engine, reading.xacro]
+        asked += [str(order.passes), order.expand_includes, self.ledgers, reading.strict, reading.engine, reading.xacro]
         asked += [sorted(self.policy.allow), sorted(self.policy.deny), sorted(self._packages())]
         return digest(json.dumps(asked).encode())
+
+    @property
+    def opens_files(self) -> bool:
+        """Whether a pass may read more than the model."""
+        return any(isinstance(step, AssetPass) for step in self.order.passes)
 
     def _packages(self) -> Iterator[str]:
         """The packages that bring the passes, in their versions."""
@@ -69,8 +82,9 @@ def batch(asked: Batch) -> Iterator[tuple[Record, bool]]:
     manifest = Manifest(asked.dest)
     manifest.begin()
     todo: dict[Path, _Job] = {}
+    order = asked.digest
     for name, output in outputs(models(asked.source, asked.dest, asked.patterns), asked.order.to).items():
-        job = _look(name, output, asked, manifest)
+        job = _look(asked.source / name, str(name), str(output), order, manifest)
         if isinstance(job, Record):
             manifest.add(job)
             yield job, False
@@ -88,26 +102,26 @@ def _worked(todo: Mapping[Path, _Job], asked: Batch, faults: Path) -> Iterator[R
     tasks = [Task(path, asked.order, asked.reading, asked.policy, faults) for path in todo]
     for task, result in run(work, tasks, seconds=asked.seconds, processes=asked.jobs):
         job, done = todo[task.path], _done(result)
-        record = _recorded(job, done, asked.dest)
+        record = _recorded(job, done, asked)
         if job.known and (record.outcome is not Outcome.CONVERTED or record.output != job.known.output):
             _remove(asked.dest, job.known)
         yield record
 
 
-def _look(name: PurePosixPath, output: PurePosixPath, asked: Batch, manifest: Manifest) -> _Job | Record:
+def _look(path: Path, name: str, output: str, order: str, manifest: Manifest) -> _Job | Record:
     """A model before the work on it; one that cannot be read has its record already."""
-    blank = Record(source=str(name), digest="", order=asked.digest, output=str(output), outcome=Outcome.UNREADABLE)
+    blank = Record(source=name, digest="", order=order, output=output, outcome=Outcome.UNREADABLE)
     try:
-        content = (asked.source / name).read_bytes()
+        content = path.read_bytes()
     except OSError as error:
         return replace(blank, message=f"it cannot be read: {error.strerror}")
-    blank = replace(blank, digest=digest(content), alone=alone(name, content))
+    blank = replace(blank, digest=digest(content), alone=alone(path, content))
     return _Job(blank, manifest.records.get(blank.source))
 
 
 def _holds(blank: Record, known: Record, asked: Batch) -> bool:
     """Whether what is known of a model is still so, and its result still there."""
-    if asked.fresh or not (blank.alone and known.outcome.is_final):
+    if asked.fresh or asked.opens_files or not (blank.alone and known.outcome.is_final):
         return False
     if (known.digest, known.order, known.output) != (blank.digest, blank.order, blank.output):
         return False
@@ -131,21 +145,23 @@ def _done(result: Done | Failure) -> Done:
 def _remove(dest: Path, known: Record) -> None:
     """Take away the result of an earlier run that no model stands for any more, unless somebody has changed it."""
     if known.made and _is_there(dest, known):
-        with suppress(OSError):
-            (dest / known.output).unlink()
+        for name in (known.output, known.output + LEDGER):
+            with suppress(OSError):
+                (dest / name).unlink()
 
 
-def _recorded(job: _Job, done: Done, dest: Path) -> Record:
+def _recorded(job: _Job, done: Done, asked: Batch) -> Record:
     """Put the result, if there is one, in its place."""
     record = replace(
         job.blank, outcome=done.outcome, message=done.message, diagnostics=done.diagnostics, ledger=done.ledger
     )
     if done.outcome is not Outcome.CONVERTED:
         return record
-    path = dest / record.output
+    path = asked.dest / record.output
+    texts = {path: done.text, **({path.with_name(path.name + LEDGER): done.entries} if asked.ledgers else {})}
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        write_atomically(path, done.text)
+        write_all_atomically(texts)
     except OSError as error:
         return replace(record, outcome=Outcome.UNWRITTEN, message=f"it cannot be written: {error.strerror}")
     return replace(record, made=digest(done.text.encode()))

@@ -63,6 +63,11 @@ def _folded(path: PurePosixPath) -> str:
     return str(path).casefold()
 
 
-def alone(name: PurePosixPath, content: bytes) -> bool:
-    """Whether a model is surely made of this file alone, so that its digest says whether anything has changed."""
-    return name.suffix.lower() != ".xacro" and b"<include" not in content and b"\0" not in content
+def alone(path: Path, content: bytes) -> bool:
+    """Whether a model is surely made of this file alone, so that its digest says whether anything has changed.
+
+    An automatic inertia is computed from meshes; in UTF-16, which has zero bytes, nothing is looked for.
+    """
+    if path.suffix.lower() == ".xacro" or b"\0" in content or b"<include" in content:
+        return False
+    return b"<mesh" not in content or b"auto" not in content

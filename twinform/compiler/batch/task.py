@@ -35,6 +35,8 @@ class Done:
     message: str = ""
     diagnostics: list[Row] = field(default_factory=list[Row])
     ledger: dict[str, int] = field(default_factory=dict[str, int])
+    entries: str = ""
+    """The whole ledger as `--ledger` writes it."""
 
 
 def work(task: Task) -> Done:
@@ -57,7 +59,8 @@ def _converted(task: Task) -> Done:
     seen = task.policy.apply(made.diagnostics)
     if any(each.is_error for each in seen):
         return Done(Outcome.REFUSED, message=str(CompileError(seen)), diagnostics=_rows(seen, name))
-    return Done(Outcome.CONVERTED, made.text, diagnostics=_rows(seen, name), ledger=_counts(made.ledger))
+    counts, entries = _counts(made.ledger), made.ledger.to_json()
+    return Done(Outcome.CONVERTED, made.text, diagnostics=_rows(seen, name), ledger=counts, entries=entries)
 
 
 def _rows(diagnostics: tuple[Diagnostic, ...], name: str) -> list[Row]:

@@ -7,10 +7,10 @@ from pathlib import Path
 from twinform.compiler.loading import Checked
 from twinform.compiler.statistics.meshes import MeshFiles
 from twinform.compiler.statistics.model import ModelStatistics, model_statistics
-from twinform.compiler.uris import SearchPath
+from twinform.compiler.uris import LocalAssets, SearchPath
 from twinform.diagnostics import Notes
 from twinform.ir import Document, Format, Link, Model, walk
-from twinform.passes import Pipeline
+from twinform.passes import NO_ASSETS, Assets, Pipeline
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,8 +38,9 @@ class FileStatistics:
 
 def measure(checked: Checked, document: Document, search: SearchPath, *, meshes: bool = True) -> FileStatistics:
     """Count what a file holds. `meshes` says whether to look into mesh files, which `search` finds."""
-    whole = _spoken(document)
-    files = MeshFiles(search, Path(checked.path), meshes)
+    beside = Path(checked.path)
+    whole = _spoken(document, LocalAssets(search, beside) if meshes else NO_ASSETS)
+    files = MeshFiles(search, beside, meshes)
 
     def counted(models: Iterable[Model]) -> tuple[ModelStatistics, ...]:
         return tuple(model_statistics(model, document.format, files.costs(model)) for model in models)
@@ -64,7 +65,7 @@ def measure(checked: Checked, document: Document, search: SearchPath, *, meshes:
     )
 
 
-def _spoken(document: Document) -> Document:
+def _spoken(document: Document, assets: Assets) -> Document:
     """The document with what its `<gazebo>` elements say and what its readers compute in their places."""
     notes = Notes()
     if document.format is Format.URDF:
@@ -75,4 +76,4 @@ def _spoken(document: Document) -> Document:
         return document
     from twinform.passes.legalise.sdf_versions.write_inertias import WriteInertias  # noqa: PLC0415 - likewise
 
-    return Pipeline((WriteInertias(version="1.10"),)).run(document, notes)
+    return Pipeline((WriteInertias(version="1.10"),)).with_assets(assets).run(document, notes)

@@ -13,6 +13,7 @@ from pydantic import BaseModel, ConfigDict
 from twinform.diagnostics import Notes
 from twinform.ir import Document
 from twinform.ir.verify import verify
+from twinform.passes.assets import NO_ASSETS, Assets
 from twinform.passes.errors import BrokenPassError, PassError
 from twinform.passes.legalise.known import legalisation_kinds
 from twinform.passes.pipeline import Pipeline
@@ -57,13 +58,15 @@ class Reproducer(BaseModel):
         )
         return found.model_copy(update={"again": found._run(Pipeline((error.step,))) is not None})
 
-    def run(self) -> PassError | None:
+    def run(self, assets: Assets = NO_ASSETS) -> PassError | None:
         """Run the pass again: what it does wrong, or None where it does nothing wrong any more.
+
+        `assets` are the files that the document names, for passes that open them.
 
         Raises:
             PipelineError: the pass is not installed, or has other options now.
         """
-        return self._run(parse_pipeline(self.pipeline, kinds=legalisation_kinds()))
+        return self._run(parse_pipeline(self.pipeline, kinds=legalisation_kinds()).with_assets(assets))
 
     def _run(self, pipeline: Pipeline) -> PassError | None:
         try:

@@ -8,7 +8,7 @@ from twinform.passes.hooks.statistics import PassRecord, Statistics
 
 _COUNTS = ("changed", "added", "removed", "findings", "ledger")
 _TIMES = ("ms", "%")
-_OTHERS = "all else: reading, checking, what is remembered, writing"
+_OTHERS = "all else: reading, checking, watching, what is remembered, writing"
 
 
 def table(statistics: Statistics, *, times: bool) -> str:
