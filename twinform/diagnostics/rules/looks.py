@@ -52,3 +52,12 @@ DROPPED_REFERENCE = Rule(
     example="`<plugin ...><sensor_name>lidar</sensor_name>` after `drop{sensors=lidar}`.",
     better="Drop the plugin as well, or correct its parameter.",
 )
+PBR_TOO_OLD = Rule(
+    name="pbr-too-old",
+    severity=Severity.WARNING,
+    finds="A document of SDF before 1.6 whose colours were to become those of PBR.",
+    matters="These versions have no word for it, so the colours stay what they were.",
+    example="`materials{pbr=true}` on `<sdf version='1.5'>`.",
+    better="Write a newer version first: `--sdf-version 1.9`, and run the pass on that.",
+    references="SDF specification 1.6, `material/pbr`.",
+)

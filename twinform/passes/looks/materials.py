@@ -7,15 +7,16 @@ from typing import ClassVar
 from pydantic import Field
 
 from twinform.diagnostics import Location, Notes
-from twinform.diagnostics.rules.looks import TEXTURED_SCRIPT, UNKNOWN_SCRIPT
+from twinform.diagnostics.rules.looks import PBR_TOO_OLD, TEXTURED_SCRIPT, UNKNOWN_SCRIPT
 from twinform.ir import Document, Element, Format, GazeboExtension, Link, Material, Model, Opaque, Visual, map_children
 from twinform.ir.node import Node
 from twinform.passes.base import Pass
 from twinform.passes.legalise.carrier import to_element
 from twinform.passes.looks.classic_materials import ClassicMaterial, classic_materials
-from twinform.schemas import format_value
+from twinform.schemas import format_value, parse_version, table
 
 _PBR = "pbr/metal"
+_PBR_SINCE = (1, 6)
 
 
 class Materials(Pass):
@@ -47,6 +48,10 @@ class Materials(Pass):
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The document with other materials."""
+        if self.pbr and not _has_pbr(document):
+            message = f"SDF {document.version} has no PBR, so the colours stay as they are"
+            notes.report(PBR_TOO_OLD, message, document.location, found=document.version, expected="1.6 or newer")
+            return self.model_copy(update={"pbr": False}).run(document, notes)
 
         def visit(node: Node) -> Node:
             if isinstance(node, Link):
@@ -110,6 +115,14 @@ class Materials(Pass):
         material = _coloured(Material(), found)
         made = to_element(self._made_pbr(material, found) if self.pbr else material, "material", "sdf")
         return Element(name="visual", children=(made,), source=element.source)
+
+
+def _has_pbr(document: Document) -> bool:
+    """Whether the document's version has PBR; what stands in the `<gazebo>` elements of URDF is of the newest."""
+    version = document.version
+    if document.format is not Format.SDF or version is None or version not in table("sdf").versions:
+        return True
+    return parse_version(version) >= _PBR_SINCE
 
 
 def _known(name: str, where: Location, notes: Notes) -> ClassicMaterial | None:
