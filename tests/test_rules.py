@@ -16,6 +16,7 @@ _CASES = _TESTS / "cases"
 _PARTS = _CASES / "includes/parts"
 
 WITHOUT_CASE = {
+    "added-world-system": "unit/passes/plugins/test_add_sensor.py",
     "automatic-inertia": "unit/passes/test_to_urdf.py",
     "default-systems-off": "unit/passes/plugins/test_check_cases.py",
     "filled-limit": "unit/passes/test_fill_limits.py",

@@ -157,3 +157,12 @@ MEASURED_WHEELS = Rule(
     better="Nothing needs doing; give the option where a measured value is better.",
     references="gz-sim, src/systems/diff_drive",
 )
+ADDED_WORLD_SYSTEM = Rule(
+    name="added-world-system",
+    severity=Severity.INFO,
+    finds="A world that was given the system that a new sensor needs.",
+    matters="Without it the sensor would never say anything.",
+    example="`add-sensor{type=imu link=base}` in a world without `gz-sim-imu-system`.",
+    better="Nothing needs doing.",
+    references="gz-sim, src/systems/imu and others",
+)

@@ -1,29 +1,27 @@
 """Add a system of gz-sim to a model or world."""
 
 from collections.abc import Iterable, Mapping
-from functools import cache
-from typing import Any, ClassVar, Self, cast
+from typing import ClassVar, Self, cast
 
-from pydantic import Field, ValidationError, create_model, model_validator
-from pydantic_core import InitErrorDetails, PydanticCustomError
+from pydantic import Field, model_validator
 
 from twinform.diagnostics import Notes, Severity
 from twinform.diagnostics.rules import plugins as rules
 from twinform.ir import Document, Model, Plugin, Sensor
-from twinform.passes.base import Pass
-from twinform.passes.plugins.catalogue import UnknownNameError, nearest, releases, system
+from twinform.passes.plugins.catalogue import nearest, releases, system
 from twinform.passes.plugins.check_plugins import ReleaseName
 from twinform.passes.plugins.editing import add_plugin, add_visual_plugin, add_world_plugin, replace_model
 from twinform.passes.plugins.options import MissingError, content_of, field_of, options_of
 from twinform.passes.plugins.parameters import names_in
 from twinform.passes.plugins.parts import PluginKind
+from twinform.passes.plugins.selecting import Fields, SelectingPass
 from twinform.passes.plugins.sites import Site, map_sensors
 from twinform.passes.plugins.targets import find_model, find_world, missing, replace_world
 from twinform.passes.plugins.wheels import MEASURES, NotMeasuredError, Wheel, wheel
-from twinform.passes.plugins.worlds import system_plugin
+from twinform.passes.plugins.worlds import system_plugin, with_defaults
 
 
-class AddPlugin(Pass):
+class AddPlugin(SelectingPass):
     """Adds a system of gz-sim to a model or world, with parameters that are checked against the catalogue.
 
     Every parameter of the system is an option, called in kebab-case: `left_joint` is `left-joint`, the `link` in
@@ -33,7 +31,8 @@ class AddPlugin(Pass):
     It changes
 
     1. the model (`model`, or the only one), for systems of models;
-    2. the world (`world`, or the only one), for systems of worlds;
+    2. the world (`world`, or the only one), for systems of worlds; one without any plugin gets those too that gz-sim
+       would have added;
     3. the sensor `on`, or the visual or all visuals of the link `on`, for systems of these.
 
     Wheel separation, wheel radius and wheel base are read off the model where they are not given: the joints'
@@ -44,7 +43,7 @@ class AddPlugin(Pass):
 
     name: ClassVar[str] = "add-plugin"
     example: ClassVar[str] = "add-plugin{system=diff-drive left-joint=left_wheel_joint right-joint=right_wheel_joint}"
-    kind: ClassVar[PluginKind | None] = None
+    selector: ClassVar[str] = "system"
 
     system: str = Field(description="The system, such as `diff-drive` or `joint-state-publisher`.")
     release: ReleaseName = Field(default="harmonic", description="The release of Gazebo that has to know it all.")
@@ -54,24 +53,11 @@ class AddPlugin(Pass):
     world: str | None = Field(default=None, description="The world to add to, where there are several.")
     on: str | None = Field(default=None, description="The sensor, visual or link of visuals that it is for.")
 
-    def __new__(cls, **options: object) -> Self:
-        """A pass of the class that has the options of the system."""
-        made = cast("type[Self]", _class_of(options)) if cls is AddPlugin else cls
-        return super().__new__(made)
-
     @classmethod
-    def model_validate(cls, obj: Any, **how: Any) -> Self:
-        """A pass with the options of its system.
-
-        Raises:
-            ValidationError: there is no such system, or it has no such option or value.
-        """
-        if cls is AddPlugin and isinstance(obj, Mapping):
-            return cast("Self", _class_of(cast("Mapping[str, object]", obj)).model_validate(obj, **how))
-        return super().model_validate(obj, **how)
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return AddPlugin.model_validate, (self.model_dump(by_alias=True, exclude_defaults=True),)
+    def fields_for(cls, word: str) -> Fields:
+        """The options of a system."""
+        kind = system(word)
+        return {option: field_of(path, row, kind) for option, (path, row) in options_of(kind).items()}
 
     @model_validator(mode="after")
     def _check_release(self) -> Self:
@@ -110,8 +96,8 @@ class AddPlugin(Pass):
         world = find_world(document, self.world, notes)
         if world is None:
             return document
-        plugin = self._plugin({})
-        return replace_world(document, world, add_world_plugin(world, plugin))
+        made = add_world_plugin(with_defaults(world, self._kind()), self._plugin({}))
+        return document if made is world else replace_world(document, world, made)
 
     def _on_sensor(self, document: Document, notes: Notes) -> Document:
         plugin, seen = self._plugin({}), list[str]()
@@ -139,7 +125,7 @@ class AddPlugin(Pass):
         return replace_model(document, model, made)
 
     def _kind(self) -> PluginKind:
-        return self.kind or system(self.system)
+        return system(self.system)
 
     def _values(self) -> dict[str, object]:
         """The options of the system that are given."""
@@ -194,47 +180,3 @@ class AddPlugin(Pass):
             listed = ", ".join(f"{option} {value:g} m" for option, value in found.items())
             notes.report(rules.MEASURED_WHEELS, f"read off model {model.name!r}: {listed}", model.location)
         return found
-
-
-def _class_of(options: Mapping[str, object]) -> type[AddPlugin]:
-    """The class of passes for the system that options name.
-
-    Raises:
-        ValidationError: they name none, or an option that it does not have.
-    """
-    name = options.get("system")
-    if not isinstance(name, str):
-        return _NeedsSystem
-    try:
-        kind = system(name)
-    except UnknownNameError as error:
-        raise _error("system", str(error), name) from error
-    made = _class_for(kind)
-    known = {field.alias or key for key, field in made.model_fields.items()}
-    for option in options:
-        word = option.replace("_", "-")
-        if word not in known:
-            near = nearest(word, sorted(known))
-            hint = f"did you mean {near}?" if near else f"it has {', '.join(sorted(options_of(kind)))}"
-            raise _error(option, f"{kind.name} has no such parameter; {hint}", options[option])
-    return made
-
-
-@cache
-def _class_for(kind: PluginKind) -> type[AddPlugin]:
-    fields: dict[str, Any] = {
-        option.replace("-", "_"): field_of(path, row, kind) for option, (path, row) in options_of(kind).items()
-    }
-    made = create_model(AddPlugin.__name__, __base__=AddPlugin, __doc__=AddPlugin.__doc__, **fields)
-    made.kind = kind
-    return made
-
-
-class _NeedsSystem(AddPlugin):
-    """What there is without a system: validating it says that one is needed."""
-
-
-def _error(option: str, message: str, value: object) -> ValidationError:
-    complaint = PydanticCustomError("plugin_option", "{message}", {"message": message})
-    details = InitErrorDetails(type=complaint, loc=(option,), input=value)
-    return ValidationError.from_exception_data("add-plugin", [details])

@@ -45,10 +45,14 @@ def _with_visual_plugin(link: Link, on: str, plugin: Plugin) -> Link:
     return link.model_copy(update={"visuals": visuals})
 
 
-def add_sensor(model: Model, holder: str, sensor: Sensor, format_: Format) -> Model:
-    """The model with one more sensor on a link or joint of its own; a link where both have the name."""
+def add_sensor(model: Model, holder: str, sensor: Sensor, format_: Format, *, kept: bool = False) -> Model:
+    """The model with one more sensor on a link or joint of its own; a link where both have the name.
+
+    `kept` says of a fixed joint of URDF that Gazebo must not lump its links, as the joint would go with its sensor.
+    """
     if format_ is Format.URDF:
-        return _extended(model, GazeboExtension(reference=holder, content=(sensor_element(sensor),)))
+        keep = (Element(name="preserveFixedJoint", text="true"),) if kept else ()
+        return _extended(model, GazeboExtension(reference=holder, content=(*keep, sensor_element(sensor))))
     field = "links" if any(link.name == holder for link in model.links) else "joints"
     nodes = tuple(
         node.model_copy(update={"sensors": (*node.sensors, sensor)}) if node.name == holder else node

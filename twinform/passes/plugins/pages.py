@@ -7,6 +7,7 @@ from twinform.diagnostics.committed import main
 from twinform.passes.plugins.catalogue import releases, ros_message, sensors, systems
 from twinform.passes.plugins.options import options_of
 from twinform.passes.plugins.parts import Parameter, PluginKind, SensorKind
+from twinform.passes.plugins.sensor_settings import addable, settings_of
 
 _INTRODUCTION = """\
 # Systems and sensors of Gazebo
@@ -20,7 +21,8 @@ _TIMES = {"1": "needed", "+": "needed, repeats", "?": "", "*": "repeats"}
 
 def plugins_page() -> str:
     """The catalogue in Markdown."""
-    parts = [_INTRODUCTION, _releases(), "# Sensors\n", _sensors(), "# Systems\n"]
+    settings = [_settings(type_) for type_ in addable()]
+    parts = [_INTRODUCTION, _releases(), "# Sensors\n", _sensors(), *settings, "# Systems\n"]
     return "\n".join([*parts, *(_system(kind) for _, kind in sorted(systems().items()))])
 
 
@@ -47,9 +49,25 @@ def _sensor(kind: SensorKind) -> str:
     )
 
 
+def _settings(type_: str) -> str:
+    """The options that `add-sensor` has for a kind of sensor."""
+    settings = settings_of(type_)
+    rows = [f"| `{option}` | {each.default or 'not set'} | {each.text} |" for option, each in settings.values.items()]
+    rows += [
+        f"| `{option}` | none, typical {each.typical:g} | {each.text} |" for option, each in settings.noises.items()
+    ]
+    lines = [
+        f"## sensor {type_}",
+        "",
+        f"`add-sensor{{type={type_}}}`: called `{settings.name}`, {settings.rate:g} Hz.",
+        "",
+    ]
+    return "\n".join([*lines, _table("| option | where it is not given | |", rows)] if rows else lines)
+
+
 def _system(kind: PluginKind) -> str:
     lines = [
-        f"## {kind.name}",
+        f"## system {kind.name}",
         "",
         f"`{kind.file}`, `{kind.class_name}`, in a {' or '.join(kind.scopes)}{_since(kind.releases)}.",
         "",

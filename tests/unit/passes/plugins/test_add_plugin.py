@@ -18,7 +18,7 @@ from twinform.passes.plugins.sites import plugins_of
 _EXAMPLES = Path(__file__).parents[4] / "examples"
 LEFT, RIGHT = ([f"{end}_{side}_wheel_joint" for end in ("front", "rear")] for side in ("left", "right"))
 WHEELS = f"left-joint=[{','.join(LEFT)}] right-joint=[{','.join(RIGHT)}]"
-WORLD = """<sdf version="1.11"><world name="w"><model name="a"><link name="base">
+WORLD = """<sdf version="1.11"><world name="w"><plugin name="p" filename="mine"/><model name="a"><link name="base">
   <visual name="skin"><geometry><sphere><radius>1</radius></sphere></geometry></visual>
   <sensor name="eye" type="camera"/></link>
   <model name="inner"><link name="hand"/></model></model><model name="b"><link name="base"/></model></world></sdf>"""
@@ -73,6 +73,12 @@ def test_what_is_added_passes_check_plugins() -> None:
     assert not notes.diagnostics
 
 
+def test_the_first_plugin_of_a_world_brings_those_that_it_switches_off() -> None:
+    made, _ = run("add-plugin{system=physics}", twinform.loads('<sdf version="1.11"><world name="w"/></sdf>'))
+    names = [(plugin.name or "").rsplit("::", 1)[-1] for plugin, _ in plugins_of(made)]
+    assert names == ["UserCommands", "SceneBroadcaster", "Physics"]
+
+
 def test_things_that_repeat_take_lists() -> None:
     options = "wheel-link-name=[a,b] wheel-slip-compliance-lateral=[0.1,0.2] wheel-wheel-radius=1"
     model = '<sdf version="1.11"><model name="r"><link name="a"/><link name="b"/></model></sdf>'
@@ -105,7 +111,8 @@ def test_a_system_goes_where_it_belongs(text: str, scope: str, holder: str) -> N
     text = text.replace("on=skin", "on=skin model=a")
     made, found = run(text, twinform.loads(WORLD))
     assert not found
-    assert [(site.scope, site.holder) for _, site in plugins_of(made)] == [(scope, holder)]
+    new = [(site.scope, site.holder) for plugin, site in plugins_of(made) if plugin.filename != "mine"]
+    assert new == [(scope, holder)]
     assert run(f"{text},{text}", twinform.loads(WORLD))[0] == made
 
 

@@ -12,5 +12,5 @@ def test_the_page_is_what_the_catalogue_makes() -> None:
 
 def test_everything_in_the_catalogue_is_on_the_page() -> None:
     page = plugins_page()
-    assert all(f"\n## {name}\n" in page for name in systems())
+    assert all(f"\n## system {name}\n" in page for name in systems())
     assert all(f"\n| `{type_}`" in page for type_ in sensors())
