@@ -8,9 +8,10 @@
 
 A block begins with `system` (of gz-sim) or `plugin` (of Gazebo Classic) and the name; a row is the name of a parameter,
 its count, its type, and options: `default=`, `enum=a|b`, `since=`, `until=` and `except=` releases, `any` for content
-that is not known. Rows that are indented further stand inside. `>` and `<` are topics that the plugin reads and writes:
-the parameter that sets it or `-`, the message, the default; `alt=PARAMETER:TOPIC[:MESSAGE]` where that parameter is
-written, `unless=PARAMETER`. Values with blanks stand in double quotes, and `#` begins a comment.
+that is not known (in the first line: for more parameters). Rows that are indented further stand inside. `>` and `<` are
+topics that the plugin reads and writes: the parameter that sets it or `-`, the message, the default;
+`alt=PARAMETER:TOPIC[:MESSAGE]` where that parameter is written, `unless=PARAMETER`. Values with blanks stand in double
+quotes, and `#` begins a comment.
 """
 
 import shlex
@@ -57,6 +58,7 @@ def _plugin(head: list[str], lines: list[_Line], releases: Sequence[str]) -> Plu
         releases=own,
         parameters=_rows([line for line in lines if line.words[0] not in {"<", ">"}], 1, own, releases),
         channels=channels,
+        free="any" in head[2:],
     )
 
 

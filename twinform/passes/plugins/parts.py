@@ -91,7 +91,8 @@ class PluginKind:
     """A plugin: a system of gz-sim, or a plugin of Gazebo Classic for ROS.
 
     `file` is as gz-sim finds it: without path, and for systems without `lib` and `.so`. `class_name` is the word that
-    `<plugin name=...>` has to have in gz-sim; in Gazebo Classic that name is free.
+    `<plugin name=...>` has to have in gz-sim; in Gazebo Classic that name is free. `free` means that it takes
+    parameters besides these.
     """
 
     name: str
@@ -101,6 +102,7 @@ class PluginKind:
     releases: frozenset[str]
     parameters: tuple[Parameter, ...]
     channels: tuple[Channel, ...]
+    free: bool
 
     def parameter(self, *path: str) -> Parameter | None:
         """The parameter at a path of names, such as `left_track`, `link`; attributes begin with `@`."""
@@ -126,7 +128,7 @@ def _walk(above: tuple[str, ...], rows: tuple[Parameter, ...]) -> Iterator[tuple
 
 @dataclass(frozen=True, slots=True)
 class Published:
-    """A topic of a sensor: a pattern of `{topic}` or `{beside}`, the message, and what it is."""
+    """A topic of a sensor: a pattern of `{topic}` or `{beside}`, and the message."""
 
     pattern: str
     message: str
