@@ -52,8 +52,8 @@ def check_findings(case: Case) -> None:
     """All that is announced was found, and of what was not announced nothing is worse than a note."""
     found = {(each.location.line, str(each.severity), each.rule.name) for each in run(case.path).diagnostics}
     expected = set(case.expected)
-    assert expected <= found
-    assert {finding for finding in found - expected if finding[1] != "info"} == set()
+    assert sorted(expected - found) == []
+    assert sorted(finding for finding in found - expected if finding[1] != "info") == []
 
 
 def check_result(case: Case) -> None:

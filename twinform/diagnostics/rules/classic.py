@@ -84,14 +84,6 @@ ADDED_WORLD_SYSTEM = Rule(
     better="Nothing needs doing.",
     references="gz-sim, `tutorials/server_config.md`",
 )
-NEEDS_WORLD_SYSTEM = Rule(
-    name="needs-world-system",
-    severity=Severity.INFO,
-    finds="A model with sensors in a file without a world.",
-    matters="The systems that make sensors measure stand in the world, which is another file.",
-    example="A robot with a camera and an IMU.",
-    better="Put the systems into the world that the robot is spawned in.",
-)
 IGNITION_NAME = Rule(
     name="ignition-name",
     severity=Severity.INFO,

@@ -48,7 +48,7 @@ class MigrateGazeboClassic(Pass):
     skips; it says which these are.
     It reports `migrated-plugin`, `migrated-sensor`, `ignition-name`, `shipped-model` and `added-world-system` for what
     was done; `plugin-without-counterpart`, `parameter-without-counterpart`, `sensor-without-counterpart`,
-    `unread-world-part` and `unknown-plugin` for what could not be; `incomplete-migration` and `needs-world-system` for
+    `unread-world-part` and `unknown-plugin` for what could not be; `incomplete-migration` and `world-system-needed` for
     what is left to do; and what `ros2-control-from-transmissions` does. The ledger has every plugin and parameter.
     """
 
@@ -99,9 +99,9 @@ class MigrateGazeboClassic(Pass):
         )
         done = deeds.run(without_emptied(sensed, map_plugins(sensed, migration)))
         done = ship_models(modern_hardware(done, target, notes), notes)
-        done = complete_worlds(document, done, target, notes)
+        done = complete_worlds(done, target, notes)
         if done is not document:
-            report_needs(done, notes)
+            report_needs(done, target, notes)
         report_unread(done, notes)
         return done
 

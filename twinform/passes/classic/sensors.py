@@ -73,10 +73,12 @@ class SensorMigration:
                 return row.types[sensor.type]
         return modern_types().get(sensor.type or "", sensor.type or "")
 
-    def move(self, plugin: Plugin, migration: Migration, element: Element, site: Site) -> Element:
-        """The sensor with the parameters of a plugin in it."""
+    def move(
+        self, plugin: Plugin, migration: Migration, element: Element, site: Site, camera: str | None = None
+    ) -> Element:
+        """The sensor with the parameters of a plugin in it; `camera` is the name of one of several."""
         row = migration.sensor or SensorRow()
-        names = RosNames(plugin, sensor=element.get("name"))
+        names = RosNames(plugin, sensor=element.get("name"), camera=camera)
         moved = Moved(element, repeats=False)
         moved.apply(plugin.content, {**migration.shared, **row.moves})
         element = _placed(moved, self.release)
@@ -121,12 +123,18 @@ class SensorMigration:
             element = _one_camera(whole, name, camera, shared)
             for plugin, migration in found:
                 teller = self if number == 0 else quiet  # what is lost is lost once
-                element = teller.move(plugin, migration, element, Site("sensor", sensor.name or "", sensor=sensor))
+                here = Site("sensor", sensor.name or "", sensor=sensor)
+                element = teller.move(plugin, migration, element, here, camera.get("name") or str(number))
             made = sensor_of(complete_lens(with_frame(element, self.release)))
             if made is not None:
                 yield made.model_copy(update={"plugins": rest if number == 0 else (), "source": sensor.source})
         message = f"sensor {sensor.name!r} on {site.holder!r} was {_MANY} and is {len(cameras)} cameras"
         self._account_type(message, sensor.location, sensor.type)
+        where = sensor.location
+        self.notes.account(Fate.APPROXIMATED, rules.MIGRATED_SENSOR, message, where.at("@name"))
+        for part in sensor.opaque:
+            if part.element is not None and part.element.name == "camera" and not part.at:
+                self.notes.account(Fate.APPROXIMATED, rules.MIGRATED_SENSOR, message, part.location.at("@name"))
 
 
 def with_frame(element: Element, release: Release) -> Element:

@@ -1,8 +1,8 @@
 """The topics of plugins of ROS: namespaces, names and remappings become one name.
 
-A pattern has pieces between slashes; each is a name behind `=`, or in braces a choice between parameters, `$plugin` and
-`$sensor`, and such a name: `{cameraName|$sensor}/{imageTopicName|=image_raw}`. In a name, `$plugin` is that of the
-plugin. A piece that begins with a slash is absolute, as in ROS.
+A pattern has pieces between slashes; each is a name behind `=`, or in braces a choice between parameters, `$plugin`,
+`$sensor` and `$camera`, and such a name: `{cameraName|$sensor}/{imageTopicName|=image_raw}`. In a name, `$plugin` is
+that of the plugin. A piece that begins with a slash is absolute, as in ROS.
 """
 
 import re
@@ -22,6 +22,7 @@ class RosNames:
 
     plugin: Plugin
     sensor: str | None = None
+    camera: str | None = None
     used: set[str] = field(default_factory=set[str])
     remapped: set[str] = field(default_factory=set[str])
 
@@ -59,7 +60,7 @@ class RosNames:
             if word.startswith("="):
                 return word[1:].replace("$plugin", self.plugin.name or "")
             if word.startswith("$"):
-                value = self.sensor if word == "$sensor" else self.plugin.name
+                value = {"$sensor": self.sensor, "$camera": self.camera}.get(word, self.plugin.name)
             else:
                 value = self._parameter(word)
             if value:

@@ -1,18 +1,25 @@
 """What worlds of Gazebo Classic need in gz-sim, and what of them it does not read."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 
 from twinform.diagnostics import Fate, Location, Notes
 from twinform.diagnostics.rules import classic as rules
-from twinform.ir import Document, Include, Node, Plugin, Sensor, World, map_children
+from twinform.diagnostics.rules import plugins as plugin_rules
+from twinform.ir import Document, Format, Include, Node, World, map_children
 from twinform.ir.element import Element, Opaque
-from twinform.ir.tree import walk
 from twinform.passes.classic.tables import unread_parts
-from twinform.passes.plugins.catalogue import DEFAULT_SYSTEMS, sensors, system, system_of_class, systems_of_file
 from twinform.passes.plugins.editing import add_world_plugin
-from twinform.passes.plugins.parts import PluginKind, Release, SensorKind
-
-_RENDER_ENGINE = Element(name="render_engine", text="ogre2")
+from twinform.passes.plugins.parts import Release, SensorKind
+from twinform.passes.plugins.sites import sensors_of
+from twinform.passes.plugins.worlds import (
+    as_xml,
+    has_element,
+    has_system,
+    kind_of_sensor,
+    missing_defaults,
+    needed_for,
+    system_plugin,
+)
 
 
 def ship_models(document: Document, notes: Notes) -> Document:
@@ -31,24 +38,26 @@ def ship_models(document: Document, notes: Notes) -> Document:
     return map_children(document, change)
 
 
-def complete_worlds(before: Document, document: Document, release: Release, notes: Notes) -> Document:
-    """The document with the systems that its worlds need: those of sensors, and all defaults once one is written.
-
-    Where the author has chosen systems of gz-sim before, the defaults are left out with a purpose.
-    """
-    chosen = {world.name for world in before.worlds if any(map(_kind_of, world.plugins))}
-    worlds = tuple(_complete(world, world.name in chosen, release, notes) for world in document.worlds)
+def complete_worlds(document: Document, release: Release, notes: Notes) -> Document:
+    """The document with the systems that its worlds need: those of sensors, and all defaults once one is written."""
+    worlds = tuple(_complete(world, release, notes) for world in document.worlds)
     return document if worlds == document.worlds else document.model_copy(update={"worlds": worlds})
 
 
-def report_needs(document: Document, notes: Notes) -> None:
+def report_needs(document: Document, release: Release, notes: Notes) -> None:
     """Say which systems the world needs that the models of a document without one will stand in."""
-    for model in document.models:
-        needed = list(dict.fromkeys(name for kind in _kinds(sensors_in(model)) for name in kind.systems))
-        if needed:
-            classes = ", ".join(system(name).class_name for name in needed)
-            message = f"the sensors of model {model.name!r} measure only in a world with {classes}"
-            notes.report(rules.NEEDS_WORLD_SYSTEM, message, model.location)
+    sensors, noted = sensors_of(document), set[str]()
+    for sensor, site in sensors:
+        kind = kind_of_sensor(sensor, release.name)
+        if kind is None or site.world is not None:
+            continue
+        for needed in needed_for(kind).systems:
+            if needed.name not in noted:
+                noted.add(needed.name)
+                where = sensor.location if sensor.source or site.model is None else site.model.location
+                message = f"sensor {sensor.name!r} needs {needed.class_name} in the world"
+                help_ = f"the world needs {as_xml(needed)}"
+                notes.report(plugin_rules.WORLD_SYSTEM_NEEDED, message, where, help=help_)
 
 
 def report_unread(document: Document, notes: Notes) -> None:
@@ -61,50 +70,28 @@ def report_unread(document: Document, notes: Notes) -> None:
                     _say_unread(world, part, element, reason, notes)
 
 
-def sensors_in(node: Node) -> list[Sensor]:
-    """Every sensor in a node; those in `<gazebo>` elements too."""
-    typed = [each for each in walk(node) if isinstance(each, Sensor)]
-    elements = (element for each in walk(node) for element in getattr(each, "content", ()) if element.name == "sensor")
-    return typed + [Sensor(name=each.get("name"), type=each.get("type")) for each in elements]
-
-
-def _complete(world: World, chosen: bool, release: Release, notes: Notes) -> World:
-    there = {kind.name for plugin in world.plugins if (kind := _kind_of(plugin))}
-    kinds = _kinds(sensors_in(world))
-    wanted = list(dict.fromkeys(name for kind in kinds for name in kind.systems))
-    if not chosen and (there or wanted):
-        wanted = [*DEFAULT_SYSTEMS, *wanted]
-    missing = [name for name in wanted if name not in there and release.name in system(name).releases]
-    for name in missing:
-        world = add_world_plugin(world, _system_plugin(name))
+def _complete(world: World, release: Release, notes: Notes) -> World:
+    kinds = _kinds(world, release)
+    needed = [kind for each in kinds for kind in needed_for(each).systems]
+    defaults = missing_defaults(world.plugins) if world.plugins or needed else ()
+    missing = [kind for kind in dict.fromkeys((*defaults, *needed)) if not has_system(world, kind)]
+    for kind in missing:
+        world = add_world_plugin(world, system_plugin(kind))
     if missing:
-        listed = ", ".join(system(name).class_name for name in missing)
+        listed = ", ".join(kind.class_name for kind in missing)
         message = f"world {world.name!r} got the systems that it needs: {listed}"
         notes.report(rules.ADDED_WORLD_SYSTEM, message, world.location)
-    _report_elements(world, kinds, notes)
+    for name in sorted({name for kind in kinds for name in needed_for(kind).elements if not has_element(world, name)}):
+        message = f"world {world.name!r} has no <{name}>, without which a sensor in it measures nothing"
+        notes.report(rules.INCOMPLETE_MIGRATION, message, world.location, expected=f"<{name}>")
     return world
 
 
-def _report_elements(world: World, kinds: Iterable[SensorKind], notes: Notes) -> None:
-    written = {part.element.name for part in world.opaque if part.element}
-    for name in sorted({name for kind in kinds for name in kind.world_elements} - written):
-        message = f"world {world.name!r} has no <{name}>, without which a sensor in it measures nothing"
-        notes.report(rules.INCOMPLETE_MIGRATION, message, world.location, expected=f"<{name}>")
-
-
-def _kinds(found: Iterable[Sensor]) -> list[SensorKind]:
-    return list(dict.fromkeys(kind for sensor in found if (kind := sensors().get(sensor.type or ""))))
-
-
-def _kind_of(plugin: Plugin) -> PluginKind | None:
-    kinds = systems_of_file(plugin.filename or "")
-    return system_of_class(plugin.name or "") if len(kinds) != 1 else kinds[0]
-
-
-def _system_plugin(name: str) -> Plugin:
-    kind = system(name)
-    content = (_RENDER_ENGINE,) if name == "sensors" else ()
-    return Plugin(name=kind.class_name, filename=kind.file, content=content)
+def _kinds(world: World, release: Release) -> list[SensorKind]:
+    """The kinds of sensors in a world, those of nested models too."""
+    document = Document(format=Format.SDF, worlds=(world,))
+    found = (kind_of_sensor(sensor, release.name) for sensor, _ in sensors_of(document))
+    return list(dict.fromkeys(kind for kind in found if kind is not None))
 
 
 def _unread(element: Element, whole: Mapping[str, str], inside: Mapping[str, str]) -> Iterator[tuple[Element, str]]:
