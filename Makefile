@@ -12,7 +12,7 @@ SYNCED := .venv/.synced
 ORACLES := .venv/.oracles
 DEMO := out/demo
 
-.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness bench clean
+.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness classic bench clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -82,6 +82,9 @@ oracle: $(ORACLES) ## Drake and other engines, libsdformat and urdfdom judge the
 
 sameness: $(SYNCED) ## every conversion against its source by `twinform diff`; writes docs/reference/sameness.md
 	$(BIN)/python -m benchmarks.sameness
+
+classic: $(SYNCED) ## every plugin of Gazebo Classic in the corpus migrated to gz-sim; writes docs/reference/classic.md
+	$(BIN)/python -m benchmarks.classic
 
 probes: $(ORACLES) ## what libsdformat makes of small URDF files beside what we make; writes docs/reference/probes.md
 	$(BIN)/python -m benchmarks.probes
