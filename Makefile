@@ -38,6 +38,7 @@ generate: $(SYNCED) ## write the files that are made from tables: schemas and re
 	$(BIN)/python -m twinform.schemas.generate
 	$(BIN)/python -m twinform.diagnostics.pages docs/reference/rules.md
 	$(BIN)/python -m twinform.passes.pages docs/reference/passes.md
+	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md
 	$(BIN)/python -m benchmarks.libsdformat_codes docs/reference/libsdformat_codes.md
 
 lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel that works in an empty environment
@@ -48,6 +49,7 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/python -m twinform.schemas.generate --check
 	$(BIN)/python -m twinform.diagnostics.pages docs/reference/rules.md --check
 	$(BIN)/python -m twinform.passes.pages docs/reference/passes.md --check
+	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md --check
 	$(BIN)/python -m benchmarks.libsdformat_codes docs/reference/libsdformat_codes.md --check
 	$(MAKE) --no-print-directory wheel
 

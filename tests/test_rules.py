@@ -16,7 +16,7 @@ _CASES = _TESTS / "cases"
 _PARTS = _CASES / "includes/parts"
 
 WITHOUT_CASE = {
-    "added-world-system": "unit/passes/classic/test_classic_cases.py",
+    "added-world-system": "unit/passes/plugins/test_add_sensor.py",
     "automatic-inertia": "unit/passes/test_to_urdf.py",
     "converted-ros2-control": "unit/passes/control/test_control_cases.py",
     "converted-transmission": "unit/passes/control/test_control_cases.py",
@@ -28,11 +28,13 @@ WITHOUT_CASE = {
     "ignition-plugin-name": "unit/passes/plugins/test_check_cases.py",
     "incomplete-migration": "unit/passes/classic/test_classic_cases.py",
     "joint-type-unsupported": "unit/passes/test_to_urdf.py",
+    "measured-wheels": "unit/passes/plugins/test_add_plugin.py",
     "merged-away": "unit/compiler/test_includes.py",
     "migrated-plugin": "unit/passes/classic/test_classic_cases.py",
     "migrated-sensor": "unit/passes/classic/test_classic_cases.py",
     "missing-inertial": "unit/passes/test_check_inertia.py",
     "missing-world-system": "unit/passes/plugins/test_check_cases.py",
+    "nothing-to-add-to": "unit/passes/plugins/test_add_plugin.py",
     "parameter-without-counterpart": "unit/passes/classic/test_classic_cases.py",
     "partial-limit": "unit/compiler/test_driver.py",
     "plugin-not-in-release": "unit/passes/plugins/test_check_cases.py",
@@ -53,6 +55,7 @@ WITHOUT_CASE = {
     "unsayable-in-transmissions": "unit/passes/control/test_control_cases.py",
     "unsupported-sensor": "unit/passes/plugins/test_check_cases.py",
     "unused-argument": "unit/compiler/test_xacro.py",
+    "wheels-not-measured": "unit/passes/plugins/test_add_plugin.py",
     "world-system-needed": "unit/passes/plugins/test_check_cases.py",
     "wrong-plugin-class": "unit/passes/plugins/test_check_cases.py",
     "wrong-plugin-scope": "unit/passes/plugins/test_check_cases.py",

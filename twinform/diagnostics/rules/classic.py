@@ -75,15 +75,6 @@ SHIPPED_MODEL = Rule(
     example="`<uri>model://sun</uri>`",
     better="Nothing needs doing where the simulator has a network; else write light and ground into the world.",
 )
-ADDED_WORLD_SYSTEM = Rule(
-    name="added-world-system",
-    severity=Severity.INFO,
-    finds="A world that got systems of gz-sim: those of its sensors, or the default ones.",
-    matters="Sensors measure only with their system, and one system that is written switches the default ones off.",
-    example="A world with a camera gets `gz-sim-sensors-system`.",
-    better="Nothing needs doing.",
-    references="gz-sim, `tutorials/server_config.md`",
-)
 IGNITION_NAME = Rule(
     name="ignition-name",
     severity=Severity.INFO,

@@ -127,3 +127,42 @@ DEFAULT_SYSTEMS_OFF = Rule(
     better="Add `gz-sim-physics-system`, `gz-sim-user-commands-system` and `gz-sim-scene-broadcaster-system`.",
     references="gz-sim, tutorials/server_config.md",
 )
+NOTHING_TO_ADD_TO = Rule(
+    name="nothing-to-add-to",
+    severity=Severity.ERROR,
+    finds="A plugin or sensor that is to be added to a model, world, link, joint, sensor or visual which the document "
+    "does not have, or of which it has several.",
+    matters="Added somewhere else it would do something else.",
+    example="`add-sensor{type=imu link=body}` for a robot whose link is called `base_link`; a system of the world for "
+    "a file without a world.",
+    better="Name the one that is meant: `model=`, `world=`, `link=`, `joint=`, `on=`.",
+    references="docs/reference/passes.md",
+)
+WHEELS_NOT_MEASURED = Rule(
+    name="wheels-not-measured",
+    severity=Severity.ERROR,
+    finds="A drive system whose wheel radius, separation or base is neither given nor to be read off the model.",
+    matters="The system would take its own default, and the robot would drive and turn by another measure than its "
+    "own.",
+    example="Wheels whose only shapes are meshes.",
+    better="Give the option, such as `wheel-radius=0.1`, or give the wheels a cylinder to collide with.",
+    references="gz-sim, src/systems/diff_drive",
+)
+MEASURED_WHEELS = Rule(
+    name="measured-wheels",
+    severity=Severity.INFO,
+    finds="Measures of wheels that were read off the model: joints at zero, the middle of the wheels' round shapes.",
+    matters="The odometry is as good as these numbers are.",
+    example="A differential drive from two joints with cylinders: separation 0.4 m, radius 0.1 m.",
+    better="Nothing needs doing; give the option where a measured value is better.",
+    references="gz-sim, src/systems/diff_drive",
+)
+ADDED_WORLD_SYSTEM = Rule(
+    name="added-world-system",
+    severity=Severity.INFO,
+    finds="A world that was given systems: those that its sensors need, or the default ones beside another.",
+    matters="Without its system a sensor never says anything, and one explicit plugin switches the default ones off.",
+    example="`add-sensor{type=imu link=base}` in a world without `gz-sim-imu-system`.",
+    better="Nothing needs doing.",
+    references="gz-sim, src/systems/imu and others",
+)

@@ -80,7 +80,7 @@ def _complete(world: World, release: Release, notes: Notes) -> World:
     if missing:
         listed = ", ".join(kind.class_name for kind in missing)
         message = f"world {world.name!r} got the systems that it needs: {listed}"
-        notes.report(rules.ADDED_WORLD_SYSTEM, message, world.location)
+        notes.report(plugin_rules.ADDED_WORLD_SYSTEM, message, world.location)
     for name in sorted({name for kind in kinds for name in needed_for(kind).elements if not has_element(world, name)}):
         message = f"world {world.name!r} has no <{name}>, without which a sensor in it measures nothing"
         notes.report(rules.INCOMPLETE_MIGRATION, message, world.location, expected=f"<{name}>")

@@ -45,7 +45,8 @@ def _has_numbers(*counts: int) -> Callable[[str], bool]:
     return fits
 
 
-def _is_topic(text: str) -> bool:
+def is_topic(text: str) -> bool:
+    """Whether gz-transport takes it for the name of a topic."""
     return bool(text) and not any(map(str.isspace, text)) and not any(part in text for part in _NOT_IN_TOPICS)
 
 
@@ -61,7 +62,7 @@ _TYPES: dict[str, tuple[Callable[[str], bool], str]] = {
     "numbers": (_has_numbers(), "numbers"),
     "pose": (_has_numbers(6, 7), "a pose: six numbers"),
     "color": (_has_numbers(3, 4), "a colour: three or four numbers"),
-    "topic": (_is_topic, "a topic, without blanks and `@`, `~`, `:=`, `//`"),
+    "topic": (is_topic, "a topic, without blanks and `@`, `~`, `:=`, `//`"),
     "joint": (_is_said, "the name of a joint"),
     "link": (_is_said, "the name of a link"),
     "collision": (_is_said, "the name of a collision"),

@@ -47,6 +47,24 @@ def system_plugin(kind: PluginKind) -> Plugin:
     return Plugin(name=kind.class_name, filename=kind.file, content=content)
 
 
+def with_defaults(world: World, but: PluginKind | None = None) -> World:
+    """A world without any plugin with those that gz-sim adds only to such a world; `but` comes from elsewhere."""
+    if world.plugins:
+        return world
+    kinds = [kind for kind in missing_defaults(()) if kind is not but]
+    return world.model_copy(update={"plugins": tuple(map(system_plugin, kinds))})
+
+
+def with_systems(world: World, kinds: Iterable[PluginKind]) -> World:
+    """The world with systems that it lacks; the same one where it has them all."""
+    lacks = [kind for kind in dict.fromkeys(kinds) if not has_system(world, kind)]
+    if not lacks:
+        return world
+    world = with_defaults(world)
+    more = [system_plugin(kind) for kind in lacks if not has_system(world, kind)]
+    return world.model_copy(update={"plugins": (*world.plugins, *more)})
+
+
 def as_xml(kind: PluginKind) -> str:
     """The line that adds a system to a world."""
     return f'<plugin filename="{kind.file}" name="{kind.class_name}"/>'
