@@ -32,7 +32,7 @@ def ship_models(document: Document, notes: Notes) -> Document:
         old, new = node.uri or "", models[(node.uri or "").rstrip("/")]
         message = f"{old} came with Gazebo Classic; it is {new} now"
         notes.report(rules.SHIPPED_MODEL, message, node.location, found=old)
-        notes.account(Fate.APPROXIMATED, rules.SHIPPED_MODEL, message, node.location.at("uri"))
+        notes.account(Fate.APPROXIMATED, rules.SHIPPED_MODEL, message, node.location)
         return node.model_copy(update={"uri": new})
 
     return map_children(document, change)
