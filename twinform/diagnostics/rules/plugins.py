@@ -166,3 +166,21 @@ ADDED_WORLD_SYSTEM = Rule(
     better="Nothing needs doing.",
     references="gz-sim, src/systems/imu and others",
 )
+UNBRIDGED_TOPIC = Rule(
+    name="unbridged-topic",
+    severity=Severity.INFO,
+    finds="A topic of Gazebo that the configuration of the bridge leaves out: ROS has no such message, or the name of "
+    "the topic depends on a world that is not known, which is a warning.",
+    matters="ROS does not see it.",
+    example="An `air_speed` sensor; a joint state publisher without `<topic>` in a model file.",
+    better="Give the sensor or plugin a topic of its own, or say which world it is: `bridge-config{world=NAME ...}`.",
+    references="ros_gz_bridge, README.md",
+)
+UNWRITTEN_FILE = Rule(
+    name="unwritten-file",
+    severity=Severity.ERROR,
+    finds="A file that a pass was asked to write and cannot.",
+    matters="What was asked for is not there.",
+    example="`bridge-config{file=missing/folder/bridge.yaml}`",
+    better="Make the folder, or name a file that may be written.",
+)
