@@ -13,12 +13,13 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 
 import twinform
+from benchmarks.classic_judging import MIGRATED, Judged, judged
 from benchmarks.markdown import table, write
 from benchmarks.plugin_blocks import Block, blocks
 from tests.corpus.examine import rules_of
 from tests.corpus.files import CORPUS, MISSING, ROOT, CorpusFile, Kind, corpus_files
 from twinform.compiler.audit import audit
-from twinform.diagnostics import Diagnostic, Fate
+from twinform.diagnostics import Diagnostic, Fate, Severity
 from twinform.diagnostics.rules import classic as rules
 from twinform.diagnostics.rules import plugins as plugin_rules
 
@@ -43,7 +44,6 @@ reason is in `benchmarks/classic_known.toml`."""
 
 _SUBJECT = re.compile(r"plugin (?:'.*?'|None) of (\S+?),? ")
 _CHECKED = {rule.name for rule in vars(plugin_rules).values() if hasattr(rule, "finds")}
-_NEEDS = plugin_rules.WORLD_SYSTEM_NEEDED.name
 
 
 class End(StrEnum):
@@ -83,9 +83,11 @@ def main() -> int:
         return 1
     outcomes = sorted(_outcomes(), key=lambda one: one.name)
     known = _known(outcomes)
-    write(PAGE, INTRODUCTION, *_sections(outcomes, known))
+    read = judged(file for file in _candidates() if file.name in {one.name for one in outcomes if one.whole})
+    write(PAGE, INTRODUCTION, *_sections(outcomes, known), _by_libsdformat(read))
     print(_totals(outcomes), f"written to {PAGE.relative_to(ROOT)}", sep="\n")
     faults = [f"{one.name}: {fault}" for one in outcomes for fault in _faults(one) if (one.name, fault) not in known]
+    faults += [f"{one.name}: libsdformat: {error}" for one in read for error in one.new]
     print(*faults, sep="\n", file=sys.stderr)
     return 1 if faults else 0
 
@@ -153,7 +155,7 @@ def _told(name: str, found: list[Block], made: twinform.Conversion, *, whole: bo
 
 
 def _is_check(diagnostic: Diagnostic) -> bool:
-    return diagnostic.rule.name in _CHECKED and diagnostic.rule.name != _NEEDS
+    return diagnostic.rule.name in _CHECKED and diagnostic.severity >= Severity.WARNING
 
 
 def _faults(outcome: Outcome) -> Iterator[str]:
@@ -196,11 +198,28 @@ def _sections(outcomes: list[Outcome], known: dict[tuple[str, str], str]) -> Ite
     yield "## Parameters that went nowhere, and why\n\n" + _counted("parameter", [one.lost for one in outcomes])
     rows = [(one.name, fault, known.get((one.name, fault), "not known")) for one in outcomes for fault in _faults(one)]
     yield "## What `check-plugins` says of the results\n\n" + (
-        table(["file", "finding", "why"], rows) if rows else "Nothing, but which systems a world needs."
+        table(["file", "finding", "why"], rows) if rows else "Nothing."
     )
     apart = Counter(one.refused for one in outcomes if not one.whole)
     ordered = sorted(apart.items(), key=lambda item: (-item[1], item[0]))
     yield "## Files whose blocks were migrated one by one, and why\n\n" + table(["why", "files"], ordered)
+
+
+def _by_libsdformat(read: list[Judged]) -> str:
+    head = "## What libsdformat 12 says of the results\n\n"
+    if not read:
+        return head + "It is not here."
+    rows = [
+        ("read as SDF, source and result", sum(1 for one in read if one.before and one.after)),
+        (
+            "refused as SDF before and after, mostly for includes that are not on this machine",
+            sum(1 for one in read if not one.before and not one.after),
+        ),
+        ("read only after", sum(1 for one in read if one.after and not one.before)),
+        ("refused only after, or for another reason", sum(1 for one in read if one.new)),
+    ]
+    about = f"It reads Fortress's SDF, so these were migrated with `{MIGRATED}`.\n\n"
+    return head + about + table(["files that were converted whole", "number"], rows)
 
 
 def _totals(outcomes: list[Outcome]) -> str:

@@ -1,7 +1,8 @@
 """Parameters on their way from a plugin of Gazebo Classic to where gz-sim reads them."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
+from math import isfinite, pi, tan
 
 from twinform.ir import Element
 from twinform.passes.classic.element_edits import added, text_at, with_text
@@ -9,6 +10,8 @@ from twinform.passes.classic.tables import Move, Moves
 from twinform.schemas import format_value
 
 _TRUTHS = {"true": "true", "True": "true", "1": "true", "false": "false", "False": "false", "0": "false"}
+_FIELD_OF_VIEW = 1.047
+"""What SDF has for a camera's field of view where nothing is written, in rad."""
 _DRIFT_TIME = "3600"
 """The time, in s, in which a bias wanders where nobody says: that of hector_gazebo's sensor models."""
 
@@ -24,10 +27,15 @@ class Lost:
 
 @dataclass(slots=True)
 class Moved:
-    """What the parameters made: the element that they went into, and what went nowhere."""
+    """What the parameters made: the element that they went into, and what went nowhere.
+
+    Where a name `repeats`, values stand beside each other; else the first one stays. `is_valid` says whether the
+    element can be as it is; a parameter after which it cannot goes nowhere.
+    """
 
     element: Element
     repeats: bool
+    is_valid: Callable[[Element], bool] = lambda _: True
     moved: set[str] = field(default_factory=set[str])
     lost: list[Lost] = field(default_factory=list[Lost])
     frame: str | None = None
@@ -38,8 +46,12 @@ class Moved:
         for parameter in parameters:
             move = moves.get(parameter.name)
             if move is not None:
+                before = self.element
                 self._take(parameter, move)
                 self.moved.add(parameter.name)
+                if self.element is not before and not self.is_valid(self.element):
+                    self.element = before
+                    self.lost.append(Lost(parameter, f"{parameter.text!r} is no value for it"))
 
     def _take(self, parameter: Element, move: Move) -> None:
         text = (parameter.text or "").strip()
@@ -47,6 +59,8 @@ class Moved:
             self.lost.append(Lost(parameter, move.drop or "it is what goes without saying", harmless=True))
         elif move.drop is not None:
             self.lost.append(Lost(parameter, move.drop))
+        elif not (text or parameter.children or parameter.attributes):
+            self.lost.append(Lost(parameter, "it is empty", harmless=True))
         elif move.choose is not None:
             self._choose(parameter, text, move)
         elif move.first and parameter.name in self.moved:
@@ -98,7 +112,7 @@ class Moved:
             self.frame = value
             return
         if path.startswith("@"):
-            self.offsets[path[1:]] = value
+            self._keep_offset(parameter, path[1:], value)
             return
         old = text_at(self.element, path)
         if move.least and old is not None:
@@ -114,6 +128,13 @@ class Moved:
         if move.noise:
             self._make_noise(path.rpartition("/")[0], move)
 
+    def _keep_offset(self, parameter: Element, name: str, value: str) -> None:
+        numbers = _numbers(value)
+        if len(numbers) == len("xyz") and all(number is not None and isfinite(number) for number in numbers):
+            self.offsets[name] = value
+        else:
+            self.lost.append(Lost(parameter, f"{value!r} is not three numbers"))
+
     def _make_noise(self, noise: str, move: Move) -> None:
         self.element = with_text(self.element, f"{noise}/@type", "gaussian")
         beside = {"mean": "0", "stddev": "0"}
@@ -126,10 +147,9 @@ class Moved:
 
 def focal_length(sensor: Element) -> float:
     """The focal length of a camera in pixels, from its field of view and the width of its images."""
-    from math import tan  # noqa: PLC0415 - few models need it
-
-    width, fov = camera_width(sensor), _number(text_at(sensor, "camera/horizontal_fov") or "") or 1.047
-    return width / (2 * tan(fov / 2))
+    fov = _number(text_at(sensor, "camera/horizontal_fov") or "") or _FIELD_OF_VIEW
+    fov = fov if 0 < fov < pi else _FIELD_OF_VIEW
+    return camera_width(sensor) / (2 * tan(fov / 2))
 
 
 def camera_width(sensor: Element) -> float:

@@ -54,7 +54,8 @@ class PluginMigration:
             report.migrated(migration.nothing, [])
             return ()
         if migration.sensor is not None:
-            return self._without(plugin, report, f"it belongs into a sensor, and stands in a {site.scope}")
+            where = "a sensor that cannot be read" if site.scope == "sensor" else f"a {site.scope}"
+            return self._without(plugin, report, f"it belongs into a sensor of its kind, and stands in {where}")
         return self._systems(plugin, site, migration, report)
 
     def _of_no_table(self, plugin: Plugin, site: Site, report: Report) -> Iterable[Plugin]:

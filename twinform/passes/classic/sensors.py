@@ -56,11 +56,7 @@ class SensorMigration:
         gone = {id(plugin) for plugin, _ in found}
         rest = tuple(plugin for plugin in sensor.plugins if id(plugin) not in gone)
         made = _unless_same(sensor, complete_lens(element), rest)
-        if made is None:  # it was readable before, so what was written into it is at fault
-            for plugin, _ in found:
-                Report(self.notes, plugin, site).without(
-                    "a value in it is not of the type that sensors have", keeps=True
-                )
+        if made is None:
             return sensor
         accept(self.notes, trial.notes)
         return made
@@ -79,7 +75,7 @@ class SensorMigration:
         """The sensor with the parameters of a plugin in it; `camera` is the name of one of several."""
         row = migration.sensor or SensorRow()
         names = RosNames(plugin, sensor=element.get("name"), camera=camera)
-        moved = Moved(element, repeats=False)
+        moved = Moved(element, repeats=False, is_valid=_is_sensor)
         moved.apply(plugin.content, {**migration.shared, **row.moves})
         element = _placed(moved, self.release)
         for path, pattern in row.topics_of.get(element.get("type") or "", row.topics).items():
@@ -209,6 +205,10 @@ def _unless_same(sensor: Sensor, element: Element, plugins: tuple[Plugin, ...]) 
         return sensor if plugins == sensor.plugins else sensor.model_copy(update={"plugins": plugins})
     made = sensor_of(element)
     return made and made.model_copy(update={"plugins": plugins, "source": sensor.source})
+
+
+def _is_sensor(element: Element) -> bool:
+    return sensor_of(element) is not None
 
 
 def _centre_x(sensor: Element) -> float:
