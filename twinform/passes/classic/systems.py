@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from twinform.ir import Element, Plugin
+from twinform.passes.classic.element_edits import added
 from twinform.passes.classic.moving import Lost, Moved
 from twinform.passes.classic.tables import Migration, SystemRow
 from twinform.passes.classic.topics import RosNames, is_namespace
@@ -26,8 +27,12 @@ def made_systems(
     for row in migration.systems:
         kind = _kind(row, release)
         moved = Moved(Element(name="plugin"), repeats=True)
-        moved.apply(plugin.content, {**migration.shared, **row.moves})
-        content = [*moved.element.children, *_sets(row, site, moved.element)]
+        moves = {**migration.shared, **row.moves}
+        moved.apply(plugin.content, {name: move for name, move in moves.items() if move.times is None})
+        for each in _sets(row, site, moved.element):
+            moved.element = added(moved.element, each)
+        moved.apply(plugin.content, {name: move for name, move in moves.items() if move.times is not None})
+        content = [*moved.element.children]
         content += [Element(name=path, text=names.topic(pattern)) for path, pattern in row.topics.items()]
         kept, unread = _read_by(kind, content, release)
         lost += [each for each in moved.lost if each.parameter.name not in taken]
@@ -60,7 +65,7 @@ def _kind(row: SystemRow, release: str) -> PluginKind:
 
 
 def _sets(row: SystemRow, site: Site, element: Element) -> Iterator[Element]:
-    """What is always written; `$model` is the name of the model around."""
+    """What is written where no parameter has said it."""
     for name, value in row.sets.items():
         if element.find(name) is None:
             yield Element(name=name, text=site.model.name if value == "$model" and site.model else value)

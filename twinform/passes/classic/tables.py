@@ -69,7 +69,11 @@ Moves = Mapping[str, Move]
 
 
 class SystemRow(_Row):
-    """A system that takes a plugin's place; `before` is the one that did so in releases that lack it."""
+    """A system that takes a plugin's place; `before` is the one that did so in releases that lack it.
+
+    `sets` is what is written where no parameter says it: mostly what went without saying in the plugin and does not in
+    the system. `$model` is the name of the model.
+    """
 
     system: str
     before: str | None = None
