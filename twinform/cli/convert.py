@@ -5,6 +5,7 @@ from typing import Unpack
 
 import click
 
+from twinform.cli.companions import companion_options
 from twinform.cli.conversion import Options, print_plan, run_conversion
 from twinform.cli.failure import Unusable
 from twinform.cli.findings import notes_option
@@ -44,6 +45,7 @@ def _pipeline(_ctx: click.Context, _option: click.Parameter, value: str | None) 
     "--ledger", type=click.Path(path_type=Path), metavar="FILE", help="Where to write what was not expressed."
 )
 @click.option("--carriers/--no-carriers", default=True, help="Whether to keep in our namespace what the target lacks.")
+@companion_options
 @click.option("--model", metavar="NAME", help="The model of a world to convert.")
 @notes_option
 @click.option(

@@ -9,11 +9,10 @@ from twinform.diagnostics import Notes, Severity
 from twinform.diagnostics.rules import plugins as rules
 from twinform.ir import Document, Model, Plugin, Sensor
 from twinform.passes.plugins.catalogue import nearest, releases, system
-from twinform.passes.plugins.check_plugins import ReleaseName
 from twinform.passes.plugins.editing import add_plugin, add_visual_plugin, add_world_plugin, replace_model
 from twinform.passes.plugins.options import MissingError, content_of, field_of, options_of
 from twinform.passes.plugins.parameters import names_in
-from twinform.passes.plugins.parts import PluginKind
+from twinform.passes.plugins.parts import PluginKind, ReleaseName
 from twinform.passes.plugins.selecting import Fields, SelectingPass
 from twinform.passes.plugins.sites import Site, map_sensors
 from twinform.passes.plugins.targets import find_model, find_world, missing, replace_world

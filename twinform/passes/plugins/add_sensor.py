@@ -10,9 +10,8 @@ from twinform.diagnostics.rules import plugins as rules
 from twinform.ir import Document, Element, Format, Joint, Link, Model, Opaque, Pose, Sensor, Vector3
 from twinform.passes.legalise.nodes import unique_name
 from twinform.passes.plugins.catalogue import release, releases, sensor
-from twinform.passes.plugins.check_plugins import ReleaseName
 from twinform.passes.plugins.editing import add_sensor, replace_model
-from twinform.passes.plugins.parts import SensorKind
+from twinform.passes.plugins.parts import ReleaseName, SensorKind
 from twinform.passes.plugins.selecting import Fields, SelectingPass
 from twinform.passes.plugins.sensor_settings import addable, element_of, fields_of, settings_of
 from twinform.passes.plugins.sites import Site, sensors_of

@@ -10,7 +10,7 @@ from twinform.diagnostics.rules import plugins as rules
 from twinform.ir import Document
 from twinform.passes.base import Pass
 from twinform.passes.plugins.bridge import bridge_yaml, bridges
-from twinform.passes.plugins.check_plugins import ReleaseName
+from twinform.passes.plugins.parts import ReleaseName
 
 
 class BridgeConfig(Pass):

@@ -1,6 +1,6 @@
 """Hold plugins and sensors against what a release of Gazebo knows."""
 
-from typing import ClassVar, Literal
+from typing import ClassVar
 
 from pydantic import Field
 
@@ -20,7 +20,7 @@ from twinform.passes.plugins.catalogue import (
     systems_of_file,
 )
 from twinform.passes.plugins.parameters import Asked, check_parameters
-from twinform.passes.plugins.parts import PluginKind, SensorKind
+from twinform.passes.plugins.parts import PluginKind, ReleaseName, SensorKind
 from twinform.passes.plugins.sites import Site, plugins_of, sensors_of
 from twinform.passes.plugins.worlds import (
     as_xml,
@@ -30,8 +30,6 @@ from twinform.passes.plugins.worlds import (
     missing_defaults,
     needed_for,
 )
-
-ReleaseName = Literal["fortress", "garden", "harmonic", "ionic", "jetty"]
 
 _NATIVE_IGNITION = "fortress"
 """The last release in which the names of Ignition are the ones in use."""

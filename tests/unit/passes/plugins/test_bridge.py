@@ -40,6 +40,8 @@ def rows(document: Document, release: str = "harmonic", world: str | None = None
 
 
 HIP = "<joint_name>hip</joint_name>"
+SEPARATE = """<sensor name="s" type="camera"><topic>i</topic>
+<camera><camera_info_topic>c</camera_info_topic></camera></sensor>"""
 CASES: dict[str, tuple[str, str, list[tuple[str, str, str]]]] = {
     "a sensor with a topic": ('<sensor name="s" type="imu"><topic>imu</topic></sensor>', "", [("imu", "/imu", "<")]),
     "a lidar says rays and points": (
@@ -53,8 +55,7 @@ CASES: dict[str, tuple[str, str, list[tuple[str, str, str]]]] = {
         [("eye/image", "/eye/image", "<"), ("eye/camera_info", "/eye/camera_info", "<")],
     ),
     "camera info where the sensor says": (
-        '<sensor name="s" type="camera"><topic>i</topic>'
-        "<camera><camera_info_topic>c</camera_info_topic></camera></sensor>",
+        SEPARATE,
         "",
         [("i", "/i", "<"), ("c", "/c", "<")],
     ),

@@ -1,8 +1,10 @@
+from typing import get_args
+
 import pytest
 
 from twinform.passes.plugins import catalogue
 from twinform.passes.plugins.catalogue import UnknownNameError, nearest, releases, sensor, sensors, system, systems
-from twinform.passes.plugins.parts import Parameter, PluginKind
+from twinform.passes.plugins.parts import Parameter, PluginKind, ReleaseName
 
 ALL = [
     *systems().values(),
@@ -93,6 +95,6 @@ def test_sensors_name_systems_that_there_are() -> None:
 
 
 def test_every_release_has_physics_and_a_version_of_sdf() -> None:
-    assert list(releases()) == ["fortress", "garden", "harmonic", "ionic", "jetty"]
+    assert tuple(releases()) == get_args(ReleaseName)
     assert [each.sdf for each in releases().values()] == ["1.9", "1.10", "1.11", "1.12", "1.12"]
     assert all(name in system("physics").releases for name in releases())
