@@ -95,6 +95,8 @@ def command(
         expand_includes=expand_includes,
     )
     reading = how_to_read(arguments, **how)
+    if ledger is not None and out is not None and Path(out).resolve() == ledger.resolve():
+        raise click.UsageError("--ledger and -o name the same file")
     options = Options(order=order, reading=reading, ledger=ledger, dumps=dumps, notes=notes, audit=audit)
     if split:
         ctx.exit(run_split(_only(sources), options, _folder(out, target, model)))
