@@ -66,7 +66,7 @@ class Reproducer(BaseModel):
         Raises:
             PipelineError: the pass is not installed, or has other options now.
         """
-        return self._run(parse_pipeline(self.pipeline, kinds=legalisation_kinds()).with_assets(assets))
+        return self._run(parse_pipeline(self.pipeline, kinds=legalisation_kinds()).with_files(assets))
 
     def _run(self, pipeline: Pipeline) -> PassError | None:
         try:
