@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import ClassVar
 
 import pytest
-from twinform.passes.fill_limits import FillLimits
+from twinform.passes.limits.fill_limits import FillLimits
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules.limits import FILLED_LIMIT
