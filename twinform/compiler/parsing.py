@@ -95,7 +95,10 @@ def _recover(text: bytes, notes: Notes, error: etree.XMLSyntaxError) -> XmlEleme
         notes.report(reading.REPAIRED_XML, message, Location(line=line, path="/"), help=LOST_BRACKET)
         text = whole
     parser = _parser(recover=True)
-    root = cast("XmlElement | None", etree.fromstring(text, parser))  # None for what has no element at all
+    try:
+        root = cast("XmlElement | None", etree.fromstring(text, parser))  # None for what has no element at all
+    except etree.XMLSyntaxError:  # what begins with a zero byte is no text to libxml2, and nothing is recovered
+        root = None
     log = list(parser.error_log)
     flaw = first_fatal(log, text)
     if root is None or flaw is not None:

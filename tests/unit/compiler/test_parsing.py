@@ -16,6 +16,7 @@ REFUSED = {
     "blank": (b" \n\t", "unreadable-file"),
     "not XML": (b"robot: r", "not-well-formed"),
     "NUL": (b'<robot name="r\x00"/>', "not-well-formed"),
+    "NUL first": (b"\x00\xff", "not-well-formed"),
     "bad UTF-8": (b'<robot name="\xff"/>', "not-well-formed"),
     "truncated": (b'<robot name="r"><link name="a"', "not-well-formed"),
     "two roots": (_ROBOT + _ROBOT, "not-well-formed"),
