@@ -6,7 +6,7 @@ import twinform
 from tests.corpus.files import ROOT
 from twinform.diagnostics import Notes
 from twinform.ir import Document, Format, Link, Model
-from twinform.passes import DocumentReader, Pipeline, PipelineError, parse_pipeline
+from twinform.passes import NO_ASSETS, DocumentReader, Pipeline, PipelineError, parse_pipeline
 from twinform.passes.structure.attach import Attach
 from twinform.passes.structure.lump_as_libsdformat import shape_name
 from twinform.passes.structure.reference_words import kind_of_word
@@ -66,7 +66,8 @@ def test_a_pipeline_lends_its_reader() -> None:
 
     reader: DocumentReader = read
     notes = Notes()
-    made = Pipeline((Attach(file="palm", to="tool0"),)).run(robot("tool0"), notes, reader=reader)
+    pipeline = Pipeline((Attach(file="palm", to="tool0"),)).with_files(NO_ASSETS, reader)
+    made = pipeline.run(robot("tool0"), notes)
     assert [link.name for link in made.models[0].links] == ["tool0", "palm"]
     assert [(joint.name, joint.parent, joint.child) for joint in made.models[0].joints] == [
         ("palm_mount", "tool0", "palm")
