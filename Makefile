@@ -12,7 +12,7 @@ SYNCED := .venv/.synced
 ORACLES := .venv/.oracles
 DEMO := out/demo
 
-.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness equipment bench inertia clean
+.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness equipment bench inertia lumping clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -39,6 +39,7 @@ generate: $(SYNCED) ## write the files that are made from tables: schemas and re
 	$(BIN)/python -m twinform.diagnostics.pages docs/reference/rules.md
 	$(BIN)/python -m twinform.passes.pages docs/reference/passes.md
 	$(BIN)/python -m twinform.passes.legalise.page docs/explanation/pipeline.md
+	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md
 	$(BIN)/python -m benchmarks.libsdformat_codes docs/reference/libsdformat_codes.md
 
 lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel that works in an empty environment
@@ -50,6 +51,7 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/python -m twinform.diagnostics.pages docs/reference/rules.md --check
 	$(BIN)/python -m twinform.passes.pages docs/reference/passes.md --check
 	$(BIN)/python -m twinform.passes.legalise.page docs/explanation/pipeline.md --check
+	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md --check
 	$(BIN)/python -m benchmarks.libsdformat_codes docs/reference/libsdformat_codes.md --check
 	$(MAKE) --no-print-directory wheel
 
@@ -84,6 +86,9 @@ oracle: $(ORACLES) ## Drake and other engines, libsdformat and urdfdom judge the
 
 sameness: $(SYNCED) ## every conversion against its source by `twinform diff`; writes docs/reference/sameness.md
 	$(BIN)/python -m benchmarks.sameness
+
+lumping: $(ORACLES) ## fixed joints lumped beside libsdformat 12, and let go in Drake; writes docs/reference/lumping.md
+	$(BIN)/python -m benchmarks.lumping
 
 probes: $(ORACLES) ## what libsdformat makes of small URDF files beside what we make; writes docs/reference/probes.md
 	$(BIN)/python -m benchmarks.probes

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import twinform
+from tests.pipelines import ran, structure_cases
 from twinform.diagnostics import Diagnostic, Entry, catalogue
 from twinform.testing import Case, cases, pass_cases
 
@@ -16,17 +17,34 @@ _CASES = _TESTS / "cases"
 _PARTS = _CASES / "includes/parts"
 
 WITHOUT_CASE = {
+    "added-world-system": "unit/passes/plugins/test_add_sensor.py",
     "automatic-inertia": "unit/passes/test_to_urdf.py",
+    "default-systems-off": "unit/passes/plugins/test_check_cases.py",
+    "ignition-plugin-name": "unit/passes/plugins/test_check_cases.py",
     "joint-type-unsupported": "unit/passes/test_to_urdf.py",
+    "measured-wheels": "unit/passes/plugins/test_add_plugin.py",
     "merged-away": "unit/compiler/test_includes.py",
     "mesh-reader-missing": "unit/passes/test_meshes.py",
     "open-mesh": "unit/passes/test_meshes.py",
+    "missing-world-system": "unit/passes/plugins/test_check_cases.py",
+    "nothing-to-add-to": "unit/passes/plugins/test_add_plugin.py",
     "partial-limit": "unit/compiler/test_driver.py",
+    "plugin-not-in-release": "unit/passes/plugins/test_check_cases.py",
+    "plugin-parameter-count": "unit/passes/plugins/test_check_cases.py",
+    "plugin-parameter-value": "unit/passes/plugins/test_check_cases.py",
+    "plugin-reference": "unit/passes/plugins/test_check_cases.py",
     "schema-disagreement": "unit/schemas/test_validator.py",
     "too-many-includes": "unit/compiler/test_includes.py",
     "unreadable-mesh": "unit/passes/test_meshes.py",
-    "unreadable-file": "unit/compiler/test_parsing.py",
+    "unbridged-topic": "unit/passes/plugins/test_bridge.py",
+    "unknown-plugin-parameter": "unit/passes/plugins/test_check_cases.py",
+    "unsupported-sensor": "unit/passes/plugins/test_check_cases.py",
     "unused-argument": "unit/compiler/test_xacro.py",
+    "unwritten-file": "unit/passes/plugins/test_bridge.py",
+    "wheels-not-measured": "unit/passes/plugins/test_add_plugin.py",
+    "world-system-needed": "unit/passes/plugins/test_check_cases.py",
+    "wrong-plugin-class": "unit/passes/plugins/test_check_cases.py",
+    "wrong-plugin-scope": "unit/passes/plugins/test_check_cases.py",
     "xacro-message": "unit/compiler/test_xacro.py",
     "xacro-missing": "unit/compiler/test_xacro.py",
     "xacro-refused": "unit/compiler/test_xacro.py",
@@ -50,6 +68,8 @@ def _found() -> dict[str, set[str]]:
         found[_name(case)] = set(_of_conversion(case, "1.4"))
     for case in pass_cases(_CASES / "passes"):
         found[_name(case)] = _rules(case.diagnostics)
+    for case in structure_cases():
+        found[_name(case)] = _rules(ran(case).diagnostics)
     return found
 
 

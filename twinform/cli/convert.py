@@ -6,6 +6,7 @@ from typing import Unpack
 import click
 from click.core import ParameterSource
 
+from twinform.cli.companions import companion_options
 from twinform.cli.conversion import Options, print_plan, run_conversion
 from twinform.cli.findings import notes_option
 from twinform.cli.inputs import how_to_read, inputs, reading_options
@@ -25,6 +26,7 @@ from twinform.cli.watching import Watching, watching_options
 @click.option(
     "--ledger", type=click.Path(path_type=Path), metavar="FILE", help="Where to write what was not expressed."
 )
+@companion_options
 @click.option("--model", metavar="NAME", help="The model of a world to convert.")
 @notes_option
 @policy_options

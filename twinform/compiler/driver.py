@@ -9,6 +9,7 @@ from twinform.compiler.errors import CompileError
 from twinform.compiler.includes import expand
 from twinform.compiler.loading import Checked, Reading, garbage_collection_paused, read
 from twinform.compiler.orders import Language, Order, UrdfVersion
+from twinform.compiler.other_documents import OtherDocuments
 from twinform.compiler.uris import LocalAssets, SearchPath
 from twinform.diagnostics import Diagnostic, Ledger, Notes
 from twinform.diagnostics.rules.model import MISSING_LIMIT
@@ -120,7 +121,7 @@ def fulfil(
             order = replace(order, model=name_once_expanded(before.document, checked.document, order.model))
         if checked.document is None or not (checked.accepted or (order.passes and _may_be_mended(checked))):
             raise CompileError(checked.diagnostics, unreadable=checked.unreadable)
-        return _run(checked, checked.document, said, order, strict=how.strict, watch=watch)
+        return _run(checked, checked.document, said, order, how, watch=watch)
 
 
 def _pipeline(passes: str | Sequence[Pass] | None) -> Pipeline:
@@ -132,14 +133,14 @@ def _run(
     document: Document,
     said: Document | None,
     order: Order,
+    how: Reading,
     *,
-    strict: bool,
     watch: Watch | None,
 ) -> Conversion:
     """The rest of the way of a document that was read; `said` is what it was before its includes were expanded."""
     kept = [each for each in checked.diagnostics if not each.is_error]
-    notes = Notes(checked.path, strict, kept, list(checked.entries), origins=dict(checked.origins))
-    passes = order.passes.with_assets(order.assets)
+    notes = Notes(checked.path, how.strict, kept, list(checked.entries), origins=dict(checked.origins))
+    passes = order.passes.with_files(order.assets, OtherDocuments(how, checked.path).read)
     changed = passes.run(document, notes, watch=watch, verify=verify if checked.accepted else None)
     if not checked.accepted:
         verify(changed, notes)

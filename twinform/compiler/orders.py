@@ -48,4 +48,4 @@ class Order:
         own = source.version if source.format is Format.SDF else None
         version = self.sdf_version or own or DEFAULT_SDF_VERSION
         target = Target(Format(self.to), version, self.urdf_version or "1.0", self.carriers, self.model)
-        return Pipeline(legalisation(source.format, source.version, target)).with_assets(self.assets)
+        return Pipeline(legalisation(source.format, source.version, target)).with_files(self.assets)

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from twinform.compiler.crossing import cross
@@ -11,6 +11,8 @@ from twinform.compiler.errors import CompileError
 from twinform.compiler.includes import expand
 from twinform.compiler.loading import Reading, garbage_collection_paused, read
 from twinform.compiler.orders import Order
+from twinform.compiler.other_documents import OtherDocuments
+from twinform.compiler.uris import LocalAssets
 from twinform.diagnostics import Diagnostic, Ledger, Notes
 from twinform.diagnostics.rules import structure
 from twinform.ir import Document, Format, Include, Model, World
@@ -55,7 +57,9 @@ def split(
         notes = Notes(
             checked.path, how.strict, list(checked.diagnostics), list(checked.entries), origins=dict(checked.origins)
         )
-        document = order.passes.run(checked.document, notes, watch=watch, verify=verify)
+        order = replace(order, assets=LocalAssets(how.search, Path(checked.path)))
+        passes = order.passes.with_files(order.assets, OtherDocuments(how, checked.path).read)
+        document = passes.run(checked.document, notes, watch, verify)
         files = _Files(order, notes, watch)
         if document.format is not Format.SDF:
             message = "the file is URDF, which holds one robot; --split is for SDF"

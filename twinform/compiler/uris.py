@@ -5,17 +5,18 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from posixpath import normpath
-from typing import Self
+from typing import Literal, Self
 from urllib.parse import unquote, urlsplit
 
 from twinform.compiler import fuel
-from twinform.compiler.packages import PackageIndex, is_package
+from twinform.compiler.packages import PackageIndex, is_package, package_name
 from twinform.compiler.surroundings import folders_around
 from twinform.diagnostics.rules import files as rules
 from twinform.passes import AssetError
 
 _MODEL_VARIABLES = ("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "SDF_PATH", "GAZEBO_MODEL_PATH")
 _MOST_SHOWN = 6
+_MODEL_MARK = "model.config"
 
 
 class UriError(AssetError):
@@ -172,3 +173,9 @@ class LocalAssets:
             UriError: there is none, or it must not be read.
         """
         return self.search.find(uri, self.beside)
+
+    def holder(self, folder: Path, kind: Literal["package", "model"]) -> str | None:
+        """What the package of ROS or the model of Gazebo is called that a folder is; None where it is none."""
+        if kind == "package":
+            return package_name(folder)
+        return folder.name if _exists(folder / _MODEL_MARK) else None

@@ -4,6 +4,7 @@ from twinform.passes.assets import NO_ASSETS, AssetError, AssetPass, Assets
 from twinform.passes.base import Pass
 from twinform.passes.errors import BrokenPassError, FailedPassError, PassError
 from twinform.passes.named import Names, UnknownPipelineError
+from twinform.passes.other_documents import DocumentPass, DocumentReader
 from twinform.passes.pipeline import Pipeline, Verifier
 from twinform.passes.registry import (
     GROUP,
@@ -25,6 +26,8 @@ __all__ = [
     "AssetPass",
     "Assets",
     "BrokenPassError",
+    "DocumentPass",
+    "DocumentReader",
     "FailedPassError",
     "Names",
     "Pass",

@@ -1,7 +1,7 @@
 """The files beside a model, for passes that need them: a port, which the compiler fills in."""
 
 from pathlib import Path
-from typing import Protocol, Self
+from typing import Literal, Protocol, Self
 
 from pydantic import PrivateAttr
 
@@ -36,6 +36,10 @@ class Assets(Protocol):
         """
         ...
 
+    def holder(self, folder: Path, kind: Literal["package", "model"]) -> str | None:
+        """What the package of ROS or the model of Gazebo is called that a folder is; None where it is none."""
+        ...
+
 
 class _NoAssets:
     """A document by itself, of which nobody said where it came from."""
@@ -44,6 +48,10 @@ class _NoAssets:
 
     def find(self, uri: str) -> Path:
         raise AssetError(rules.UNRESOLVED_URI, f"{uri!r} cannot be looked up: only the text of the model is known")
+
+    def holder(self, folder: Path, kind: Literal["package", "model"]) -> str | None:
+        del folder, kind
+        return None
 
 
 NO_ASSETS: Assets = _NoAssets()

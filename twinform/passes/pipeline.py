@@ -9,6 +9,7 @@ from twinform.passes.assets import AssetPass, Assets
 from twinform.passes.base import Pass
 from twinform.passes.errors import BrokenPassError, FailedPassError
 from twinform.passes.options import chosen
+from twinform.passes.other_documents import DocumentPass, DocumentReader
 from twinform.passes.syntax import print_call
 from twinform.passes.watch import Watch
 
@@ -23,7 +24,11 @@ class Pipeline:
     passes: tuple[Pass, ...] = ()
 
     def run(
-        self, document: Document, notes: Notes, watch: Watch | None = None, verify: Verifier | None = None
+        self,
+        document: Document,
+        notes: Notes,
+        watch: Watch | None = None,
+        verify: Verifier | None = None,
     ) -> Document:
         """The document after all passes; a document that a pass changed is verified.
 
@@ -36,10 +41,9 @@ class Pipeline:
             document = _run(step, document, notes, watch, verify)
         return document
 
-    def with_assets(self, assets: Assets) -> "Pipeline":
-        """The same passes; those that open files know where they are."""
-        bound = (each.with_assets(assets) if isinstance(each, AssetPass) else each for each in self.passes)
-        return Pipeline(tuple(bound))
+    def with_files(self, assets: Assets, reader: DocumentReader | None = None) -> "Pipeline":
+        """The same passes; those that open files know where they are, those that need other models who reads them."""
+        return Pipeline(tuple(_lend(each, assets, reader) for each in self.passes))
 
     def __iter__(self) -> Iterator[Pass]:
         return iter(self.passes)
@@ -57,6 +61,12 @@ class Pipeline:
 
 
 _NOBODY = Watch()
+
+
+def _lend(step: Pass, assets: Assets, reader: DocumentReader | None) -> Pass:
+    if isinstance(step, AssetPass):
+        return step.with_assets(assets)
+    return step.with_reader(reader) if reader and isinstance(step, DocumentPass) else step
 
 
 def _run(step: Pass, old: Document, notes: Notes, watch: Watch, verify: Verifier | None) -> Document:

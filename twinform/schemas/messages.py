@@ -137,6 +137,7 @@ def missing_attribute(context: Context, element: XmlElement, fact: Fact) -> None
 _DIALECTS = {
     "bullet": "Bullet reads it",
     "drake": "Drake reads it",
+    "gazebo": "Gazebo reads it",
     "exporter": "exporters write it, and nobody reads it",
     "isaac": "Isaac Gym reads it",
     "mujoco": "MuJoCo reads it",

@@ -26,6 +26,10 @@ class Folder:
     def find(self, uri: str) -> Path:
         return self.folder / uri
 
+    def holder(self, folder: Path, kind: str) -> str | None:
+        del folder, kind
+        return None
+
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:

@@ -50,7 +50,7 @@ def test_every_option_has_a_description_and_every_example_parses() -> None:
     for each in registered_passes().values():
         kind = each.load()
         assert all(option.text for option in options(kind))
-        assert kind in {type(part) for part in parse_pipeline(kind.example)}
+        assert any(isinstance(part, kind) for part in parse_pipeline(kind.example))
 
 
 def test_the_page_has_our_passes_in_order() -> None:

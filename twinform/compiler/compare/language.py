@@ -61,7 +61,7 @@ def _robots(
     checked: Checked, document: Document, model: str | None, notes: Notes, assets: Assets
 ) -> Iterator[tuple[str, Robot]]:
     """Each robot by its name, with its world's where several are called so."""
-    said = Pipeline(_into_words_of_sdf(document)).with_assets(assets).run(document, notes)
+    said = Pipeline(_into_words_of_sdf(document)).with_files(assets).run(document, notes)
     if notes.has_errors:
         return
     names = list(dict.fromkeys(one.full_name for one in candidates(said)))

@@ -46,7 +46,7 @@ def way_back(document: Document, format_: Format, version: str, notes: Notes, as
     """The document in the other format, as it is without any memory; None where it cannot be."""
     urdf_version: Any = version if format_ is Format.URDF else "1.0"
     target = Target(format_, version, urdf_version)
-    found = Pipeline(legalisation(document.format, document.version, target)).with_assets(assets).run(document, notes)
+    found = Pipeline(legalisation(document.format, document.version, target)).with_files(assets).run(document, notes)
     return None if notes.has_errors else found
 
 

@@ -50,7 +50,7 @@ class TightenLimits(Pass):
             return joint
         where = limit.location if limit.source else joint.location
         was, now = (_words(*ends) for ends in ((limit.lower, limit.upper), (lower, upper)))
-        if lower is not None and upper is not None and lower > upper:
+        if lower is not None and upper is not None and lower >= upper:
             message = f"the limits of joint {joint.name!r} stay {was}: {now} is no range"
             notes.report(UNTIGHTENED_LIMIT, message, where, found=was)
             return joint

@@ -24,6 +24,14 @@ class _Error(TypedDict):
     message: str
 
 
+class ShapeRow(TypedDict):
+    """A visual or collision; its pose is as it is written, a position and a quaternion."""
+
+    kind: str
+    name: str
+    pose: list[float]
+
+
 class LinkRow(TypedDict):
     """A link: poses are a position and a quaternion, moments are xx, yy, zz, xy, xz, yz about the centre of mass."""
 
@@ -32,6 +40,7 @@ class LinkRow(TypedDict):
     mass: float
     centre: list[float]
     moments: list[float]
+    shapes: list[ShapeRow]
 
 
 class JointRow(TypedDict):

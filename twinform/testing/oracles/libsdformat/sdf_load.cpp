@@ -59,6 +59,19 @@ Pose3d resolved(const sdf::SemanticPose &semantic, const std::string &frame) {
   return pose;
 }
 
+template <typename Shape>
+void describe_shape(const char *kind, const Shape &shape, const char *&separator) {
+  std::cout << separator << "{\"kind\": \"" << kind << "\", \"name\": " << quoted(shape.Name())
+            << ", \"pose\": " << written(shape.RawPose()) << "}";
+  separator = ", ";
+}
+
+void describe_shapes(const sdf::Link &link) {
+  const char *separator = "";
+  for (uint64_t i = 0; i < link.VisualCount(); ++i) describe_shape("visual", *link.VisualByIndex(i), separator);
+  for (uint64_t i = 0; i < link.CollisionCount(); ++i) describe_shape("collision", *link.CollisionByIndex(i), separator);
+}
+
 void describe_link(const sdf::Link &link, const std::string &scope, const Pose3d &model) {
   const auto &inertial = link.Inertial();
   const auto &mass = inertial.MassMatrix();
@@ -66,7 +79,9 @@ void describe_link(const sdf::Link &link, const std::string &scope, const Pose3d
             << ", \"pose\": " << written(model * resolved(link.SemanticPose(), "__model__"))
             << ", \"mass\": " << number(mass.Mass()) << ", \"centre\": " << written(inertial.Pose())
             << ", \"moments\": "
-            << numbers(mass.Ixx(), mass.Iyy(), mass.Izz(), mass.Ixy(), mass.Ixz(), mass.Iyz()) << "}";
+            << numbers(mass.Ixx(), mass.Iyy(), mass.Izz(), mass.Ixy(), mass.Ixz(), mass.Iyz()) << ", \"shapes\": [";
+  describe_shapes(link);
+  std::cout << "]}";
 }
 
 void describe_axis(const sdf::Joint &joint) {

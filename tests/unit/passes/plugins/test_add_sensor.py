@@ -1,0 +1,197 @@
+"""Rules: nothing-to-add-to, missing-world-system, world-system-needed, added-world-system."""
+
+from pathlib import Path
+
+import pytest
+
+import twinform
+from twinform.diagnostics import Notes
+from twinform.ir import Document, Sensor
+from twinform.passes import PipelineError, parse_pipeline
+from twinform.passes.plugins.catalogue import sensor, sensors
+from twinform.passes.plugins.check_plugins import CheckPlugins
+from twinform.passes.plugins.sensor_settings import addable, settings_of
+from twinform.passes.plugins.sites import plugins_of, sensors_of
+
+_ROOT = Path(__file__).parents[4]
+WORLD = """<sdf version="1.11"><world name="w">{}<model name="r"><link name="base">
+<collision name="skin"><geometry><sphere><radius>1</radius></sphere></geometry></collision></link><link name="hand"/>
+<joint name="wrist" type="fixed"><parent>base</parent><child>hand</child></joint></model></world></sdf>"""
+URDF = """<robot name="r">
+  <link name="base"><collision><geometry><sphere radius="1"/></geometry></collision>
+  <collision><geometry><sphere radius="2"/></geometry></collision></link>
+  <link name="hand"><inertial><mass value="1"/>
+  <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <joint name="wrist" type="fixed"><parent link="base"/><child link="hand"/></joint>
+</robot>"""
+
+
+def run(text: str, document: Document) -> tuple[Document, list[str]]:
+    notes = Notes()
+    made = parse_pipeline(text).run(document, notes)
+    return made, [each.rule.name for each in notes.diagnostics]
+
+
+def pipeline(type_: str, more: str = "") -> str:
+    holder = "joint=wrist" if sensor(type_).holders == ("joint",) else "link=base"
+    release = "garden" if type_ == "wideanglecamera" else "harmonic"
+    return f"add-sensor{{type={type_} {holder} release={release} {more}}}"
+
+
+def text_of(made: Sensor, path: str) -> str | None:
+    element = next(part.element for part in made.opaque if part.element and part.element.name != "gz_frame_id")
+    for step in path.split("/"):
+        element = element.find(step)
+        assert element is not None
+    return element.text
+
+
+@pytest.mark.parametrize("type_", addable())
+@pytest.mark.parametrize("model", [URDF, WORLD.format("")], ids=["urdf", "sdf"])
+def test_every_kind_of_sensor_is_added_and_passes_the_check_of_files(type_: str, model: str) -> None:
+    noise = "noise=typical" if settings_of(type_).noises else ""
+    made, found = run(pipeline(type_, noise), twinform.loads(model))
+    [(node, site)] = sensors_of(made)
+    assert (node.type, site.holder) == (type_, "wrist" if type_ == "force_torque" else "base")
+    assert set(found) <= {"world-system-needed", "added-world-system", "missing-world-system"}
+    notes = Notes()
+    CheckPlugins().run(made, notes)
+    assert {each.rule.name for each in notes.diagnostics} <= {"world-system-needed", "missing-world-system"}
+    text = twinform.convert(model.encode(), to="sdf", sdf_version="1.11", passes=pipeline(type_, noise)).text
+    assert not [each for each in twinform.check(text.encode()).diagnostics if each.severity > 1]
+
+
+def test_every_sensor_that_gazebo_simulates_can_be_added() -> None:
+    assert set(addable()) == {type_ for type_, kind in sensors().items() if "harmonic" in kind.releases}
+
+
+def test_adding_twice_is_adding_once_and_another_one_gets_another_name() -> None:
+    for model in (URDF, WORLD.format("")):
+        once = run(pipeline("imu"), twinform.loads(model))[0]
+        assert run(pipeline("imu"), once)[0] == once
+        other = run(pipeline("imu", "rate=7"), once)[0]
+        assert [each.name for each, _ in sensors_of(other)] == ["imu", "imu_1"]
+
+
+def test_a_world_gets_what_the_sensor_needs_and_what_a_plugin_switches_off() -> None:
+    made, found = run(pipeline("camera"), twinform.loads(WORLD.format("")))
+    names = [(plugin.name or "").rsplit("::", 1)[-1] for plugin, _ in plugins_of(made)]
+    assert names == ["Physics", "UserCommands", "SceneBroadcaster", "Sensors"]
+    assert found == ["added-world-system"]
+    again, found = run(pipeline("gpu_lidar"), made)
+    assert len(plugins_of(again)) == len(names)
+    assert not found
+
+
+def test_a_world_that_has_the_system_by_its_old_name_keeps_it() -> None:
+    own = '<plugin filename="libignition-gazebo-imu-system.so" name="ignition::gazebo::systems::Imu"/>'
+    made, found = run(pipeline("imu"), twinform.loads(WORLD.format(own)))
+    assert len(plugins_of(made)) == 1
+    assert not found
+
+
+def test_a_place_on_earth_is_asked_for_where_a_receiver_needs_one() -> None:
+    _, found = run(pipeline("navsat"), twinform.loads(WORLD.format("")))
+    assert found == ["missing-world-system", "added-world-system"]
+    placed = WORLD.format("<spherical_coordinates><latitude_deg>1</latitude_deg></spherical_coordinates>")
+    assert run(pipeline("navsat"), twinform.loads(placed))[1] == ["added-world-system"]
+
+
+def test_a_file_without_a_world_is_told_what_the_world_needs() -> None:
+    notes = Notes()
+    parse_pipeline(pipeline("imu")).run(twinform.loads(URDF), notes)
+    [found] = notes.diagnostics
+    assert found.rule.name == "world-system-needed"
+    assert '<plugin filename="gz-sim-imu-system" name="gz::sim::systems::Imu"/>' in (found.help or "")
+
+
+def test_the_options_say_what_is_written() -> None:
+    more = "sensor-name=eye topic=up rate=5 xyz=[1,2,3] rpy=[0,0,1] width=80 fov=0.5 noise-stddev=0.1 frame-id=optical"
+    [(made, _)] = sensors_of(run(pipeline("camera", more), twinform.loads(URDF))[0])
+    assert (made.name, made.topic, made.update_rate) == ("eye", "up", 5)
+    assert made.pose
+    assert (made.pose.xyz, made.pose.rpy) == ((1, 2, 3), (0, 0, 1))
+    wanted = {"image/width": "80", "horizontal_fov": "0.5", "noise/stddev": "0.1", "noise/type": "gaussian"}
+    assert {path: text_of(made, path) for path in wanted} == wanted
+    assert [part.element.text for part in made.opaque if part.element and part.element.name == "gz_frame_id"] == [
+        "optical"
+    ]
+
+
+@pytest.mark.parametrize(("release", "word"), [("fortress", "ignition_frame_id"), ("jetty", "frame_id")])
+def test_the_frame_is_said_in_the_words_of_the_release(release: str, word: str) -> None:
+    document = twinform.loads('<sdf version="1.12"><model name="r"><link name="base"/></model></sdf>')
+    text = f"add-sensor{{type=imu link=base frame-id=here release={release}}}"
+    [(made, _)] = sensors_of(run(text, document)[0])
+    said = {part.element.name for part in made.opaque if part.element}
+    assert (made.frame_id == "here") == (word == "frame_id")
+    assert (word in said) == (word != "frame_id")
+
+
+@pytest.mark.parametrize(("more", "topic"), [("", "imu"), ("sensor-name=back", "back/imu"), ("topic=here", "here")])
+def test_topics_are_short_and_of_their_own(more: str, topic: str) -> None:
+    [(made, _)] = sensors_of(run(pipeline("imu", more), twinform.loads(URDF))[0])
+    assert made.topic == topic
+
+
+def test_a_contact_sensor_looks_at_the_collisions_by_the_names_that_gazebo_gives_them() -> None:
+    [(made, _)] = sensors_of(run(pipeline("contact"), twinform.loads(URDF))[0])
+    [part] = made.opaque
+    assert part.element
+    assert [each.text for each in part.element.children] == ["base_collision", "base_collision_1"]
+    converted = twinform.convert(URDF.encode(), to="sdf", passes=pipeline("contact")).document
+    assert [each.name for each in converted.models[0].links[0].collisions] == ["base_collision", "base_collision_1"]
+
+
+def test_a_fixed_joint_that_is_measured_stays_one() -> None:
+    made = run(pipeline("force_torque"), twinform.loads(URDF))[0]
+    [extension] = made.models[0].extensions
+    assert [each.name for each in extension.content] == ["preserveFixedJoint", "sensor"]
+
+
+@pytest.mark.parametrize(
+    ("text", "help_"),
+    [
+        ("add-sensor{type=imu link=bas}", "did you mean base?"),
+        ("add-sensor{type=force_torque joint=rist}", "did you mean wrist?"),
+        ("add-sensor{type=contact link=hand}", None),
+        ("add-sensor{type=contact link=base collision=skim}", "base_collision"),
+        ("add-sensor{type=imu link=base model=s}", "there are r"),
+    ],
+)
+def test_where_there_is_nothing_to_add_to_is_an_error(text: str, help_: str | None) -> None:
+    document, notes = twinform.loads(URDF), Notes()
+    assert parse_pipeline(text).run(document, notes) is document
+    [found] = notes.diagnostics
+    assert (found.rule.name, found.is_error) == ("nothing-to-add-to", True)
+    assert (help_ or "") in (found.help or "")
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("add-sensor{type=imo link=a}", "did you mean imu"),
+        ("add-sensor{type=imu}", "needs the option link"),
+        ("add-sensor{type=imu joint=a}", "needs the option link, not joint"),
+        ("add-sensor{type=force_torque link=a}", "needs the option joint"),
+        ("add-sensor{type=camera link=a widht=3}", "did you mean width"),
+        ("add-sensor{type=camera link=a width=0}", "option width"),
+        ("add-sensor{type=imu link=a rate=0}", "option rate"),
+        ("add-sensor{type=imu link=a rate=-1}", "option rate"),
+        ("add-sensor{type=imu link=a xyz=[1,2]}", "option xyz"),
+        ('add-sensor{type=imu link=a topic="a b"}', "no topic"),
+        ("add-sensor{type=imu link=a collision=b}", "only contact sensors"),
+        ("add-sensor{type=lidar link=a}", "does not simulate lidar"),
+        ("add-sensor{type=air_speed link=a release=fortress}", "does not simulate air_speed"),
+        ("add-sensor{type=imu link=a gyro-stddev=-1}", "option gyro-stddev"),
+        ("add-sensor{type=imu link=a noise=loud}", "option noise"),
+    ],
+)
+def test_a_wrong_option_is_said_at_its_place(text: str, says: str) -> None:
+    with pytest.raises(PipelineError, match=says):
+        parse_pipeline(text)
+
+
+def test_a_pass_is_written_as_it_was() -> None:
+    text = "add-sensor{type=imu link=base rate=50 gyro-stddev=0.1}"
+    assert str(parse_pipeline(text)) == text

@@ -1,0 +1,187 @@
+"""Rules: unbridged-topic, unwritten-file."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+import twinform
+from twinform.diagnostics import Notes
+from twinform.ir import Document
+from twinform.passes.plugins.bridge import Bridge, bridge_yaml, bridges
+from twinform.passes.plugins.bridge_config import BridgeConfig
+from twinform.passes.plugins.catalogue import system, systems
+
+MODEL = """<model name="{name}"><link name="base">{sensors}</link><link name="leg"/>
+<joint name="hip" type="revolute"><parent>base</parent><child>leg</child><axis><xyz>0 0 1</xyz></axis></joint>
+{plugins}</model>"""
+
+
+def model(sensors: str = "", plugins: str = "", name: str = "r") -> str:
+    return MODEL.format(name=name, sensors=sensors, plugins=plugins)
+
+
+def alone(sensors: str = "", plugins: str = "") -> Document:
+    return twinform.loads(f'<sdf version="1.11">{model(sensors, plugins)}</sdf>')
+
+
+def in_world(*models: str) -> Document:
+    return twinform.loads(f'<sdf version="1.11"><world name="w">{"".join(models)}</world></sdf>')
+
+
+def plugin(name: str, content: str = "") -> str:
+    kind = system(name)
+    return f'<plugin filename="{kind.file}" name="{kind.class_name}">{content}</plugin>'
+
+
+def rows(document: Document, release: str = "harmonic", world: str | None = None) -> list[tuple[str, ...]]:
+    made = bridges(document, release, Notes(), world)
+    return [(each.ros_topic_name, each.gz_topic_name, each.gz_type_name, each.direction) for each in made][1:]
+
+
+HIP = "<joint_name>hip</joint_name>"
+SEPARATE = """<sensor name="s" type="camera"><topic>i</topic>
+<camera><camera_info_topic>c</camera_info_topic></camera></sensor>"""
+CASES: dict[str, tuple[str, str, list[tuple[str, str, str]]]] = {
+    "a sensor with a topic": ('<sensor name="s" type="imu"><topic>imu</topic></sensor>', "", [("imu", "/imu", "<")]),
+    "a lidar says rays and points": (
+        '<sensor name="s" type="gpu_lidar"><topic>/front/scan</topic></sensor>',
+        "",
+        [("front/scan", "/front/scan", "<"), ("front/scan/points", "/front/scan/points", "<")],
+    ),
+    "camera info stands beside the image": (
+        '<sensor name="s" type="camera"><topic>eye/image</topic></sensor>',
+        "",
+        [("eye/image", "/eye/image", "<"), ("eye/camera_info", "/eye/camera_info", "<")],
+    ),
+    "camera info where the sensor says": (
+        SEPARATE,
+        "",
+        [("i", "/i", "<"), ("c", "/c", "<")],
+    ),
+    "a contact's own topic": (
+        '<sensor name="s" type="contact"><contact><collision>c</collision><topic>bump</topic></contact></sensor>',
+        "",
+        [("bump", "/bump", "<")],
+    ),
+    "the usual topics of a drive": (
+        "",
+        plugin("diff-drive"),
+        [
+            ("cmd_vel", "/model/r/cmd_vel", ">"),
+            ("odom", "/model/r/odometry", "<"),
+            ("/tf", "/model/r/tf", "<"),
+            ("enable", "/model/r/enable", ">"),
+        ],
+    ),
+    "the topics that a drive is told": (
+        "",
+        plugin("mecanum-drive", "<topic>go</topic><odom_topic>where</odom_topic><tf_topic>/tf</tf_topic>"),
+        [("go", "/go", ">"), ("where", "/where", "<"), ("/tf", "/tf", "<")],
+    ),
+    "names of parameters in topics": (
+        "",
+        plugin("joint-position-controller", HIP),
+        [("joint/hip/_0/cmd_pos", "/model/r/joint/hip/0/cmd_pos", ">")],
+    ),
+    "an alternative topic": (
+        "",
+        plugin("joint-controller", f"{HIP}<sub_topic>speed</sub_topic>"),
+        [("speed", "/model/r/speed", ">")],
+    ),
+    "another message": (
+        "",
+        plugin("joint-controller", f"{HIP}<use_actuator_msg>true</use_actuator_msg>"),
+        [("actuators", "/actuators", ">")],
+    ),
+    "what is switched off": (
+        "",
+        plugin("ackermann-steering", "<steering_only>true</steering_only>"),
+        [("steer_angle", "/model/r/steer_angle", ">")],
+    ),
+    "a namespace, or the model": (
+        "",
+        plugin("thruster", HIP),
+        [("joint/hip/cmd_thrust", "/model/r/joint/hip/cmd_thrust", ">")],
+    ),
+    "a plugin of somebody else": ("", '<plugin filename="mine" name="mine"/>', []),
+}
+
+
+@pytest.mark.parametrize("case", CASES.values(), ids=CASES.keys())
+def test_topics_are_bridged(case: tuple[str, str, list[tuple[str, str, str]]]) -> None:
+    sensors, plugins, expected = case
+    collision = '<collision name="c"><geometry><sphere><radius>1</radius></sphere></geometry></collision>'
+    sensors = collision + sensors if "contact" in sensors else sensors
+    directions = {"<": "GZ_TO_ROS", ">": "ROS_TO_GZ"}
+    made = [(ros, gz, direction) for ros, gz, _, direction in rows(alone(sensors, plugins))]
+    assert made == [(ros, gz, directions[way]) for ros, gz, way in expected]
+
+
+def test_a_topic_that_contains_the_world_is_known_where_the_world_is() -> None:
+    sensor = '<sensor name="s" type="imu"/>'
+    name = "/world/w/model/r/link/base/sensor/s/imu"
+    assert [row[:2] for row in rows(in_world(model(sensor)))] == [("s/imu", name)]
+    assert [row[:2] for row in rows(alone(sensor), world="w")] == [("s/imu", name)]
+    notes = Notes()
+    assert len(bridges(alone(sensor), "harmonic", notes)) == 1
+    assert [(each.rule.name, str(each.severity)) for each in notes.diagnostics] == [("unbridged-topic", "warning")]
+
+
+def test_a_message_that_ros_does_not_know_is_reported() -> None:
+    notes = Notes()
+    bridges(alone('<sensor name="s" type="air_speed"><topic>a</topic></sensor>'), "harmonic", notes)
+    assert [(each.rule.name, str(each.severity)) for each in notes.diagnostics] == [("unbridged-topic", "info")]
+
+
+def test_several_models_have_topics_of_their_own() -> None:
+    two = in_world(model(plugins=plugin("velocity-control")), model(plugins=plugin("velocity-control"), name="s"))
+    assert [row[:2] for row in rows(two)] == [("r/cmd_vel", "/model/r/cmd_vel"), ("s/cmd_vel", "/model/s/cmd_vel")]
+
+
+def test_one_name_for_two_topics_is_said_in_full() -> None:
+    both = plugin("diff-drive") + plugin("velocity-control", "<topic>/other/cmd_vel</topic>")
+    two = plugin("velocity-control", "<topic>/model/r/a/cmd_vel</topic>") + plugin(
+        "mecanum-drive", "<topic>/a/cmd_vel</topic>"
+    )
+    names = [row[0] for row in rows(alone(plugins=both + two))]
+    assert len({name for name in names if name != "/tf"}) == len([name for name in names if name != "/tf"])
+
+
+def test_fortress_calls_messages_by_the_name_of_ignition() -> None:
+    assert rows(alone(plugins=plugin("velocity-control")), "fortress")[0][2] == "ignition.msgs.Twist"
+
+
+def test_the_clock_comes_first() -> None:
+    assert bridges(alone(), "harmonic", Notes())[0].ros_type_name == "rosgraph_msgs/msg/Clock"
+
+
+def test_names_are_what_ros_takes() -> None:
+    document = alone('<sensor name="s" type="imu"><topic>front-imu/2nd/daten_ä</topic></sensor>')
+    assert [row[0] for row in rows(document)] == ["front_imu/_2nd/daten__"]
+
+
+def test_the_text_is_yaml() -> None:
+    text = bridge_yaml([Bridge('a"b', "/ä", "x", "y", "GZ_TO_ROS")])
+    lines = [line.strip(" -") for line in text.splitlines()[1:]]
+    values = dict(line.split(": ", 1) for line in lines)
+    assert json.loads(values["ros_topic_name"]) == 'a"b'
+    assert json.loads(values["gz_topic_name"]) == "/ä"
+    assert values["direction"] == "GZ_TO_ROS"
+
+
+def test_the_pass_writes_the_file_and_changes_nothing(tmp_path: Path) -> None:
+    document, file = alone(plugins=plugin("diff-drive")), tmp_path / "bridge.yaml"
+    notes = Notes()
+    assert BridgeConfig(file=str(file)).run(document, notes) is document
+    assert file.read_text(encoding="utf-8").count("ros_topic_name") == 5
+    BridgeConfig(file=str(tmp_path / "no/such/folder.yaml")).run(document, notes)
+    assert [(each.rule.name, each.is_error) for each in notes.diagnostics] == [("unwritten-file", True)]
+
+
+@pytest.mark.parametrize("release", ["fortress", "harmonic", "jetty"])
+def test_the_topics_of_all_systems_can_be_written(release: str) -> None:
+    for kind in systems().values():
+        for each in bridges(alone(plugins=plugin(kind.name)), release, Notes(), "w"):
+            assert "{" not in each.gz_topic_name
+            assert "//" not in each.gz_topic_name

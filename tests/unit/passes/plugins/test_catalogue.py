@@ -1,0 +1,100 @@
+from typing import get_args
+
+import pytest
+
+from twinform.passes.plugins import catalogue
+from twinform.passes.plugins.catalogue import UnknownNameError, nearest, releases, sensor, sensors, system, systems
+from twinform.passes.plugins.parts import Parameter, PluginKind, ReleaseName
+
+ALL = [
+    *systems().values(),
+    *catalogue.classic_plugins("noetic").values(),
+    *catalogue.classic_plugins("ros2").values(),
+]
+
+
+def test_the_official_tutorials_parameter_is_not_one_and_the_right_one_is_near() -> None:
+    names = [row.name for row in system("diff-drive").parameters]
+    assert system("diff-drive").parameter("odom_publisher_frequency") is None
+    assert nearest("odom_publisher_frequency", names) == "odom_publish_frequency"
+
+
+@pytest.mark.parametrize(
+    "spelling", ["gz-sim-imu-system", "libgz-sim-imu-system.so", "libignition-gazebo6-imu-system.so"]
+)
+def test_a_system_is_found_by_every_spelling_of_its_file(spelling: str) -> None:
+    assert [each.name for each in catalogue.systems_of_file(spelling)] == ["imu"]
+
+
+def test_one_file_may_hold_several_systems() -> None:
+    assert {each.name for each in catalogue.systems_of_file("gz-sim-thermal-sensor-system")} == {"thermal-sensor"}
+    assert {each.name for each in catalogue.systems_of_file("gz-sim-log-system")} == {"log-record", "log-playback"}
+
+
+def test_a_class_of_ignition_is_the_one_of_gz() -> None:
+    found = catalogue.system_of_class("ignition::gazebo::systems::DiffDrive")
+    assert found is system("diff-drive")
+
+
+def test_a_plugin_of_gazebo_classic_is_told_apart_by_its_ros() -> None:
+    found = catalogue.classic_plugins_of_file("/opt/ros/lib/libgazebo_ros_diff_drive.so")
+    assert found["noetic"].parameter("wheelSeparation")
+    assert found["ros2"].parameter("wheel_separation")
+
+
+def test_parameters_of_a_family_of_names_are_known() -> None:
+    assert system("hydrodynamics").parameter("xUabsU")
+    assert system("hydrodynamics").parameter("xUxU") is None
+
+
+def test_a_parameter_knows_its_releases() -> None:
+    found = system("joint-state-publisher").parameter("update_rate")
+    assert found is not None
+    assert found.releases & releases().keys() == {"fortress", "harmonic", "ionic", "jetty"}
+
+
+def test_what_is_unknown_is_an_error_that_says_what_is_near() -> None:
+    with pytest.raises(UnknownNameError, match="did you mean diff-drive"):
+        system("dif_drive")
+    with pytest.raises(UnknownNameError, match="did you mean harmonic"):
+        catalogue.release("harmonik")
+    with pytest.raises(UnknownNameError, match="there is no sensor"):
+        sensor("nose")
+
+
+@pytest.mark.parametrize("kind", ALL, ids=lambda kind: f"{kind.name}-{kind.file}")
+def test_every_row_of_the_tables_makes_sense(kind: PluginKind) -> None:
+    rows = dict(kind.walk())
+    assert kind.releases
+    assert len(rows) == len(list(kind.walk()))
+    for path, row in rows.items():
+        _make_sense(path, row)
+    names = {row.name for row in kind.parameters}
+    for channel in kind.channels:
+        told = {channel.parameter, channel.unless, *(each.parameter for each in channel.alternatives)} - {None}
+        assert told <= names
+        assert channel.message.startswith("gz.msgs.")
+
+
+def _make_sense(path: tuple[str, ...], row: Parameter) -> None:
+    assert row.count in "1?*+", path
+    assert row.type in {
+        "number", "integer", "bool", "text", "joint", "link", "collision", "topic", "vector", "numbers", "pose",
+        "color", "element",
+    }, path  # fmt: skip
+    assert row.releases, path
+    assert row.default is None or not row.choices or row.default in row.choices, path
+    assert row.type != "element" or row.free or row.children, path
+
+
+def test_sensors_name_systems_that_there_are() -> None:
+    for kind in sensors().values():
+        assert all(name in systems() for name in kind.systems)
+        assert kind.releases
+    assert sensor("gps") is sensor("navsat")
+
+
+def test_every_release_has_physics_and_a_version_of_sdf() -> None:
+    assert tuple(releases()) == get_args(ReleaseName)
+    assert [each.sdf for each in releases().values()] == ["1.9", "1.10", "1.11", "1.12", "1.12"]
+    assert all(name in system("physics").releases for name in releases())

@@ -1,0 +1,63 @@
+"""Rules of the passes that change how models look and touch, and where their files are."""
+
+from twinform.diagnostics.rule import Rule, Severity
+
+UNSET_SURFACE = Rule(
+    name="unset-surface",
+    severity=Severity.WARNING,
+    finds="A collision of URDF that was to get a surface of its own, unlike others of its link.",
+    matters="The `<gazebo>` tags of URDF are about all collisions of a link, so the surface was not set.",
+    example="`set-surface{mu=0.9 collisions=toe}` on a link with the collisions `toe` and `heel`.",
+    better="Put the collision on a link of its own, or convert to SDF first and set the surface there.",
+)
+UNKNOWN_SCRIPT = Rule(
+    name="unknown-script",
+    severity=Severity.WARNING,
+    finds="A material script of Gazebo Classic whose colours are not known: it is none of Classic's own, or one that "
+    "only a shader paints.",
+    matters="Newer Gazebo has no material scripts: it shows what has no other colour in grey.",
+    example="`<material>MyRobot/Carbon</material>`, `Gazebo/RedTransparent`.",
+    better="Write the colours or the texture.",
+)
+TEXTURED_SCRIPT = Rule(
+    name="textured-script",
+    severity=Severity.INFO,
+    finds="A material script of Gazebo Classic that also has an image, of which the colours alone were taken.",
+    matters="The image is among Classic's own media, which newer Gazebo does not have.",
+    example="`Gazebo/WoodFloor`",
+    better="Copy the image beside the model and name it as the albedo map.",
+)
+UNMAPPED_URI = Rule(
+    name="unmapped-uri",
+    severity=Severity.WARNING,
+    finds="A URI that `rewrite-uris` cannot say in the scheme that was asked for: its file is not found, or it lies "
+    "in no package or model.",
+    matters="It stays as it is, and who reads the file will look for it in the old way.",
+    example="`file:///home/me/arm.dae` to `package://`, where no folder above has a package.xml.",
+    better="Say where files are with `--path DIR`, or name the folder: `roots=['arm=/home/me']`.",
+)
+NOTHING_MATCHED = Rule(
+    name="nothing-matched",
+    severity=Severity.WARNING,
+    finds="A pattern in the options of a pass that nothing in the document matches.",
+    matters="The pass did nothing, and a typing mistake would stay unseen.",
+    example="`drop{sensors='*_camra'}`",
+    better="Correct the pattern.",
+)
+DROPPED_REFERENCE = Rule(
+    name="dropped-reference",
+    severity=Severity.WARNING,
+    finds="A plugin that names something which `drop` has taken out.",
+    matters="What it refers to is gone: the plugin will not find it, and few say so.",
+    example="`<plugin ...><sensor_name>lidar</sensor_name>` after `drop{sensors=lidar}`.",
+    better="Drop the plugin as well, or correct its parameter.",
+)
+PBR_TOO_OLD = Rule(
+    name="pbr-too-old",
+    severity=Severity.WARNING,
+    finds="A document of SDF before 1.6 whose colours were to become those of PBR.",
+    matters="These versions have no word for it, so the colours stay what they were.",
+    example="`materials{pbr=true}` on `<sdf version='1.5'>`.",
+    better="Write a newer version first: `--sdf-version 1.9`, and run the pass on that.",
+    references="SDF specification 1.6, `material/pbr`.",
+)

@@ -1,0 +1,156 @@
+"""Say how visuals look in the words of newer Gazebo."""
+
+import math
+from fnmatch import fnmatchcase
+from typing import ClassVar
+
+from pydantic import Field
+
+from twinform.diagnostics import Location, Notes
+from twinform.diagnostics.rules.looks import PBR_TOO_OLD, TEXTURED_SCRIPT, UNKNOWN_SCRIPT
+from twinform.ir import Document, Element, Format, GazeboExtension, Link, Material, Model, Opaque, Visual, map_children
+from twinform.ir.node import Node
+from twinform.passes.base import Pass
+from twinform.passes.legalise.carrier import to_element
+from twinform.passes.looks.classic_materials import ClassicMaterial, classic_materials
+from twinform.schemas import format_value, parse_version, table
+
+_PBR = "pbr/metal"
+_PBR_SINCE = (1, 6)
+
+
+class Materials(Pass):
+    """Turns material scripts of Gazebo Classic into colours, and colours into those of PBR.
+
+    It changes, on links whose name matches `links`:
+
+    1. with `scripts`, in SDF, a `<script>` that names a material of Classic: the colours of it are written instead, but
+       for those that the visual says itself;
+    2. with `scripts`, in URDF, the tag `<material>Gazebo/Red</material>` of a `<gazebo>` element, which becomes a
+       `<visual>` with the colours; the materials of URDF itself stay, ROS shows them;
+    3. with `pbr`, materials that have a colour and no `<pbr>`: they get its `metalness` and `roughness`, which is
+    computed
+       from the script's highlight where neither is given: sqrt(2 / (shininess + 2)).
+
+    It never touches materials of URDF, textures, and scripts of others. It reports `unknown-script` for scripts whose
+    colours are not known, which stay, and `textured-script` for those that have an image as well, which newer Gazebo
+    does not bring.
+    """
+
+    name = "materials"
+    example: ClassVar[str] = "materials{pbr=true roughness=0.7}"
+
+    scripts: bool = Field(default=True, description="Whether scripts become colours.")
+    pbr: bool = Field(default=False, description="Whether colours become those of PBR.")
+    metalness: float = Field(default=0.0, ge=0, le=1, description="From 0, paint, to 1, bare metal.")
+    roughness: float | None = Field(default=None, ge=0, le=1, description="From 0, a mirror, to 1.")
+    links: str = Field(default="*", description="Only links with such a name; `*`, `?` and `[...]` are wildcards.")
+
+    def run(self, document: Document, notes: Notes) -> Document:
+        """The document with other materials."""
+        if self.pbr and not _has_pbr(document):
+            message = f"SDF {document.version} has no PBR, so the colours stay as they are"
+            notes.report(PBR_TOO_OLD, message, document.location, found=document.version, expected="1.6 or newer")
+            return self.model_copy(update={"pbr": False}).run(document, notes)
+
+        def visit(node: Node) -> Node:
+            if isinstance(node, Link):
+                return map_children(node, lambda part: self._visual(part, notes)) if self._is_meant(node.name) else node
+            if isinstance(node, Model) and document.format is Format.URDF:
+                return map_children(node, lambda part: self._extension(part, notes))
+            return map_children(node, visit)
+
+        return map_children(document, visit)
+
+    def _is_meant(self, link: str | None) -> bool:
+        return link is not None and fnmatchcase(link, self.links)
+
+    def _visual(self, node: Node, notes: Notes) -> Node:
+        if not isinstance(node, Visual) or node.material is None:
+            return node
+        material = self._material(node.material, notes)
+        return node if material is node.material else node.model_copy(update={"material": material})
+
+    def _material(self, material: Material, notes: Notes) -> Material:
+        script, found = material.script, None
+        if self.scripts and script is not None and script.name:
+            found = _known(script.name, script.location, notes)
+            if found:
+                material = _coloured(material, found)
+        return self._made_pbr(material, found) if self.pbr else material
+
+    def _made_pbr(self, material: Material, script: ClassicMaterial | None) -> Material:
+        """The material with metalness and roughness, if it has a colour and no PBR."""
+        colour = material.diffuse or material.ambient
+        if colour is None or material.albedo_map or any(_is_pbr(part) for part in material.opaque):
+            return material
+        numbers = {"metalness": self.metalness, "roughness": self._roughness(script)}
+        parts = (
+            Opaque(at=_PBR, element=Element(name=name, text=format_value(value)))
+            for name, value in numbers.items()
+            if value is not None
+        )
+        return material.model_copy(update={"opaque": (*material.opaque, *parts)})
+
+    def _roughness(self, script: ClassicMaterial | None) -> float | None:
+        """B. Karis 2013, Specular BRDF reference: the roughness of Blinn and Phong's highlight with this exponent."""
+        if self.roughness is not None or script is None or script.shininess is None:
+            return self.roughness
+        return min(1.0, math.sqrt(2 / (script.shininess + 2)))
+
+    def _extension(self, node: Node, notes: Notes) -> Node:
+        """A `<gazebo>` element of URDF with the colours of the script that it names."""
+        if not self.scripts or not isinstance(node, GazeboExtension) or not self._is_meant(node.reference):
+            return node
+        content = tuple(self._tag(element, notes) for element in node.content)
+        return node if content == node.content else node.model_copy(update={"content": content})
+
+    def _tag(self, element: Element, notes: Notes) -> Element:
+        name = (element.get("value") or element.text or "").strip()
+        if element.name != "material" or element.children or not name:
+            return element
+        found = _known(name, element.location, notes)
+        if found is None:
+            return element
+        material = _coloured(Material(), found)
+        made = to_element(self._made_pbr(material, found) if self.pbr else material, "material", "sdf")
+        return Element(name="visual", children=(made,), source=element.source)
+
+
+def _has_pbr(document: Document) -> bool:
+    """Whether the document's version has PBR; what stands in the `<gazebo>` elements of URDF is of the newest."""
+    version = document.version
+    if document.format is not Format.SDF or version is None or version not in table("sdf").versions:
+        return True
+    return parse_version(version) >= _PBR_SINCE
+
+
+def _known(name: str, where: Location, notes: Notes) -> ClassicMaterial | None:
+    """The material of a script; what is not known of it is noted."""
+    found = classic_materials().get(name)
+    if found is None:
+        message = f"the colours of the material script {name!r} are not known; it stays"
+        notes.report(UNKNOWN_SCRIPT, message, where, found=name)
+    elif found.textures:
+        message = (
+            f"of the material script {name!r} the colours are taken, and not its image {', '.join(found.textures)}"
+        )
+        notes.report(TEXTURED_SCRIPT, message, where, found=name)
+    return found
+
+
+def _coloured(material: Material, found: ClassicMaterial) -> Material:
+    """The material with the colours of a script, where it says none itself."""
+    return material.model_copy(
+        update={
+            "script": None,
+            "ambient": material.ambient or found.ambient,
+            "diffuse": material.diffuse or found.diffuse,
+            "specular": material.specular or found.specular,
+            "emissive": material.emissive or found.emissive,
+        }
+    )
+
+
+def _is_pbr(part: Opaque) -> bool:
+    return part.at.startswith("pbr") or (part.element is not None and part.element.name == "pbr")

@@ -1,0 +1,181 @@
+"""Add a system of gz-sim to a model or world."""
+
+from collections.abc import Iterable, Mapping
+from typing import ClassVar, Self, cast
+
+from pydantic import Field, model_validator
+
+from twinform.diagnostics import Notes, Severity
+from twinform.diagnostics.rules import plugins as rules
+from twinform.ir import Document, Model, Plugin, Sensor
+from twinform.passes.plugins.catalogue import nearest, releases, system
+from twinform.passes.plugins.editing import add_plugin, add_visual_plugin, add_world_plugin, replace_model
+from twinform.passes.plugins.options import MissingError, content_of, field_of, options_of
+from twinform.passes.plugins.parameters import names_in
+from twinform.passes.plugins.parts import PluginKind, ReleaseName
+from twinform.passes.plugins.selecting import Fields, SelectingPass
+from twinform.passes.plugins.sites import Site, map_sensors
+from twinform.passes.plugins.targets import find_model, find_world, missing, replace_world
+from twinform.passes.plugins.wheels import MEASURES, NotMeasuredError, Wheel, wheel
+from twinform.passes.plugins.worlds import system_plugin, with_defaults
+
+
+class AddPlugin(SelectingPass):
+    """Adds a system of gz-sim to a model or world, with parameters that are checked against the catalogue.
+
+    Every parameter of the system is an option, called in kebab-case: `left_joint` is `left-joint`, the `link` in
+    `left_track` is `left-track-link`. `docs/reference/plugins.md` lists the systems and their options. One that may
+    stand several times takes a list.
+
+    It changes
+
+    1. the model (`model`, or the only one), for systems of models;
+    2. the world (`world`, or the only one), for systems of worlds; one without any plugin gets those too that gz-sim
+       would have added;
+    3. the sensor `on`, or the visual or all visuals of the link `on`, for systems of these.
+
+    Wheel separation, wheel radius and wheel base are read off the model where they are not given: the joints'
+    places and axes, and the cylinders, spheres and capsules of the wheels.
+    It never touches a plugin that is there; one that is the same already is not added again.
+    Diagnostics: `nothing-to-add-to`, `plugin-reference`, `measured-wheels`, `wheels-not-measured`.
+    """
+
+    name: ClassVar[str] = "add-plugin"
+    example: ClassVar[str] = "add-plugin{system=diff-drive left-joint=left_wheel_joint right-joint=right_wheel_joint}"
+    selector: ClassVar[str] = "system"
+
+    system: str = Field(description="The system, such as `diff-drive` or `joint-state-publisher`.")
+    release: ReleaseName = Field(default="harmonic", description="The release of Gazebo that has to know it all.")
+    model: str | None = Field(
+        default=None, description="The model to add to, where there are several; `a::b` if nested."
+    )
+    world: str | None = Field(default=None, description="The world to add to, where there are several.")
+    on: str | None = Field(default=None, description="The sensor, visual or link of visuals that it is for.")
+
+    @classmethod
+    def fields_for(cls, word: str) -> Fields:
+        """The options of a system."""
+        kind = system(word)
+        return {option: field_of(path, row, kind) for option, (path, row) in options_of(kind).items()}
+
+    @model_validator(mode="after")
+    def _check_release(self) -> Self:
+        kind = self._kind()
+        if self.release not in kind.releases:
+            have = ", ".join(each for each in releases() if each in kind.releases)
+            raise ValueError(f"{kind.name} is not in {self.release}; it is in {have or 'no release yet'}")
+        for option in self._values():
+            if self.release not in options_of(kind)[option][1].releases:
+                raise ValueError(f"{kind.name} does not read {option} in {self.release}")
+        try:
+            content_of(kind, self._values())
+        except MissingError as error:
+            raise ValueError(f"{kind.name} needs the option {error}") from error
+        return self
+
+    def run(self, document: Document, notes: Notes) -> Document:
+        """The document with the plugin."""
+        kind = self._kind()
+        if "model" in kind.scopes and self.on is None:
+            return self._in_model(document, notes)
+        if "world" in kind.scopes:
+            return self._in_world(document, notes)
+        return self._on_sensor(document, notes) if "sensor" in kind.scopes else self._on_visual(document, notes)
+
+    def _in_model(self, document: Document, notes: Notes) -> Document:
+        model = find_model(document, self.model, notes)
+        if model is None or not self._names_are_there(model, notes):
+            return document
+        plugin = self._plugin(self._measured(model, document, notes))
+        if notes.has_errors:
+            return document
+        return replace_model(document, model, add_plugin(model, plugin, document.format))
+
+    def _in_world(self, document: Document, notes: Notes) -> Document:
+        world = find_world(document, self.world, notes)
+        if world is None:
+            return document
+        made = add_world_plugin(with_defaults(world, self._kind()), self._plugin({}))
+        return document if made is world else replace_world(document, world, made)
+
+    def _on_sensor(self, document: Document, notes: Notes) -> Document:
+        plugin, seen = self._plugin({}), list[str]()
+
+        def change(sensor: Sensor, _: Site) -> Iterable[Sensor]:
+            seen.append(sensor.name or "")
+            if sensor.name != self.on or plugin in sensor.plugins:
+                return (sensor,)
+            return (sensor.model_copy(update={"plugins": (*sensor.plugins, plugin)}),)
+
+        made = map_sensors(document, change)
+        if self.on not in seen:
+            missing(document, "sensor", self.on, seen, notes)
+        return made
+
+    def _on_visual(self, document: Document, notes: Notes) -> Document:
+        model = find_model(document, self.model, notes)
+        if model is None:
+            return document
+        made = add_visual_plugin(model, self.on or "", self._plugin({}), document.format)
+        if made is None:
+            names = [link.name for link in model.links]
+            missing(document, "visual or link", self.on, names, notes)
+            return document
+        return replace_model(document, model, made)
+
+    def _kind(self) -> PluginKind:
+        return system(self.system)
+
+    def _values(self) -> dict[str, object]:
+        """The options of the system that are given."""
+        said = {option: getattr(self, option.replace("-", "_"), None) for option in options_of(self._kind())}
+        return {option: value for option, value in said.items() if value is not None}
+
+    def _plugin(self, measured: Mapping[str, object]) -> Plugin:
+        kind = self._kind()
+        content = content_of(kind, {**self._values(), **measured})
+        plugin = system_plugin(kind)
+        return plugin.model_copy(update={"content": content}) if content else plugin
+
+    def _names_are_there(self, model: Model, notes: Notes) -> bool:
+        """Whether the joints and links that are named exist; what does not is reported."""
+        good = True
+        for option, value in self._values().items():
+            row = options_of(self._kind())[option][1]
+            known = names_in(model, row.type) if row.type in {"joint", "link"} else None
+            if known is None:
+                continue
+            named = cast("tuple[str, ...]", value) if isinstance(value, tuple) else (str(value),)
+            for name in [each for each in named if each not in known]:
+                near = nearest(name, sorted(known))
+                message = f"{option}: model {model.name!r} has no {row.type} {name!r}"
+                help_ = f"did you mean {near}?" if near else None
+                notes.report(
+                    rules.PLUGIN_REFERENCE, message, model.location, found=name, help=help_, severity=Severity.ERROR
+                )
+                good = False
+        return good
+
+    def _measured(self, model: Model, document: Document, notes: Notes) -> dict[str, object]:
+        """What is not given and the model says."""
+        kind, found = self._kind(), dict[str, object]()
+
+        def wheels(parameter: str) -> tuple[Wheel, ...]:
+            names = cast("tuple[str, ...]", self._values().get(parameter.replace("_", "-"), ()))
+            if not names:
+                raise NotMeasuredError(f"{parameter.replace('_', '-')} is not given")
+            return tuple(wheel(model, name, document.format) for name in names)
+
+        for parameter, measure in MEASURES.get(kind.name, {}).items():
+            option = parameter.replace("_", "-")
+            if option in self._values() or self._values().get("steering-only"):
+                continue
+            try:
+                found[option] = measure(wheels)
+            except NotMeasuredError as error:
+                message = f"{option} is not given, and cannot be read off model {model.name!r}: {error}"
+                notes.report(rules.WHEELS_NOT_MEASURED, message, model.location)
+        if found:
+            listed = ", ".join(f"{option} {value:g} m" for option, value in found.items())
+            notes.report(rules.MEASURED_WHEELS, f"read off model {model.name!r}: {listed}", model.location)
+        return found

@@ -1,0 +1,204 @@
+"""Add a sensor to a link or joint."""
+
+from collections.abc import Iterator
+from typing import Annotated, ClassVar, Self
+
+from pydantic import Field, model_validator
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules import plugins as rules
+from twinform.ir import Document, Element, Format, Joint, Link, Model, Opaque, Pose, Sensor, Vector3
+from twinform.passes.legalise.nodes import unique_name
+from twinform.passes.plugins.catalogue import release, releases, sensor
+from twinform.passes.plugins.editing import add_sensor, replace_model
+from twinform.passes.plugins.parts import ReleaseName, SensorKind
+from twinform.passes.plugins.selecting import Fields, SelectingPass
+from twinform.passes.plugins.sensor_settings import addable, element_of, fields_of, settings_of
+from twinform.passes.plugins.sites import Site, sensors_of
+from twinform.passes.plugins.targets import find_model, missing, replace_world, world_of
+from twinform.passes.plugins.values import is_topic
+from twinform.passes.plugins.worlds import as_xml, has_element, has_system, needed_for, with_systems
+
+
+class AddSensor(SelectingPass):
+    """Adds a sensor of Gazebo to a link or joint, with settings that are usual for its kind.
+
+    Every kind has options of its own, such as `width`, `fov`, `samples` or `gyro-stddev`; `docs/reference/plugins.md`
+    lists them with what they are where they are not given. The topic is the kind's usual one: `imu` for an IMU called
+    `imu`, else `NAME/imu`, and `NAME/image` for a camera.
+
+    It changes
+
+    1. the link, or for `force_torque` the joint, that gets the sensor; in URDF it stands in a `<gazebo>` element, and a
+       fixed joint that is measured is kept from being lumped;
+    2. the world around the model, which gets the system that the sensor needs, if it has none; and if it had no plugin
+       at all, those that gz-sim adds only to such worlds.
+
+    For a file without a world it says what the world has to have; `convert --world FILE` writes such a world.
+    It never touches a sensor that is there: another one gets another name, and the same one is not added again.
+    Diagnostics: `nothing-to-add-to`, `missing-world-system`, `world-system-needed`, `added-world-system`.
+    """
+
+    name: ClassVar[str] = "add-sensor"
+    example: ClassVar[str] = "add-sensor{type=camera link=mast rate=15 width=1280 height=720}"
+    selector: ClassVar[str] = "type"
+
+    type: str = Field(description="The kind of sensor: `imu`, `camera`, `gpu_lidar`, `navsat`, ...")
+    link: str | None = Field(default=None, description="The link that it sits on.")
+    joint: str | None = Field(default=None, description="The joint whose force and torque it measures.")
+    sensor_name: str | None = Field(default=None, description="Its name; by default that of its kind.")
+    topic: str | None = Field(default=None, description="The topic that it publishes on.")
+    rate: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None = Field(
+        default=None, description="How often it measures, in Hz; by default what is usual for its kind."
+    )
+    frame_id: str | None = Field(default=None, description="The frame that its messages are in, for ROS.")
+    xyz: Vector3 | None = Field(default=None, description="Where it is on its holder, in m.")
+    rpy: Vector3 | None = Field(default=None, description="Its rotation on its holder: roll, pitch and yaw, in rad.")
+    visualize: bool = Field(default=False, description="Whether the GUI shows it.")
+    collision: str | None = Field(default=None, description="The collision of a contact sensor; by default all.")
+    model: str | None = Field(default=None, description="The model to add to, where there are several.")
+    release: ReleaseName = Field(default="harmonic", description="The release of Gazebo that has to know it.")
+
+    @classmethod
+    def fields_for(cls, word: str) -> Fields:
+        """The options of a kind of sensor."""
+        return dict(fields_of(word))
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        kind = sensor(self.type)
+        if kind.type not in addable() or self.release not in kind.releases:
+            have = ", ".join(each for each in releases() if each in kind.releases)
+            raise ValueError(f"{self.release} does not simulate {kind.type}; releases that do: {have or 'none yet'}")
+        wanted, other = ("joint", "link") if kind.holders == ("joint",) else ("link", "joint")
+        if getattr(self, wanted) is None or getattr(self, other) is not None:
+            raise ValueError(
+                f"{kind.type} needs the option {wanted}" + (f", not {other}" if getattr(self, other) else "")
+            )
+        if self.topic is not None and not is_topic(self.topic):
+            raise ValueError(f"{self.topic!r} is no topic")
+        if self.collision is not None and kind.type != "contact":
+            raise ValueError("only contact sensors look at a collision")
+        return self
+
+    def run(self, document: Document, notes: Notes) -> Document:
+        """The document with the sensor."""
+        model = find_model(document, self.model, notes)
+        holder = self._holder(model, notes) if model else None
+        if model is None or holder is None:
+            return document
+        made = self._sensor(model, holder, document.format, notes)
+        if made is None:
+            return document
+        world, same = world_of(document, model), _is_there(document, model, holder.name, made)
+        if not same:
+            kept = isinstance(holder, Joint) and holder.type == "fixed"
+            new = add_sensor(model, holder.name, _named(made, document, model, holder), document.format, kept=kept)
+            document = replace_model(document, model, new)
+        if world is None:
+            self._say_what_is_needed(made, holder, notes)
+            return document
+        return self._in_world(document, world.name, made, notes)
+
+    def _holder(self, model: Model, notes: Notes) -> Link | Joint | None:
+        word, name = ("joint", self.joint) if self.joint is not None else ("link", self.link)
+        nodes: tuple[Link | Joint, ...] = model.joints if word == "joint" else model.links
+        found = next((each for each in nodes if each.name == name), None)
+        if found is None:
+            missing(model, word, name or "", [each.name for each in nodes], notes)
+        return found
+
+    def _sensor(self, model: Model, holder: Link | Joint, format_: Format, notes: Notes) -> Sensor | None:
+        kind = sensor(self.type)
+        settings = settings_of(self.type)
+        name = self.sensor_name or settings.name
+        values = {option: getattr(self, option.replace("-", "_"), None) for option in self.fields_for(self.type)}
+        element = element_of(self.type, values)
+        if kind.type == "contact":
+            element = self._contact(model, holder, format_, notes)
+            if element is None:
+                return None
+        frame = release(self.release).frame_element
+        made = Sensor(
+            name=name,
+            type=kind.type,
+            pose=Pose(xyz=self.xyz, rpy=self.rpy) if self.xyz or self.rpy else None,
+            always_on=True,
+            update_rate=self.rate or float(settings.rate),
+            visualize=self.visualize or None,
+            topic=self.topic or usual_topic(kind, name, settings.name),
+            frame_id=self.frame_id if frame == "frame_id" else None,
+            opaque=(Opaque(element=element),) if element else (),
+        )
+        if self.frame_id is None or frame == "frame_id":
+            return made
+        own = Opaque(element=Element(name=frame or "gz_frame_id", text=self.frame_id))
+        return made.model_copy(update={"opaque": (own, *made.opaque)})
+
+    def _contact(self, model: Model, holder: Link | Joint, format_: Format, notes: Notes) -> Element | None:
+        names = list(_collisions(holder, format_))
+        if not names or (self.collision is not None and self.collision not in names):
+            missing(model, "collision", self.collision or "", names, notes)
+            return None
+        chosen = [self.collision] if self.collision else names
+        return Element(name="contact", children=tuple(Element(name="collision", text=each) for each in chosen))
+
+    def _say_what_is_needed(self, made: Sensor, holder: Link | Joint, notes: Notes) -> None:
+        for system in needed_for(sensor(self.type)).systems:
+            message = f"sensor {made.name!r} needs {system.class_name} in the world"
+            notes.report(rules.WORLD_SYSTEM_NEEDED, message, holder.location, help=f"the world needs {as_xml(system)}")
+
+    def _in_world(self, document: Document, name: str, made: Sensor, notes: Notes) -> Document:
+        world = next(each for each in document.worlds if each.name == name)
+        needed = needed_for(sensor(self.type))
+        for element in needed.elements:
+            if not has_element(world, element):
+                message = f"sensor {made.name!r} needs <{element}>, and world {world.name!r} has none"
+                notes.report(rules.MISSING_WORLD_SYSTEM, message, world.location, expected=element)
+        lacks = [each for each in needed.systems if not has_system(world, each)]
+        if not lacks:
+            return document
+        listed = ", ".join(each.class_name for each in lacks)
+        notes.report(rules.ADDED_WORLD_SYSTEM, f"world {world.name!r} gets {listed}", world.location)
+        return replace_world(document, world, with_systems(world, lacks))
+
+
+def usual_topic(kind: SensorKind, name: str, usual: str) -> str:
+    """The topic of a sensor of this name: short, and of its own."""
+    if kind.element == "camera":
+        return f"{name}/{kind.suffix}" if kind.suffix else name
+    return kind.suffix if name == usual else f"{name}/{kind.suffix}"
+
+
+def _collisions(holder: Link | Joint, format_: Format) -> Iterator[str]:
+    """The names of a link's collisions, as Gazebo calls those of URDF that have none."""
+    taken: set[str] = set()
+    for each in holder.collisions if isinstance(holder, Link) else ():
+        name = each.name or (unique_name(f"{holder.name}_collision", taken) if format_ is Format.URDF else None)
+        if name is not None:
+            taken.add(name)
+            yield name
+
+
+def _here(document: Document, model: Model, holder: str) -> Iterator[Sensor]:
+    """The sensors that are on a holder of a model already."""
+
+    def is_here(site: Site) -> bool:
+        return site.model is model and site.link_or_joint == holder
+
+    return (each for each, site in sensors_of(document) if is_here(site))
+
+
+def _is_there(document: Document, model: Model, holder: str, made: Sensor) -> bool:
+    """Whether the holder has a sensor that says the same."""
+    return any(_plain(each) == _plain(made) for each in _here(document, model, holder))
+
+
+def _plain(node: Sensor) -> object:
+    return node.model_dump(exclude={"source", "spelling"}, exclude_defaults=True)
+
+
+def _named(made: Sensor, document: Document, model: Model, holder: Link | Joint) -> Sensor:
+    """The sensor with a name that no other one of its holder has."""
+    taken = {each.name or "" for each in _here(document, model, holder.name)}
+    return made if made.name not in taken else made.model_copy(update={"name": unique_name(made.name or "", taken)})

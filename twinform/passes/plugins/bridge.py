@@ -1,0 +1,106 @@
+"""The configuration of ros_gz_bridge for what a document has: which topics of Gazebo are which topics of ROS."""
+
+import json
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from twinform.diagnostics import Notes, Severity
+from twinform.diagnostics.rules import plugins as rules
+from twinform.ir import Document, Format
+from twinform.passes.plugins.catalogue import ros_message
+from twinform.passes.plugins.topics import Topic, topics_of
+
+_USUAL = {"odometry": "odom", "joint_state": "joint_states"}
+"""What ROS usually calls the last part of a topic."""
+_TRANSFORMS = "gz.msgs.Pose_V"
+_TRANSFORM_TOPIC = "/tf"
+_STRANGE = re.compile(r"[^A-Za-z0-9_]")
+_IGNITION = "fortress"
+"""The release whose bridge calls messages by the name of Ignition."""
+_DIRECTIONS = {"<": "GZ_TO_ROS", ">": "ROS_TO_GZ"}
+
+_HEAD = """\
+# Made by twinform for ros_gz_bridge: ros2 run ros_gz_bridge parameter_bridge --ros-args -p config_file:=THIS_FILE
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Bridge:
+    """One entry: the keys of ros_gz_bridge's file, in its words."""
+
+    ros_topic_name: str
+    gz_topic_name: str
+    ros_type_name: str
+    gz_type_name: str
+    direction: str
+
+
+CLOCK = Topic("/clock", "/clock", "gz.msgs.Clock", "<", "", Document(format=Format.SDF))
+"""The time of the simulation, which every node with `use_sim_time` waits for."""
+
+
+def bridges(document: Document, release: str, notes: Notes, world: str | None = None) -> list[Bridge]:
+    """An entry for the clock and for each topic that ROS knows the message of; what is left out is reported."""
+    wanted = [CLOCK, *(topic for topic in topics_of(document, release, world) if _can_be_bridged(topic, notes))]
+    wanted = list({(topic.name, topic.direction): topic for topic in wanted}.values())
+    names = list(_ros_names(wanted))
+    return [_bridge(topic, name, release) for topic, name in zip(wanted, names, strict=True)]
+
+
+def bridge_yaml(entries: Iterable[Bridge]) -> str:
+    """The file of ros_gz_bridge; text in JSON's quotes is text in YAML too."""
+    return _HEAD + "".join(_entry(each) for each in entries)
+
+
+def _entry(bridge: Bridge) -> str:
+    keys = ("ros_topic_name", "gz_topic_name", "ros_type_name", "gz_type_name")
+    lines = [f"{key}: {json.dumps(getattr(bridge, key))}" for key in keys]
+    lines.append(f"direction: {bridge.direction}")
+    return "- " + "\n  ".join(lines) + "\n"
+
+
+def _can_be_bridged(topic: Topic, notes: Notes) -> bool:
+    where = topic.source.location
+    if topic.needs_world:
+        message = f"the topic {topic.name!r} contains the name of the world, which is not known here"
+        help_ = "say it with `world=NAME`, or give the sensor or plugin a topic of its own"
+        notes.report(rules.UNBRIDGED_TOPIC, message, where, found=topic.name, help=help_, severity=Severity.WARNING)
+        return False
+    if ros_message(topic.message) is None:
+        message = f"the bridge knows no message of ROS for {topic.message} on {topic.name!r}"
+        notes.report(rules.UNBRIDGED_TOPIC, message, where, found=topic.message)
+        return False
+    return True
+
+
+def _ros_names(topics: list[Topic]) -> Iterator[str]:
+    """The topics of ROS: short, below the model's name where there are several, and each one of its own."""
+    several = len({topic.model for topic in topics if topic.model}) > 1
+    names = [_short(topic, several=several) for topic in topics]
+    count = Counter(name for name in names if name != _TRANSFORM_TOPIC)
+    for name, topic in zip(names, topics, strict=True):
+        yield name if count[name] <= 1 else _valid(topic.name)
+
+
+def _short(topic: Topic, *, several: bool) -> str:
+    if topic.message == _TRANSFORMS:
+        return _TRANSFORM_TOPIC
+    if topic.short.startswith("/"):
+        return topic.short
+    *above, last = topic.short.split("/")
+    parts = [*([topic.model] if several and topic.model else []), *above, _USUAL.get(last, last)]
+    return _valid("/".join(parts))
+
+
+def _valid(name: str) -> str:
+    """The name as ROS takes it: letters, digits and underscores, and no part that begins with a digit."""
+    parts = [_STRANGE.sub("_", part) for part in name.strip("/").split("/")]
+    joined = "/".join(f"_{part}" if part[:1].isdigit() else part for part in parts if part)
+    return f"/{joined}" if name.startswith("/") else joined
+
+
+def _bridge(topic: Topic, name: str, release: str) -> Bridge:
+    message = topic.message.replace("gz.msgs.", "ignition.msgs.") if release == _IGNITION else topic.message
+    return Bridge(name, topic.name, ros_message(topic.message) or "", message, _DIRECTIONS[topic.direction])

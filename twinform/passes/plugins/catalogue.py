@@ -1,0 +1,240 @@
+"""The catalogue of gz-sim systems, sensors, releases and of Gazebo Classic's plugins for ROS.
+
+The facts are package data in `data/`, read when they are first asked for. They were taken from the sources of gz-sim 6
+to 10 and its main branch, of gazebo_ros_pkgs, gz_ros2_control and ros_gz_bridge.
+"""
+
+import re
+import tomllib
+from collections import defaultdict
+from collections.abc import Iterator
+from difflib import get_close_matches
+from functools import cache
+from importlib import resources
+from importlib.resources.abc import Traversable
+from typing import Any, Literal
+
+from twinform.passes.plugins.notation import read_plugins
+from twinform.passes.plugins.parts import Parameter, PluginKind, Published, Release, SensorKind
+
+__all__ = [
+    "DEFAULT_SYSTEMS",
+    "LATEST",
+    "UnknownNameError",
+    "classic_plugins",
+    "classic_plugins_of_file",
+    "is_ignition_name",
+    "modern_class",
+    "modern_file",
+    "nearest",
+    "release",
+    "releases",
+    "ros_message",
+    "sensor",
+    "sensors",
+    "system",
+    "system_of_class",
+    "systems",
+    "systems_of_file",
+]
+
+LATEST = "main"
+"""What comes after the last release: the development branch. No release has what is only there."""
+
+DEFAULT_SYSTEMS = ("physics", "user-commands", "scene-broadcaster")
+"""What gz-sim adds to a world without any plugin, and to no other one."""
+
+Family = Literal["noetic", "ros2"]
+
+_SYSTEM_FILE = re.compile(r"(?:lib)?(?:ignition-gazebo|gz-sim)\d*-(.+?)(?:\.so|\.dylib|\.dll)?")
+_FILE = re.compile(r"(?:lib)?(.+?)(?:\.so|\.dylib|\.dll)?")
+_IGNITION_CLASS = re.compile(r"^(?:::)?(?:ignition::gazebo|gz::sim)(?:::v\d+)?::")
+
+
+class UnknownNameError(LookupError):
+    """The catalogue has nothing of this name; the message says what is near."""
+
+    def __init__(self, what: str, name: str, known: Iterator[str] | list[str]) -> None:
+        listed = list(known)
+        near = nearest(name, listed)
+        hint = f"did you mean {near}?" if near else f"there are {', '.join(listed)}"
+        super().__init__(f"there is no {what} {name}; {hint}")
+
+
+def nearest(name: str, known: Iterator[str] | list[str] | tuple[str, ...]) -> str | None:
+    """The name that was probably meant."""
+    listed = list(known)
+    near = get_close_matches(name, listed, n=1)
+    if near:
+        return near[0]
+    folded = {each.lower().replace("-", "_"): each for each in listed}
+    near = get_close_matches(name.lower().replace("-", "_"), folded, n=1)
+    return folded[near[0]] if near else None
+
+
+@cache
+def releases() -> dict[str, Release]:
+    """The releases by name, oldest first."""
+    return {name: _release(name, row) for name, row in _toml("releases.toml").items()}
+
+
+def release(name: str) -> Release:
+    """A release.
+
+    Raises:
+        UnknownNameError: there is none of this name.
+    """
+    try:
+        return releases()[name]
+    except KeyError:
+        raise UnknownNameError("release of Gazebo", name, list(releases())) from None
+
+
+@cache
+def systems() -> dict[str, PluginKind]:
+    """The systems of gz-sim by their name here, such as `diff-drive`."""
+    return {each.name: each for each in _tables("systems")}
+
+
+def system(name: str) -> PluginKind:
+    """A system by its name here; underscores do as well.
+
+    Raises:
+        UnknownNameError: there is none of this name.
+    """
+    try:
+        return systems()[name.replace("_", "-")]
+    except KeyError:
+        raise UnknownNameError("system", name, list(systems())) from None
+
+
+def systems_of_file(file: str) -> tuple[PluginKind, ...]:
+    """The systems in a file, however it is spelt; one file may hold several."""
+    return _by_file().get(modern_file(file), ())
+
+
+def system_of_class(name: str) -> PluginKind | None:
+    """The system that a class is, by its name now or that of Ignition."""
+    return _by_class().get(modern_class(name))
+
+
+def modern_file(file: str) -> str:
+    """A file of a system as gz-sim calls it now: `libignition-gazebo6-imu-system.so` is `gz-sim-imu-system`."""
+    name = file.rsplit("/", 1)[-1].strip()
+    found = _SYSTEM_FILE.fullmatch(name)
+    if found:
+        return f"gz-sim-{found[1]}"
+    plain = _FILE.fullmatch(name)
+    return plain[1] if plain else name
+
+
+def modern_class(name: str) -> str:
+    """A class of a system as gz-sim calls it now."""
+    return _IGNITION_CLASS.sub("gz::sim::", name.strip())
+
+
+def is_ignition_name(name: str) -> bool:
+    """Whether a file or class has a name from before Gazebo was called so again."""
+    return "ignition-gazebo" in name or "ignition::gazebo" in name
+
+
+@cache
+def classic_plugins(family: Family) -> dict[str, PluginKind]:
+    """The plugins of Gazebo Classic for a ROS, by their name here: the file's without `gazebo_ros_`."""
+    kinds = read_plugins(_folder("classic", f"{family}.facts").read_text(encoding="utf-8"), _all_releases())
+    return {each.name: each for each in kinds}
+
+
+def classic_plugins_of_file(file: str) -> dict[Family, PluginKind]:
+    """The plugins in a file of Gazebo Classic, by the ROS that they are for: both have files of one name."""
+    wanted = modern_file(file)
+    found: dict[Family, PluginKind] = {}
+    for family in ("noetic", "ros2"):
+        for kind in classic_plugins(family).values():
+            if modern_file(kind.file) == wanted:
+                found[family] = kind
+    return found
+
+
+@cache
+def sensors() -> dict[str, SensorKind]:
+    """The kinds of sensors by the word for them in SDF."""
+    return {type_: _sensor(type_, row) for type_, row in _toml("sensors.toml").items()}
+
+
+def sensor(type_: str) -> SensorKind:
+    """A kind of sensor by its word or an older one.
+
+    Raises:
+        UnknownNameError: gz-sim simulates none of this type.
+    """
+    kinds = sensors()
+    word = type_.replace("-", "_")
+    found = kinds.get(word) or next((kind for kind in kinds.values() if word in kind.aliases), None)
+    if found is None:
+        raise UnknownNameError("sensor", type_, list(kinds))
+    return found
+
+
+def ros_message(message: str) -> str | None:
+    """The type of ROS 2 for a message of gz; None where the bridge knows none."""
+    found = _toml("messages.toml").get(message)
+    return str(found) if found is not None else None
+
+
+@cache
+def _by_file() -> dict[str, tuple[PluginKind, ...]]:
+    found: dict[str, tuple[PluginKind, ...]] = defaultdict(tuple)
+    for each in systems().values():
+        found[modern_file(each.file)] += (each,)
+    return dict(found)
+
+
+@cache
+def _by_class() -> dict[str, PluginKind]:
+    return {each.class_name: each for each in systems().values()}
+
+
+@cache
+def _all_releases() -> tuple[str, ...]:
+    return (*releases(), LATEST)
+
+
+def _tables(folder: str) -> Iterator[PluginKind]:
+    for file in sorted(_folder(folder).iterdir(), key=lambda each: each.name):
+        if file.name.endswith(".facts"):
+            yield from read_plugins(file.read_text(encoding="utf-8"), _all_releases())
+
+
+@cache
+def _toml(name: str) -> dict[str, Any]:
+    return tomllib.loads(_folder(name).read_text(encoding="utf-8"))
+
+
+def _folder(*path: str) -> Traversable:
+    return resources.files("twinform.passes.plugins").joinpath("data", *path)
+
+
+def _release(name: str, row: dict[str, Any]) -> Release:
+    return Release(name, row["sim"], row["sdf"], tuple(row["ros"]), row["lts"], row.get("frame"))
+
+
+def _sensor(type_: str, row: dict[str, Any]) -> SensorKind:
+    everything = _all_releases()
+    return SensorKind(
+        type=type_,
+        aliases=tuple(row.get("aliases", ())),
+        classic=tuple(row.get("classic", ())),
+        element=row["element"],
+        systems=tuple(row["systems"]),
+        world_elements=tuple(row.get("world", ())),
+        holders=tuple(row.get("holder", ("link",))),
+        suffix=row["suffix"],
+        releases=frozenset(everything[everything.index(row.get("since", everything[0])) :]),
+        publishes=tuple(Published(*each) for each in row["publishes"]),
+    )
+
+
+def parameter_names(rows: tuple[Parameter, ...]) -> list[str]:
+    """The names of parameters that stand beside each other."""
+    return [row.name for row in rows]

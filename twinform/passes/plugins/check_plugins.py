@@ -1,0 +1,176 @@
+"""Hold plugins and sensors against what a release of Gazebo knows."""
+
+from typing import ClassVar
+
+from pydantic import Field
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules import plugins as rules
+from twinform.ir import Document, Plugin, Sensor, World
+from twinform.passes.base import Pass
+from twinform.passes.plugins.catalogue import (
+    classic_plugins_of_file,
+    is_ignition_name,
+    modern_class,
+    modern_file,
+    nearest,
+    releases,
+    system_of_class,
+    systems,
+    systems_of_file,
+)
+from twinform.passes.plugins.parameters import Asked, check_parameters
+from twinform.passes.plugins.parts import PluginKind, ReleaseName, SensorKind
+from twinform.passes.plugins.sites import Site, plugins_of, sensors_of
+from twinform.passes.plugins.worlds import (
+    as_xml,
+    has_element,
+    has_system,
+    kind_of_sensor,
+    missing_defaults,
+    needed_for,
+)
+
+_NATIVE_IGNITION = "fortress"
+"""The last release in which the names of Ignition are the ones in use."""
+
+
+class CheckPlugins(Pass):
+    """Holds plugins and sensors against what a release of Gazebo knows; changes nothing.
+
+    It reports
+
+    1. parameters that a system does not read, with the nearest one, that lack, stand twice or have values of another
+       type, and joints and links that the model does not have;
+    2. a class that is not in the file, names of Ignition, systems and sensors that the release does not have;
+    3. systems that stand in what they are not for;
+    4. sensors in a world without the system that they need, and what a model needs in any world;
+    5. worlds with plugins but without the systems that gz-sim adds to worlds that have none.
+
+    Plugins of the GUI and of files that are not of Gazebo are left alone.
+    Diagnostics: `unknown-plugin-parameter`, `plugin-parameter-value`, `plugin-parameter-count`, `plugin-reference`,
+    `wrong-plugin-class`, `ignition-plugin-name`, `wrong-plugin-scope`, `plugin-not-in-release`, `unsupported-sensor`,
+    `missing-world-system`, `world-system-needed`, `default-systems-off`.
+    """
+
+    name: ClassVar[str] = "check-plugins"
+    example: ClassVar[str] = "check-plugins{release=harmonic}"
+
+    release: ReleaseName = Field(default="harmonic", description="The release of Gazebo that the model is for.")
+
+    def run(self, document: Document, notes: Notes) -> Document:
+        """The same document."""
+        for plugin, site in plugins_of(document):
+            if site.scope != "gui":
+                _check_plugin(plugin, site, self.release, notes)
+        for world in document.worlds:
+            _check_defaults(world, notes)
+        noted: set[str] = set()
+        for sensor, site in sensors_of(document):
+            _check_sensor(sensor, site, self.release, noted, notes)
+        return document
+
+
+def _check_plugin(plugin: Plugin, site: Site, release: str, notes: Notes) -> None:
+    kinds = systems_of_file(plugin.filename or "")
+    if not kinds:
+        _check_stranger(plugin, notes)
+        return
+    kind = _class_of(plugin, kinds, notes)
+    if release != _NATIVE_IGNITION and is_ignition_name(f"{plugin.filename} {plugin.name}"):
+        found = kind or kinds[0]
+        message = f"plugin {plugin.name!r} has a name of Ignition"
+        notes.report(rules.IGNITION_PLUGIN_NAME, message, plugin.location, help=f"write {as_xml(found)}")
+    if kind is None:
+        return
+    if release not in kind.releases:
+        have = ", ".join(each for each in releases() if each in kind.releases) or "none yet"
+        message = f"{kind.class_name} is not in {release}; releases that have it: {have}"
+        notes.report(rules.PLUGIN_NOT_IN_RELEASE, message, plugin.location, found=plugin.filename)
+        return
+    if site.scope not in kind.scopes:
+        scopes = " or ".join(f"<{scope}>" for scope in kind.scopes)
+        message = f"{kind.class_name} stands in <{site.scope}> and belongs into {scopes}"
+        notes.report(rules.WRONG_PLUGIN_SCOPE, message, plugin.location, found=site.scope, expected=scopes)
+    model = site.model if "world" not in kind.scopes else None
+    check_parameters(plugin, Asked(kind, release, model, plugin.location, notes))
+
+
+def _class_of(plugin: Plugin, kinds: tuple[PluginKind, ...], notes: Notes) -> PluginKind | None:
+    """The system that is meant: the one of the name, or the only one of the file."""
+    if not plugin.name:
+        return kinds[0] if len(kinds) == 1 else None
+    name = modern_class(plugin.name)
+    found = next((kind for kind in kinds if kind.class_name == name), None)
+    if found is None:
+        classes = " or ".join(kind.class_name for kind in kinds)
+        message = f"{plugin.filename} has no class {plugin.name}; the name has to be {classes}"
+        notes.report(rules.WRONG_PLUGIN_CLASS, message, plugin.location, found=plugin.name, expected=classes)
+    return found or (kinds[0] if len(kinds) == 1 else None)
+
+
+def _check_stranger(plugin: Plugin, notes: Notes) -> None:
+    """A file that is no system's: it may be somebody's own, or meant to be one."""
+    file = plugin.filename or ""
+    kind = system_of_class(plugin.name or "")
+    if kind is not None:
+        message = f"{kind.class_name} is in {kind.file}, not in {file}"
+        notes.report(rules.WRONG_PLUGIN_CLASS, message, plugin.location, found=file, expected=kind.file)
+    elif is_classic(file):
+        message = f"{file} is a plugin of Gazebo Classic"
+        notes.report(rules.PLUGIN_NOT_IN_RELEASE, message, plugin.location, found=file)
+    elif modern_file(file).startswith("gz-sim-"):
+        near = nearest(modern_file(file), [each.file for each in systems().values()])
+        message = f"gz-sim has no {file}"
+        help_ = f"did you mean {near}?" if near else None
+        notes.report(rules.PLUGIN_NOT_IN_RELEASE, message, plugin.location, found=file, help=help_)
+
+
+def is_classic(file: str) -> bool:
+    """Whether a file is known to be a plugin of Gazebo Classic."""
+    return modern_file(file).startswith(("gazebo_ros_", "gazebo_ros2_")) or bool(classic_plugins_of_file(file))
+
+
+def _check_defaults(world: World, notes: Notes) -> None:
+    ours = [plugin for plugin in world.plugins if not is_classic(plugin.filename or "")]
+    missing = missing_defaults(ours) if ours else ()
+    if missing:
+        listed = ", ".join(kind.class_name.rsplit("::", 1)[-1] for kind in missing)
+        message = f"the plugins of world {world.name!r} switch off the default systems, and it has no {listed}"
+        help_ = f"add {' '.join(map(as_xml, missing))}"
+        notes.report(rules.DEFAULT_SYSTEMS_OFF, message, ours[0].location, help=help_)
+
+
+def _check_sensor(sensor: Sensor, site: Site, release: str, noted: set[str], notes: Notes) -> None:
+    kind = kind_of_sensor(sensor, release)
+    if kind is None:
+        if sensor.type not in {None, "custom"}:
+            message = f"sensor {sensor.name!r} is a {sensor.type}, which {release} does not simulate"
+            notes.report(rules.UNSUPPORTED_SENSOR, message, sensor.location, found=sensor.type)
+        return
+    if site.world is not None:
+        _check_world_of(sensor, kind, site.world, notes)
+        return
+    for system in needed_for(kind).systems:
+        if system.name not in noted:
+            noted.add(system.name)
+            message = f"sensor {sensor.name!r} needs {system.class_name} in the world"
+            notes.report(rules.WORLD_SYSTEM_NEEDED, message, sensor.location, help=f"the world needs {as_xml(system)}")
+
+
+def _check_world_of(sensor: Sensor, kind: SensorKind, world: World, notes: Notes) -> None:
+    needed = needed_for(kind)
+    for system in needed.systems:
+        if not has_system(world, system):
+            message = f"sensor {sensor.name!r} needs {system.class_name}, and world {world.name!r} has none"
+            notes.report(
+                rules.MISSING_WORLD_SYSTEM,
+                message,
+                sensor.location,
+                help=f"add {as_xml(system)} to the world",
+                related=(world.location,),
+            )
+    for name in needed.elements:
+        if not has_element(world, name):
+            message = f"sensor {sensor.name!r} needs <{name}>, and world {world.name!r} has none"
+            notes.report(rules.MISSING_WORLD_SYSTEM, message, sensor.location, related=(world.location,))

@@ -1,0 +1,99 @@
+"""Adding plugins and sensors to models and worlds, in the language that they are in."""
+
+from collections.abc import Callable
+from typing import TypeVar
+
+from twinform.ir import Document, Element, Format, GazeboExtension, Link, Model, Node, Plugin, Sensor, World
+from twinform.passes.plugins.elements import plugin_element, sensor_element
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+
+def add_plugin(model: Model, plugin: Plugin, format_: Format) -> Model:
+    """The model with one more plugin, after those that it has; itself, if it has the same already."""
+    if format_ is Format.SDF:
+        return model if plugin in model.plugins else model.model_copy(update={"plugins": (*model.plugins, plugin)})
+    return _extended(model, GazeboExtension(content=(plugin_element(plugin),)))
+
+
+def add_visual_plugin(model: Model, on: str, plugin: Plugin, format_: Format) -> Model | None:
+    """The model with a plugin on the visual `on`, or on all visuals of the link `on`; None where there is neither.
+
+    In URDF all visuals of a link share what `<gazebo>` says of them.
+    """
+    if format_ is Format.URDF:
+        link = next((link for link in model.links if on == link.name or any(on == v.name for v in link.visuals)), None)
+        if link is None:
+            return None
+        content = (Element(name="visual", children=(plugin_element(plugin),)),)
+        return _extended(model, GazeboExtension(reference=link.name, content=content))
+    links = tuple(_with_visual_plugin(link, on, plugin) for link in model.links)
+    if all(new is old for new, old in zip(links, model.links, strict=True)):
+        return None
+    return model.model_copy(update={"links": links})
+
+
+def _with_visual_plugin(link: Link, on: str, plugin: Plugin) -> Link:
+    if on != link.name and all(on != visual.name for visual in link.visuals):
+        return link
+    visuals = tuple(
+        visual.model_copy(update={"plugins": (*(each for each in visual.plugins if each != plugin), plugin)})
+        if on in {link.name, visual.name}
+        else visual
+        for visual in link.visuals
+    )
+    return link.model_copy(update={"visuals": visuals})
+
+
+def add_sensor(model: Model, holder: str, sensor: Sensor, format_: Format, *, kept: bool = False) -> Model:
+    """The model with one more sensor on a link or joint of its own; a link where both have the name.
+
+    `kept` says of a fixed joint of URDF that Gazebo must not lump its links, as the joint would go with its sensor.
+    """
+    if format_ is Format.URDF:
+        keep = (Element(name="preserveFixedJoint", text="true"),) if kept else ()
+        return _extended(model, GazeboExtension(reference=holder, content=(*keep, sensor_element(sensor))))
+    field = "links" if any(link.name == holder for link in model.links) else "joints"
+    nodes = tuple(
+        node.model_copy(update={"sensors": (*node.sensors, sensor)}) if node.name == holder else node
+        for node in getattr(model, field)
+    )
+    return model.model_copy(update={field: nodes})
+
+
+def add_world_plugin(world: World, plugin: Plugin) -> World:
+    """The world with one more plugin; itself, if it has the same already."""
+    return world if plugin in world.plugins else world.model_copy(update={"plugins": (*world.plugins, plugin)})
+
+
+def replace_model(document: Document, old: Model, new: Model) -> Document:
+    """The document with one model, wherever it is nested, replaced by another; models are told apart by identity."""
+
+    def change(model: Model) -> Model:
+        if model is old:
+            return new
+        models = _each(model.models, change)
+        return model if models is model.models else model.model_copy(update={"models": models})
+
+    def in_world(world: World) -> World:
+        models = _each(world.models, change)
+        return world if models is world.models else world.model_copy(update={"models": models})
+
+    models, worlds = _each(document.models, change), _each(document.worlds, in_world)
+    if models is document.models and worlds is document.worlds:
+        return document
+    return document.model_copy(update={"models": models, "worlds": worlds})
+
+
+def _extended(model: Model, extension: GazeboExtension) -> Model:
+    """The model with one more `<gazebo>`; itself, if it has the same already."""
+    return (
+        model
+        if extension in model.extensions
+        else model.model_copy(update={"extensions": (*model.extensions, extension)})
+    )
+
+
+def _each(nodes: tuple[AnyNode, ...], change: Callable[[AnyNode], AnyNode]) -> tuple[AnyNode, ...]:
+    made = tuple(map(change, nodes))
+    return nodes if all(new is old for new, old in zip(made, nodes, strict=True)) else made

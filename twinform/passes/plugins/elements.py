@@ -1,0 +1,55 @@
+"""Plugins and sensors as the elements that stand for them in `<gazebo>` and in other free content."""
+
+from typing import Any
+
+from lxml import etree
+
+from twinform.diagnostics import Notes
+from twinform.ir import Element, Opaque, Plugin, Sensor
+from twinform.passes.legalise.carrier import to_element
+from twinform.schemas import Context, element_xml, reader, table
+
+_NAMES = frozenset({"name", "filename"})
+
+
+def plugin_of(element: Element) -> Plugin:
+    """The plugin that an element stands for."""
+    others = tuple(Opaque(attribute=each) for each in element.attributes if each[0] not in _NAMES)
+    return Plugin(
+        name=element.get("name"),
+        filename=element.get("filename"),
+        text=element.text,
+        content=element.children,
+        opaque=others,
+        source=element.source,
+    )
+
+
+def plugin_element(plugin: Plugin) -> Element:
+    """The element that stands for a plugin; the elements in it keep their places."""
+    said = [
+        (name, value) for name, value in (("name", plugin.name), ("filename", plugin.filename)) if value is not None
+    ]
+    others = [part.attribute for part in plugin.opaque if part.attribute]
+    inside = tuple(part.element for part in plugin.opaque if part.element)
+    return Element(
+        name="plugin",
+        attributes=(*said, *others),
+        text=plugin.text,
+        children=(*plugin.content, *inside),
+        source=plugin.source,
+    )
+
+
+def sensor_of(element: Element, notes: Notes | None = None) -> Sensor | None:
+    """The sensor that an element stands for; None where it has an error, which the check of the file reports."""
+    found = Notes(file=notes.file if notes else "")
+    context = Context(found, found.file, "sdf", table("sdf").newest, declared=False)
+    xml = element_xml(element, etree.Element("link", {"name": ""}))
+    data: dict[str, Any] = reader("sdf", context.version).read(xml, context, "sensor", element.source)
+    return None if found.has_errors else Sensor.model_validate(data)
+
+
+def sensor_element(sensor: Sensor) -> Element:
+    """The element that stands for a sensor."""
+    return to_element(sensor, "sensor", "sdf").model_copy(update={"source": sensor.source})

@@ -1,0 +1,117 @@
+"""The notation of the catalogue's tables of plugins.
+
+    system wheel-slip  file=gz-sim-wheel-slip-system class=gz::sim::systems::WheelSlip scope=model
+      wheel         +  element
+        @link_name  1  link
+      limit         ?  number   default=1 since=harmonic
+      > topic  gz.msgs.Twist  /model/{model}/cmd_vel  alt=sub_topic:/model/{model}/{sub_topic}
+
+A block begins with `system` (of gz-sim) or `plugin` (of Gazebo Classic) and the name; a row is the name of a parameter,
+its count, its type, and options: `default=`, `enum=a|b`, `since=`, `until=` and `except=` releases, `any` for content
+that is not known (in the first line: for more parameters). Rows that are indented further stand inside. `>` and `<` are
+topics that the plugin reads and writes: the parameter that sets it or `-`, the message, the default;
+`alt=PARAMETER:TOPIC[:MESSAGE]` where that parameter is written, `unless=PARAMETER`. Values with blanks stand in double
+quotes, and `#` begins a comment.
+"""
+
+import shlex
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple, cast
+
+from twinform.passes.plugins.parts import (
+    Alternative,
+    Channel,
+    Count,
+    Parameter,
+    ParameterType,
+    PluginKind,
+    Scope,
+)
+
+
+class _Line(NamedTuple):
+    depth: int
+    words: list[str]
+
+
+def read_plugins(text: str, releases: Sequence[str]) -> Iterator[PluginKind]:
+    """The plugins of a table; `releases` are the names of all releases, oldest first."""
+    lines = [_Line((len(line) - len(line.lstrip())) // 2, _words(line)) for line in text.splitlines() if _words(line)]
+    starts = [index for index, line in enumerate(lines) if line.depth == 0]
+    for start, end in zip(starts, [*starts[1:], len(lines)], strict=True):
+        yield _plugin(lines[start].words, lines[start + 1 : end], releases)
+
+
+def _words(line: str) -> list[str]:
+    return [] if line.startswith("#") else shlex.split(line)
+
+
+def _plugin(head: list[str], lines: list[_Line], releases: Sequence[str]) -> PluginKind:
+    options = _options(head[2:])
+    channels = tuple(_channel(line.words) for line in lines if line.words[0] in {"<", ">"})
+    own = _span(options, releases)
+    return PluginKind(
+        name=head[1],
+        file=options["file"],
+        class_name=options["class"],
+        scopes=cast("tuple[Scope, ...]", tuple(options["scope"].split("|"))),
+        releases=own,
+        parameters=_rows([line for line in lines if line.words[0] not in {"<", ">"}], 1, own, releases),
+        channels=channels,
+        free="any" in head[2:],
+    )
+
+
+def _rows(lines: list[_Line], depth: int, above: frozenset[str], releases: Sequence[str]) -> tuple[Parameter, ...]:
+    """The rows at a depth, each with those further in that follow it."""
+    starts = [index for index, line in enumerate(lines) if line.depth == depth]
+    ends = [*starts[1:], len(lines)] if starts else []
+    return tuple(
+        _row(lines[start].words, lines[start + 1 : end], depth + 1, above, releases)
+        for start, end in zip(starts, ends, strict=True)
+    )
+
+
+def _row(
+    words: list[str], inside: list[_Line], depth: int, above: frozenset[str], releases: Sequence[str]
+) -> Parameter:
+    name, count, type_, *rest = words
+    options = _options(rest)
+    own = _span(options, releases) & above
+    choices = options.get("enum")
+    return Parameter(
+        name=name,
+        count=cast("Count", count),
+        type=cast("ParameterType", type_),
+        default=options.get("default"),
+        choices=tuple(choices.split("|")) if choices else (),
+        free="any" in rest,
+        releases=own,
+        is_attribute=name.startswith("@"),
+        children=_rows(inside, depth, own, releases),
+    )
+
+
+def _channel(words: list[str]) -> Channel:
+    direction, parameter, message, pattern, *rest = words
+    alternatives = [word.removeprefix("alt=").split(":") for word in rest if word.startswith("alt=")]
+    return Channel(
+        direction="<" if direction == "<" else ">",
+        parameter=None if parameter == "-" else parameter,
+        message=message,
+        pattern=pattern,
+        alternatives=tuple(Alternative(each[0], each[1], each[2] if len(each) > 2 else None) for each in alternatives),
+        unless=_options(rest).get("unless"),
+    )
+
+
+def _options(words: Sequence[str]) -> dict[str, str]:
+    return dict(word.split("=", 1) for word in words if "=" in word)
+
+
+def _span(options: Mapping[str, str], releases: Sequence[str]) -> frozenset[str]:
+    """The releases from the first to the last that are named, without the exceptions."""
+    first = options.get("since", releases[0])
+    last = options.get("until", releases[-1])
+    span = releases[releases.index(first) : releases.index(last) + 1]
+    return frozenset(span) - frozenset(options.get("except", "").split("|"))

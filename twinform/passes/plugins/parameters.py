@@ -1,0 +1,139 @@
+"""The parameters of one plugin, held against what its system reads."""
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from twinform.diagnostics import Location, Notes
+from twinform.diagnostics.rules import plugins as rules
+from twinform.ir import Element, Model, Plugin
+from twinform.passes.plugins.catalogue import nearest
+from twinform.passes.plugins.parts import Parameter, PluginKind
+from twinform.passes.plugins.values import problem_of
+
+
+class Asked(NamedTuple):
+    """What a plugin is held against: its kind, the release, and the model that it names parts of."""
+
+    kind: PluginKind
+    release: str
+    model: Model | None
+    where: Location
+    notes: Notes
+
+
+def check_parameters(plugin: Plugin, asked: Asked) -> None:
+    """Report what is wrong with the parameters of a plugin."""
+    _check_inside(plugin.content, asked.kind.parameters, asked, plugin.location)
+
+
+def names_in(model: Model, kind: str) -> set[str] | None:
+    """The names of the joints or links of a model, those of nested models in full.
+
+    None where includes that were not read may bring others.
+    """
+    if any(include.merge for include in model.includes):
+        return None
+    names = {each.name for each in (model.joints if kind == "joint" else model.links)}
+    for inner in model.models:
+        inside = names_in(inner, kind)
+        if inside is None:
+            return None
+        names |= {f"{inner.name}::{name}" for name in inside}
+    return names
+
+
+def _check_inside(elements: Sequence[Element], rows: tuple[Parameter, ...], asked: Asked, where: Location) -> None:
+    counts = Counter[str]()
+    for element in elements:
+        if _is_foreign(element.name):
+            continue
+        at = element.location if element.source else where
+        row = next((each for each in rows if each.matches(element.name)), None)
+        if row is None and asked.kind.free:
+            continue
+        if row is None or asked.release not in row.releases:
+            _unknown(element.name, row, rows, asked, at)
+            continue
+        counts[element.name] += 1
+        if counts[element.name] > 1 and not row.is_many:
+            message = f"<{element.name}> stands twice; {_called(asked.kind)} reads the first"
+            asked.notes.report(rules.PLUGIN_PARAMETER_COUNT, message, at, found=element.name)
+        _check_element(element, row, asked, at)
+    present = {*counts}
+    for row in rows:
+        if row.is_required and not row.is_attribute and not any(row.matches(name) for name in present):
+            message = f"{_called(asked.kind)} needs <{row.name}>"
+            asked.notes.report(rules.PLUGIN_PARAMETER_COUNT, message, where, expected=row.name)
+
+
+def _is_foreign(name: str) -> bool:
+    """Whether it has a prefix: then it is for somebody else."""
+    return name.startswith("{") or ":" in name
+
+
+def _check_element(element: Element, row: Parameter, asked: Asked, at: Location) -> None:
+    if row.free:
+        return
+    _check_attributes(element, row, asked, at)
+    if row.type == "element":
+        _check_inside(element.children, row.children, asked, at)
+    else:
+        _check_value(row, element.text or "", f"<{element.name}>", asked, at)
+
+
+def _check_attributes(element: Element, row: Parameter, asked: Asked, at: Location) -> None:
+    rows = {each.name[1:]: each for each in row.children if each.is_attribute}
+    for name, value in element.attributes:
+        if _is_foreign(name):
+            continue
+        found = rows.get(name)
+        if found is None:
+            _unknown(f"@{name}", None, tuple(rows.values()), asked, at)
+        else:
+            _check_value(found, value, f"{name!r} of <{element.name}>", asked, at)
+    for name, each in rows.items():
+        if each.is_required and element.get(name) is None:
+            message = f"{_called(asked.kind)} needs {name!r} of <{element.name}>"
+            asked.notes.report(rules.PLUGIN_PARAMETER_COUNT, message, at, expected=name)
+
+
+def _check_value(row: Parameter, text: str, what: str, asked: Asked, at: Location) -> None:
+    problem = problem_of(row, text)
+    if problem:
+        message = f"{what} of {_called(asked.kind)} is {text!r}, and has to be {problem}"
+        asked.notes.report(rules.PLUGIN_PARAMETER_VALUE, message, at, found=text, expected=problem)
+        return
+    if row.type in {"joint", "link"} and asked.model is not None:
+        _check_reference(row.type, text.strip(), what, asked, at)
+
+
+def _check_reference(kind: str, name: str, what: str, asked: Asked, at: Location) -> None:
+    known = names_in(asked.model, kind) if asked.model else None
+    if known is None or name in known or (asked.model and asked.model.includes and "::" in name):
+        return
+    near = nearest(name, sorted(known))
+    message = f"{what} of {_called(asked.kind)} names {name!r}, and the model has no such {kind}"
+    asked.notes.report(rules.PLUGIN_REFERENCE, message, at, found=name, help=_meant(near))
+
+
+def _unknown(name: str, row: Parameter | None, rows: Sequence[Parameter], asked: Asked, at: Location) -> None:
+    called = f"<{name}>" if not name.startswith("@") else f"the attribute {name[1:]!r}"
+    if row is not None:
+        message = f"{_called(asked.kind)} does not read {called} in {asked.release}"
+    else:
+        message = f"{_called(asked.kind)} does not read {called}"
+    near = nearest(name, list(_readable(rows, asked.release)))
+    asked.notes.report(rules.UNKNOWN_PLUGIN_PARAMETER, message, at, found=name.lstrip("@"), help=_meant(near))
+
+
+def _readable(rows: Sequence[Parameter], release: str) -> Iterator[str]:
+    return (row.name for row in rows if release in row.releases and "[" not in row.name)
+
+
+def _meant(near: str | None) -> str | None:
+    return f"did you mean {near.lstrip('@')}?" if near else None
+
+
+def _called(kind: PluginKind) -> str:
+    return kind.class_name.rsplit("::", 1)[-1]

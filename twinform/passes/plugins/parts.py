@@ -1,0 +1,158 @@
+"""What the catalogue holds: frozen facts about plugins, sensors and releases."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from typing import Literal
+
+Count = Literal["1", "?", "*", "+"]
+"""How often a parameter stands: once, at most once, any number of times, at least once."""
+
+ParameterType = Literal[
+    "number", "integer", "bool", "text", "joint", "link", "collision", "topic", "vector", "numbers", "pose", "color",
+    "element",
+]  # fmt: skip
+
+ReleaseName = Literal["fortress", "garden", "harmonic", "ionic", "jetty"]
+"""The releases of Gazebo, oldest first."""
+
+Scope = Literal["world", "model", "link", "joint", "sensor", "visual", "actor", "gui"]
+"""What a plugin stands in."""
+
+
+@dataclass(frozen=True, slots=True)
+class Release:
+    """A release of Gazebo. `frame_element` names the frame of a sensor there; None where nothing is known to."""
+
+    name: str
+    sim: int
+    sdf: str
+    ros: tuple[str, ...]
+    lts: bool
+    frame_element: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """An element or attribute that a plugin reads. Names such as `[xyz][UVW]` stand for all that match them.
+
+    `free` means that what stands inside is not known. `releases` are those whose plugin reads it.
+    """
+
+    name: str
+    count: Count
+    type: ParameterType
+    default: str | None
+    choices: tuple[str, ...]
+    free: bool
+    releases: frozenset[str]
+    is_attribute: bool
+    children: tuple["Parameter", ...]
+
+    @property
+    def is_required(self) -> bool:
+        """Whether the plugin does not work without."""
+        return self.count in {"1", "+"}
+
+    @property
+    def is_many(self) -> bool:
+        """Whether it may stand several times."""
+        return self.count in {"*", "+"}
+
+    def matches(self, name: str) -> bool:
+        """Whether this is the parameter of a name."""
+        return self.name == name or ("[" in self.name and fnmatchcase(name, self.name))
+
+
+@dataclass(frozen=True, slots=True)
+class Alternative:
+    """Another topic, and perhaps another message, where a parameter is written and not false."""
+
+    parameter: str
+    pattern: str
+    message: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class Channel:
+    """A topic of gz-transport that a plugin reads (`>`) or writes (`<`).
+
+    `parameter` sets it; else it follows the pattern, in which `{model}`, `{world}` and names of parameters stand for
+    their values. The last alternative that applies wins. It is not there where `unless` is written and true.
+    """
+
+    direction: Literal["<", ">"]
+    parameter: str | None
+    message: str
+    pattern: str
+    alternatives: tuple[Alternative, ...]
+    unless: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class PluginKind:
+    """A plugin: a system of gz-sim, or a plugin of Gazebo Classic for ROS.
+
+    `file` is as gz-sim finds it: without path, and for systems without `lib` and `.so`. `class_name` is the word that
+    `<plugin name=...>` has to have in gz-sim; in Gazebo Classic that name is free. `free` means that it takes
+    parameters besides these.
+    """
+
+    name: str
+    file: str
+    class_name: str
+    scopes: tuple[Scope, ...]
+    releases: frozenset[str]
+    parameters: tuple[Parameter, ...]
+    channels: tuple[Channel, ...]
+    free: bool
+
+    def parameter(self, *path: str) -> Parameter | None:
+        """The parameter at a path of names, such as `left_track`, `link`; attributes begin with `@`."""
+        rows, found = self.parameters, None
+        for name in path:
+            found = next((row for row in rows if row.matches(name)), None)
+            if found is None:
+                return None
+            rows = found.children
+        return found
+
+    def walk(self) -> Iterator[tuple[tuple[str, ...], Parameter]]:
+        """Every parameter with its path, from the outside in."""
+        yield from _walk((), self.parameters)
+
+
+def _walk(above: tuple[str, ...], rows: tuple[Parameter, ...]) -> Iterator[tuple[tuple[str, ...], Parameter]]:
+    for row in rows:
+        path = (*above, row.name)
+        yield path, row
+        yield from _walk(path, row.children)
+
+
+@dataclass(frozen=True, slots=True)
+class Published:
+    """A topic of a sensor: a pattern of `{topic}` or `{beside}`, and the message."""
+
+    pattern: str
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class SensorKind:
+    """A kind of sensor that gz-sim simulates.
+
+    `aliases` are older words for `type` that are still read, `classic` the words of Gazebo Classic for what becomes
+    this. `element` has its parameters. `systems` are what the world needs to have, `world_elements` what else.
+    `suffix` ends the topic where none is written.
+    """
+
+    type: str
+    aliases: tuple[str, ...]
+    classic: tuple[str, ...]
+    element: str
+    systems: tuple[str, ...]
+    world_elements: tuple[str, ...]
+    holders: tuple[Literal["link", "joint"], ...]
+    suffix: str
+    releases: frozenset[str]
+    publishes: tuple[Published, ...]

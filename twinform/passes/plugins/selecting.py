@@ -1,0 +1,93 @@
+"""Passes whose options depend on what one of them selects."""
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from functools import cache
+from typing import Any, ClassVar, Self, cast
+
+from pydantic import ValidationError, create_model
+from pydantic_core import InitErrorDetails, PydanticCustomError
+
+from twinform.passes.base import Pass
+from twinform.passes.plugins.catalogue import UnknownNameError, nearest
+
+Fields = Mapping[str, tuple[Any, Any]]
+"""Types and fields of options, by their names in kebab-case."""
+
+
+class SelectingPass(Pass):
+    """A pass with one option, the `selector`, that says which others there are.
+
+    A pass that is made is of a class of its own, which has the options of what was selected: so they are typed,
+    validated and printed as those of any other pass.
+    """
+
+    selector: ClassVar[str]
+    selected: ClassVar[bool] = False
+    origin: ClassVar[Any] = None
+    """The class that one with options of what is selected was made of."""
+
+    @classmethod
+    @abstractmethod
+    def fields_for(cls, word: str) -> Fields:
+        """The options besides those of the class, for what the selector says.
+
+        Raises:
+            UnknownNameError: there is nothing of this name.
+        """
+
+    def __new__(cls, **options: object) -> Self:
+        """A pass of the class that has the options of what is selected."""
+        return super().__new__(_class_of(cls, options))
+
+    @classmethod
+    def model_validate(cls, obj: Any, **how: Any) -> Self:
+        """A pass with the options of what is selected.
+
+        Raises:
+            ValidationError: there is no such thing, or it has no such option or value.
+        """
+        if not cls.selected and isinstance(obj, Mapping):
+            made = _class_of(cls, cast("Mapping[str, object]", obj))
+            if made is not cls:
+                return made.model_validate(obj, **how)
+        return super().model_validate(obj, **how)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """A class that was made cannot be found again by name; the one that it was made of can, and makes it again."""
+        return self.origin.model_validate, (self.model_dump(by_alias=True, exclude_defaults=True),)
+
+
+P = Any
+"""A class of passes; type variables cannot say that a subclass is made of it."""
+
+
+def _class_of(cls: P, options: Mapping[str, object]) -> P:
+    word = options.get(cls.selector)
+    if cls.selected or not isinstance(word, str):
+        return cls
+    try:
+        made = _made(cls, word)
+    except UnknownNameError as error:
+        raise _error(cls.name, cls.selector, str(error), word) from error
+    known = {field.alias or key for key, field in made.model_fields.items()}
+    for option, value in options.items():
+        if option.replace("_", "-") not in known:
+            near = nearest(option, sorted(known))
+            hint = f"did you mean {near}?" if near else f"it has {', '.join(sorted(known))}"
+            raise _error(cls.name, option, f"{word} has no such option; {hint}", value)
+    return made
+
+
+@cache
+def _made(cls: P, word: str) -> P:
+    fields: dict[str, Any] = {option.replace("-", "_"): field for option, field in cls.fields_for(word).items()}
+    made: P = create_model(cls.__name__, __base__=cls, __doc__=cls.__doc__, **fields)
+    made.selected, made.origin = True, cls
+    return made
+
+
+def _error(title: str, option: str, message: str, value: object) -> ValidationError:
+    complaint = PydanticCustomError("selected_option", "{message}", {"message": message})
+    details = InitErrorDetails(type=complaint, loc=(option,), input=value)
+    return ValidationError.from_exception_data(title, [details])

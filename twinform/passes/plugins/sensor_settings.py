@@ -1,0 +1,135 @@
+"""The settings of sensors: what `add-sensor` may be told, and the elements that say it."""
+
+import tomllib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from typing import Annotated, Any, Literal, get_args
+
+from lxml import etree
+from pydantic import Field
+
+from twinform.ir import Element
+from twinform.passes.legalise.carrier import from_xml
+from twinform.passes.plugins.catalogue import sensor, sensors
+from twinform.schemas import XmlElement, format_value
+
+Noise = Literal["none", "typical"]
+
+_TYPES: dict[str, Any] = {
+    "integer": Annotated[int, Field(ge=1)],
+    "number": Annotated[float, Field(allow_inf_nan=False)],
+    "bool": bool,
+    "text": str,
+}
+_STDDEV = Annotated[float | None, Field(ge=0, allow_inf_nan=False)]
+_AS_ELEMENTS = frozenset({"camera", "lidar"})
+"""Elements whose noise says its type in an element; that of all others in an attribute."""
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """A value below a sensor's element; nothing is written for an empty one."""
+
+    path: str
+    type: str
+    default: object
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class NoiseSetting:
+    """The standard deviation of a Gaussian noise on some quantities, and what is usual for it."""
+
+    paths: tuple[str, ...]
+    typical: float
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """What `add-sensor` knows of a kind of sensor: its name and rate in Hz, and the options that it has."""
+
+    name: str
+    rate: float
+    values: Mapping[str, Setting]
+    noises: Mapping[str, NoiseSetting]
+
+
+@cache
+def settings_of(type_: str) -> Settings:
+    """The settings of a kind of sensor, by any word for it; one that cannot be added has none.
+
+    Raises:
+        UnknownNameError: gz-sim simulates none of this type.
+    """
+    kind = sensor(type_)
+    row = _table().get(kind.type, {})
+    return Settings(
+        name=row.get("name", kind.type),
+        rate=row.get("rate", 0),
+        values={option: Setting(*each) for option, each in row.get("settings", {}).items()},
+        noises={option: NoiseSetting(tuple(each[0]), *each[1:]) for option, each in row.get("noise", {}).items()},
+    )
+
+
+def addable() -> tuple[str, ...]:
+    """The kinds of sensors that can be added."""
+    return tuple(type_ for type_ in sensors() if type_ in _table())
+
+
+@cache
+def _table() -> dict[str, Any]:
+    file = resources.files("twinform.passes.plugins").joinpath("data", "sensor_settings.toml")
+    return tomllib.loads(file.read_text(encoding="utf-8"))
+
+
+def fields_of(type_: str) -> Iterator[tuple[str, tuple[Any, Any]]]:
+    """The options of a kind of sensor with their types and fields, for a model of Pydantic."""
+    settings = settings_of(type_)
+    for option, each in settings.values.items():
+        yield option, (_TYPES[each.type], Field(default=each.default, description=each.text))
+    if settings.noises:
+        text = "`typical` is what such a device usually has; one that is given counts."
+        yield "noise", (Noise, Field(default=get_args(Noise)[0], description=text))
+    for option, noise in settings.noises.items():
+        says = f"{noise.text} Typical is {noise.typical:g}."
+        optional: Any = Field(default=None, description=says)  # typed as its default
+        yield option, (_STDDEV, optional)
+
+
+def element_of(type_: str, values: Mapping[str, object]) -> Element | None:
+    """The element with the parameters of a sensor; None where there is nothing to say."""
+    kind, settings = sensor(type_), settings_of(type_)
+    root = etree.Element(kind.element)
+    for option, setting in settings.values.items():
+        value = values.get(option, setting.default)
+        if value != "":
+            _at(root, setting.path).text = format_value(value)
+    for option, noise in settings.noises.items():
+        stddev = values.get(option)
+        if stddev is None and values.get("noise") == "typical":
+            stddev = noise.typical
+        if stddev is not None:
+            for path in noise.paths:
+                _write_noise(root, path, stddev, as_element=kind.element in _AS_ELEMENTS)
+    return from_xml(root) if len(root) else None
+
+
+def _write_noise(root: XmlElement, path: str, stddev: object, *, as_element: bool) -> None:
+    """Gaussian noise without bias; `path` is that of the quantity, or of the noise itself."""
+    noise = _at(root, path if as_element else f"{path}/noise")
+    if as_element:
+        etree.SubElement(noise, "type").text = "gaussian"
+    else:
+        noise.set("type", "gaussian")
+    etree.SubElement(noise, "mean").text = "0"
+    etree.SubElement(noise, "stddev").text = format_value(stddev)
+
+
+def _at(element: XmlElement, path: str) -> XmlElement:
+    for step in path.split("/"):
+        found = element.find(step)
+        element = found if found is not None else etree.SubElement(element, step)
+    return element

@@ -1,0 +1,217 @@
+"""Every plugin and sensor of a document, whichever language it is in, with the place where it stands.
+
+In SDF they are nodes of worlds, models, includes, links, joints, sensors and visuals; those of actors and of the GUI
+stand in elements without a typed form. In URDF they are elements in `<gazebo>`. A pass need not know which.
+"""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, TypeVar
+
+from twinform.ir import (
+    Document,
+    Element,
+    GazeboExtension,
+    Include,
+    Joint,
+    Link,
+    Model,
+    Node,
+    Opaque,
+    Plugin,
+    Sensor,
+    Visual,
+    World,
+)
+from twinform.ir.tree import node_fields
+from twinform.passes.plugins.elements import plugin_element, plugin_of, sensor_element, sensor_of
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+_SCOPES = frozenset({"world", "model", "include", "link", "joint", "sensor", "visual", "projector", "actor", "gui"})
+"""What a plugin of Gazebo may stand in; the `<plugin>` in the `<hardware>` of a `<ros2_control>` is something else."""
+
+
+@dataclass(frozen=True, slots=True)
+class Site:
+    """Where a plugin or sensor stands: in a `scope` (`model`, `link`, `sensor`, ...) called `holder`.
+
+    `models` are those around it, the innermost last; `link_or_joint` is the name of the one around it.
+    """
+
+    scope: str = ""
+    holder: str = ""
+    world: World | None = None
+    models: tuple[Model, ...] = ()
+    link_or_joint: str | None = None
+    sensor: Sensor | None = None
+
+    @property
+    def model(self) -> Model | None:
+        """The model that it belongs to."""
+        return self.models[-1] if self.models else None
+
+
+PluginChange = Callable[[Plugin, Site], Iterable[Plugin]]
+SensorChange = Callable[[Sensor, Site], Iterable[Sensor]]
+
+
+def map_plugins(document: Document, change: PluginChange) -> Document:
+    """The document with each plugin replaced by those that `change` makes of it; the same one where nothing changes."""
+    return _Walk(plugin=change).node(document, Site())
+
+
+def map_sensors(document: Document, change: SensorChange) -> Document:
+    """The document with each sensor of a link or joint replaced by those that `change` makes of it."""
+    return _Walk(sensor=change).node(document, Site())
+
+
+def plugins_of(document: Document) -> list[tuple[Plugin, Site]]:
+    """Every plugin with its place, from the outside in."""
+    found: list[tuple[Plugin, Site]] = []
+
+    def see(plugin: Plugin, site: Site) -> Iterable[Plugin]:
+        found.append((plugin, site))
+        return (plugin,)
+
+    map_plugins(document, see)
+    return found
+
+
+def sensors_of(document: Document) -> list[tuple[Sensor, Site]]:
+    """Every sensor of a link or joint with its place."""
+    found: list[tuple[Sensor, Site]] = []
+
+    def see(sensor: Sensor, site: Site) -> Iterable[Sensor]:
+        found.append((sensor, site))
+        return (sensor,)
+
+    map_sensors(document, see)
+    return found
+
+
+def _site_in(node: Node, site: Site) -> Site:
+    """The place of what stands directly in a node."""
+    match node:
+        case World():
+            return Site("world", node.name, node)
+        case Model():
+            return replace(site, scope="model", holder=node.name, models=(*site.models, node))
+        case Include():
+            return replace(site, scope="model", holder=node.name or "")
+        case Link():
+            return replace(site, scope="link", holder=node.name, link_or_joint=node.name)
+        case Joint():
+            return replace(site, scope="joint", holder=node.name, link_or_joint=node.name)
+        case Sensor():
+            return replace(site, scope="sensor", holder=node.name or "", sensor=node)
+        case Visual():
+            return replace(site, scope="visual", holder=node.name or "")
+        case GazeboExtension():
+            return _site_of_reference(node, site)
+        case _:
+            return site
+
+
+def _site_of_reference(extension: GazeboExtension, site: Site) -> Site:
+    name, model = extension.reference, site.model
+    if not name or model is None:
+        return site
+    # A link and a joint may have one name: then the reference means the link.
+    is_joint = all(link.name != name for link in model.links) and any(joint.name == name for joint in model.joints)
+    return replace(site, scope="joint" if is_joint else "link", holder=name, link_or_joint=name)
+
+
+class _Walk:
+    """One walk over a document with a change for plugins or for sensors."""
+
+    def __init__(self, plugin: PluginChange | None = None, sensor: SensorChange | None = None) -> None:
+        self._plugin = plugin
+        self._sensor = sensor
+
+    def node(self, node: AnyNode, site: Site) -> AnyNode:
+        """The node with what is in it changed."""
+        site = _site_in(node, site)
+        update: dict[str, Any] = {}
+        for field in node_fields(type(node)):
+            old = node.__dict__[field]
+            new = self._field(field, old, site)
+            if new is not old:
+                update[field] = new
+        opaque = self._opaque(node.opaque, site)
+        if opaque is not node.opaque:
+            update["opaque"] = opaque
+        if isinstance(node, GazeboExtension):
+            content = self._elements(node.content, site)
+            if content is not node.content:
+                update["content"] = content
+        return node.model_copy(update=update) if update else node
+
+    def _field(self, name: str, value: Any, site: Site) -> Any:
+        if isinstance(value, Node):
+            return self.node(value, site)
+        if not value:
+            return value
+        if name == "plugins":
+            return _replaced(value, lambda plugin: self._plugins(plugin, site))
+        if name == "sensors":
+            return _replaced(value, lambda sensor: self._sensors(sensor, site))
+        return _replaced(value, lambda each: (self.node(each, site),))
+
+    def _plugins(self, plugin: Plugin, site: Site) -> Iterable[Plugin]:
+        return self._plugin(plugin, site) if self._plugin else (plugin,)
+
+    def _sensors(self, sensor: Sensor, site: Site) -> Iterable[Sensor]:
+        return self._sensor(sensor, site) if self._sensor else (self.node(sensor, site),)
+
+    def _opaque(self, parts: tuple[Opaque, ...], site: Site) -> tuple[Opaque, ...]:
+        return _replaced(parts, lambda part: self._part(part, site))
+
+    def _part(self, part: Opaque, site: Site) -> Iterable[Opaque]:
+        element = part.element
+        if element is None or element.name.startswith("{"):  # what is in a carrier belongs to another language
+            return (part,)
+        at = site if not part.at else replace(site, scope=part.at.rsplit("/", 1)[-1], holder="")
+        if element.source is None and part.source is not None:
+            element = element.model_copy(update={"source": part.source})
+        made = tuple(self._element(element, at))
+        if len(made) == 1 and made[0] is element:
+            return (part,)
+        return tuple(part.model_copy(update={"element": each}) for each in made)
+
+    def _elements(self, elements: tuple[Element, ...], site: Site) -> tuple[Element, ...]:
+        return _replaced(elements, lambda element: self._element(element, site))
+
+    def _element(self, element: Element, site: Site) -> Iterable[Element]:
+        if element.name == "plugin" and site.scope in _SCOPES:
+            return self._plugin_element(element, site)
+        if element.name == "sensor" and self._sensor:
+            return self._sensor_element(element, site)
+        inside = replace(site, scope=element.name, holder=element.get("name") or "")
+        if element.name in {"link", "joint"}:
+            inside = replace(inside, link_or_joint=inside.holder)
+        children = self._elements(element.children, inside)
+        return (element if children is element.children else element.model_copy(update={"children": children}),)
+
+    def _plugin_element(self, element: Element, site: Site) -> Iterable[Element]:
+        if self._plugin is None:
+            return (element,)
+        plugin = plugin_of(element)
+        return [element if each is plugin else plugin_element(each) for each in self._plugin(plugin, site)]
+
+    def _sensor_element(self, element: Element, site: Site) -> Iterable[Element]:
+        sensor = sensor_of(element)
+        if sensor is None or self._sensor is None:
+            return (element,)
+        return [element if each is sensor else sensor_element(each) for each in self._sensor(sensor, site)]
+
+
+One = TypeVar("One")
+
+
+def _replaced(old: tuple[One, ...], change: Callable[[One], Iterable[One]]) -> tuple[One, ...]:
+    """What becomes of each, in a row; the same tuple where each becomes itself."""
+    made: list[Sequence[One]] = [tuple(change(each)) for each in old]
+    if all(len(new) == 1 and new[0] is each for new, each in zip(made, old, strict=True)):
+        return old
+    return tuple(each for new in made for each in new)

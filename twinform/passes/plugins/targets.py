@@ -1,0 +1,71 @@
+"""What of a document a pass is to add to."""
+
+from collections.abc import Iterator
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules import plugins as rules
+from twinform.ir import Document, Model, World
+from twinform.passes.plugins.catalogue import nearest
+
+
+def models_of(document: Document) -> Iterator[tuple[str, Model]]:
+    """Every model with its name, that of nested ones in full."""
+    for model in document.models:
+        yield from _named("", model)
+    for world in document.worlds:
+        for model in world.models:
+            yield from _named("", model)
+
+
+def _named(scope: str, model: Model) -> Iterator[tuple[str, Model]]:
+    yield f"{scope}{model.name}", model
+    for inner in model.models:
+        yield from _named(f"{scope}{model.name}::", inner)
+
+
+def find_model(document: Document, name: str | None, notes: Notes) -> Model | None:
+    """The model of this name, or the only one; None, with a finding, where there is none or the name is needed."""
+    models = list(models_of(document))
+    outer = [model for called, model in models if "::" not in called]
+    if name is None and len(outer) == 1:
+        return outer[0]
+    found = next((model for called, model in models if called == name), None)
+    if found is None:
+        missing(document, "model", name, [called for called, _ in models], notes)
+    return found
+
+
+def find_world(document: Document, name: str | None, notes: Notes) -> World | None:
+    """The world of this name, or the only one; None, with a finding, where there is none or the name is needed."""
+    if name is None and len(document.worlds) == 1:
+        return document.worlds[0]
+    found = next((world for world in document.worlds if world.name == name), None)
+    if found is None:
+        missing(document, "world", name, [world.name for world in document.worlds], notes)
+    return found
+
+
+def world_of(document: Document, model: Model) -> World | None:
+    """The world that a model is in."""
+    for world in document.worlds:
+        if any(each is model for outer in world.models for _, each in _named("", outer)):
+            return world
+    return None
+
+
+def missing(document: Document | Model, what: str, name: str | None, known: list[str], notes: Notes) -> None:
+    """Report that there is nothing to add to."""
+    if name is None:
+        message = f"there are several: {', '.join(known)}" if known else "there is none"
+        notes.report(rules.NOTHING_TO_ADD_TO, f"which {what} to add to? {message}", document.location)
+        return
+    near = nearest(name, known)
+    help_ = f"did you mean {near}?" if near else f"there are {', '.join(known)}" if known else None
+    message = f"there is no {what} {name!r} to add to"
+    notes.report(rules.NOTHING_TO_ADD_TO, message, document.location, found=name, help=help_)
+
+
+def replace_world(document: Document, old: World, new: World) -> Document:
+    """The document with one world replaced."""
+    worlds = tuple(new if world is old else world for world in document.worlds)
+    return document.model_copy(update={"worlds": worlds})

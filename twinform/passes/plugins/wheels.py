@@ -1,0 +1,232 @@
+"""Where the wheels of a model are and how large: what drive systems want to know and the model says already.
+
+Everything is measured with all joints at zero, in m, in the frame of the model.
+"""
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from operator import itemgetter
+
+from twinform.ir import Capsule, Cylinder, Format, Joint, Model, Shape, Sphere, Vector3
+from twinform.ir.frames import MODEL, FrameError, FrameGraph
+from twinform.ir.transform import Transform
+
+_PARALLEL = 0.999
+"""The cosine above which two directions are taken as one."""
+_DEFAULT_AXIS: dict[Format, Vector3] = {Format.URDF: (1.0, 0.0, 0.0), Format.SDF: (0.0, 0.0, 1.0)}
+
+
+class NotMeasuredError(Exception):
+    """The model does not say what was asked for; the message says why."""
+
+
+@dataclass(frozen=True, slots=True)
+class Wheel:
+    """A wheel: the origin of its joint, the middle of its shape, the direction of its axle, and its radius.
+
+    Where no shape says the radius it is None, and the middle is the origin.
+    """
+
+    origin: Vector3
+    center: Vector3
+    axle: Vector3
+    radius: float | None
+
+
+def wheel(model: Model, joint_name: str, format_: Format) -> Wheel:
+    """The wheel that a joint turns.
+
+    Raises:
+        NotMeasuredError: there is no such joint, or no place can be found for it.
+    """
+    joint = next((each for each in model.joints if each.name == joint_name), None)
+    if joint is None or joint.child is None:
+        raise NotMeasuredError(f"there is no joint {joint_name!r}")
+    try:
+        graph = FrameGraph(model)
+        place = graph.pose(joint.name, MODEL, kind="joint", base="model")
+        axle = _axle(graph, joint, place, format_)
+        rims = _rims(model, graph, _rigid(model, joint.child), axle)
+    except FrameError as error:
+        raise NotMeasuredError(error.message) from error
+    if not rims:
+        return Wheel(place.translation, place.translation, axle, None)
+    radius, center = max(rims, key=itemgetter(0))
+    return Wheel(place.translation, center, axle, radius)
+
+
+def radius_of(wheels: Iterable[Wheel]) -> float:
+    """The one radius of wheels.
+
+    Raises:
+        NotMeasuredError: a wheel has no round shape, or they differ.
+    """
+    radii = [each.radius for each in wheels]
+    if any(radius is None for radius in radii):
+        raise NotMeasuredError("a wheel has no cylinder, sphere or capsule about its axle, neither to touch nor to see")
+    known = [radius for radius in radii if radius is not None]
+    if max(known) - min(known) > 0.01 * max(known):
+        raise NotMeasuredError(f"the wheels have radii from {min(known):g} to {max(known):g} m")
+    return known[0]
+
+
+def separation_of(left: Sequence[Wheel], right: Sequence[Wheel]) -> float:
+    """How far the wheels of one side are from those of the other, along the axle.
+
+    Raises:
+        NotMeasuredError: the axles do not point the same way, or nothing lies between the sides.
+    """
+    axle = _common_axle([*left, *right])
+    distance = abs(_mean([each.center for each in left], axle) - _mean([each.center for each in right], axle))
+    return _more_than_nothing(distance, "the wheels of both sides are at the same place along the axle")
+
+
+def wheelbase_of(front: Sequence[Wheel], rear: Sequence[Wheel], across: Sequence[Wheel]) -> float:
+    """How far the front axle is from the rear one, along the ground and at right angles to the axle of `across`.
+
+    Raises:
+        NotMeasuredError: the axles do not point the same way, or are one.
+    """
+    axle = _common_axle(across)
+    forward = _unit(_cross(axle, (0.0, 0.0, 1.0)))
+    distance = abs(_mean([each.origin for each in front], forward) - _mean([each.origin for each in rear], forward))
+    return _more_than_nothing(distance, "the front and rear wheels are at the same place along the way")
+
+
+def _more_than_nothing(distance: float, otherwise: str) -> float:
+    if not (math.isfinite(distance) and distance > 1e-9):
+        raise NotMeasuredError(otherwise)
+    return round(distance, 9)
+
+
+def _common_axle(wheels: Sequence[Wheel]) -> Vector3:
+    axle = wheels[0].axle
+    if any(abs(_dot(axle, each.axle)) < _PARALLEL for each in wheels):
+        raise NotMeasuredError("the axles of the wheels do not point the same way")
+    return axle
+
+
+def _mean(points: Sequence[Vector3], direction: Vector3) -> float:
+    return sum(_dot(each, direction) for each in points) / len(points)
+
+
+def _axle(graph: FrameGraph, joint: Joint, place: Transform, format_: Format) -> Vector3:
+    axis = joint.axis
+    xyz = axis.xyz if axis and axis.xyz else _DEFAULT_AXIS[format_]
+    frame = place
+    if axis and axis.expressed_in:
+        frame = graph.pose(axis.expressed_in, MODEL, kind="frame", base="model")
+    elif axis and axis.use_parent_model_frame:
+        frame = Transform()
+    return _unit(frame.rotate(xyz))
+
+
+def _rigid(model: Model, link: str) -> set[str]:
+    """The links that turn with a link: those below it on fixed joints."""
+    found = {link}
+    below = {joint.child for joint in model.joints if joint.type == "fixed" and joint.parent == link} - found
+    while below:
+        found |= {each for each in below if each}
+        below = {
+            each.child for each in model.joints if each.type == "fixed" and each.parent in found and each.child
+        } - found
+    return found
+
+
+def _rims(model: Model, graph: FrameGraph, links: set[str], axle: Vector3) -> list[tuple[float, Vector3]]:
+    """Radius and middle of the round shapes that links touch with; of those that they show, where none is round."""
+    here = [link for link in model.links if link.name in links]
+    for field in ("collisions", "visuals"):
+        found: list[tuple[float, Vector3]] = []
+        for link in here:
+            for part in getattr(link, field):
+                at = graph.resolve(part.pose, link.name, MODEL, base="model")
+                radius = _radius(part.geometry.shape if part.geometry else None, at, axle)
+                if radius is not None:
+                    found.append((radius, at.translation))
+        if found:
+            return found
+    return []
+
+
+def _radius(shape: Shape | None, at: Transform, axle: Vector3) -> float | None:
+    """The radius of a shape about an axle; None where it is not round about it."""
+    if isinstance(shape, Sphere):
+        return shape.radius
+    if not isinstance(shape, Cylinder | Capsule):
+        return None
+    along = at.rotate((0.0, 0.0, 1.0))
+    return shape.radius if abs(_dot(along, axle)) > _PARALLEL else None
+
+
+def _dot(a: Vector3, b: Vector3) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def _cross(a: Vector3, b: Vector3) -> Vector3:
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def _unit(vector: Vector3) -> Vector3:
+    length = math.hypot(*vector)
+    if length == 0.0 or not math.isfinite(length):
+        raise NotMeasuredError("the axle of a wheel has no direction, or stands upright")
+    return (vector[0] / length, vector[1] / length, vector[2] / length)
+
+
+Wheels = Callable[[str], tuple[Wheel, ...]]
+"""The wheels that the joints of a parameter turn."""
+
+Measure = Callable[[Wheels], float]
+
+
+def _sides(left: str, right: str) -> Measure:
+    return lambda wheels: separation_of(wheels(left), wheels(right))
+
+
+def _radius_of(*joints: str) -> Measure:
+    return lambda wheels: radius_of([wheel for each in joints for wheel in wheels(each)])
+
+
+_MECANUM = ("front_left_joint", "back_left_joint", "front_right_joint", "back_right_joint")
+
+MEASURES: dict[str, dict[str, Measure]] = {
+    "diff-drive": {
+        "wheel_separation": _sides("left_joint", "right_joint"),
+        "wheel_radius": _radius_of("left_joint", "right_joint"),
+    },
+    "mecanum-drive": {
+        "wheel_separation": lambda wheels: separation_of(
+            (*wheels(_MECANUM[0]), *wheels(_MECANUM[1])), (*wheels(_MECANUM[2]), *wheels(_MECANUM[3]))
+        ),
+        "wheelbase": lambda wheels: wheelbase_of(
+            (*wheels(_MECANUM[0]), *wheels(_MECANUM[2])),
+            (*wheels(_MECANUM[1]), *wheels(_MECANUM[3])),
+            (*wheels(_MECANUM[0]), *wheels(_MECANUM[2])),
+        ),
+        "wheel_radius": _radius_of(*_MECANUM),
+    },
+    "ackermann-steering": {
+        "wheel_separation": _sides("left_joint", "right_joint"),
+        "kingpin_width": lambda wheels: _distance(wheels("left_steering_joint"), wheels("right_steering_joint")),
+        "wheel_base": lambda wheels: wheelbase_of(
+            (*wheels("left_steering_joint"), *wheels("right_steering_joint")),
+            _rearmost(wheels("left_joint")) + _rearmost(wheels("right_joint")),
+            wheels("left_joint"),
+        ),
+        "wheel_radius": _radius_of("left_joint", "right_joint"),
+    },
+}
+"""What can be measured for each system, by parameter, from the wheels of its parameters for joints."""
+
+
+def _rearmost(wheels: tuple[Wheel, ...]) -> tuple[Wheel, ...]:
+    """The wheel at the end of the way that x points away from, of those that are driven on one side."""
+    return (min(wheels, key=lambda each: each.origin[0]),)
+
+
+def _distance(left: Sequence[Wheel], right: Sequence[Wheel]) -> float:
+    """How far two upright axes are from each other along the ground."""
+    dx, dy = (left[0].origin[at] - right[0].origin[at] for at in (0, 1))
+    return _more_than_nothing(math.hypot(dx, dy), "both steering joints are at the same place")

@@ -1,0 +1,75 @@
+"""The systems that a world has, and those that sensors need in it."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from twinform.ir import Element, Plugin, Sensor, World
+from twinform.passes.plugins.catalogue import DEFAULT_SYSTEMS, UnknownNameError, sensor, system, systems_of_file
+from twinform.passes.plugins.parts import PluginKind, SensorKind
+
+
+@dataclass(frozen=True, slots=True)
+class Needed:
+    """What a world has to have for a sensor."""
+
+    systems: tuple[PluginKind, ...]
+    elements: tuple[str, ...]
+
+
+def kind_of_sensor(node: Sensor, release: str) -> SensorKind | None:
+    """What a sensor is in a release; None where that release does not simulate such sensors."""
+    try:
+        found = sensor(node.type or "")
+    except UnknownNameError:
+        return None
+    return found if release in found.releases else None
+
+
+def needed_for(kind: SensorKind) -> Needed:
+    """What a world has to have for sensors of a kind."""
+    return Needed(tuple(system(name) for name in kind.systems), kind.world_elements)
+
+
+def has_system(world: World, kind: PluginKind) -> bool:
+    """Whether a world has a system, by whatever spelling of its file."""
+    return any(kind in systems_of_file(plugin.filename or "") for plugin in world.plugins)
+
+
+def missing_defaults(plugins: Iterable[Plugin]) -> tuple[PluginKind, ...]:
+    """The systems that gz-sim would have added if there were no plugins."""
+    has = {each.name for plugin in plugins for each in systems_of_file(plugin.filename or "")}
+    return tuple(system(name) for name in DEFAULT_SYSTEMS if name not in has)
+
+
+def system_plugin(kind: PluginKind) -> Plugin:
+    """The plugin that is a system, with the parameters that nobody leaves out."""
+    content = (Element(name="render_engine", text="ogre2"),) if kind.name == "sensors" else ()
+    return Plugin(name=kind.class_name, filename=kind.file, content=content)
+
+
+def with_defaults(world: World, but: PluginKind | None = None) -> World:
+    """A world without any plugin with those that gz-sim adds only to such a world; `but` comes from elsewhere."""
+    if world.plugins:
+        return world
+    kinds = [kind for kind in missing_defaults(()) if kind is not but]
+    return world.model_copy(update={"plugins": tuple(map(system_plugin, kinds))})
+
+
+def with_systems(world: World, kinds: Iterable[PluginKind]) -> World:
+    """The world with systems that it lacks; the same one where it has them all."""
+    lacks = [kind for kind in dict.fromkeys(kinds) if not has_system(world, kind)]
+    if not lacks:
+        return world
+    world = with_defaults(world)
+    more = [system_plugin(kind) for kind in lacks if not has_system(world, kind)]
+    return world.model_copy(update={"plugins": (*world.plugins, *more)})
+
+
+def as_xml(kind: PluginKind) -> str:
+    """The line that adds a system to a world."""
+    return f'<plugin filename="{kind.file}" name="{kind.class_name}"/>'
+
+
+def has_element(world: World, name: str) -> bool:
+    """Whether a world has an element without a typed form."""
+    return any(part.element is not None and part.element.name == name and not part.at for part in world.opaque)

@@ -1,0 +1,75 @@
+"""Masses of links put together."""
+
+from collections.abc import Sequence
+
+from twinform.ir import Format, Inertia, Inertial, Link, Pose
+from twinform.ir.frames import FrameGraph
+from twinform.ir.solids import Solid, combined, placed
+from twinform.ir.transform import Transform
+from twinform.passes.assets import NO_ASSETS
+from twinform.passes.legalise.automatic_inertias import automatic
+from twinform.passes.meshes import Meshes
+
+_NO_MESHES = Meshes(NO_ASSETS)
+"""An inertia that is left to a mesh is not computed here: `fill-inertia` does it."""
+_NONE = Solid(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+_DEFAULT = {Format.URDF: (0.0, 0.0), Format.SDF: (1.0, 1.0)}
+"""Mass in kg and moments in kg m^2 of a link that says nothing about them."""
+
+
+def body_of(link: Link, graph: FrameGraph, format_: Format) -> Solid:
+    """The mass, centre and inertia of a link in its own frame, with the defaults of the format.
+
+    Raises:
+        NoInertiaError: it is left to the reader, and cannot be computed.
+        FrameError: a pose is in a frame that is not known.
+    """
+    inertial = link.inertial
+    mass, moment = _DEFAULT[format_]
+    if inertial is None:
+        return (
+            _NONE if format_ is Format.URDF else Solid(mass, (0.0, 0.0, 0.0), (moment, moment, moment, 0.0, 0.0, 0.0))
+        )
+    if inertial.auto:
+        return automatic(link, inertial, link.collisions, graph, _NO_MESHES)
+    return placed(_written(inertial, mass, moment), graph.resolve(inertial.pose, link.name, link.name))
+
+
+def _written(inertial: Inertial, mass: float, moment: float) -> Solid:
+    said = inertial.inertia or Inertia()
+    moments = (_or(said.ixx, moment), _or(said.iyy, moment), _or(said.izz, moment))
+    products = (_or(said.ixy, 0.0), _or(said.ixz, 0.0), _or(said.iyz, 0.0))
+    return Solid(_or(inertial.mass, mass), (0.0, 0.0, 0.0), (*moments, *products))
+
+
+def _or(value: float | None, default: float) -> float:
+    return default if value is None else value
+
+
+def with_guests(link: Link, own: Solid, guests: Sequence[Solid]) -> Link:
+    """The link with the mass of others, which are in its frame. The axes of its inertia stay as they are written."""
+    heavy = [guest for guest in guests if guest.mass]
+    if not heavy:
+        return link
+    whole = combined([own, *heavy])
+    inertial = link.inertial or Inertial()
+    written = None if inertial.auto else inertial.pose
+    axes = Transform(rotation=Transform.from_pose(written).rotation)
+    xx, yy, zz, xy, xz, yz = placed(whole, axes.inverse()).inertia
+    made = inertial.model_copy(
+        update={
+            "auto": None,
+            "mass": whole.mass,
+            "pose": _pose(written, whole),
+            "inertia": (inertial.inertia or Inertia()).model_copy(
+                update={"ixx": xx, "iyy": yy, "izz": zz, "ixy": xy, "ixz": xz, "iyz": yz}
+            ),
+        }
+    )
+    return link.model_copy(update={"inertial": made})
+
+
+def _pose(written: Pose | None, whole: Solid) -> Pose:
+    """The pose of an inertial with another centre of mass; in the link's own frame."""
+    pose = written or Pose(rpy=(0.0, 0.0, 0.0))
+    return pose.model_copy(update={"xyz": whole.centre, "relative_to": None})

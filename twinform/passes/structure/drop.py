@@ -1,0 +1,144 @@
+"""Take visuals, collisions, sensors, plugins and lights out of a model."""
+
+from fnmatch import fnmatchcase
+from typing import ClassVar, Self, TypeVar
+
+from pydantic import Field, model_validator
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules.looks import NOTHING_MATCHED
+from twinform.ir import (
+    Collision,
+    Document,
+    Element,
+    GazeboExtension,
+    Light,
+    Link,
+    Model,
+    Node,
+    Plugin,
+    Sensor,
+    Visual,
+    map_children,
+    node_fields,
+)
+from twinform.passes.base import Pass
+from twinform.passes.structure.dangling import Gone, report_dangling
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+_KINDS: dict[type[Node], str] = {
+    Visual: "visuals",
+    Collision: "collisions",
+    Sensor: "sensors",
+    Plugin: "plugins",
+    Light: "lights",
+}
+"""The option that says which nodes of a class go."""
+_OPTIONS = tuple(_KINDS.values())
+_FREE_CONTENT = {option.removesuffix("s"): option for option in _OPTIONS}
+"""The same for elements in the free content of `<gazebo>`."""
+
+
+class Drop(Pass):
+    """Takes out what a simulation or a viewer does not need.
+
+    It changes, by one pattern for each kind:
+
+    1. `visuals`, `collisions`, `sensors` and `lights` whose name matches; one without a name is matched by `*` alone;
+    2. `plugins` whose name or file name matches, wherever they are;
+    3. in URDF, such elements in `<gazebo>` too, and a `<gazebo>` element that has nothing left goes with them.
+
+    With `links`, only what is on links with such a name, or about them, goes. It never touches links, joints, inertias,
+    and models that an `<include>` names. It reports `dropped-reference` for plugins that name what is gone,
+    `nothing-matched` for a pattern that matches nothing, and what `check` would find in the result and did not in the
+    source, such as a contact sensor without its collision.
+    """
+
+    name = "drop"
+    example: ClassVar[str] = 'drop{sensors="*" plugins="*gazebo_ros*"}'
+
+    visuals: str | None = Field(
+        default=None, description="Visuals; `*`, `?` and `[...]` are wildcards in all of these."
+    )
+    collisions: str | None = Field(default=None, description="Collisions.")
+    sensors: str | None = Field(default=None, description="Sensors, with their plugins.")
+    plugins: str | None = Field(default=None, description="Plugins, by name or file name.")
+    lights: str | None = Field(default=None, description="Lights of links, models and worlds.")
+    links: str = Field(default="*", description="Only on links with such a name.")
+
+    @model_validator(mode="after")
+    def _check_any(self) -> Self:
+        if all(getattr(self, option) is None for option in _OPTIONS):
+            raise ValueError(f"nothing is to go; say one of {', '.join(_OPTIONS)}")
+        return self
+
+    def run(self, document: Document, notes: Notes) -> Document:
+        """The document without what is to go."""
+        gone = Gone()
+        everywhere = self.links == "*"
+        made = self._thinned(document, gone, meant=everywhere)
+        made = map_children(made, lambda node: self._node(node, gone, meant=everywhere))
+        for option in _OPTIONS:
+            pattern = getattr(self, option)
+            if pattern is not None and option not in gone.names:
+                message = f"nothing matches {option}={pattern!r}"
+                notes.report(NOTHING_MATCHED, message, document.location, found=pattern)
+        if made is not document:
+            report_dangling(document, made, gone, notes)
+        return made
+
+    def _node(self, node: Node, gone: Gone, *, meant: bool) -> Node:
+        """The node without what is to go below it; `meant` says whether it is on a link that is meant."""
+        if isinstance(node, GazeboExtension):
+            return self._extension(node, gone)
+        if isinstance(node, Link):
+            meant = fnmatchcase(node.name, self.links)
+        made = map_children(self._thinned(node, gone, meant=meant), lambda child: self._node(child, gone, meant=meant))
+        return _without_empty(node, made) if isinstance(node, Model) and isinstance(made, Model) else made
+
+    def _thinned(self, node: AnyNode, gone: Gone, *, meant: bool) -> AnyNode:
+        """The node without what is to go directly in it."""
+        update: dict[str, object] = {}
+        for name in node_fields(type(node)) if meant else ():
+            value = getattr(node, name)
+            if not value or isinstance(value, Node):
+                continue
+            kept = tuple(child for child in value if not self._goes(child, gone))
+            if len(kept) < len(value):
+                update[name] = kept
+        return node.model_copy(update=update) if update else node
+
+    def _goes(self, node: Node, gone: Gone) -> bool:
+        option = _KINDS.get(type(node))
+        if option is None:
+            return False
+        return self._is_named(option, getattr(node, "name", None), getattr(node, "filename", None), gone)
+
+    def _is_named(self, option: str, name: str | None, file: str | None, gone: Gone) -> bool:
+        pattern = getattr(self, option)
+        if pattern is None or not any(fnmatchcase(word, pattern) for word in (name or "", file or "")):
+            return False
+        gone.names.setdefault(option, set()).add(name or "")
+        return True
+
+    def _extension(self, extension: GazeboExtension, gone: Gone) -> GazeboExtension:
+        """A `<gazebo>` element of URDF without what is to go in it."""
+        if not fnmatchcase(extension.reference or "", self.links):
+            return extension
+        kept = tuple(element for element in extension.content if not self._element_goes(element, gone))
+        same = len(kept) == len(extension.content)
+        return extension if same else extension.model_copy(update={"content": kept})
+
+    def _element_goes(self, element: Element, gone: Gone) -> bool:
+        option = _FREE_CONTENT.get(element.name)
+        return option is not None and self._is_named(option, element.get("name"), element.get("filename"), gone)
+
+
+def _without_empty(before: Model, after: Model) -> Model:
+    """The model without the `<gazebo>` elements that have nothing left."""
+    if after.extensions is before.extensions:
+        return after
+    pairs = zip(before.extensions, after.extensions, strict=True)
+    kept = tuple(new for old, new in pairs if new is old or new.content or new.opaque)
+    return after.model_copy(update={"extensions": kept})

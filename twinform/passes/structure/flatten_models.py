@@ -1,0 +1,164 @@
+"""Make one model of a model with models in it."""
+
+from typing import ClassVar
+
+from pydantic import Field
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules import edits as rules
+from twinform.diagnostics.rules.to_urdf import INCLUDE_NOT_EXPANDED
+from twinform.ir import Document, Format, Frame, Link, Model, World
+from twinform.ir.frames import FrameGraph
+from twinform.passes.legalise.flattening import flatten
+from twinform.passes.legalise.joint_ends import report_self_joint, resolve_ends
+from twinform.passes.legalise.marks import without_marks
+from twinform.passes.structure.model_edit import ModelEdit, Place
+from twinform.passes.structure.renaming import renamed_contents, renamed_model
+from twinform.passes.structure.scopes import Part, Scope, report_clashes, scope_of
+
+_SCOPE = "::"
+_LAST_WITH_COLONS = "1.7"
+"""The last version of SDF in which names may have `::` in them."""
+_OF_THE_WHOLE = ("static", "allow_auto_disable")
+_OF_LINKS = ("self_collide", "enable_wind")
+
+
+class FlattenModels(ModelEdit):
+    """Bring the links, joints and frames of nested models up into the model around them.
+
+    Changes: 1. they are called `inner_name`, with `separator` between, and what names them follows; 2. a frame called
+    `inner` stands for the nested model's own, and poses that were relative to it name it; 3. plugins and other parts of
+    the nested model become those of the outer one, with names followed; its `self_collide` and `enable_wind` become
+    those of its links; 4. joints and frames of the world that name what was nested follow. With `separator="::"` names
+    are as libsdformat writes them before 1.8, and the result is SDF 1.7, since later versions forbid `::` in names.
+    Never touches: where anything is; URDF, which has no models in models.
+    Diagnostics: `include-not-expanded`; `nested-setting` where a nested model is static, or may not rest, and the outer
+    one says otherwise; `self-joint`; `name-clash`; `unfollowed-name`.
+    """
+
+    name: ClassVar[str] = "flatten-models"
+    example: ClassVar[str] = "flatten-models{separator=__}"
+
+    separator: str = Field(default="_", min_length=1, description="What is put between the names.")
+
+    def edit(self, document: Document, notes: Notes) -> Document:
+        """The document without models in models."""
+        made = super().edit(document, notes)
+        if made is document or self.separator != _SCOPE or notes.has_errors:
+            return made
+        from twinform.passes.legalise.sdf_versions import change_version  # noqa: PLC0415 - this case alone needs it
+
+        for step in change_version(made.version, _LAST_WITH_COLONS):
+            made = step.run(made, notes)
+        return made
+
+    def edit_model(self, model: Model, place: Place) -> Model:
+        """The model without models in it."""
+        if place.format is Format.URDF or not model.models or _has_includes(model, place.notes):
+            return model
+        _report_settings(model, place)
+        flat = without_marks(flatten(_prepared(model), _plain))
+        flat = _with_rest(flat, model, place)
+        if _has_self_joint(flat, place.notes):
+            return model
+        scope = scope_of(flat, self._choose)
+        if self.separator != _SCOPE and report_clashes(flat, scope, place.format, place.notes):
+            return model
+        return renamed_model(flat, scope, place.format, place.notes)
+
+    def _choose(self, part: Part, name: str) -> str:
+        del part
+        return name.replace(_SCOPE, self.separator)
+
+    def in_world(self, before: World, after: World) -> World:
+        """The world, whose joints and frames follow."""
+        from twinform.passes.structure.world_names import followed  # noqa: PLC0415 - most files have no world
+
+        def scope(model: Model) -> Scope:
+            bare = flatten(model, _plain) if model.models else model
+            return scope_of(bare, self._choose)
+
+        return followed(before, after, scope, self.model)
+
+
+def _plain(frame: Frame, shell: Model) -> Frame:
+    del shell
+    return frame
+
+
+def _has_includes(model: Model, notes: Notes) -> bool:
+    found = False
+    for include in model.includes:
+        message = f"model {model.name!r} includes {include.uri!r}, which was not read"
+        help_ = "convert with --expand-includes"
+        notes.report(INCLUDE_NOT_EXPANDED, message, include.location, found=include.uri, help=help_)
+        found = True
+    inner = [_has_includes(nested, notes) for nested in model.models]  # every one has its say
+    return found or any(inner)
+
+
+def _has_self_joint(model: Model, notes: Notes) -> bool:
+    """Report joints of a link with itself, which libsdformat lets pass in nested models alone."""
+    graph, found = FrameGraph(model), False
+    links = {link.name for link in model.links}
+    for joint in model.joints:
+        resolved, _ = resolve_ends(joint, links, graph)
+        if resolved.parent == resolved.child:
+            report_self_joint(joint, resolved, notes)
+            found = True
+    return found
+
+
+def _report_settings(model: Model, place: Place) -> None:
+    for nested in model.models:
+        for field in _OF_THE_WHOLE:
+            mine, theirs = getattr(model, field), getattr(nested, field)
+            if theirs is not None and bool(theirs) != _usual(field, mine):
+                message = (
+                    f"nested model {nested.name!r} says {field} {str(theirs).lower()}, and {model.name!r} does not"
+                )
+                place.notes.report(rules.NESTED_SETTING, message, nested.location.at(field), found=str(theirs).lower())
+        _report_settings(nested.model_copy(update={field: getattr(model, field) for field in _OF_THE_WHOLE}), place)
+
+
+def _usual(field: str, value: bool | None) -> bool:
+    return field == "allow_auto_disable" if value is None else value
+
+
+def _prepared(model: Model) -> Model:
+    """The model, in the models of which links say what their model said for them."""
+    return model.model_copy(update={"models": tuple(map(_inner, model.models))})
+
+
+def _inner(model: Model) -> Model:
+    said = {field: value for field in _OF_LINKS if (value := getattr(model, field)) is not None}
+    links = tuple(_with_settings(link, said) for link in model.links)
+    return model.model_copy(update={"links": links, "models": tuple(map(_inner, model.models))})
+
+
+def _with_settings(link: Link, said: dict[str, bool]) -> Link:
+    update = {field: value for field, value in said.items() if getattr(link, field) is None}
+    return link.model_copy(update=update) if update else link
+
+
+def _with_rest(flat: Model, model: Model, place: Place) -> Model:
+    """The flat model with plugins and untyped parts of the models that were in it, which name their parts anew."""
+    plugins, opaque = list(model.plugins), list(model.opaque)
+    stack = [(nested, "") for nested in reversed(model.models)]
+    while stack:
+        nested, around = stack.pop()
+        prefix = f"{around}{nested.name}{_SCOPE}"
+        scope = _prefixed(nested, prefix)
+        contents = renamed_contents(nested, scope, place.format, place.notes)
+        plugins += contents.plugins
+        opaque += [part for part in contents.opaque if part.element is not None]
+        stack.extend((each, prefix) for each in reversed(nested.models))
+    return flat.model_copy(update={"plugins": tuple(plugins), "opaque": tuple(opaque)})
+
+
+def _prefixed(model: Model, prefix: str) -> Scope:
+    def choose(part: Part, name: str) -> str:
+        del part
+        return prefix + name
+
+    return scope_of(model, choose, deep=False)

@@ -1,0 +1,124 @@
+"""The `<gazebo>` elements of URDF by what they refer to, and what in them is about what."""
+
+from collections.abc import Iterable, Mapping
+
+from twinform.ir import Element, GazeboExtension
+from twinform.ir.transform import Transform
+from twinform.passes.legalise.carrier import to_element
+from twinform.passes.legalise.element_poses import read_pose
+from twinform.passes.legalise.nodes import unique_name
+from twinform.passes.legalise.to_sdf.gazebo_tags import JOINT_TAGS, LINK_TAGS, TRUE, value_text
+
+Blocks = Mapping[str, list[GazeboExtension]]
+
+_OF_COLLISIONS = frozenset(
+    {"collision", *(name for name, tag in LINK_TAGS.items() if tag.target in {"surface", "collision"})}
+)
+_OF_VISUALS = frozenset({"visual", "material"})
+OF_SHAPES: Mapping[str, frozenset[str]] = {"visuals": _OF_VISUALS, "collisions": _OF_COLLISIONS}
+"""Elements that are about all shapes of a link, by the field that has these shapes."""
+_OF_BODY = {
+    "turnGravityOff": "gravity", "gravity": "gravity", "selfCollide": "self_collide", "self_collide": "self_collide",
+    "dampingFactor": "velocity_decay", "velocity_decay": "velocity_decay", "kinematic": "kinematic",
+    "enable_wind": "enable_wind", "inertial": "inertial", "pose": "pose",
+}  # fmt: skip
+"""Elements that are about the body of a link, and what they say something of."""
+_USUAL = {"gravity": True, "kinematic": False, "enable_wind": False}
+_DISABLE = "disableFixedJointLumping"
+_PRESERVE = ("preserveFixedJoint", _DISABLE)
+_POSED = frozenset({"sensor", "light", "projector", "particle_emitter", "audio_source", "battery"})
+
+
+def blocks(extensions: Iterable[GazeboExtension]) -> Blocks:
+    """The extensions by their references."""
+    found: dict[str, list[GazeboExtension]] = {}
+    for extension in extensions:
+        found.setdefault(extension.reference or "", []).append(extension)
+    return found
+
+
+def content(there: Blocks, name: str) -> tuple[Element, ...]:
+    """All that extensions say of a link or joint."""
+    return tuple(element for extension in there.get(name, ()) for element in extension.content)
+
+
+def of_shapes(elements: Iterable[Element], field: str) -> tuple[Element, ...]:
+    """What is about all shapes of a kind."""
+    return tuple(element for element in elements if element.name in OF_SHAPES[field])
+
+
+def of_body(elements: Iterable[Element]) -> dict[str, object]:
+    """What is said of the body of a link; what is usual is left out."""
+    said: dict[str, object] = {}
+    for element in elements:
+        about = _OF_BODY.get(element.name)
+        if about is None:
+            continue
+        truth = value_text(element).lower() in TRUE
+        if about in _USUAL:
+            said[about] = not truth if element.name == "turnGravityOff" else truth
+        else:
+            said[about] = value_text(element).lower() if not element.children else element
+    return {about: value for about, value in said.items() if _USUAL.get(about) != value}
+
+
+def is_preserved(elements: Iterable[Element]) -> bool:
+    """Whether the author asks for the fixed joint to stay, by a word that libsdformat knows."""
+    return any(element.name in _PRESERVE and value_text(element).lower() in TRUE for element in elements)
+
+
+def turns_by_nothing(elements: Iterable[Element]) -> bool:
+    """Whether libsdformat makes a joint that turns by nothing of a fixed one that is to stay."""
+    said = {element.name for element in elements if value_text(element).lower() in TRUE}
+    return _DISABLE in said and _PRESERVE[0] not in said
+
+
+def measures(elements: Iterable[Element]) -> bool:
+    """Whether something measures at a joint: a sensor, or Gazebo Classic asked for the forces in it."""
+    return any(
+        element.name == "sensor" or (element.name == "provideFeedback" and value_text(element).lower() in TRUE)
+        for element in elements
+    )
+
+
+def says_something(element: Element) -> bool:
+    """Whether a joint's element would do anything in Gazebo."""
+    tag = JOINT_TAGS.get(element.name)
+    return tag is None or tag.target != "ignored"
+
+
+def posed_names(elements: Iterable[Element]) -> set[tuple[str, str]]:
+    """Sensors, lights and the like among elements, by kind and name."""
+    return {(element.name, element.get("name") or "") for element in elements if element.name in _POSED}
+
+
+def named_apart(elements: Iterable[Element], taken: set[tuple[str, str]], link: str) -> tuple[Element, ...]:
+    """The elements, with the name of their link before the name of a sensor or light that is taken; takes them all."""
+    return tuple(_apart(element, taken, link) for element in elements)
+
+
+def _apart(element: Element, taken: set[tuple[str, str]], link: str) -> Element:
+    key = (element.name, element.get("name") or "")
+    if element.name not in _POSED or not key[1]:
+        return element
+    if key in taken:
+        name = unique_name(f"{link}_{key[1]}", {name for kind, name in taken if kind == element.name})
+        pairs = tuple((field, name if field == "name" else value) for field, value in element.attributes)
+        element, key = element.model_copy(update={"attributes": pairs}), (element.name, name)
+    taken.add(key)
+    return element
+
+
+def in_host(element: Element, at: Transform) -> Element:
+    """An element of a link in the frame of another, in which the link's frame is `at`."""
+    if element.name not in _POSED:
+        return element
+    pose = element.find("pose")
+    if pose is not None and (pose.get("relative_to") or pose.get("frame")):
+        return element
+    written = Transform.from_pose(read_pose(pose)) if pose is not None else Transform()
+    made = to_element(at.compose(written).to_pose(), "pose", "sdf")
+    if pose is None:
+        return element.model_copy(update={"children": (made, *element.children)})
+    children = tuple(made if child is pose else child for child in element.children)
+    return element.model_copy(update={"children": children})

@@ -1,0 +1,159 @@
+"""Two models become one, held together by a fixed joint."""
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules import edits as rules
+from twinform.ir import Include, Joint, Link, Material, Model, Node, Opaque, Pose, Visual
+from twinform.ir.frames import WORLD
+from twinform.ir.node import Vector3
+from twinform.passes.includes.merge import merge_into_model
+from twinform.passes.structure.root_links import without_world
+
+
+class Mount(NamedTuple):
+    """Where a model is attached: the link `held` of it to the link `to`, at a pose in that link's frame.
+
+    `prefix` goes before names that would mean two things.
+    """
+
+    to: str
+    held: str
+    joint: str
+    xyz: Vector3
+    rpy: Vector3
+    prefix: str
+
+    def pose(self, relative_to: str) -> Pose:
+        """The pose, without what is zero."""
+        zero = (0.0, 0.0, 0.0)
+        xyz, rpy = (None if each == zero else each for each in (self.xyz, self.rpy))
+        return Pose(xyz=xyz, rpy=rpy, relative_to=relative_to)
+
+
+def root_of(model: Model) -> str | None:
+    """The link that all else hangs from, or that `world` holds; None where there are several."""
+    children = {joint.child for joint in model.joints if joint.parent != WORLD}
+    roots = [link.name for link in model.links if link.name not in children and link.name != WORLD]
+    return roots[0] if len(roots) == 1 else None
+
+
+def join_urdf(model: Model, guest: Model, mount: Mount, notes: Notes) -> Model:
+    """A robot with another one attached; the same robot after an error, which the notes have."""
+    guest = without_world(guest)
+    if any(joint.child == mount.held for joint in guest.joints):
+        message = f"link {mount.held!r} of the attached robot hangs from another one; `reroot` makes it the root"
+        notes.report(rules.UNKNOWN_NAME, message, guest.location, found=mount.held)
+        return model
+    if _clash(model, guest, mount, notes, (("link", "links"), ("joint", "joints"))):
+        return model
+    guest = _own_materials(model, guest, mount.prefix)
+    joint = Joint(
+        name=mount.joint,
+        type="fixed",
+        parent=mount.to,
+        child=mount.held,
+        pose=mount.pose(mount.to),
+        source=guest.source,
+    )
+    held = Pose(relative_to=mount.joint)
+    links = (link.model_copy(update={"pose": held}) if link.name == mount.held else link for link in guest.links)
+    known = {material.name for material in model.materials}
+    return model.model_copy(
+        update={
+            "materials": (*model.materials, *(each for each in guest.materials if each.name not in known)),
+            "links": (*model.links, *links),
+            "joints": (*model.joints, joint, *guest.joints),
+            "extensions": (*model.extensions, *guest.extensions),
+            "opaque": (*model.opaque, *_own_blocks(model.opaque, guest.opaque, mount.prefix)),
+        }
+    )
+
+
+def join_sdf(model: Model, guest: Model, mount: Mount, notes: Notes) -> Model:
+    """A model with another one's parts in it; the same model after an error, which the notes have."""
+    guest = without_world(guest)
+    if _clash(model, guest, mount, notes, (("", "links"), ("", "joints"), ("", "frames"), ("", "models"))):
+        return model
+    placed = Include(uri=guest.name, pose=mount.pose(mount.to), placement_frame=mount.held, source=guest.source)
+    unnamed = guest.model_copy(update={"name": mount.prefix.rstrip("_") or guest.name})
+    merged = merge_into_model(model, placed, unnamed, notes)
+    if merged is model:
+        return model
+    joint = Joint(name=mount.joint, type="fixed", parent=mount.to, child=mount.held, source=guest.source)
+    return merged.model_copy(update={"joints": (*merged.joints, joint)})
+
+
+def _clash(model: Model, guest: Model, mount: Mount, notes: Notes, kinds: Iterable[tuple[str, str]]) -> bool:
+    """Report names that both have; links and joints of URDF may share one."""
+    taken: dict[tuple[str, str], Node] = {}
+    for kind, field in kinds:
+        taken.update({(kind, node.name): node for node in getattr(model, field)})
+    mounts = [Joint(name=mount.joint, type="fixed", source=guest.source)]
+    clash = False
+    for kind, field in kinds:
+        own = mounts if field == "joints" else []
+        for node in (*getattr(guest, field), *own):
+            other = taken.get((kind, node.name))
+            if other is not None:
+                message = f"both models have {node.name!r}"
+                notes.report(
+                    rules.NAME_CLASH, message, other.location, found=node.name, related=(node.location,),
+                    help="give the attached model a prefix",
+                )  # fmt: skip
+                clash = True
+    return clash
+
+
+def _own_materials(model: Model, guest: Model, prefix: str) -> Model:
+    """The guest with other names for materials that mean something else in the model."""
+    theirs, mine = _materials(model), _materials(guest)
+    names = {name: prefix + name for name in mine.keys() & theirs.keys() if mine[name] != theirs[name]}
+    if not names:
+        return guest
+    return guest.model_copy(
+        update={
+            "materials": tuple(_renamed(material, names) for material in guest.materials),
+            "links": tuple(_with_materials(link, names) for link in guest.links),
+        }
+    )
+
+
+def _materials(model: Model) -> dict[str, tuple[object, ...]]:
+    """What each name of a material stands for: the robot's own, or else the first visual's that says more."""
+    inline = (visual.material for link in model.links for visual in link.visuals if visual.material)
+    found: dict[str, tuple[object, ...]] = {}
+    for material in (*model.materials, *inline):
+        if material.name and (material.color or material.texture):
+            found.setdefault(material.name, (material.color, material.texture))
+    return found
+
+
+def _renamed(material: Material, names: dict[str, str]) -> Material:
+    new = names.get(material.name or "")
+    return material if new is None else material.model_copy(update={"name": new})
+
+
+def _with_materials(link: Link, names: dict[str, str]) -> Link:
+    def painted(visual: Visual) -> Visual:
+        material = visual.material and _renamed(visual.material, names)
+        return visual if material is visual.material else visual.model_copy(update={"material": material})
+
+    return link.model_copy(update={"visuals": tuple(map(painted, link.visuals))})
+
+
+def _own_blocks(there: tuple[Opaque, ...], more: tuple[Opaque, ...], prefix: str) -> list[Opaque]:
+    """Transmissions, ros2_control and the like of the guest, each by a name of its own."""
+    taken = {(part.element.name, part.element.get("name")) for part in there if part.element}
+    made: list[Opaque] = []
+    for part in more:
+        element = part.element
+        if element is None:  # attributes of the other robot say something of its file
+            continue
+        if (element.name, element.get("name")) in taken and element.get("name"):
+            attributes = tuple((key, prefix + text if key == "name" else text) for key, text in element.attributes)
+            made.append(part.model_copy(update={"element": element.model_copy(update={"attributes": attributes})}))
+        else:
+            made.append(part)
+    return made

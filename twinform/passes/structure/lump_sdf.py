@@ -1,0 +1,227 @@
+"""Links of SDF on fixed joints become frames; what was in them moves to the link that they are fixed to."""
+
+from collections.abc import Iterable
+from functools import cache
+from typing import TypeVar
+
+from twinform.ir import Collision, Element, Format, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual
+from twinform.ir.frames import MODEL, FrameError, FrameGraph
+from twinform.ir.solids import placed
+from twinform.passes.legalise.automatic_inertias import NoInertiaError
+from twinform.passes.legalise.carrier import is_ours
+from twinform.passes.legalise.nodes import unique_name
+from twinform.passes.structure.bodies import body_of, with_guests
+from twinform.passes.structure.lumping_plan import Plan, plan
+from twinform.passes.structure.mentions import Mentions, mentions
+from twinform.passes.structure.model_edit import Place
+from twinform.schemas import table
+
+Posed = TypeVar("Posed", Visual, Collision, Sensor, Light)
+_SETTINGS: dict[str, object] = {"gravity": True, "enable_wind": False, "self_collide": None, "kinematic": False}
+"""What a link says of its body, and what it means to say nothing."""
+_OF_BODY = frozenset({"velocity_decay"})
+
+
+def lump_sdf(model: Model, keep: tuple[str, ...], place: Place, named: Mentions | None = None) -> Model:
+    """The model, and the models in it, with one link for each rigid body; the same one where nothing changes."""
+    named = named or mentions(model)
+    inner = tuple(lump_sdf(nested, keep, place, named) for nested in model.models)
+    if any(new is not old for new, old in zip(inner, model.models, strict=True)):
+        model = model.model_copy(update={"models": inner})
+    if not any(joint.type == "fixed" for joint in model.joints):
+        return model
+    graph = FrameGraph(model)
+    planned = plan(model, graph, keep, _Obstacles(graph, named).why, place)
+    return _lumped(model, graph, planned) if planned.joints else model
+
+
+class _Obstacles:
+    """What speaks against lumping a link."""
+
+    def __init__(self, graph: FrameGraph, named: Mentions) -> None:
+        self.graph, self.named = graph, named
+
+    def why(self, joint: Joint, parent: Link, child: Link) -> str | None:
+        if joint.sensors:
+            return f"there is a sensor on joint {joint.name!r}"
+        if joint.name in self.named.joints:
+            return f"{self.named.joints[joint.name]} names joint {joint.name!r}"
+        if child.name in self.named.links:
+            return f"{self.named.links[child.name]} names it"
+        other = next(
+            (name for name, usual in _SETTINGS.items() if _said(parent, name, usual) != _said(child, name, usual)), ""
+        )
+        if other:
+            return f"its <{other}> is not that of {parent.name!r}"
+        if _of_body(parent) != _of_body(child):
+            return f"its <velocity_decay> is not that of {parent.name!r}"
+        return self._unlike(child) or self._without_mass((parent, child))
+
+    def _unlike(self, child: Link) -> str | None:
+        """Parts that only a link can have."""
+        known = _posed() | _OF_BODY
+        unknown = next((part for part in child.opaque if not is_ours(part) and _name(part) not in known), None)
+        if unknown is not None:
+            return f"{unknown.name} belongs to the link"
+        added = child.inertial and any(_name(part) == "fluid_added_mass" for part in child.inertial.opaque)
+        return "it has <fluid_added_mass>" if added else None
+
+    def _without_mass(self, links: Iterable[Link]) -> str | None:
+        try:
+            for link in links:
+                body_of(link, self.graph, Format.SDF)
+        except (NoInertiaError, FrameError) as error:
+            return str(error)
+        return None
+
+
+def _said(link: Link, name: str, usual: object) -> object:
+    value = getattr(link, name)
+    return usual if value is None else value
+
+
+def _of_body(link: Link) -> list[Element]:
+    return [part.element for part in link.opaque if part.element and part.element.name in _OF_BODY]
+
+
+def _name(part: Opaque) -> str:
+    return part.element.name if part.element else part.name
+
+
+@cache
+def _posed() -> frozenset[str]:
+    """The elements of a link without a typed form that have a pose, such as `<projector>`."""
+    facts = table("sdf")
+    rows = [row for row in facts.definitions["link"].children if row.place is None]
+    return frozenset(row.name for row in rows if any(inner.name == "pose" for inner in facts.resolve(row).rows))
+
+
+def _lumped(model: Model, graph: FrameGraph, planned: Plan) -> Model:
+    links = {link.name: link for link in model.links}
+    guests = planned.guests()
+    gone = {joint.name for joint in planned.joints.values()}
+    frames = [frame for name, joint in planned.joints.items() for frame in _frames(links[name], joint, model)]
+    made = model.model_copy(
+        update={
+            "links": tuple(
+                _host(link, [links[name] for name in guests.get(link.name, [])], graph)
+                for link in model.links
+                if link.name not in planned.joints
+            ),
+            "joints": tuple(joint for joint in model.joints if joint.name not in gone),
+            "frames": (*model.frames, *frames),
+        }
+    )
+    return _same_canonical_link(made, graph, planned)
+
+
+def _frames(link: Link, joint: Joint, model: Model) -> tuple[Frame, Frame]:
+    """Frames by the names of the joint and its child, where these were: nothing that names them has to change."""
+    child = next((each.child for each in model.joints if each.name == joint.name), None) or link.name
+    mount = Frame(
+        name=joint.name,
+        attached_to=joint.parent,
+        pose=_based(joint.pose, child),
+        source=joint.source,
+        opaque=_ours(joint),
+    )
+    body = Frame(
+        name=link.name, attached_to=joint.parent, pose=_based(link.pose, MODEL), source=link.source, opaque=_ours(link)
+    )
+    return mount, body
+
+
+def _ours(node: Joint | Link) -> tuple[Opaque, ...]:
+    return tuple(part for part in node.opaque if is_ours(part) and part.element is not None)
+
+
+def _based(pose: Pose | None, base: str) -> Pose:
+    """The pose with its frame written out, which is another one for a frame."""
+    pose = pose or Pose()
+    return pose if pose.relative_to else pose.model_copy(update={"relative_to": base})
+
+
+def _host(link: Link, guests: list[Link], graph: FrameGraph) -> Link:
+    if not guests:
+        return link
+    solids = [placed(body_of(guest, graph, Format.SDF), graph.pose(guest.name, link.name)) for guest in guests]
+    heavy = with_guests(link, body_of(link, graph, Format.SDF), solids)
+    into = heavy
+    for guest in guests:
+        collisions = _moved(guest, guest.collisions, into.collisions)
+        sensors = tuple(_sensor(each, guest, collisions) for each in guest.sensors)
+        moved = tuple(_element_in_frame(part, guest.name) for part in guest.opaque if _name(part) in _posed())
+        into = into.model_copy(
+            update={
+                "visuals": (*into.visuals, *_moved(guest, guest.visuals, into.visuals)),
+                "collisions": (*into.collisions, *collisions),
+                "sensors": (*into.sensors, *_moved(guest, sensors, into.sensors)),
+                "lights": (*into.lights, *_moved(guest, guest.lights, into.lights)),
+                "opaque": (*into.opaque, *moved),
+            }
+        )
+    return into
+
+
+def _moved(guest: Link, parts: tuple[Posed, ...], there: tuple[Posed, ...]) -> list[Posed]:
+    """Parts posed in the frame of their old link; one whose name is taken gets that of the link before it."""
+    taken = {part.name for part in there}
+    made: list[Posed] = []
+    for part in parts:
+        name = part.name
+        if name in taken:
+            name = unique_name(f"{guest.name}_{name}", taken | {each.name for each in parts})
+        taken.add(name)
+        placed_part = _in_frame(part, guest.name)
+        made.append(placed_part if name == part.name else placed_part.model_copy(update={"name": name}))
+    return made
+
+
+def _in_frame(node: Posed, frame: str) -> Posed:
+    """The node in the frame that its link has become, unless it is in another one already."""
+    return node.model_copy(update={"pose": _based(node.pose, frame)})
+
+
+def _sensor(sensor: Sensor, guest: Link, collisions: list[Collision]) -> Sensor:
+    """A sensor of contact names its collision by the name that this has now; `collisions` are those of the guest."""
+    pairs = zip(guest.collisions, collisions, strict=True)
+    renamed = {old.name: new.name for old, new in pairs if old.name and new.name and old.name != new.name}
+    if not renamed or sensor.type != "contact":
+        return sensor
+    parts = tuple(
+        part if part.element is None else part.model_copy(update={"element": _recalled(part.element, renamed)})
+        for part in sensor.opaque
+    )
+    return sensor.model_copy(update={"opaque": parts})
+
+
+def _recalled(element: Element, names: dict[str, str]) -> Element:
+    text = names.get(element.text or "", element.text) if element.name == "collision" else element.text
+    children = tuple(_recalled(child, names) for child in element.children)
+    return element.model_copy(update={"text": text, "children": children})
+
+
+def _element_in_frame(part: Opaque, frame: str) -> Opaque:
+    element = part.element
+    if element is None:
+        return part
+    pose = element.find("pose")
+    if pose is None:
+        made = Element(name="pose", attributes=(("relative_to", frame),))
+        return part.model_copy(update={"element": element.model_copy(update={"children": (made, *element.children)})})
+    if pose.get("relative_to"):
+        return part
+    made = pose.model_copy(update={"attributes": (*pose.attributes, ("relative_to", frame))})
+    children = tuple(made if child is pose else child for child in element.children)
+    return part.model_copy(update={"element": element.model_copy(update={"children": children})})
+
+
+def _same_canonical_link(model: Model, graph: FrameGraph, planned: Plan) -> Model:
+    """The model, whose own frame moves with the body that it moved with before."""
+    before = graph.body(MODEL, kind="model")
+    body = planned.hosts.get(before, before)
+    if model.canonical_link is None and FrameGraph(model).body(MODEL, kind="model") == body:
+        return model
+    if model.canonical_link is not None and model.canonical_link not in planned.hosts:
+        return model
+    return model.model_copy(update={"canonical_link": body})

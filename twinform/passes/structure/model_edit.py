@@ -1,0 +1,114 @@
+"""The shape of the passes on the structure: every model of a document, or the one that is named."""
+
+from abc import abstractmethod
+from dataclasses import dataclass
+from itertools import chain
+
+from pydantic import Field
+
+from twinform.diagnostics import Location, Notes
+from twinform.diagnostics.rules import edits as rules
+from twinform.ir import Document, Format, Model, World
+from twinform.ir.frames import FrameError
+from twinform.passes.base import Pass
+from twinform.schemas import parse_version, table
+
+FRAMES_EVERYWHERE = "1.8"
+"""The first version of SDF in which joints connect any two frames, and poses may be in any."""
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A model and what is around it: a world, or nothing."""
+
+    format: Format
+    notes: Notes
+    world: World | None = None
+
+
+class ModelEdit(Pass):
+    """A pass over the models at the root and in worlds; `model` names the only one that is changed."""
+
+    model: str | None = Field(default=None, description="The only model to change; otherwise all of them.")
+
+    def run(self, document: Document, notes: Notes) -> Document:
+        """The document with its models passed through; SDF of a version before 1.8 is raised to it."""
+        return self.edit(document, notes)
+
+    def edit(self, document: Document, notes: Notes) -> Document:
+        """The document with its models passed through; the one that came in where nothing changes."""
+        if not _has_model(document, self.model):
+            message = f"there is no model {self.model!r}"
+            notes.report(rules.UNKNOWN_NAME, message, document.location, found=self.model)
+            return document
+        own = Notes(notes.file, notes.strict, origins=notes.origins)
+        modern = in_new_words(document, own)
+        if own.has_errors:
+            notes.extend(own.diagnostics)
+            return document
+        try:
+            made = self._each(modern, notes)
+        except FrameError as error:
+            error.report(notes)
+            return document
+        if made is modern:
+            return document
+        notes.extend_new(own.diagnostics)
+        notes.entries.extend(own.entries)
+        return made
+
+    def _each(self, document: Document, notes: Notes) -> Document:
+        place = Place(document.format, notes)
+        models = tuple(self._one(model, place) for model in document.models)
+        worlds = tuple(self._world(world, document, notes) for world in document.worlds)
+        update: dict[str, object] = {}
+        if any(new is not old for new, old in zip(models, document.models, strict=True)):
+            update["models"] = models
+        if any(new is not old for new, old in zip(worlds, document.worlds, strict=True)):
+            update["worlds"] = worlds
+        return document.model_copy(update=update) if update else document
+
+    def _world(self, world: World, document: Document, notes: Notes) -> World:
+        place = Place(document.format, notes, world)
+        models = tuple(self._one(model, place) for model in world.models)
+        if all(new is old for new, old in zip(models, world.models, strict=True)):
+            return world
+        return self.in_world(world, world.model_copy(update={"models": models}))
+
+    def _one(self, model: Model, place: Place) -> Model:
+        return self.edit_model(model, place) if self.model in (None, model.name) else model
+
+    def in_world(self, before: World, after: World) -> World:
+        """The world after its models have changed; for passes that have to tell the world."""
+        del before
+        return after
+
+    @abstractmethod
+    def edit_model(self, model: Model, place: Place) -> Model:
+        """The model after the pass; the one that came in where nothing changes."""
+
+
+def _has_model(document: Document, name: str | None) -> bool:
+    models = chain(document.models, *(world.models for world in document.worlds))
+    return name is None or any(model.name == name for model in models)
+
+
+def in_new_words(document: Document, notes: Notes) -> Document:
+    """A document of SDF before 1.8 in the words of 1.8; any other as it is."""
+    known, version = table("sdf").versions, document.version
+    if document.format is not Format.SDF or version not in known:
+        return document
+    if parse_version(version) >= parse_version(FRAMES_EVERYWHERE):
+        return document
+    from twinform.passes.legalise.sdf_versions import change_version  # noqa: PLC0415 - few files need all the steps
+
+    for step in change_version(version, FRAMES_EVERYWHERE):
+        document = step.run(document, notes)
+    message = f"the file is SDF {version}; the result is SDF {FRAMES_EVERYWHERE}"
+    notes.report(rules.RAISED_VERSION, message, document.location, found=version)
+    return document
+
+
+def nowhere_else(location: Location, fallback: Location) -> Location:
+    """A location, or another one for what a pass has made."""
+    return location if location.line else fallback

@@ -1,0 +1,109 @@
+"""Give links, joints and frames other names."""
+
+from functools import cached_property
+from typing import ClassVar, Literal, NamedTuple
+
+from pydantic import Field, field_validator
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules import edits as rules
+from twinform.ir import Document, Model, World
+from twinform.passes.structure.model_edit import ModelEdit, Place
+from twinform.passes.structure.renaming import renamed_model
+from twinform.passes.structure.scopes import Part, every_name, report_clashes, scope_of
+
+PartName = Literal["link", "joint", "frame", "model"]
+
+
+class _Rule(NamedTuple):
+    """`head*tail` becomes the same around what stands in the place of the star; without one, the whole name."""
+
+    head: str
+    tail: str | None
+    new_head: str
+    new_tail: str
+
+    def apply(self, name: str) -> str | None:
+        if self.tail is None:
+            return self.new_head if name == self.head else None
+        if len(name) < len(self.head) + len(self.tail):
+            return None
+        if not (name.startswith(self.head) and name.endswith(self.tail)):
+            return None
+        return self.new_head + name[len(self.head) : len(name) - len(self.tail)] + self.new_tail
+
+
+def _pair(text: str) -> tuple[str, str]:
+    """The old name and the new one; the new one is empty where the text has none."""
+    old, _, new = text.partition("=" if "=" in text else ":")
+    return old, new
+
+
+class Rename(ModelEdit):
+    """Give links, joints, frames and nested models other names, one by one or by a pattern.
+
+    Each of `names` is `OLD:NEW`, or `"OLD=NEW"` where a name has a colon in it. A `*` in both stands for any
+    characters: `left_*:l_*`. The first that fits counts.
+
+    Changes: 1. the names, also in nested models; 2. all that names them: joints, mimics, poses, frames, axes,
+    `<gazebo>`, transmissions, ros2_control, parameters of plugins, other tools' elements, carriers.
+    Never touches: the name of the model, `world`, names of sensors, shapes, materials, plugins and topics.
+    Diagnostics: `unknown-name` for a name that nothing has; `name-clash`; `unfollowed-name` for a text that may or may
+    not mean a part that was renamed.
+    """
+
+    name: ClassVar[str] = "rename"
+    example: ClassVar[str] = "rename{names=[base_link:base,left_*:l_*]}"
+
+    names: tuple[str, ...] = Field(min_length=1, description="`OLD:NEW`, with one `*` in both or in none.")
+    kinds: tuple[PartName, ...] = Field(
+        default=("link", "joint", "frame", "model"), description="What is renamed: link, joint, frame, model."
+    )
+
+    @field_validator("names")
+    @classmethod
+    def _are_rules(cls, names: tuple[str, ...]) -> tuple[str, ...]:
+        for text in names:
+            old, new = _pair(text)
+            if not old or not new:
+                raise ValueError(f"{text!r} is not OLD:NEW")
+            if old.count("*") != new.count("*") or old.count("*") > 1:
+                raise ValueError(f"{text!r} has a * on one side only, or several")
+        return names
+
+    @cached_property
+    def _rules(self) -> tuple[_Rule, ...]:
+        made: list[_Rule] = []
+        for text in self.names:
+            old, new = _pair(text)
+            head, star, tail = old.partition("*")
+            new_head, _, new_tail = new.partition("*")
+            made.append(_Rule(head, tail if star else None, new_head, new_tail))
+        return tuple(made)
+
+    def edit(self, document: Document, notes: Notes) -> Document:
+        """The document by its new names."""
+        known = [name for part, name in every_name(document) if part in self.kinds]
+        for text, rule in zip(self.names, self._rules, strict=True):
+            if not any(rule.apply(name) is not None for name in known):
+                message = f"nothing is called {_pair(text)[0]!r}"
+                notes.report(rules.UNKNOWN_NAME, message, document.location, found=text)
+        return document if notes.has_errors else super().edit(document, notes)
+
+    def edit_model(self, model: Model, place: Place) -> Model:
+        """The model by its new names."""
+        scope = scope_of(model, self._choose)
+        if not scope.changes or report_clashes(model, scope, place.format, place.notes):
+            return model
+        return renamed_model(model, scope, place.format, place.notes)
+
+    def in_world(self, before: World, after: World) -> World:
+        """The world, whose joints and frames follow."""
+        from twinform.passes.structure.world_names import followed  # noqa: PLC0415 - most files have no world
+
+        return followed(before, after, lambda model: scope_of(model, self._choose), self.model)
+
+    def _choose(self, part: Part, name: str) -> str:
+        if part not in self.kinds:
+            return name
+        return next((new for rule in self._rules if (new := rule.apply(name)) is not None), name)

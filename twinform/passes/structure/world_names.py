@@ -1,0 +1,22 @@
+"""What a world says about the parts of its models, by names such as `robot::arm`."""
+
+from collections.abc import Callable
+
+from twinform.diagnostics import Notes
+from twinform.ir import Format, Model, World
+from twinform.passes.structure.renaming import renamed_model
+from twinform.passes.structure.scopes import Scope
+
+
+def followed(before: World, after: World, scope: Callable[[Model], Scope], only: str | None) -> World:
+    """The world after its models were renamed, with its own joints, frames and the like following them.
+
+    `before` has the models by their old names; `only` names the one model that was renamed, if it is one alone.
+    """
+    inner = {model.name: scope(model) for model in before.models if only in (None, model.name)}
+    own: dict[str, dict[str, str]] = {part: {} for part in ("link", "joint", "frame", "model")}
+    around = Scope("", own, inner)
+    holder = Model(name="", joints=after.joints, frames=after.frames, opaque=after.opaque, plugins=after.plugins)
+    made = renamed_model(holder, around, Format.SDF, Notes())
+    update = {name: getattr(made, name) for name in ("joints", "frames", "opaque", "plugins")}
+    return after.model_copy(update=update)
