@@ -76,4 +76,4 @@ def _spoken(document: Document, assets: Assets) -> Document:
         return document
     from twinform.passes.legalise.sdf_versions.write_inertias import WriteInertias  # noqa: PLC0415 - likewise
 
-    return Pipeline((WriteInertias(version="1.10"),)).with_assets(assets).run(document, notes)
+    return Pipeline((WriteInertias(version="1.10"),)).with_files(assets).run(document, notes)
