@@ -12,7 +12,7 @@ SYNCED := .venv/.synced
 ORACLES := .venv/.oracles
 DEMO := out/demo
 
-.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness equipment bench inertia lumping clean
+.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness equipment bench inertia lumping classic clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -89,6 +89,9 @@ sameness: $(SYNCED) ## every conversion against its source by `twinform diff`; w
 
 lumping: $(ORACLES) ## fixed joints lumped beside libsdformat 12, and let go in Drake; writes docs/reference/lumping.md
 	$(BIN)/python -m benchmarks.lumping
+
+classic: $(SYNCED) ## every plugin of Gazebo Classic in the corpus migrated to gz-sim; writes docs/reference/classic.md
+	$(BIN)/python -m benchmarks.classic
 
 probes: $(ORACLES) ## what libsdformat makes of small URDF files beside what we make; writes docs/reference/probes.md
 	$(BIN)/python -m benchmarks.probes

@@ -27,7 +27,7 @@ _LIGHT = 1e-5
 def cause_of(difference: Difference, theirs: RobotRow, ours: RobotRow, model: Model) -> str:
     """The fault behind a difference; empty where none of the known ones is."""
     if difference.kind in {"link", "joint"} and difference.theirs == "missing":
-        return _why_missing(difference, ours)
+        return _why_missing(difference, ours) or _massless_above(difference.name, model)
     if _stopped(difference, theirs, ours):
         return STOPPED
     if difference.kind in {*_POSES, "centre of mass", "inertia", "axis"} and _is_steep(difference, model):
@@ -48,6 +48,18 @@ def _why_missing(difference: Difference, ours: RobotRow) -> str:
             light = SMALL
         child = above.get(child, "")
     return light
+
+
+def _massless_above(name: str, model: Model) -> str:
+    """Whether a link on the way up in the file has no mass, which is a frame here."""
+    masses = {link.name: link.inertial.mass if link.inertial else None for link in model.links}
+    above = {joint.child: joint.parent or "" for joint in model.joints}
+    here = next((joint.child or "" for joint in model.joints if joint.name == name), name)
+    while here in above:
+        if not masses.get(here):
+            return DROPPED
+        here = above[here]
+    return ""
 
 
 def _stopped(difference: Difference, theirs: RobotRow, ours: RobotRow) -> bool:

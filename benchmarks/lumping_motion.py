@@ -96,15 +96,16 @@ def _move(job: tuple[Mode, CorpusFile]) -> Moved:
         if not _is_interesting(plain) or _UNFIT & {each.rule.name for each in twinform.check(file.path).diagnostics}:
             return nothing
         made = twinform.convert(file.path, to=mode.target, passes=mode.passes, paths=file.paths)
+        source = _source(mode, file)
     except twinform.CompileError:
         return nothing
     links = _bodies(plain)
     lumped = links - _bodies(made.document)
     if not lumped:
         return nothing
-    output = _written(mode, file, made.text)
+    output = _written(mode.name, mode, file, made.text)
     try:
-        verdict = moved_alike(file.path, output, _SECONDS)
+        verdict = moved_alike(source, output, _SECONDS)
     except oracles.UnreadableError as error:
         if error.path != output:
             return nothing
@@ -129,9 +130,16 @@ def _bodies(document: Document) -> int:
     return sum(1 for link in links if link.inertial is not None and link.inertial.mass)
 
 
-def _written(mode: Mode, file: CorpusFile, text: str) -> Path:
-    """The lumped robot in a file; Drake is not asked for meshes."""
-    path = OUT / mode.name.replace(" ", "_").replace(",", "") / f"{file.name}.{mode.target}"
+def _source(mode: Mode, file: CorpusFile) -> Path:
+    """The robot as it is, in the format of the result: Drake reads rotors of motors in URDF, and not in SDF."""
+    if mode.source == mode.target:
+        return file.path
+    return _written("as it is", mode, file, twinform.convert(file.path, to=mode.target, paths=file.paths).text)
+
+
+def _written(folder: str, mode: Mode, file: CorpusFile, text: str) -> Path:
+    """A robot in a file; Drake is not asked for meshes."""
+    path = OUT / folder.replace(" ", "_").replace(",", "") / f"{file.name}.{mode.target}"
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text, encoding="utf-8")
     return path

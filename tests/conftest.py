@@ -1,5 +1,6 @@
 """What all tests share."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -13,3 +14,11 @@ def corpus() -> Path:
     if not CORPUS.is_dir():
         pytest.skip(MISSING)
     return CORPUS
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Leave what takes long to `make prove`."""
+    if os.environ.get("TWINFORM_PROFILE") != "deep":
+        for item in items:
+            if item.get_closest_marker("deep"):
+                item.add_marker(pytest.mark.skip(reason="only with TWINFORM_PROFILE=deep"))

@@ -5,12 +5,12 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 import twinform
-from tests.roundtrip.mutations import MUTATIONS, OF_SDF, OF_URDF, mutate
 from twinform import Comparison
 from twinform.compiler.emitting import emit
 from twinform.diagnostics import Notes
 from twinform.ir import Document
 from twinform.testing import strategies
+from twinform.testing.mutations import MUTATIONS, OF_SDF, OF_URDF, mutate
 
 _SETTINGS = settings(
     max_examples=20,

@@ -1,7 +1,10 @@
 """The command line: one file for each command, imported when it is called."""
 
+import signal
+import threading
 from collections.abc import Mapping
 from importlib import import_module
+from typing import Any, NoReturn
 
 import click
 
@@ -24,8 +27,18 @@ The command is the name `command` in the module of the same name.
 """
 
 
+def _end(number: int, _frame: object) -> NoReturn:
+    raise SystemExit(128 + number)
+
+
 class _Commands(click.Group):
     """Imports a command only when it is called: the compiler takes ten times as long to import as all that is here."""
+
+    def main(self, *args: Any, **extra: Any) -> Any:
+        """Run; a process that is told to end cleans up first, as one that is interrupted does."""
+        if threading.current_thread() is threading.main_thread():
+            signal.signal(signal.SIGTERM, _end)
+        return super().main(*args, **extra)
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(COMMANDS)

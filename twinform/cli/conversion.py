@@ -10,7 +10,7 @@ from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.findings import show
 from twinform.cli.targets import Job
 from twinform.cli.watching import Watching
-from twinform.compiler import CompileError, Conversion, Order, Reading, fulfil, read, write_atomically
+from twinform.compiler import CompileError, Conversion, Order, Reading, fulfil, read, write_all_atomically
 from twinform.compiler.audit import audit
 from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
 from twinform.diagnostics.reporters import Findings
@@ -77,14 +77,15 @@ def _audit(conversion: Conversion, name: str) -> int:
 
 
 def _write(conversion: Conversion, path: Path | None, ledger: Path | None) -> None:
+    texts = {} if path is None else {path: conversion.text}
+    if ledger is not None:
+        texts[ledger] = conversion.ledger.to_json()
     try:
+        if path is not None:
+            path.parent.mkdir(parents=True, exist_ok=True)
+        write_all_atomically(texts)
         if path is None:
             click.echo(conversion.text.encode(), nl=False)  # the XML declaration says UTF-8, whatever the terminal's is
-        else:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            write_atomically(path, conversion.text)
-        if ledger is not None:
-            write_atomically(ledger, conversion.ledger.to_json())
     except BrokenPipeError:
         raise  # click ends quietly
     except OSError as error:

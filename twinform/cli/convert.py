@@ -70,6 +70,8 @@ def command(
     sources, arguments = inputs(words)
     if ledger is not None and len(sources) > 1:
         raise click.UsageError("--ledger takes one input")
+    if ledger is not None and out is not None and Path(out).resolve() == ledger.resolve():
+        raise click.UsageError("--ledger and -o name the same file")
     policy, reading = policy_of(ctx, allow, deny), how_to_read(arguments, asked)
     watching = Watching(dumps=dumps, changes=changes, times=times, statistics=statistics, reproducers=reproducers)
     options = Options(

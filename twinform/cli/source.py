@@ -1,8 +1,11 @@
 """The files that a command is given; `-` is standard input."""
 
+import stat
 import sys
 from pathlib import Path
 from typing import NamedTuple
+
+from twinform.compiler.limits import LARGEST
 
 _ENOUGH = 2**16
 """Bytes that hold the root element of every file but those with a very long comment."""
@@ -31,10 +34,22 @@ class Source(NamedTuple):
 
 
 def open_source(argument: str) -> Source:
-    """The source that an argument names; standard input is read here."""
+    """The source that an argument names; standard input and pipes are read here."""
     if argument == "-":
-        return Source(sys.stdin.buffer.read(), "<stdin>")
+        return Source(sys.stdin.buffer.read(LARGEST + 1), "<stdin>")
+    if _can_be_read_once(Path(argument)):
+        with Path(argument).open("rb") as pipe:
+            return Source(pipe.read(LARGEST + 1), argument)
     return Source(argument, argument)
+
+
+def _can_be_read_once(path: Path) -> bool:
+    """Whether it is a pipe, such as `<(xacro robot.urdf.xacro)` in a shell, or a device."""
+    try:
+        mode = path.stat().st_mode
+    except (OSError, ValueError):
+        return False  # the compiler reports it
+    return stat.S_ISFIFO(mode) or stat.S_ISCHR(mode)
 
 
 def format_of_suffix(name: str) -> str | None:

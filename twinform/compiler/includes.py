@@ -6,6 +6,7 @@ from pathlib import Path
 from posixpath import dirname
 from typing import NamedTuple
 
+from twinform.compiler.limits import MOST_TAGS
 from twinform.compiler.loading import Checked, Reading, read
 from twinform.compiler.model_config import manifest, model_file
 from twinform.compiler.uris import UriError
@@ -20,6 +21,8 @@ from twinform.schemas import Version, parse_version, table
 
 _DEEPEST = 32
 _MOST = 10_000
+_DEEPEST_MODELS = 250
+"""About as deep as one file can nest them, given that its elements may be 256 deep."""
 _NEWEST_WITHOUT_HARM = "1.11"
 """What URDF becomes where the file around it has no version."""
 
@@ -28,11 +31,15 @@ Wanted = Callable[[Include], bool]
 
 
 class _File(NamedTuple):
-    """A file with all its includes expanded: how many files it is made of, and how large these are together."""
+    """A file with all its includes expanded.
+
+    How many files it is made of, how large these are together, and how deep its models are nested.
+    """
 
     document: Document
     files: int
     size: int
+    depth: int
 
 
 def expand(checked: Checked, how: Reading, *, wanted: Wanted | None = None, carriers: bool = True) -> Checked:
@@ -66,42 +73,54 @@ def _verify(document: Document, notes: Notes) -> None:
 
 @dataclass(slots=True)
 class _Total:
+    own_depth: int
+    depth: int = 0
     files: int = 1
     size: int = 0
 
-    def add(self, file: _File) -> bool:
-        """Count a file; gives whether there are not too many yet."""
+    def add(self, file: _File) -> str | None:
+        """Count a file; gives what there is too much of."""
         self.files += file.files
         self.size += file.size
-        return self.files <= _MOST
+        self.depth = max(self.depth, self.own_depth + file.depth)
+        if self.depth > _DEEPEST_MODELS:
+            return f"its models are nested more than {_DEEPEST_MODELS} deep"
+        if self.files > _MOST:
+            return f"these are more than {_MOST:,} models"
+        return f"these are more than {MOST_TAGS:,} elements and attributes" if self.size > MOST_TAGS else None
 
 
 @dataclass(slots=True)
 class _Reader:
-    """One run. Every file is read once, whatever includes it."""
+    """One run. Every file is read once, whatever includes it; none once it is `full`."""
 
     how: Reading
     notes: Notes
     carriers: bool
+    full: bool = False
     files: dict[tuple[Path, str | None], _File | None] = field(
         default_factory=dict[tuple[Path, str | None], "_File | None"]
     )
 
     def expanded(self, document: Document, file: Path, above: tuple[Path, ...], wanted: Wanted | None) -> _File:
         """A document with its includes expanded; `above` are the files that are being read already."""
-        total = _Total()
+        total = _Total(_nesting(document))
 
         def resolve(include: Include) -> Included | None:
+            if self.full:
+                return None
             path = self._find(include, file, document) if wanted is None or wanted(include) else None
             found = self._file(include, path, document, (*above, file.resolve())) if path else None
             if path is None or found is None:
                 return None
-            if not total.add(found):
-                self._report_too_many(include, f"these are more than {_MOST:,} models")
+            too_much = total.add(found)
+            if too_much:
+                self._report_too_many(include, too_much)
                 return None
             return Included(found.document, _folder(include, path))
 
-        return _File(expand_includes(document, resolve, self.notes, carriers=self.carriers), total.files, total.size)
+        whole = expand_includes(document, resolve, self.notes, carriers=self.carriers)
+        return _File(whole, total.files, total.size, max(total.own_depth, total.depth))
 
     def _find(self, include: Include, file: Path, document: Document) -> Path | None:
         """The file that an include names."""
@@ -124,6 +143,10 @@ class _Reader:
     def _file(self, include: Include, path: Path, around: Document, above: tuple[Path, ...]) -> _File | None:
         """An included file, expanded; None where it cannot be, which the notes then say."""
         real = path.resolve()
+        if not path.is_file():
+            message = f"{include.uri!r} is {str(path)!r}, which is no file"
+            self.notes.report(files.UNRESOLVED_URI, message, include.location.at("uri"), found=include.uri)
+            return None
         if real in above:
             names = " includes ".join(repr(each.name) for each in (*above[above.index(real) :], real))
             self.notes.report(includes.INCLUDE_CYCLE, names, include.location.at("uri"), found=include.uri)
@@ -140,7 +163,8 @@ class _Reader:
     def _read(self, path: Path, around: Document, above: tuple[Path, ...]) -> _File | None:
         checked = read(path, self.how)
         self.notes.origins.update(checked.origins)
-        self.notes.extend(each for each in checked.diagnostics if each not in self.notes.diagnostics)
+        known = set(self.notes.diagnostics)
+        self.notes.extend(each for each in checked.diagnostics if each not in known)
         if checked.document is None or not checked.accepted:
             return None
         document = checked.document
@@ -160,8 +184,19 @@ class _Reader:
         return document
 
     def _report_too_many(self, include: Include, why: str) -> None:
+        if self.full:
+            return  # the files above would only say the same again
+        self.full = True
         message = f"{include.uri!r} is not expanded: {why}"
         self.notes.report(includes.TOO_MANY_INCLUDES, message, include.location.at("uri"), found=include.uri)
+
+
+def _nesting(document: Document) -> int:
+    """How deep models are nested, one that holds none counting as one."""
+    depth, level = 0, [*document.models, *(model for world in document.worlds for model in world.models)]
+    while level:
+        depth, level = depth + 1, [inner for model in level for inner in model.models]
+    return depth
 
 
 def _version(document: Document) -> Version | None:

@@ -10,10 +10,12 @@ from typing import Any
 from pydantic import ValidationError
 
 from twinform.compiler.errors import CompileError
+from twinform.compiler.limits import excess_of_json
 from twinform.compiler.parsing import (
     UnreadableError,
     parse,
     read_bytes,
+    refuse_excess,
     strip_default_namespace,
 )
 from twinform.compiler.sdf import front_end as sdf
@@ -317,6 +319,7 @@ def _namespaces(root: XmlElement, context: Context, default: str | None) -> tupl
 
 
 def _from_json(text: bytes, notes: Notes) -> Document | None:
+    refuse_excess(excess_of_json(text), notes)
     try:
         return Document.model_validate_json(text)
     except ValidationError as error:

@@ -13,6 +13,9 @@ REPAIRS = {
 }
 """What libxml2 recovers from without any doubt about the tree, and what the author should do instead."""
 
+LIMITS = "elements are more than 256 deep, a text has more than 10 MB, or entities make more of it than they are"
+"""What libxml2 refuses whatever it says."""
+
 LOST_BRACKET = "write <?xml, with the '<', at the beginning"
 
 _BOM = b"\xef\xbb\xbf"

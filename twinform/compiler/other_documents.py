@@ -79,5 +79,5 @@ def _file(path: Path, around: Document, notes: Notes) -> Path | None:
     config = manifest(path) if path.is_dir() else None
     if config is None:
         return path
-    asked = parse_version(around.version) if around.format is Format.SDF else None
+    asked = parse_version(around.version) if around.version and around.format is Format.SDF else None
     return model_file(config, asked, notes)

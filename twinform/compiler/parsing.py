@@ -9,13 +9,11 @@ from typing import cast
 
 from lxml import etree
 
-from twinform.compiler.malformed import LOST_BRACKET, first_fatal, repaired, with_bracket
+from twinform.compiler.limits import LARGEST, Excess, excess_of_bytes, excess_of_tree, uncountable_encoding
+from twinform.compiler.malformed import LIMITS, LOST_BRACKET, first_fatal, repaired, with_bracket
 from twinform.diagnostics import Location, Notes
 from twinform.diagnostics.rules import reading
 from twinform.schemas import XmlElement, undeclared_namespace
-
-LARGEST = 64 * 2**20
-"""The largest file, in bytes. The largest real one that we know has 2 MB; a chain of 10,000 links has 15."""
 
 
 class UnreadableError(Exception):
@@ -23,19 +21,19 @@ class UnreadableError(Exception):
 
 
 def read_bytes(path: Path, notes: Notes) -> bytes:
-    """The bytes of a file.
+    """The bytes of a file; of a pipe or device no more than a file may have.
 
     Raises:
-        UnreadableError: it is missing, empty or too large.
+        UnreadableError: it is missing, or too large.
     """
     try:
-        size = path.stat().st_size
-        text = path.read_bytes() if size <= LARGEST else b""
+        with path.open("rb") as file:
+            text = file.read(LARGEST + 1)
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
         raise _unreadable(notes, f"cannot read the file: {reason}") from error
-    if size > LARGEST:
-        raise _unreadable(notes, f"the file has {size:,} bytes; the limit is {LARGEST:,}")
+    if len(text) > LARGEST:
+        raise _unreadable(notes, f"the file has more than {LARGEST:,} bytes, which is the limit")
     return text
 
 
@@ -47,14 +45,33 @@ def parse(text: bytes, notes: Notes) -> XmlElement:
     """
     if not text.strip():
         raise _unreadable(notes, "the file is empty")
+    refuse_excess(excess_of_bytes(text), notes)
+    encoding = uncountable_encoding(text)
+    if encoding is not None:
+        message = f"the encoding {encoding!r} is none that models are written in"
+        hint = "save the file as UTF-8, or name an encoding that it may have, such as UTF-8 or ISO-8859-1"
+        notes.report(reading.NOT_WELL_FORMED, message, Location(line=1, path="/"), help=hint)
+        raise UnreadableError
     try:
         root = etree.fromstring(text, _parser(recover=False))
+        refuse_excess(excess_of_tree(root, text), notes)
     except etree.XMLSyntaxError as error:
         root = _recover(text, notes, error)
     if root.getroottree().docinfo.doctype:
         notes.report(reading.DOCTYPE, "the document has a DOCTYPE; none is allowed", Location(line=1, path="/"))
         raise UnreadableError
     return root
+
+
+def refuse_excess(excess: Excess | None, notes: Notes) -> None:
+    """Report what there is too much of.
+
+    Raises:
+        UnreadableError: there is something.
+    """
+    if excess is not None:
+        notes.report(reading.OVERSIZED_FILE, excess.message, excess.location)
+        raise UnreadableError
 
 
 def _parser(*, recover: bool) -> etree.XMLParser:
@@ -78,14 +95,20 @@ def _recover(text: bytes, notes: Notes, error: etree.XMLSyntaxError) -> XmlEleme
         notes.report(reading.REPAIRED_XML, message, Location(line=line, path="/"), help=LOST_BRACKET)
         text = whole
     parser = _parser(recover=True)
-    root = cast("XmlElement | None", etree.fromstring(text, parser))  # None for what has no element at all
+    try:
+        root = cast("XmlElement | None", etree.fromstring(text, parser))  # None for what has no element at all
+    except etree.XMLSyntaxError:  # what begins with a zero byte is no text to libxml2, and nothing is recovered
+        root = None
     log = list(parser.error_log)
     flaw = first_fatal(log, text)
     if root is None or flaw is not None:
         line, column, message, hint = flaw or (error.position[0], error.position[1], error.msg or "not XML", None)
+        if any(entry.type_name == "ERR_RESOURCE_LIMIT" for entry in log):
+            refuse_excess(Excess(f"{LIMITS} (column {column})", Location(line=line, path="/")), notes)
         words = f"not well-formed XML: {message} (column {column})"
         notes.report(reading.NOT_WELL_FORMED, words, Location(line=line, path="/"), help=hint)
         raise UnreadableError from error
+    refuse_excess(excess_of_tree(root, text), notes)
     for line, _, message, hint in repaired(log):
         words = f"not well-formed XML, repaired: {message}"
         notes.report(reading.REPAIRED_XML, words, Location(line=line, path="/"), help=hint)

@@ -120,6 +120,7 @@ class SearchPath:
         around = folders_around(beside)
         for root in (beside.parent, *self._roots(), *around, *(folder / "models" for folder in around)):
             if path and _exists(root / path):
+                self._require_inside(uri or path, root / path, (beside.parent, *around))
                 return root / path
         raise self._missing(uri or path, (beside.parent, *self._roots(), *around))
 

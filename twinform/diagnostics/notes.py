@@ -10,6 +10,8 @@ from twinform.diagnostics.origins import Origins
 from twinform.diagnostics.rule import Rule, Severity
 
 MOST = 1000  # a hostile file can hold a hundred thousand mistakes; nobody reads past the first thousand
+LONGEST = 2000
+"""The longest message, in characters: a URI in it may have ten million."""
 
 
 @dataclass(slots=True)
@@ -47,14 +49,15 @@ class Notes:
 
         Past the limit, only the first error is still kept.
         """
+        message, found = _shortened(message), _shortened(found) if found else found
         severity = severity or rule.severity_in(strict=self.strict)
         where = self._complete(location)
         diagnostic = self._traced(Diagnostic(rule, message, where, severity, found, expected, help, related))
-        if len(self.diagnostics) < MOST or (diagnostic.is_error and not self.has_errors):
-            self.diagnostics.append(diagnostic)
-            self.has_errors = self.has_errors or diagnostic.is_error
-        else:
-            self.left_out += 1
+        self._add(diagnostic)
+
+    def takes(self, severity: Severity) -> bool:
+        """Whether a finding so severe is still kept."""
+        return len(self.diagnostics) < MOST or (severity is Severity.ERROR and not self.has_errors)
 
     def has(self, rule: Rule, location: Location, least: Severity = Severity.INFO) -> bool:
         """Whether this rule was reported at this place, at least so severely."""
@@ -69,12 +72,18 @@ class Notes:
     def extend(self, diagnostics: Iterable[Diagnostic]) -> None:
         """Add diagnostics that another stage has made."""
         for diagnostic in diagnostics:
-            self.diagnostics.append(self._traced(diagnostic))
-            self.has_errors = self.has_errors or diagnostic.is_error
+            self._add(self._traced(diagnostic))
 
     def account(self, fate: Fate, rule: Rule, message: str, location: Location = NOWHERE, weight: int = 1) -> None:
         """Add a ledger entry."""
         self.entries.append(Entry(fate, rule, message, self._origin(self._complete(location)), weight))
+
+    def _add(self, diagnostic: Diagnostic) -> None:
+        if not self.takes(diagnostic.severity):
+            self.left_out += 1
+            return
+        self.diagnostics.append(diagnostic)
+        self.has_errors = self.has_errors or diagnostic.is_error
 
     def _complete(self, location: Location) -> Location:
         return location if location.file else location._replace(file=self.file)
@@ -92,3 +101,7 @@ class Notes:
         origins = self.origins.get(location.file)
         place = origins.place(location.line) if origins else None
         return place._replace(path=location.path) if place else location
+
+
+def _shortened(text: str) -> str:
+    return text if len(text) <= LONGEST else f"{text[: LONGEST // 2]} ... {text[-LONGEST // 4 :]}"

@@ -9,7 +9,7 @@ from twinform.diagnostics import Location, Notes, Rule, Severity
 from twinform.diagnostics.rules import structure
 from twinform.schemas.facts import Fact, Version, print_version
 from twinform.schemas.prefixes import dialect_of, words_of
-from twinform.schemas.xml import XmlElement, path_of
+from twinform.schemas.xml import Places, XmlElement, path_of
 
 _ESSENTIAL = frozenset({"parent", "child"})
 """Elements without which no reader, not even the most forgiving, makes sense of the file."""
@@ -57,13 +57,17 @@ class Context:
     declared: bool = True
     outside: list[tuple[XmlElement, Fact]] = field(default_factory=list[tuple[XmlElement, Fact]])
     header: dict[str, object] = field(default_factory=dict[str, object])
+    places: Places = field(default_factory=dict[XmlElement, int], repr=False)
 
     def report(self, rule: Rule, element: XmlElement, message: str, step: str = "", **more: Unpack[Details]) -> None:
         """Report at an element, or at a step below it."""
-        path = path_of(element) + (f"/{step}" if step else "")
         if self.aside and rule.severity is Severity.ERROR and not self.notes.strict:
             more["severity"] = Severity.WARNING
         self.structural += rule.name not in _BEYOND_THE_XSD
+        if not self.notes.takes(more.get("severity") or rule.severity_in(strict=self.notes.strict)):
+            self.notes.left_out += 1
+            return
+        path = path_of(element, self.places) + (f"/{step}" if step else "")
         self.notes.report(rule, message, Location(self.file, element.sourceline or 0, path), **more)
 
 
@@ -77,7 +81,7 @@ def unknown_element(context: Context, element: XmlElement, known: Iterable[str])
         element,
         f"<{element.tag}> is not an element of {holder}",
         found=str(element.tag),
-        help=_did_you_mean(str(element.tag), known),
+        help=_did_you_mean(context, str(element.tag), known),
     )
 
 
@@ -85,7 +89,7 @@ def unknown_attribute(context: Context, element: XmlElement, name: str, known: I
     """An attribute that no version has here."""
     context.tolerated.append((element, name))
     message = f"{name!r} is not an attribute of <{element.tag}>"
-    hint = _did_you_mean(name, known)
+    hint = _did_you_mean(context, name, known)
     context.report(structure.UNKNOWN_ATTRIBUTE, element, message, f"@{name}", found=name, help=hint)
 
 
@@ -272,6 +276,8 @@ def stray_text(context: Context, element: XmlElement, text: str, after: XmlEleme
     context.report(structure.STRAY_TEXT, element, f"text {shown!r} in <{element.tag}>", found=shown)
 
 
-def _did_you_mean(name: str, known: Iterable[str]) -> str | None:
+def _did_you_mean(context: Context, name: str, known: Iterable[str]) -> str | None:
+    if not context.notes.takes(Severity.WARNING):
+        return None  # nobody will see it, and there may be a hundred thousand more
     close = get_close_matches(name, list(known), n=1)
     return f"did you mean {close[0]!r}?" if close else None

@@ -15,6 +15,8 @@ __all__ = [
     "undeclared_prefix",
 ]
 
+Places = dict[XmlElement, int]
+"""The places of elements among their like."""
 _UNDECLARED = "urn:twinform:undeclared:"
 """The beginning of the namespace that an undeclared prefix is given; the prefix is the end."""
 
@@ -29,21 +31,34 @@ def is_blank(text: str) -> bool:
     return not text or (text.isspace() and text.isascii())
 
 
-def step_of(element: XmlElement) -> str:
+def step_of(element: XmlElement, places: Places | None = None) -> str:
     """Its step in a path: by name where it has one, else by its place among its like."""
     name, tag = element.get("name"), str(element.tag)
     prefix = prefix_of(element, tag)
     step = f"{prefix}:{tag.partition('}')[2]}" if prefix else tag
     if name is not None:
         return f"{step}[@name='{name}']"
-    parent = element.getparent()
-    like = [] if parent is None else [child for child in parent if child.tag == element.tag]
-    return f"{step}[{like.index(element) + 1}]" if len(like) > 1 else step
+    place = _place_of(element, tag, {} if places is None else places)
+    alone = place == 1 and next(element.itersiblings(tag), None) is None
+    return step if alone else f"{step}[{place}]"
 
 
-def path_of(element: XmlElement) -> str:
-    """An XPath that finds it, from the root down."""
-    steps = [step_of(element), *(step_of(above) for above in element.iterancestors())]
+def _place_of(element: XmlElement, tag: str, places: Places) -> int:
+    """Counted back to the nearest sibling whose place is known: whoever asks for all of them in order, counts once."""
+    between = 1
+    for sibling in element.itersiblings(tag, preceding=True):
+        known = places.get(sibling)
+        if known is not None:
+            between += known
+            break
+        between += 1
+    places[element] = between
+    return between
+
+
+def path_of(element: XmlElement, places: Places | None = None) -> str:
+    """An XPath that finds it, from the root down; `places` remembers what was counted for the next one."""
+    steps = [step_of(element, places), *(step_of(above, places) for above in element.iterancestors())]
     return "/" + "/".join(reversed(steps))
 
 

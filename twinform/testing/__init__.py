@@ -1,6 +1,51 @@
-"""For tests of models, passes and rules: the case runners that this project tests itself with."""
+"""The kit that this project tests itself with, for tests of models, passes and rules.
 
-from twinform.testing.cases import Case, CheckOptions, Finding, cases
-from twinform.testing.pass_cases import PassCase, pass_cases
+    from twinform.testing import assert_round_trip, strategies
 
-__all__ = ["Case", "CheckOptions", "Finding", "PassCase", "cases", "pass_cases"]
+    @given(strategies.robots())
+    def test_my_pass(robot):
+        assert_pass_contract(MyPass(), robot)
+
+Names are imported when they are first used: pytest loads the plugin in here at every start.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from twinform.testing import strategies
+    from twinform.testing.cases import Case, CheckOptions, Finding, cases
+    from twinform.testing.pass_cases import PassCase, pass_cases
+    from twinform.testing.properties import assert_pass_contract, assert_round_trip, assert_same_robot, assert_valid
+
+__all__ = [
+    "Case",
+    "CheckOptions",
+    "Finding",
+    "PassCase",
+    "assert_pass_contract",
+    "assert_round_trip",
+    "assert_same_robot",
+    "assert_valid",
+    "cases",
+    "pass_cases",
+    "strategies",
+]
+
+_HOMES = {
+    **dict.fromkeys(("Case", "CheckOptions", "Finding", "cases"), "cases"),
+    **dict.fromkeys(("PassCase", "pass_cases"), "pass_cases"),
+    **dict.fromkeys(("assert_pass_contract", "assert_round_trip", "assert_same_robot", "assert_valid"), "properties"),
+}
+
+
+def __getattr__(name: str) -> object:
+    if name == "strategies":
+        return import_module("twinform.testing.strategies")
+    if name not in _HOMES:
+        raise AttributeError(f"module 'twinform.testing' has no attribute {name!r}")
+    return getattr(import_module(f"twinform.testing.{_HOMES[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return list(__all__)

@@ -165,6 +165,14 @@ def test_the_changes_turn_one_tree_into_the_other(wanted: list[XmlElement], made
     assert digest(one) == digest(other)
 
 
+def test_attributes_come_back_in_their_order():
+    wanted, made = (etree.fromstring(f"<r><a {each}/></r>") for each in ("k='a' link='c' m=''", "m='x' link='c' z='1'"))
+    edits = etree.Element("edits")
+    edits.extend(changes(wanted, made))
+    assert apply(edits, made) == []
+    assert etree.tostring(made) == etree.tostring(wanted)
+
+
 @given(TREES)
 def test_nothing_has_to_be_changed_in_a_tree_that_is_the_same(tree: XmlElement):
     assert changes(tree, etree.fromstring(etree.tostring(tree))) == []

@@ -6,7 +6,7 @@ import pytest
 
 import twinform
 from twinform.compiler import check
-from twinform.compiler.parsing import LARGEST
+from twinform.compiler.limits import LARGEST
 
 _LINK = b'<link name="a"/>'
 _ROBOT = b'<robot name="r">' + _LINK + b"</robot>"
@@ -16,6 +16,7 @@ REFUSED = {
     "blank": (b" \n\t", "unreadable-file"),
     "not XML": (b"robot: r", "not-well-formed"),
     "NUL": (b'<robot name="r\x00"/>', "not-well-formed"),
+    "NUL first": (b"\x00\xff", "not-well-formed"),
     "bad UTF-8": (b'<robot name="\xff"/>', "not-well-formed"),
     "truncated": (b'<robot name="r"><link name="a"', "not-well-formed"),
     "two roots": (_ROBOT + _ROBOT, "not-well-formed"),
@@ -25,8 +26,8 @@ REFUSED = {
     ),
     "external DTD": (b'<!DOCTYPE robot SYSTEM "http://example.org/robot.dtd">' + _ROBOT, "doctype"),
     "default attributes": (b'<!DOCTYPE r [<!ATTLIST link name CDATA "a">]><robot name="r"><link/></robot>', "doctype"),
-    "deep": (b"<a>" * 300 + b"</a>" * 300, "not-well-formed"),
-    "long text": (b'<robot name="' + b"r" * 11_000_000 + b'"/>', "not-well-formed"),
+    "deep": (b"<a>" * 300 + b"</a>" * 300, "oversized-file"),
+    "long text": (b'<robot name="' + b"r" * 11_000_000 + b'"/>', "oversized-file"),
     "another format": (b"<mujoco/>", "unknown-root"),
 }
 

@@ -52,8 +52,15 @@ def _edit(tag: str, content: XmlElement | None = None, **attributes: str | None)
 
 
 def _attributes(wanted: XmlElement, made: XmlElement) -> Iterator[XmlElement]:
-    for name in sorted({*map(str, wanted.keys()), *map(str, made.keys())}):
-        was, value = made.get(name), wanted.get(name)
+    """In the order in which they are wanted: what stands behind its place is taken out, and put at the end again."""
+    names = list(map(str, wanted.keys()))
+    stay = [name for name in map(str, made.keys()) if name in names]
+    ready = next((n for n, (one, other) in enumerate(zip(stay, names, strict=False)) if one != other), len(stay))
+    for name in map(str, made.keys()):
+        if name not in names[:ready]:
+            yield _edit(ATTRIBUTE, name=name, was=made.get(name))
+    for number, name in enumerate(names):
+        was, value = made.get(name) if number < ready else None, wanted.get(name)
         if was != value:
             yield _edit(ATTRIBUTE, name=name, was=was, value=value)
 
@@ -70,8 +77,8 @@ def _inside(key: str, wanted: XmlElement, made: XmlElement) -> list[XmlElement]:
     if same(wanted, made):
         return []
     if stripped(wanted.tail) == stripped(made.tail):
-        inner = changes(wanted, made)  # none of them can put attributes into another order
-        if inner and _weight(inner) <= sum(1 for _ in wanted.iter()):
+        inner = changes(wanted, made)
+        if _weight(inner) <= sum(1 for _ in wanted.iter()):
             edit = _edit(IN, part=key)
             edit.extend(inner)
             return [edit]

@@ -12,7 +12,9 @@ from typing import Any
 
 from lxml import etree
 
-from twinform.compiler.parsing import LARGEST, UnreadableError
+from twinform.compiler.limits import LARGEST
+from twinform.compiler.parsing import UnreadableError
+from twinform.compiler.surroundings import folders_around
 from twinform.compiler.uris import SearchPath, UriError
 from twinform.diagnostics import Location, Notes, Origins
 from twinform.diagnostics.rules import reading
@@ -20,6 +22,7 @@ from twinform.diagnostics.rules import xacro as rules
 
 _WORKER = Path(__file__).with_name("worker.py")
 _SECONDS = 60
+"""Of the clock, on a machine that is busy; the worker itself has 10 of the processor."""
 _REMARKS = {"warning: ": rules.XACRO_WARNING, "error: ": rules.XACRO_WARNING}
 
 
@@ -67,10 +70,25 @@ def _ask_worker(path: Path, arguments: Mapping[str, str], search: SearchPath) ->
         timer = Timer(_SECONDS, process.kill)
         timer.start()
         try:
-            return _converse(process, {"file": str(path), "arguments": dict(arguments)}, path, search)
+            return _converse(process, _task(path, arguments, search), path, search)
         finally:
             timer.cancel()
             process.kill()
+
+
+def _task(path: Path, arguments: Mapping[str, str], search: SearchPath) -> dict[str, object]:
+    """What the worker is to do, and the folders whose files it may read.
+
+    Folders that the environment names are the user's own installation, in which links lead to where it was built from.
+    """
+    folders = (path.parent, *search.own, *folders_around(path))
+    trusted = (*search.models, *search.packages, *search.workspaces)
+    return {
+        "file": str(path),
+        "arguments": dict(arguments),
+        "folders": [*map(str, folders), *map(str, trusted)],
+        "trusted": [*map(str, trusted)],
+    }
 
 
 def _converse(
@@ -107,7 +125,7 @@ def _answer(uri: str, files: Iterable[Path], search: SearchPath) -> dict[str, st
 
 
 def _no_end(path: Path) -> dict[str, Any]:
-    return {"error": f"the expansion died or did not end within {_SECONDS} seconds", "place": (str(path), 1)}
+    return {"error": "the expansion died, or did not end within its time", "place": (str(path), 1)}
 
 
 def _report_failure(outcome: Mapping[str, Any], notes: Notes) -> None:

@@ -13,6 +13,7 @@ import os
 import sys
 from collections.abc import Callable, Iterator
 from importlib import import_module
+from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -20,7 +21,10 @@ from xml.dom import expatbuilder, minidom
 from xml.parsers.expat import ExpatError
 
 _LARGEST = 64 * 2**20
-_MEMORY = 4 * 2**30
+_MOST_TAGS = 1_000_000
+_MEMORY = 2**29
+_SECONDS = 10
+"""Of processor time. The slowest real file that we know takes one."""
 _DEEPEST = 4000
 """Frames of Python. xacro takes about ten for each macro inside a macro."""
 _KEY = "source"
@@ -28,6 +32,19 @@ _WATCHED = ("eval_all", "check_attrs", "grab_property", "grab_macro", "process_i
 """Functions of xacro whose first argument is the element that it is at."""
 
 Place = tuple[str, int]
+
+
+def _load_guard() -> Any:
+    """The file beside this one, by its path: the folder of a script is no place to import from."""
+    spec = spec_from_file_location("twinform_guard", Path(__file__).with_name("guard.py"))
+    if spec is None or spec.loader is None:
+        raise ImportError("guard.py is missing")
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+_GUARD = _load_guard()
 
 
 class _Keeper:
@@ -125,6 +142,10 @@ class _Expander:
         self.node: Any = None
         self._watch()
         substitution: ModuleType = import_module("xacro.substitution_args")
+        builtins = vars(substitution)["_eval_dict"]["__builtins__"]
+        vars(substitution)["eval"] = _GUARD.guarded_eval(builtins)
+        self.evaluate: Callable[..., Any] = self.xacro.safe_eval
+        self.xacro.safe_eval = self._evaluate
         vars(substitution)["_eval_find"] = self._package
         vars(substitution)["_eval_dict"]["find"] = self._package
         self.beside: Callable[[str], str] = self.xacro.abs_filename_spec
@@ -157,6 +178,9 @@ class _Expander:
 
         return call
 
+    def _evaluate(self, expression: str, *names: Any) -> Any:
+        return self.evaluate(_GUARD.checked(expression), *names)
+
     def _package(self, name: str) -> str:
         return self._find(f"package://{name}")
 
@@ -171,9 +195,13 @@ class _Expander:
         """What xacro's own function does, with lines."""
         path = Path(self.xacro.root_dir) / filename
         try:
+            if path.exists() and not path.is_file():
+                raise _BadFileError("this is no file", (filename, 1))
             if path.stat().st_size > _LARGEST:
                 raise _BadFileError(f"the file is larger than {_LARGEST:,} bytes", (filename, 1))
             data = path.read_bytes()
+            if data.count(b"<") > _MOST_TAGS:
+                raise _BadFileError(f"the file has more than {_MOST_TAGS:,} tags", (filename, 1))
         except OSError as error:
             self.xacro.filestack.pop()
             raise self.xacro.XacroException(f"{error.strerror}: {filename}", exc=error) from error
@@ -212,6 +240,7 @@ def _run(channel: _Channel) -> dict[str, Any]:
     remarks = _Remarks(expander.place)
     sys.stdout = sys.stderr = remarks
     arguments = _Arguments(task["arguments"])
+    _GUARD.watch([task["file"]], task["folders"], task["trusted"])
     outcome = _expanded(expander, arguments)
     noted = [[text, *place] for text, place in remarks.found]
     return {**outcome, "remarks": noted, "unused": sorted(arguments.unused)}
@@ -238,6 +267,8 @@ def _words(error: Exception) -> dict[str, str]:
         return {"error": "an expression needs more memory than there is for it"}
     if isinstance(cause, _NotFoundError):
         return {"error": str(cause), "help": cause.advice}
+    if isinstance(cause, _GUARD.ForbiddenError):
+        return {"error": str(cause)}
     if isinstance(cause, OSError) and cause.filename:
         return {"error": f"cannot read {cause.filename!r}: {cause.strerror}"}
     text = " ".join(str(error).split()) or type(error).__name__
@@ -266,7 +297,8 @@ def _limit() -> None:
     sys.setrecursionlimit(_DEEPEST)
     try:
         resource: Any = import_module("resource")
-        resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, resource.getrlimit(resource.RLIMIT_AS)[1]))
+        for kind, most in ((resource.RLIMIT_AS, _MEMORY), (resource.RLIMIT_CPU, _SECONDS), (resource.RLIMIT_FSIZE, 0)):
+            resource.setrlimit(kind, (most, resource.getrlimit(kind)[1]))
     except (ImportError, OSError, ValueError):
         return  # there are systems without
 

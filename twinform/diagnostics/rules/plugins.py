@@ -160,8 +160,8 @@ MEASURED_WHEELS = Rule(
 ADDED_WORLD_SYSTEM = Rule(
     name="added-world-system",
     severity=Severity.INFO,
-    finds="A world that was given the system that a new sensor needs.",
-    matters="Without it the sensor would never say anything.",
+    finds="A world that was given systems: those that its sensors need, or the default ones beside another.",
+    matters="Without its system a sensor never says anything, and one explicit plugin switches the default ones off.",
     example="`add-sensor{type=imu link=base}` in a world without `gz-sim-imu-system`.",
     better="Nothing needs doing.",
     references="gz-sim, src/systems/imu and others",

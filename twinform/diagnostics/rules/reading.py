@@ -11,6 +11,16 @@ UNREADABLE_FILE = Rule(
     example="`twinform check no_such_robot.urdf`",
     better="Check the path.",
 )
+OVERSIZED_FILE = Rule(
+    name="oversized-file",
+    severity=Severity.ERROR,
+    finds="A file beyond the limits: 64 MB, a million tags, elements 256 deep, 256 attributes in an element, names of "
+    "1,024 characters, 10 MB in one text; entities that unfold into more.",
+    matters="A hostile file could fill the memory, or keep the machine busy for hours. Robots stay far below: a chain "
+    "of 10,000 links has 280,000 tags.",
+    example="A million `<x/>`; a link in a link in a link, a thousand deep.",
+    better="Split the world into files, and include them.",
+)
 NOT_WELL_FORMED = Rule(
     name="not-well-formed",
     severity=Severity.ERROR,

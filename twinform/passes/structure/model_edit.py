@@ -6,7 +6,7 @@ from itertools import chain
 
 from pydantic import Field
 
-from twinform.diagnostics import Location, Notes
+from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import edits as rules
 from twinform.ir import Document, Format, Model, World
 from twinform.ir.frames import FrameError
@@ -19,11 +19,10 @@ FRAMES_EVERYWHERE = "1.8"
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A model and what is around it: a world, or nothing."""
+    """What a model is in, and where to write what is found."""
 
     format: Format
     notes: Notes
-    world: World | None = None
 
 
 class ModelEdit(Pass):
@@ -69,7 +68,7 @@ class ModelEdit(Pass):
         return document.model_copy(update=update) if update else document
 
     def _world(self, world: World, document: Document, notes: Notes) -> World:
-        place = Place(document.format, notes, world)
+        place = Place(document.format, notes)
         models = tuple(self._one(model, place) for model in world.models)
         if all(new is old for new, old in zip(models, world.models, strict=True)):
             return world
@@ -107,8 +106,3 @@ def in_new_words(document: Document, notes: Notes) -> Document:
     message = f"the file is SDF {version}; the result is SDF {FRAMES_EVERYWHERE}"
     notes.report(rules.RAISED_VERSION, message, document.location, found=version)
     return document
-
-
-def nowhere_else(location: Location, fallback: Location) -> Location:
-    """A location, or another one for what a pass has made."""
-    return location if location.line else fallback

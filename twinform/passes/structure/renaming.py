@@ -33,6 +33,7 @@ from twinform.passes.structure.scopes import Scope
 AnyNode = TypeVar("AnyNode", bound=Node)
 Shaped = TypeVar("Shaped", Visual, Collision)
 _DEFINES = frozenset({"link", "joint", "frame"})
+_MODELS = frozenset({"model", "model_state"})
 _SEPARATORS = re.compile(r"([\s,;]+)")
 _DEFAULT_SHAPE = ("_collision", "_visual", "_fixed_joint_lump__")
 """What readers of URDF put behind a link's name to call its shapes."""
@@ -174,6 +175,9 @@ class _Renamer:
         if element.name == SOURCE:  # it remembers another file, which keeps its names
             return element
         where = element.location if element.source else where
+        inner = self.scope.inner.get(element.get("name") or "") if element.name in _MODELS else None
+        if inner is not None:
+            return self.state_of_model(element, inner, where)
         attributes = tuple((key, self.attribute(element, key, value, where)) for key, value in element.attributes)
         update: dict[str, object] = {
             "attributes": attributes,
@@ -181,6 +185,16 @@ class _Renamer:
             "children": tuple(self.element(child, element.name, where) for child in element.children),
         }
         return _changed(element, update)
+
+    def state_of_model(self, element: Element, scope: Scope, where: Location) -> Element:
+        """What the state of a world says of a model, whose parts have names of their own."""
+        new = self.scope.own["model"]
+        attributes = tuple(
+            (key, new.get(value, value) if key == "name" else value) for key, value in element.attributes
+        )
+        inside = _Renamer(scope, self.format, self.notes)
+        children = tuple(inside.element(child, element.name, where) for child in element.children)
+        return _changed(element, {"attributes": attributes, "children": children})
 
     def attribute(self, element: Element, key: str, value: str, where: Location) -> str:
         kind = kind_of_attribute(element, key)

@@ -47,7 +47,8 @@ def written(node: Node) -> dict[str, Any]:
 def _join(mine: tuple[Opaque, ...], more: tuple[Opaque, ...]) -> tuple[Opaque, ...]:
     joined = list(mine)
     for part in more:
-        place = next((i for i, old in enumerate(joined) if _is_the_same(old, part)), None)
+        once = part.element is not None and part.element.name in _ONCE
+        place = next((i for i, old in enumerate(joined) if _is_the_same(old, part)), None) if once else None
         element = joined[place].element if place is not None else None
         if place is None or element is None or part.element is None:
             joined.append(part)
@@ -59,16 +60,18 @@ def _join(mine: tuple[Opaque, ...], more: tuple[Opaque, ...]) -> tuple[Opaque, .
 def _is_the_same(old: Opaque, new: Opaque) -> bool:
     if old.element is None or new.element is None or old.at != new.at:
         return False
-    return old.element.name == new.element.name and old.element.name in _ONCE
+    return old.element.name == new.element.name
 
 
 def merge_elements(mine: Element, more: Element) -> Element:
     """The element with the children of another one that it lacks, all the way down."""
     children = list(mine.children)
+    places = {child.name: place for place, child in reversed(list(enumerate(children)))}
     for child in more.children:
-        place = next((i for i, old in enumerate(children) if old.name == child.name), None)
-        if place is None:
+        if child.name not in places:
+            places[child.name] = len(children)
             children.append(child)
         else:
+            place = places[child.name]
             children[place] = merge_elements(children[place], child)
     return mine.model_copy(update={"children": tuple(children)})

@@ -1,6 +1,7 @@
 """Small changes that make another robot of a model, each by its name: what a comparison must find."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from twinform.ir import (
@@ -165,6 +166,17 @@ OF_SDF = frozenset({"gravity", "place of a frame", "turn of a frame", "radius of
 """What URDF has no word for."""
 OF_URDF = frozenset({"colour", "place of a joint", "turn of a joint"})
 """In SDF, links stay where they are when only their joint is said at another place."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mutation:
+    """One of `MUTATIONS`, to be called with a document."""
+
+    name: str
+
+    def __call__(self, document: Document) -> Document | None:
+        """The document with one thing changed; None where it has nothing of the kind."""
+        return mutate(document, self.name)
 
 
 def mutate(document: Document, mutation: str) -> Document | None:

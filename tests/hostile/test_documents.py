@@ -1,0 +1,54 @@
+"""A single hostile file ends with one clear error, within 2 s and 512 MB, and nothing else is read or written."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.hostile.child import rules, twinform
+from tests.hostile.documents import DOCUMENTS
+
+
+@pytest.mark.parametrize("name", DOCUMENTS)
+def test_a_hostile_file_ends_with_one_error(name: str, tmp_path: Path) -> None:
+    hostile = DOCUMENTS[name]
+    (tmp_path / "hostile.urdf").write_bytes(hostile.make())
+    outcome = twinform("check", "hostile.urdf", folder=tmp_path)
+    assert outcome.code in {1, 2}, outcome.said
+    assert rules(outcome.said) == [hostile.rule], outcome.said[:2000]
+    assert outcome.said.startswith(f"hostile.urdf:{hostile.line}: " if hostile.line else "hostile.urdf: ")
+    assert len(outcome.said) < 5000
+    assert outcome.opened == {str(tmp_path / "hostile.urdf")}
+    assert [each.name for each in tmp_path.iterdir()] == ["hostile.urdf"]
+
+
+def test_a_device_without_an_end_is_cut_off(tmp_path: Path) -> None:
+    outcome = twinform("check", "/dev/zero", folder=tmp_path)
+    assert (outcome.code, rules(outcome.said)) == (2, ["oversized-file"])
+
+
+NAMES = {
+    "a line break": "b&#10;evil.urdf:1: error: forged [not-well-formed]",
+    "a command of a terminal": "\x9b31mred",
+    "a command of GitHub": "b&#10;::error file=a.urdf::forged",
+    "a command of a shell": "$(touch pwned); `touch pwned` | touch pwned",
+}
+
+
+@pytest.mark.parametrize(
+    "style", ["text", "github", *(pytest.param(each, marks=pytest.mark.deep) for each in ("json", "sarif"))]
+)
+@pytest.mark.parametrize("name", NAMES)
+def test_a_name_forges_no_finding_and_runs_nothing(name: str, style: str, tmp_path: Path) -> None:
+    (tmp_path / "r.urdf").write_text(f'<robot name="r"><link name="a"/><link name="{NAMES[name]}"/></robot>')
+    outcome = twinform("check", "--format", style, "r.urdf", folder=tmp_path)
+    assert outcome.code == 1
+    assert not [line for line in outcome.said.splitlines() if line.startswith(("evil.urdf", "::error file=a.urdf"))]
+    assert "\x9b" not in outcome.said or style == "github"
+    assert [each.name for each in tmp_path.iterdir()] == ["r.urdf"]
+
+
+def test_what_takes_long_to_describe_is_described_in_linear_time(tmp_path: Path) -> None:
+    """Paths count siblings, and 20,000 unknown elements once took half a minute."""
+    unknown = "<x/>" * 20_000
+    (tmp_path / "r.urdf").write_text(f'<robot name="r"><link name="a"/>{unknown}<gazebo>{unknown}</gazebo></robot>')
+    assert twinform("check", "r.urdf", folder=tmp_path).code == 0

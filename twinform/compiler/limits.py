@@ -1,0 +1,79 @@
+"""How large a file may be: far more than any robot needs, far less than fills a memory.
+
+What is counted here is counted in the bytes, before there is a tree, since the tree is what fills the memory.
+"""
+
+import re
+from typing import NamedTuple
+
+from lxml import etree
+
+from twinform.diagnostics import Location
+from twinform.schemas import XmlElement, path_of
+
+LARGEST = 64 * 2**20
+"""The largest file, in bytes. The largest real one that we know has 2 MB; a chain of 10,000 links has 10."""
+MOST_TAGS = 1_000_000
+"""The most tags. A chain of 10,000 links has 280,000, the largest real file 40,000."""
+MOST_ATTRIBUTES = 256
+"""The most attributes of one element, since libxml2 looks each of them up among all. The most in a real file is 12."""
+LONGEST_NAME = 1024
+"""The longest name, in characters: the path of each finding repeats the names around it."""
+
+_SHORTEST_ATTRIBUTE = len(' a=""')
+_LONG_TAG = re.compile(rb"<[^<]{%d}" % min(MOST_ATTRIBUTES * _SHORTEST_ATTRIBUTE, LONGEST_NAME))
+"""A tag that might hold too much, or one that long text follows; few files have any."""
+_CROWDED = etree.XPath(f"//*[@*[{MOST_ATTRIBUTES + 1}]]")
+_LONG_NAMED = etree.XPath(f"//*[string-length(@name) > {LONGEST_NAME}]")
+_DECLARED = re.compile(rb"""^[^<]{0,16}<\?xml[^>]{0,200}?encoding\s*=\s*["']([A-Za-z0-9._:-]*)""")
+_COUNTABLE = re.compile(rb"utf-?8|utf-?16.*|utf-?32.*|ucs-?[24].*|us-ascii|ascii|iso[-_]?8859.*|latin.*|windows-125\d|"
+                        rb"cp125\d|koi8.*|gb.*|big5.*|euc.*|shift_jis", re.IGNORECASE)  # fmt: skip
+"""Encodings in which `<` has the byte of ASCII. UTF-7, for one, can hide it."""
+
+
+class Excess(NamedTuple):
+    """What there is too much of, and where."""
+
+    message: str
+    location: Location = Location()
+
+
+def excess_of_bytes(text: bytes) -> Excess | None:
+    """Why this is too much to be parsed."""
+    if len(text) > LARGEST:
+        return Excess(f"the file has more than {LARGEST:,} bytes")
+    tags = text.count(b"<")
+    if tags > MOST_TAGS:
+        return Excess(f"the file has {tags:,} tags; the limit is {MOST_TAGS:,}")
+    return None
+
+
+def uncountable_encoding(text: bytes) -> str | None:
+    """The encoding that a file declares, if tags cannot be counted in it."""
+    declared = _DECLARED.match(text)
+    return declared[1].decode() if declared and not _COUNTABLE.fullmatch(declared[1]) else None
+
+
+def excess_of_tree(root: XmlElement, text: bytes) -> Excess | None:
+    """Why this tree is too much to be read, which was parsed from this text."""
+    if not _LONG_TAG.search(text):
+        return None
+    for find, what in ((_CROWDED, f"attributes; the limit is {MOST_ATTRIBUTES}"), (_LONG_NAMED, "")):
+        found: list[XmlElement] = find(root)
+        if found:
+            element = found[0]
+            count = len(element.attrib) if what else len(element.get("name", ""))
+            words = what or f"characters in its name; the limit is {LONGEST_NAME:,}"
+            parent = element.getparent()
+            path = f"{'' if parent is None else path_of(parent)}/{element.tag}"  # its own name may have 10 MB
+            where = Location(line=element.sourceline or 0, path=path)
+            return Excess(f"<{element.tag}> has {count:,} {words}", where)
+    return None
+
+
+def excess_of_json(text: bytes) -> Excess | None:
+    """The same of a JSON document: a part of a model is an object, and a vector in it a list."""
+    if len(text) > LARGEST:
+        return Excess(f"the file has more than {LARGEST:,} bytes")
+    parts = text.count(b"{") + text.count(b"[")
+    return Excess(f"the document has {parts:,} parts; the limit is {MOST_TAGS:,}") if parts > MOST_TAGS else None

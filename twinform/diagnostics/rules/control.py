@@ -1,0 +1,59 @@
+"""Rules about transmissions of ROS 1 and ros2_control; the passes between them report these."""
+
+from twinform.diagnostics.rule import Rule, Severity
+
+CONVERTED_TRANSMISSION = Rule(
+    name="converted-transmission",
+    severity=Severity.INFO,
+    finds="A transmission of ROS 1 that became a part of a `<ros2_control>` system.",
+    matters="ROS 2 reads transmissions only inside of `<ros2_control>`. Interfaces and reduction are the same; "
+    "the words for them are not.",
+    example="`<transmission>` with `hardware_interface/EffortJointInterface`.",
+    better="Nothing needs doing. `keep=true` leaves the transmission in place for programs of ROS 1.",
+    references="ros2_control, `hardware_interface` and `transmission_interface`.",
+)
+UNCONVERTED_TRANSMISSION = Rule(
+    name="unconverted-transmission",
+    severity=Severity.WARNING,
+    finds="A transmission that stays as it is, with the reason: its joint is missing, cannot move or is in a "
+    "`<ros2_control>` already, or other programs read parts of it that ROS 2 has no word for.",
+    matters="ROS 2 does not see it; controllers for its joint find no interface.",
+    example="A transmission of joint `hip` in a robot without such a joint; `<drake:rotor_inertia>` in an actuator.",
+    better="Correct the name of the joint, or leave the transmission out.",
+)
+FOREIGN_TRANSMISSION = Rule(
+    name="foreign-transmission",
+    severity=Severity.WARNING,
+    finds="A transmission of a type that does not come with ros_control or ros2_control.",
+    matters="Only a package that brings a plugin of this name can load it. Simulators do not ask: they drive the joint "
+    "itself.",
+    example="`<type>hey5_transmissions/Hey5Reducer</type>`",
+    better="Install a package with a plugin of this name for the real robot, or use one of the three that come along: "
+    "simple, differential, four-bar linkage.",
+    references="ros2_control, `transmission_interface`.",
+)
+FOREIGN_HARDWARE_INTERFACE = Rule(
+    name="foreign-hardware-interface",
+    severity=Severity.WARNING,
+    finds="A hardware interface of a joint that has no command interface in ros2_control, or may not have one.",
+    matters="The joint gets its state interfaces and no command for this interface.",
+    example="`franka_hw/FrankaStateInterface`; a command for a joint that mimics another.",
+    better="Write the command interfaces that the hardware component of ROS 2 offers.",
+)
+CONVERTED_ROS2_CONTROL = Rule(
+    name="converted-ros2-control",
+    severity=Severity.INFO,
+    finds="A `<ros2_control>` whose joints became transmissions of ROS 1.",
+    matters="ROS 1 reads no `<ros2_control>`. The interfaces and the reductions are the same; the words are not.",
+    example="`<ros2_control name='arm' type='system'>` with joints.",
+    better="Nothing needs doing. `keep=true` leaves it in place for programs of ROS 2.",
+)
+UNSAYABLE_IN_TRANSMISSIONS = Rule(
+    name="unsayable-in-transmissions",
+    severity=Severity.WARNING,
+    finds="A part of `<ros2_control>` that ROS 1 has no word for: hardware and its parameters, limits of interfaces, "
+    "sensors, inputs and outputs.",
+    matters="In ROS 1 the driver is a program that is started beside the robot, with parameters of its own.",
+    example="`<command_interface name='position'><param name='min'>-1</param></command_interface>`",
+    better="Give the values to the driver in its configuration.",
+)

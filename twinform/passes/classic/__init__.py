@@ -1,0 +1,1 @@
+"""From Gazebo Classic to gz-sim."""

@@ -1,0 +1,121 @@
+"""From Gazebo Classic to gz-sim."""
+
+from typing import ClassVar
+
+from pydantic import Field, field_validator
+
+from twinform.diagnostics import Fate, Notes
+from twinform.ir import Document, Format, Model
+from twinform.passes.base import Pass
+from twinform.passes.classic.deeds import Deeds
+from twinform.passes.classic.emptied import without_emptied
+from twinform.passes.classic.hardware import modern_hardware
+from twinform.passes.classic.plugins import PluginMigration
+from twinform.passes.classic.reporting import accept, scratch
+from twinform.passes.classic.sensors import SensorMigration
+from twinform.passes.classic.worlds import complete_worlds, report_needs, report_unread, ship_models
+from twinform.passes.control.carried_elements import declare_carriers
+from twinform.passes.control.ros2_control_from_transmissions import Ros2ControlFromTransmissions
+from twinform.passes.legalise.sdf_versions import change_version, known_version
+from twinform.passes.plugins.catalogue import UnknownNameError, release
+from twinform.passes.plugins.parts import Release
+from twinform.passes.plugins.sites import map_plugins, map_sensors
+from twinform.schemas import parse_version
+
+_HARDWARE = "gz_ros2_control/GazeboSimSystem"
+_HARDWARE_BEFORE = "ign_ros2_control/IgnitionSystem"
+
+
+class MigrateGazeboClassic(Pass):
+    """Turns models and worlds for Gazebo Classic into such for gz-sim, in URDF and in SDF.
+
+    It changes:
+
+    1. plugins of Gazebo Classic, gazebo_ros_pkgs and packages around it: systems of gz-sim take their place, with the
+       parameters under their new names and in their new units, and with the topics that they had in ROS, namespaces
+       and remappings included;
+    2. sensors: plugins in them go and leave topic, frame, rate, noise and lens behind; types have their names of now
+       (`ray` is `gpu_lidar`, `gps` is `navsat`, `depth` with a plugin for point clouds is `rgbd_camera`); one with
+       several cameras is divided; sensors that were plugins of the model are made;
+    3. plugins that couple joints: they become `<mimic>`;
+    4. controllers: `gz_ros2_control` takes the place of gazebo_ros_control, and transmissions become `<ros2_control>`;
+    5. names of Ignition become those of Gazebo, but for Fortress, which has them;
+    6. models that came with Gazebo Classic are included from Fuel;
+    7. worlds get the systems that their sensors need, and all default systems once one is written;
+    8. SDF that is older is said in the version that the release reads.
+
+    It never touches plugins that are neither of Gazebo Classic nor of gz-sim, looks, and parts of worlds that gz-sim
+    skips; it says which these are.
+    It reports `migrated-plugin`, `migrated-sensor`, `ignition-name`, `shipped-model` and `added-world-system` for what
+    was done; `plugin-without-counterpart`, `parameter-without-counterpart`, `sensor-without-counterpart`,
+    `unread-world-part` and `unknown-plugin` for what could not be; `incomplete-migration` and `world-system-needed` for
+    what is left to do; and what `ros2-control-from-transmissions` does. The ledger has every plugin and parameter.
+    """
+
+    name = "migrate-gazebo-classic"
+    example: ClassVar[str] = "migrate-gazebo-classic{release=harmonic}"
+
+    release: str = Field(
+        default="harmonic", description="The release of Gazebo: fortress, garden, harmonic, ionic or jetty."
+    )
+    keep: bool = Field(default=False, description="Whether plugins without a counterpart stay.")
+    controllers: str | None = Field(
+        default=None, min_length=1, description="The file with the controllers' parameters, for gz_ros2_control."
+    )
+
+    @field_validator("release")
+    @classmethod
+    def _check_release(cls, value: str) -> str:
+        try:
+            return release(value).name
+        except UnknownNameError as error:
+            raise ValueError(str(error)) from None
+
+    def run(self, document: Document, notes: Notes) -> Document:
+        """The document for gz-sim."""
+        target, raising = release(self.release), scratch(notes)
+        raised = _raised(document, target, raising)
+        migrating = scratch(notes)
+        changed = raised if raising.has_errors else self._migrated(raised, target, migrating)
+        if raising.has_errors or changed is not raised:
+            accept(notes, raising)
+        accept(notes, migrating)
+        if changed is raised:
+            return document
+        carried = any(entry.fate is Fate.CARRIED for entry in notes.entries)
+        return declare_carriers(changed) if carried else changed
+
+    def _migrated(self, document: Document, target: Release, notes: Notes) -> Document:
+        deeds = Deeds(document.format)
+        sensed = map_sensors(document, SensorMigration(target, notes))
+        migration = PluginMigration(
+            release=target,
+            format=document.format,
+            notes=notes,
+            deeds=deeds,
+            keep=self.keep,
+            controllers=self.controllers,
+            control=lambda model: self._controlled(model, document.format, notes),
+        )
+        done = deeds.run(without_emptied(sensed, map_plugins(sensed, migration)))
+        done = ship_models(modern_hardware(done, target, notes), notes)
+        done = complete_worlds(done, target, notes)
+        if done is not document:
+            report_needs(done, target, notes)
+        report_unread(done, notes)
+        return done
+
+    def _controlled(self, model: Model, format_: Format, notes: Notes) -> Model:
+        hardware = _HARDWARE_BEFORE if self.release == "fortress" else _HARDWARE
+        return Ros2ControlFromTransmissions(hardware=hardware).convert(model, format_, notes)
+
+
+def _raised(document: Document, target: Release, notes: Notes) -> Document:
+    """An SDF document in the version that the release reads, where it is older."""
+    if document.format is Format.URDF:
+        return document
+    if parse_version(known_version(document.version)) >= parse_version(target.sdf):
+        return document
+    for step in change_version(document.version, target.sdf):
+        document = step.run(document, notes)
+    return document

@@ -1,0 +1,180 @@
+"""Plugins of Gazebo Classic, one by one."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules import classic as rules
+from twinform.ir import Axis, Format, Joint, Mimic, Model, Plugin
+from twinform.ir.element import Element
+from twinform.passes.classic.deeds import Deeds
+from twinform.passes.classic.ignition import modern_plugin
+from twinform.passes.classic.moving import Lost, Moved
+from twinform.passes.classic.reporting import Report, accept, scratch
+from twinform.passes.classic.sensors import SensorMigration
+from twinform.passes.classic.systems import made_systems, unused
+from twinform.passes.classic.tables import MakeRow, Migration, migration_of
+from twinform.passes.classic.topics import RosNames
+from twinform.passes.plugins.catalogue import systems_of_file
+from twinform.passes.plugins.elements import sensor_of
+from twinform.passes.plugins.parts import Release
+from twinform.passes.plugins.sites import Site
+
+
+@dataclass(frozen=True, slots=True)
+class PluginMigration:
+    """Migrates the plugins of a document, other than those that sensors have taken, for one release.
+
+    `control` is what a model needs when it gets a controller manager of ROS 2.
+    """
+
+    release: Release
+    format: Format
+    notes: Notes
+    deeds: Deeds
+    keep: bool
+    controllers: str | None
+    control: Callable[[Model], Model]
+
+    def __call__(self, plugin: Plugin, site: Site) -> Iterable[Plugin]:
+        """The plugins that take the place of one."""
+        filename, report = plugin.filename or "", Report(self.notes, plugin, site)
+        migration = migration_of(filename, plugin.content)
+        if migration is None:
+            return self._of_no_table(plugin, site, report)
+        if self.release.name in migration.native:
+            return (plugin,)
+        if migration.none is not None:
+            return self._without(plugin, report, migration.none)
+        if migration.mimic:
+            return self._mimic(plugin, site, migration, report)
+        if migration.make is not None:
+            return self._make(plugin, site, migration, report)
+        if migration.nothing is not None:
+            report.migrated(migration.nothing, [])
+            return ()
+        if migration.sensor is not None:
+            where = "a sensor that cannot be read" if site.scope == "sensor" else f"a {site.scope}"
+            return self._without(plugin, report, f"it belongs into a sensor of its kind, and stands in {where}")
+        return self._systems(plugin, site, migration, report)
+
+    def _of_no_table(self, plugin: Plugin, site: Site, report: Report) -> Iterable[Plugin]:
+        modern = modern_plugin(plugin, self.release)
+        if modern is not plugin:
+            report.renamed(modern)
+        elif site.scope != "gui" and not systems_of_file(plugin.filename or "") and _looks_built(plugin):
+            message = f"{report.what} is neither of Gazebo Classic nor of gz-sim; it stays as it is"
+            self.notes.report(rules.UNKNOWN_PLUGIN, message, report.where, found=plugin.filename)
+        elif site.scope == "gui" and _looks_built(plugin):
+            return self._without(plugin, report, "the GUI of gz-sim has plugins of its own")
+        return (modern,)
+
+    def _without(self, plugin: Plugin, report: Report, reason: str) -> Iterable[Plugin]:
+        report.without(reason, keeps=self.keep)
+        return (plugin,) if self.keep else ()
+
+    def _systems(self, plugin: Plugin, site: Site, migration: Migration, report: Report) -> Iterable[Plugin]:
+        try:
+            made, lost = made_systems(plugin, migration, site, self.release.name)
+        except LookupError as error:
+            return self._without(plugin, report, str(error))
+        if any(row.scope == "world" for _, row in made) and site.world is None:
+            return self._without(plugin, report, f"{made[0][0].name} stands in a world, and there is none here")
+        report.migrated(" and ".join(each.name or "" for each, _ in made), lost)
+        if migration.geometry:
+            report.missing(migration.geometry)
+        here: list[Plugin] = []
+        for each, row in made:
+            if row.scope == "world" and site.world is not None:
+                self.deeds.worlds[site.world.name].append(each)
+            else:
+                here.append(self._controlled(each, site, report) if migration.control else each)
+        return here
+
+    def _controlled(self, plugin: Plugin, site: Site, report: Report) -> Plugin:
+        """A controller manager with its parameters, in a model whose joints are in `<ros2_control>`."""
+        self.deeds.change(site, self.control)
+        if any(child.name == "parameters" for child in plugin.content):
+            return plugin
+        if self.controllers is not None:
+            parameters = Element(name="parameters", text=self.controllers)
+            return plugin.model_copy(update={"content": (*plugin.content, parameters)})
+        report.missing("it needs <parameters>, the file of its controllers; the option `controllers` writes it")
+        return plugin
+
+    def _make(self, plugin: Plugin, site: Site, migration: Migration, report: Report) -> Iterable[Plugin]:
+        """A sensor on the link or joint that the plugin names."""
+        make = migration.make or MakeRow(type="", on="link", of=())
+        holder = _scoped(next((child.text or "" for child in plugin.content if child.name in make.of), ""))
+        if site.model is None or holder not in _names(site.model, make.on):
+            return self._without(plugin, report, f"there is no {make.on} {holder!r} to put the sensor on")
+        element = Element(name="sensor", attributes=(("name", plugin.name or make.type), ("type", make.type)))
+        trial = SensorMigration(self.release, scratch(self.notes))
+        sensor = sensor_of(trial.move(plugin, migration, element, site))
+        if sensor is None:
+            return self._without(plugin, report, "a value in it is not of the type that sensors have")
+        accept(self.notes, trial.notes)
+        self.deeds.sensor(site, holder, sensor)
+        return ()
+
+    def _mimic(self, plugin: Plugin, site: Site, migration: Migration, report: Report) -> Iterable[Plugin]:
+        moved = Moved(Element(name="mimic"), repeats=False)
+        moved.apply(plugin.content, {**migration.shared, **migration.moves})
+        said = {child.name: child.text or "" for child in moved.element.children}
+        joints = {joint.name: joint for joint in site.model.joints} if site.model else {}
+        follower, leader = said.get("mimicJoint", ""), said.get("joint", "")
+        for name in (follower, leader):
+            if name not in joints:
+                return self._without(plugin, report, f"there is no joint {name!r}")
+        if self.format is Format.SDF and _number_of(self.release.sdf) < (1, 11):
+            reason = f"SDF {self.release.sdf}, which gz-sim of {self.release.name} reads, has no <mimic>"
+            return self._without(plugin, report, reason)
+        mimic = _mimic(leader, said)
+        if mimic is None:
+            return self._without(plugin, report, "its multiplier or offset is not a number")
+        written = _written(joints[follower])
+        if written is not None and not _same_mimic(written, mimic):
+            return self._without(plugin, report, f"joint {follower!r} mimics {written.joint!r} in another way already")
+        lost: list[Lost] = [*moved.lost, *unused(plugin, moved.moved, RosNames(plugin))]
+        report.migrated(f"the <mimic> of joint {follower!r}", lost)
+        if written is None:
+            self.deeds.mimic(site, follower, mimic)
+        return ()
+
+
+def _mimic(leader: str, said: dict[str, str]) -> Mimic | None:
+    try:
+        numbers = {name: float(said[name]) for name in ("multiplier", "offset") if name in said}
+    except ValueError:
+        return None
+    return Mimic(joint=leader, multiplier=numbers.get("multiplier"), offset=numbers.get("offset"))
+
+
+def _written(joint: Joint) -> Mimic | None:
+    return (joint.axis or Axis()).mimic
+
+
+def _same_mimic(one: Mimic, other: Mimic) -> bool:
+    def values(mimic: Mimic) -> tuple[str | None, float, float]:
+        return mimic.joint, 1.0 if mimic.multiplier is None else mimic.multiplier, mimic.offset or 0.0
+
+    return values(one) == values(other)
+
+
+def _names(model: Model, kind: str) -> set[str]:
+    return {each.name for each in (model.links if kind == "link" else model.joints)}
+
+
+def _scoped(name: str) -> str:
+    """The last part of a name that names its model too."""
+    return name.rpartition("::")[2].strip()
+
+
+def _number_of(version: str) -> tuple[int, ...]:
+    return tuple(map(int, version.split(".")))
+
+
+def _looks_built(plugin: Plugin) -> bool:
+    """Whether it is called like a library: what is not may be a name that a program looks up itself."""
+    name = plugin.filename or ""
+    return name.startswith("lib") or name.endswith((".so", ".dll", ".dylib"))

@@ -1,0 +1,219 @@
+"""Sensors of Gazebo Classic, with the plugins in them, in the words of gz-sim."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import cache
+
+from twinform.diagnostics import Fate, Location, Notes
+from twinform.diagnostics.rules import classic as rules
+from twinform.ir import Element, Plugin, Sensor
+from twinform.passes.classic.element_edits import text_at, with_text
+from twinform.passes.classic.moving import Lost, Moved, camera_height, camera_width, focal_length
+from twinform.passes.classic.reporting import Report, accept, scratch
+from twinform.passes.classic.systems import unused
+from twinform.passes.classic.tables import Migration, SensorRow, migration_of, unread_parts
+from twinform.passes.classic.topics import RosNames
+from twinform.passes.plugins.catalogue import sensors
+from twinform.passes.plugins.elements import sensor_element, sensor_of
+from twinform.passes.plugins.parts import Release
+from twinform.passes.plugins.sites import Site
+from twinform.schemas import format_value
+
+_RENAMED = {"ray": "lidar", "gps": "navsat"}
+"""Elements with the parameters of a sensor that have another name now."""
+_FRAMES = ("frame_id", "gz_frame_id", "ignition_frame_id")
+_FRAME_BEFORE = "ignition_frame_id"
+"""What Fortress calls the element that names a sensor's frame; gz-sensors 7 renamed it."""
+_MANY = "multicamera"
+
+
+@dataclass(frozen=True, slots=True)
+class SensorMigration:
+    """Migrates the sensors of a document for one release."""
+
+    release: Release
+    notes: Notes
+
+    def __call__(self, sensor: Sensor, site: Site) -> Iterable[Sensor]:
+        """The sensors that take the place of one."""
+        found = [(plugin, migration) for plugin in sensor.plugins if (migration := self._of(plugin))]
+        if sensor.type == _MANY:
+            yield from self._split(sensor, site, found)
+            return
+        yield self._changed(sensor, site, found)
+
+    def _of(self, plugin: Plugin) -> Migration | None:
+        migration = migration_of(plugin.filename or "", plugin.content)
+        return migration if migration and migration.sensor is not None else None
+
+    def _changed(self, sensor: Sensor, site: Site, found: list[tuple[Plugin, Migration]]) -> Sensor:
+        type_ = self._type(sensor, found)
+        element = with_frame(_bare(sensor, type_), self.release)
+        trial = SensorMigration(self.release, scratch(self.notes))
+        for plugin, migration in found:
+            element = trial.move(plugin, migration, element, Site("sensor", sensor.name or "", sensor=sensor))
+        trial.say_type(sensor, type_, site)
+        gone = {id(plugin) for plugin, _ in found}
+        rest = tuple(plugin for plugin in sensor.plugins if id(plugin) not in gone)
+        made = _unless_same(sensor, complete_lens(element), rest)
+        if made is None:
+            return sensor
+        accept(self.notes, trial.notes)
+        return made
+
+    def _type(self, sensor: Sensor, found: list[tuple[Plugin, Migration]]) -> str:
+        """What the type of a sensor is called, or has to be for its plugin."""
+        for _, migration in found:
+            row = migration.sensor or SensorRow()
+            if sensor.type is not None and sensor.type in row.types:
+                return row.types[sensor.type]
+        return modern_types().get(sensor.type or "", sensor.type or "")
+
+    def move(
+        self, plugin: Plugin, migration: Migration, element: Element, site: Site, camera: str | None = None
+    ) -> Element:
+        """The sensor with the parameters of a plugin in it; `camera` is the name of one of several."""
+        row = migration.sensor or SensorRow()
+        names = RosNames(plugin, sensor=element.get("name"), camera=camera)
+        moved = Moved(element, repeats=False, is_valid=_is_sensor)
+        moved.apply(plugin.content, {**migration.shared, **row.moves})
+        element = _placed(moved, self.release)
+        for path, pattern in row.topics_of.get(element.get("type") or "", row.topics).items():
+            topic = names.topic(pattern)
+            if text_at(element, path) is None and migration.nothing is None:
+                element = with_text(element, path, topic)
+        taken = moved.moved | set(migration.make.of if migration.make else ())
+        lost: list[Lost] = [*moved.lost, *unused(plugin, taken, names)]
+        became = migration.nothing or f"a part of the sensor {element.get('name')!r}, {element.get('type')}"
+        Report(self.notes, plugin, site).migrated(became, lost)
+        return element
+
+    def say_type(self, sensor: Sensor, type_: str, site: Site) -> None:
+        """Report a type that has another name now, or that nothing simulates."""
+        where = sensor.location
+        reason = unread_parts()["sensors"].get(type_)
+        kind = sensors().get(type_)
+        if reason is None and kind is not None and self.release.name not in kind.releases:
+            reason = f"gz-sim of {self.release.name} has none of its type"
+        if reason is not None:
+            message = f"sensor {sensor.name!r} on {site.holder!r} is {type_}, and measures nothing: {reason}"
+            self.notes.report(rules.SENSOR_WITHOUT_COUNTERPART, message, where, found=type_)
+        if type_ != sensor.type:
+            message = f"sensor {sensor.name!r} on {site.holder!r} was {sensor.type} and is {type_}"
+            self._account_type(message, where, sensor.type)
+
+    def _account_type(self, message: str, where: Location, found: str | None) -> None:
+        self.notes.report(rules.MIGRATED_SENSOR, message, where, found=found)
+        self.notes.account(Fate.APPROXIMATED, rules.MIGRATED_SENSOR, message, where.at("@type"))
+
+    def _split(self, sensor: Sensor, site: Site, found: list[tuple[Plugin, Migration]]) -> Iterator[Sensor]:
+        """One sensor for each camera of several."""
+        whole = _bare(sensor, "camera")
+        cameras = [child for child in whole.children if child.name == "camera"]
+        shared = tuple(child for child in whole.children if child.name != "camera")
+        gone = {id(plugin) for plugin, _ in found}
+        rest = tuple(plugin for plugin in sensor.plugins if id(plugin) not in gone)
+        quiet = SensorMigration(self.release, Notes())
+        for number, camera in enumerate(cameras):
+            name = f"{sensor.name}_{camera.get('name') or number}"
+            element = _one_camera(whole, name, camera, shared)
+            for plugin, migration in found:
+                teller = self if number == 0 else quiet  # what is lost is lost once
+                here = Site("sensor", sensor.name or "", sensor=sensor)
+                element = teller.move(plugin, migration, element, here, camera.get("name") or str(number))
+            made = sensor_of(complete_lens(with_frame(element, self.release)))
+            if made is not None:
+                yield made.model_copy(update={"plugins": rest if number == 0 else (), "source": sensor.source})
+        message = f"sensor {sensor.name!r} on {site.holder!r} was {_MANY} and is {len(cameras)} cameras"
+        self._account_type(message, sensor.location, sensor.type)
+        where = sensor.location
+        self.notes.account(Fate.APPROXIMATED, rules.MIGRATED_SENSOR, message, where.at("@name"))
+        for part in sensor.opaque:
+            if part.element is not None and part.element.name == "camera" and not part.at:
+                self.notes.account(Fate.APPROXIMATED, rules.MIGRATED_SENSOR, message, part.location.at("@name"))
+
+
+def with_frame(element: Element, release: Release) -> Element:
+    """A sensor whose frame is named as the release wants it."""
+    wanted = release.frame_element or _FRAME_BEFORE
+    children = tuple(
+        child.model_copy(update={"name": wanted}) if child.name in _FRAMES and _is_newer(child.name, wanted) else child
+        for child in element.children
+    )
+    return element if children == element.children else element.model_copy(update={"children": children})
+
+
+def complete_lens(element: Element) -> Element:
+    """A camera of which either all values of the lens are written or none: each has a default of its own."""
+    values = {"fx": focal_length, "fy": focal_length, "cx": _centre_x, "cy": _centre_y}
+    for group, prefix in (("intrinsics", ""), ("projection", "p_")):
+        path = f"camera/lens/{group}"
+        camera = element.find("camera")
+        lens = camera.find("lens") if camera is not None else None
+        if lens is None or lens.find(group) is None:
+            continue
+        for name, value in values.items():
+            if text_at(element, f"{path}/{prefix}{name}") is None:
+                element = with_text(element, f"{path}/{prefix}{name}", format_value(value(element)))
+    return element
+
+
+@cache
+def modern_types() -> dict[str, str]:
+    """The types of sensors by what Gazebo Classic, and older files, call them."""
+    older = {alias: kind.type for kind in sensors().values() for alias in kind.aliases}
+    return older | {word: kind.type for kind in sensors().values() for word in kind.classic}
+
+
+def _bare(sensor: Sensor, type_: str) -> Element:
+    """The element of a sensor without its plugins, with a type."""
+    element = sensor_element(sensor.model_copy(update={"plugins": ()}))
+    if type_ == sensor.type:
+        return element
+    element = with_text(element, "@type", type_)
+    children = tuple(
+        child.model_copy(update={"name": _RENAMED[child.name]}) if child.name in _RENAMED else child
+        for child in element.children
+    )
+    return element.model_copy(update={"children": children})
+
+
+def _is_newer(old: str, wanted: str) -> bool:
+    """Only from the names of earlier releases to that of this one."""
+    return _FRAMES.index(old) > _FRAMES.index(wanted)
+
+
+def _placed(moved: Moved, release: Release) -> Element:
+    """The sensor with the frame and the offset that its plugin names."""
+    element = moved.element
+    if moved.frame and not any(child.name in _FRAMES for child in element.children):
+        element = with_text(element, release.frame_element or _FRAME_BEFORE, moved.frame)
+    if moved.offsets and element.find("pose") is None:
+        pose = f"{moved.offsets.get('xyz', '0 0 0')} {moved.offsets.get('rpy', '0 0 0')}"
+        element = with_text(element, "pose", pose)
+    return element
+
+
+def _one_camera(whole: Element, name: str, camera: Element, shared: tuple[Element, ...]) -> Element:
+    """A camera by itself; its pose in the sensor stays in it, as SDF has it there too."""
+    bare = camera.model_copy(update={"attributes": ()})
+    return with_text(whole.model_copy(update={"children": (*shared, bare)}), "@name", name)
+
+
+def _unless_same(sensor: Sensor, element: Element, plugins: tuple[Plugin, ...]) -> Sensor | None:
+    if element == sensor_element(sensor.model_copy(update={"plugins": ()})):
+        return sensor if plugins == sensor.plugins else sensor.model_copy(update={"plugins": plugins})
+    made = sensor_of(element)
+    return made and made.model_copy(update={"plugins": plugins, "source": sensor.source})
+
+
+def _is_sensor(element: Element) -> bool:
+    return sensor_of(element) is not None
+
+
+def _centre_x(sensor: Element) -> float:
+    return camera_width(sensor) / 2
+
+
+def _centre_y(sensor: Element) -> float:
+    return camera_height(sensor) / 2

@@ -1,0 +1,98 @@
+"""Plugins of Gazebo Classic that systems of gz-sim take the place of."""
+
+from collections.abc import Iterator
+
+from twinform.ir import Element, Plugin
+from twinform.passes.classic.element_edits import added
+from twinform.passes.classic.moving import Lost, Moved
+from twinform.passes.classic.tables import Migration, SystemRow
+from twinform.passes.classic.topics import RosNames, is_namespace
+from twinform.passes.plugins.catalogue import system
+from twinform.passes.plugins.parts import PluginKind
+from twinform.passes.plugins.sites import Site
+
+_UNREAD = "the plugin of Gazebo Classic does not read it either"
+
+
+def made_systems(
+    plugin: Plugin, migration: Migration, site: Site, release: str
+) -> tuple[list[tuple[Plugin, SystemRow]], list[Lost]]:
+    """The systems that take a plugin's place, with their rows, and the parameters that went nowhere.
+
+    Raises:
+        LookupError: the release has no such system; the error says which.
+    """
+    names, lost, taken = RosNames(plugin), list[Lost](), set[str]()
+    made: list[tuple[Plugin, SystemRow]] = []
+    for row in migration.systems:
+        kind = _kind(row, release)
+        moved = Moved(Element(name="plugin"), repeats=True)
+        moves = {**migration.shared, **row.moves}
+        moved.apply(plugin.content, {name: move for name, move in moves.items() if move.times is None})
+        for each in _sets(row, site, moved.element):
+            moved.element = added(moved.element, each)
+        moved.apply(plugin.content, {name: move for name, move in moves.items() if move.times is not None})
+        content = [*moved.element.children]
+        content += [Element(name=path, text=names.topic(pattern)) for path, pattern in row.topics.items()]
+        kept, unread = _read_by(kind, content, release)
+        lost += [each for each in moved.lost if each.parameter.name not in taken]
+        lost += [
+            Lost(parameter, f"{kind.class_name} of {release} does not read <{name}>")
+            for parameter, name in _origins(plugin, row, unread)
+        ]
+        taken |= moved.moved
+        made.append((_plugin(plugin, kind, kept, alone=len(migration.systems) == 1), row))
+    lost += unused(plugin, taken, names)
+    return made, _once(lost)
+
+
+def unused(plugin: Plugin, taken: set[str], names: RosNames) -> Iterator[Lost]:
+    """The parameters that nothing has taken."""
+    for parameter in plugin.content:
+        if parameter.name == "ros" and "ros" not in taken:
+            yield from (Lost(part, reason) for part, reason in names.leftovers())
+        elif parameter.name not in taken | names.used and not is_namespace(parameter.name):
+            yield Lost(parameter, _UNREAD)
+        elif is_namespace(parameter.name) and parameter.name not in taken | names.used:
+            yield Lost(parameter, "nothing is published below a namespace", harmless=True)
+
+
+def _kind(row: SystemRow, release: str) -> PluginKind:
+    for name in (row.system, row.before):
+        if name is not None and release in (kind := system(name)).releases:
+            return kind
+    raise LookupError(f"gz-sim of {release} has no {system(row.system).class_name}")
+
+
+def _sets(row: SystemRow, site: Site, element: Element) -> Iterator[Element]:
+    """What is written where no parameter has said it."""
+    for name, value in row.sets.items():
+        if element.find(name) is None:
+            yield Element(name=name, text=site.model.name if value == "$model" and site.model else value)
+
+
+def _read_by(kind: PluginKind, content: list[Element], release: str) -> tuple[list[Element], set[str]]:
+    """The parameters that the system reads in this release, and the names of the others."""
+    read = {row.name for row in kind.parameters if release in row.releases}
+    kept = [each for each in content if each.name in read]
+    return kept, {each.name for each in content if each.name not in read}
+
+
+def _origins(plugin: Plugin, row: SystemRow, unread: set[str]) -> Iterator[tuple[Element, str]]:
+    """The parameters from which values came that the system does not read."""
+    for parameter in plugin.content:
+        move = row.moves.get(parameter.name)
+        if move is not None and move.to is not None and move.to.partition("/")[0] in unread:
+            yield parameter, move.to
+
+
+def _plugin(plugin: Plugin, kind: PluginKind, content: list[Element], *, alone: bool) -> Plugin:
+    source = plugin.source if alone else None
+    return Plugin(name=kind.class_name, filename=kind.file, content=tuple(content), source=source)
+
+
+def _once(lost: list[Lost]) -> list[Lost]:
+    seen: dict[int, Lost] = {}
+    for each in lost:
+        seen.setdefault(id(each.parameter), each)
+    return list(seen.values())

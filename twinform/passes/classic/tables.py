@@ -1,0 +1,215 @@
+"""The tables of this folder: which plugin of Gazebo Classic becomes what, and where its parameters go.
+
+A table in `data/` is named after the plugin and has
+
+* `files`: the files that it is in, without `lib` and `.so`; `reads`: parameters that tell it from another plugin in a
+  file of the same name; `native`: releases of Gazebo that have it themselves;
+* `systems`: the systems of gz-sim that take its place, or `sensor`: what becomes of the sensor that it stands in, with
+  `make` where the sensor has to be made; or `mimic`; or `none`, the reason why nothing does; or `nothing`, the reason
+  why nothing has to;
+* `uses`: tables of `shared.toml` with more parameters; `geometry`: what the author has to write beside.
+
+A parameter goes to a path, or somewhere else in the words of `Move`. Topics are patterns, which `topics.py` reads.
+"""
+
+import re
+import tomllib
+from collections.abc import Iterator, Mapping
+from functools import cache
+from importlib import resources
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from twinform.ir import Element
+from twinform.passes.plugins.catalogue import modern_file
+
+_FILES = ("driving.toml", "sensing.toml", "states.toml", "control.toml")
+
+
+class _Row(BaseModel):
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", alias_generator=lambda name: name.replace("_", "-"), populate_by_name=True
+    )
+
+
+class Move(_Row):
+    """Where a parameter goes.
+
+    `to` is a path of elements, and `@name` at its end an attribute; `@frame`, `@xyz` and `@rpy` are the frame of a
+    sensor and its pose. Numbers are multiplied by `scale`, by another value of the system (`times`), or by minus the
+    focal length of the camera (`negative_times`). `each` takes the numbers of a vector apart; `same` are more places
+    for the value, `mirror` one for the value with the other sign, `also` what is written beside it. `noise` makes the
+    noise around it Gaussian and `drifts` lets its bias wander. `split` divides a list, `first` takes one of several,
+    `least` the smaller of the old value and the new. `choose` says what to write for each value.
+
+    Without any of that, `drop` is the reason why it goes nowhere; it is only reported where it says more than one of
+    the `harmless` values.
+    """
+
+    to: str | None = None
+    drop: str | None = None
+    each: tuple[str, ...] = ()
+    same: tuple[str, ...] = ()
+    mirror: str | None = None
+    also: Mapping[str, str] = Field(default_factory=dict[str, str])
+    choose: Mapping[str, Mapping[str, str]] | None = None
+    scale: float | None = None
+    times: str | None = None
+    negative_times: str | None = None
+    split: str | None = None
+    first: bool = False
+    least: bool = False
+    noise: bool = False
+    drifts: bool = False
+    harmless: tuple[str, ...] = ()
+
+
+Moves = Mapping[str, Move]
+
+
+class SystemRow(_Row):
+    """A system that takes a plugin's place; `before` is the one that did so in releases that lack it.
+
+    `sets` is what is written where no parameter says it: mostly what went without saying in the plugin and does not in
+    the system. `$model` is the name of the model.
+    """
+
+    system: str
+    before: str | None = None
+    scope: str | None = None
+    sets: Mapping[str, str] = Field(default_factory=dict[str, str])
+    moves: Moves = Field(default_factory=dict[str, Move])
+    topics: Mapping[str, str] = Field(default_factory=dict[str, str])
+
+
+class SensorRow(_Row):
+    """What becomes of the sensor that a plugin stands in. `topics_of` are those of one type alone."""
+
+    types: Mapping[str, str] = Field(default_factory=dict[str, str])
+    moves: Moves = Field(default_factory=dict[str, Move])
+    topics: Mapping[str, str] = Field(default_factory=dict[str, str])
+    topics_of: Mapping[str, Mapping[str, str]] = Field(default_factory=dict[str, Mapping[str, str]])
+
+
+class MakeRow(_Row):
+    """A sensor that has to be made: its type, what it stands on, and the parameters that name it."""
+
+    type: str
+    on: str
+    of: tuple[str, ...]
+
+
+class Migration(_Row):
+    """What becomes of one plugin."""
+
+    files: tuple[str, ...] = ()
+    native: tuple[str, ...] = ()
+    reads: tuple[str, ...] = ()
+    uses: tuple[str, ...] = ()
+    geometry: str | None = None
+    systems: tuple[SystemRow, ...] = ()
+    sensor: SensorRow | None = None
+    make: MakeRow | None = None
+    mimic: bool = False
+    control: bool = False
+    moves: Moves = Field(default_factory=dict[str, Move])
+    none: str | None = None
+    nothing: str | None = None
+
+    @property
+    def shared(self) -> Moves:
+        """The parameters that it shares with others."""
+        return {name: move for table in self.uses for name, move in shared_moves(table).items()}
+
+    @property
+    def parameters(self) -> frozenset[str]:
+        """The names of all parameters that the table says something about."""
+        tables = [self.shared, self.moves, *(row.moves for row in self.systems)]
+        patterns = [pattern for row in self.systems for pattern in row.topics.values()]
+        if self.sensor:
+            tables.append(self.sensor.moves)
+            patterns += [*self.sensor.topics.values()]
+            patterns += [pattern for topics in self.sensor.topics_of.values() for pattern in topics.values()]
+        named = {name for pattern in patterns for name in names_in(pattern)}
+        return frozenset({name for table in tables for name in table} | named | set(self.make.of if self.make else ()))
+
+
+def migration_of(filename: str, content: tuple[Element, ...] = ()) -> Migration | None:
+    """What the tables say of a plugin, by its file and parameters; None for one that is not of Gazebo Classic."""
+    key = modern_file(filename)
+    written = {element.name for element in content}
+    for migration in _by_file().get(key, ()):
+        if not migration.reads or written.intersection(migration.reads):
+            return migration
+    return None
+
+
+def migrations() -> Mapping[str, Migration]:
+    """All tables by their names."""
+    return _migrations()
+
+
+def hardware_names() -> Mapping[str, str]:
+    """The hardware plugins of ros2_control for Gazebo, old and new."""
+    return _toml("control.toml")["hardware"]
+
+
+@cache
+def unread_parts() -> Mapping[str, Mapping[str, str]]:
+    """What gz-sim does not read of worlds and sensors with the reasons, and the models that were shipped."""
+    return _toml("worlds.toml")
+
+
+@cache
+def shared_moves(table: str) -> Moves:
+    """A table of parameters that several plugins have."""
+    return {name: _move(row) for name, row in _toml("shared.toml")[table].items()}
+
+
+def names_in(pattern: str) -> Iterator[str]:
+    """The parameters that a pattern of a topic names."""
+    for choice in re.findall(r"\{(.*?)\}", pattern):
+        yield from (word for word in choice.split("|") if word[0] not in "=$")
+
+
+@cache
+def _by_file() -> Mapping[str, tuple[Migration, ...]]:
+    found: dict[str, tuple[Migration, ...]] = {}
+    for migration in _migrations().values():
+        for file in migration.files:
+            found[file] = (*found.get(file, ()), migration)
+    return found
+
+
+@cache
+def _migrations() -> Mapping[str, Migration]:
+    found: dict[str, Migration] = {}
+    for file in _FILES:
+        tables = {name: row for name, row in _toml(file).items() if name != "hardware"}
+        found |= {name: Migration.model_validate(_with_moves(row)) for name, row in tables.items()}
+    for file, reason in _toml("without.toml").items():
+        found[file] = Migration(files=(file,), none=reason)
+    return found
+
+
+def _with_moves(row: Any) -> Any:
+    """The row with every move as a table, where a text means its place alone."""
+    if isinstance(row, list):
+        return [_with_moves(each) for each in row]  # pyright: ignore[reportUnknownVariableType] - TOML has any type
+    if not isinstance(row, dict):
+        return row
+    made: dict[str, Any] = {str(name): _with_moves(value) for name, value in row.items()}  # pyright: ignore[reportUnknownArgumentType, reportUnknownVariableType] - likewise
+    if isinstance(made.get("moves"), dict):
+        made["moves"] = {name: _move(value) for name, value in made["moves"].items()}
+    return made
+
+
+def _move(row: Any) -> Move:
+    return Move(to=row) if isinstance(row, str) else Move.model_validate(row)
+
+
+@cache
+def _toml(name: str) -> dict[str, Any]:
+    text = resources.files("twinform.passes.classic").joinpath("data", name).read_text(encoding="utf-8")
+    return tomllib.loads(text)

@@ -1,0 +1,112 @@
+"""What worlds of Gazebo Classic need in gz-sim, and what of them it does not read."""
+
+from collections.abc import Iterator, Mapping
+
+from twinform.diagnostics import Fate, Location, Notes
+from twinform.diagnostics.rules import classic as rules
+from twinform.diagnostics.rules import plugins as plugin_rules
+from twinform.ir import Document, Format, Include, Node, World, map_children
+from twinform.ir.element import Element, Opaque
+from twinform.passes.classic.tables import unread_parts
+from twinform.passes.plugins.editing import add_world_plugin
+from twinform.passes.plugins.parts import Release, SensorKind
+from twinform.passes.plugins.sites import sensors_of
+from twinform.passes.plugins.worlds import (
+    as_xml,
+    has_element,
+    has_system,
+    kind_of_sensor,
+    missing_defaults,
+    needed_for,
+    system_plugin,
+)
+
+
+def ship_models(document: Document, notes: Notes) -> Document:
+    """The document with models that came with Gazebo Classic included from Fuel."""
+    models = unread_parts()["models"]
+
+    def change(node: Node) -> Node:
+        if not isinstance(node, Include) or (node.uri or "").rstrip("/") not in models:
+            return map_children(node, change)
+        old, new = node.uri or "", models[(node.uri or "").rstrip("/")]
+        message = f"{old} came with Gazebo Classic; it is {new} now"
+        notes.report(rules.SHIPPED_MODEL, message, node.location, found=old)
+        notes.account(Fate.APPROXIMATED, rules.SHIPPED_MODEL, message, node.location)
+        return node.model_copy(update={"uri": new})
+
+    return map_children(document, change)
+
+
+def complete_worlds(document: Document, release: Release, notes: Notes) -> Document:
+    """The document with the systems that its worlds need: those of sensors, and all defaults once one is written."""
+    worlds = tuple(_complete(world, release, notes) for world in document.worlds)
+    return document if worlds == document.worlds else document.model_copy(update={"worlds": worlds})
+
+
+def report_needs(document: Document, release: Release, notes: Notes) -> None:
+    """Say which systems the world needs that the models of a document without one will stand in."""
+    sensors, noted = sensors_of(document), set[str]()
+    for sensor, site in sensors:
+        kind = kind_of_sensor(sensor, release.name)
+        if kind is None or site.world is not None:
+            continue
+        for needed in needed_for(kind).systems:
+            if needed.name not in noted:
+                noted.add(needed.name)
+                where = sensor.location if sensor.source or site.model is None else site.model.location
+                message = f"sensor {sensor.name!r} needs {needed.class_name} in the world"
+                help_ = f"the world needs {as_xml(needed)}"
+                notes.report(plugin_rules.WORLD_SYSTEM_NEEDED, message, where, help=help_)
+
+
+def report_unread(document: Document, notes: Notes) -> None:
+    """Say which parts of worlds gz-sim does not read."""
+    parts = unread_parts()
+    for world in document.worlds:
+        for part in world.opaque:
+            if part.element is not None and not part.at:
+                for element, reason in _unread(part.element, parts["world"], parts["world-inside"]):
+                    _say_unread(world, part, element, reason, notes)
+
+
+def _complete(world: World, release: Release, notes: Notes) -> World:
+    kinds = _kinds(world, release)
+    needed = [kind for each in kinds for kind in needed_for(each).systems]
+    defaults = missing_defaults(world.plugins) if world.plugins or needed else ()
+    missing = [kind for kind in dict.fromkeys((*defaults, *needed)) if not has_system(world, kind)]
+    for kind in missing:
+        world = add_world_plugin(world, system_plugin(kind))
+    if missing:
+        listed = ", ".join(kind.class_name for kind in missing)
+        message = f"world {world.name!r} got the systems that it needs: {listed}"
+        notes.report(plugin_rules.ADDED_WORLD_SYSTEM, message, world.location)
+    for name in sorted({name for kind in kinds for name in needed_for(kind).elements if not has_element(world, name)}):
+        message = f"world {world.name!r} has no <{name}>, without which a sensor in it measures nothing"
+        notes.report(rules.INCOMPLETE_MIGRATION, message, world.location, expected=f"<{name}>")
+    return world
+
+
+def _kinds(world: World, release: Release) -> list[SensorKind]:
+    """The kinds of sensors in a world, those of nested models too."""
+    document = Document(format=Format.SDF, worlds=(world,))
+    found = (kind_of_sensor(sensor, release.name) for sensor, _ in sensors_of(document))
+    return list(dict.fromkeys(kind for kind in found if kind is not None))
+
+
+def _unread(element: Element, whole: Mapping[str, str], inside: Mapping[str, str]) -> Iterator[tuple[Element, str]]:
+    if element.name in whole:
+        yield element, whole[element.name]
+    stack = [(element, element.name)]
+    while stack:
+        here, path = stack.pop()
+        if path in inside:
+            yield here, inside[path]
+            continue
+        stack += [(child, f"{path}/{child.name}") for child in reversed(here.children)]
+
+
+def _say_unread(world: World, part: Opaque, element: Element, reason: str, notes: Notes) -> None:
+    where: Location = element.location if element.source else part.location if part.source else world.location
+    message = f"<{element.name}> of world {world.name!r} is not read by gz-sim: {reason}"
+    notes.report(rules.UNREAD_WORLD_PART, message, where, found=element.name)

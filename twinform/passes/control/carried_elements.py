@@ -1,0 +1,84 @@
+"""The elements of URDF that a model keeps as they are, in either language.
+
+In a URDF document they are opaque parts of the model; in SDF each stands in a carrier.
+"""
+
+from collections.abc import Callable, Iterable, Iterator
+
+from twinform.diagnostics import Location
+from twinform.ir import Document, Element, Format, Model, Opaque, World
+from twinform.passes.legalise.carrier import NAMESPACE, PREFIX, is_carrier, pack, unpack
+
+ModelChange = Callable[[Model], Model]
+
+
+def element_of(part: Opaque, format_: Format) -> Element | None:
+    """The element of URDF that an opaque part of a model stands for."""
+    if format_ is Format.URDF:
+        return part.element
+    if not is_carrier(part, "urdf"):
+        return None
+    pieces = unpack(part)
+    return pieces[0].element if len(pieces) == 1 and not pieces[0].at else None
+
+
+def elements(model: Model, format_: Format, name: str) -> Iterator[tuple[Opaque, Element]]:
+    """The elements of this name, with the parts that hold them."""
+    for part in model.opaque:
+        found = element_of(part, format_)
+        if found is not None and found.name == name:
+            yield part, found
+
+
+def as_parts(new: Iterable[Element], format_: Format) -> tuple[Opaque, ...]:
+    """Elements of URDF as parts of a model."""
+    parts = tuple(Opaque(element=each) for each in new)
+    return parts if format_ is Format.URDF else pack(parts, "urdf")
+
+
+def replace(model: Model, gone: Iterable[Opaque], new: Iterable[Opaque], *, after: Opaque) -> Model:
+    """The model without some parts, and with new ones behind one that it has, or had."""
+    gone_ids = {id(part) for part in gone}
+    parts: list[Opaque] = []
+    for part in model.opaque:
+        if id(part) not in gone_ids:
+            parts.append(part)
+        if part is after:
+            parts.extend(new)
+    return model.model_copy(update={"opaque": tuple(parts)})
+
+
+def map_models(document: Document, change: ModelChange) -> Document:
+    """The document with every model changed, nested ones first; the same object where none is."""
+    models = _all(document.models, change)
+    worlds = tuple(_in_world(world, change) for world in document.worlds)
+    same = models is document.models and all(new is old for new, old in zip(worlds, document.worlds, strict=True))
+    return document if same else document.model_copy(update={"models": models, "worlds": worlds})
+
+
+def declare_carriers(document: Document) -> Document:
+    """The document with the prefix of carriers declared, where it is SDF."""
+    pair = (PREFIX, NAMESPACE)
+    if document.format is Format.URDF or pair in document.namespaces:
+        return document
+    return document.model_copy(update={"namespaces": (*document.namespaces, pair)})
+
+
+def place_of(part: Opaque, model: Model) -> Location:
+    """Where a part was written; where its model was, if a pass has made the part."""
+    return part.location if part.source else model.location
+
+
+def _in_world(world: World, change: ModelChange) -> World:
+    models = _all(world.models, change)
+    return world if models is world.models else world.model_copy(update={"models": models})
+
+
+def _all(models: tuple[Model, ...], change: ModelChange) -> tuple[Model, ...]:
+    changed = tuple(_one(model, change) for model in models)
+    return changed if any(new is not old for new, old in zip(changed, models, strict=True)) else models
+
+
+def _one(model: Model, change: ModelChange) -> Model:
+    inner = _all(model.models, change)
+    return change(model if inner is model.models else model.model_copy(update={"models": inner}))

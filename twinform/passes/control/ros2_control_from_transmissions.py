@@ -1,0 +1,185 @@
+"""From the transmissions of ROS 1 to `<ros2_control>`."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import ClassVar
+
+from pydantic import Field
+
+from twinform.diagnostics import Fate, Location, Notes
+from twinform.diagnostics.rules import control as rules
+from twinform.ir import Document, Element, Format, Joint, Model, Opaque
+from twinform.passes.base import Pass
+from twinform.passes.control.carried_elements import as_parts, declare_carriers, elements, map_models, place_of, replace
+from twinform.passes.control.interfaces import PLUGINS, STATES, commands_of
+from twinform.passes.control.transmission import Transmission, new_transmission, read_transmission
+from twinform.passes.legalise.nodes import unique_name
+
+_UNMOVABLE = frozenset({"fixed", "floating", "planar"})
+
+
+class Ros2ControlFromTransmissions(Pass):
+    """Turns the transmissions of ROS 1 into one `<ros2_control>` system for each model.
+
+    It changes models with `<transmission>` elements, nested models and those of worlds too; a model of SDF has them in
+    carriers, and so stands what is made of them:
+
+    1. every joint gets the command interfaces that its `hardwareInterface` elements stand for, and the state interfaces
+       position, velocity and effort, which every joint of ros_control has;
+    2. every transmission stands in the system, with ends, roles, reductions and offsets; the reduction of a simple one
+       moves from the actuator to the joint, where ROS 2 reads it; what else is said of it becomes its parameters;
+    3. older types (`SimpleTransmission`, those of the PR2) become the simple transmission of ROS 2;
+    4. a joint that mimics another gets no command interface: its leader is commanded.
+
+    It never touches a transmission of joints that the model does not have, that cannot move, or that a `<ros2_control>`
+    commands already, nor the plugins of a simulator; `migrate-gazebo-classic` changes those. A transmission of which
+    other programs read parts that ROS 2 has no word for stays beside the new one.
+    It reports `converted-transmission`, `unconverted-transmission`, `foreign-transmission` and
+    `foreign-hardware-interface`; each transmission that went has an entry of the ledger, *approximated*.
+    """
+
+    name = "ros2-control-from-transmissions"
+    example: ClassVar[str] = "ros2-control-from-transmissions{hardware=mock_components/GenericSystem}"
+
+    hardware: str = Field(
+        default="gz_ros2_control/GazeboSimSystem",
+        min_length=1,
+        description="The plugin behind the joints, such as `mock_components/GenericSystem` or a driver.",
+    )
+    system: str | None = Field(
+        default=None, min_length=1, description="The name of the system; else that of the model with `_system` behind."
+    )
+    keep: bool = Field(default=False, description="Whether the transmissions stay as well, for programs of ROS 1.")
+
+    def run(self, document: Document, notes: Notes) -> Document:
+        """The document with systems in place of transmissions."""
+        changed = map_models(document, lambda model: self.convert(model, document.format, notes))
+        return document if changed is document else declare_carriers(changed)
+
+    def convert(self, model: Model, format_: Format, notes: Notes) -> Model:
+        """One model with a system in place of its transmissions."""
+        found = [(part, read_transmission(element)) for part, element in elements(model, format_, "transmission")]
+        work = _Work(model, format_, notes)
+        taken = [(part, each) for part, each in found if work.takes(part, each)]
+        if not taken:
+            return model
+        system = self._system(model, format_, work.joints(taken), [each for _, each in taken])
+        gone = [part for part, each in taken if not (self.keep or each.foreign)]
+        for part, each in taken:
+            work.account(part, each, stays=part not in gone)
+        return replace(model, gone, as_parts([system], format_), after=taken[-1][0])
+
+    def _system(
+        self, model: Model, format_: Format, joints: Iterable[Element], transmissions: Iterable[Transmission]
+    ) -> Element:
+        taken = {element.get("name") or "" for _, element in elements(model, format_, "ros2_control")}
+        name = unique_name(self.system or f"{model.name}_system", taken)
+        hardware = Element(name="hardware", children=(Element(name="plugin", text=self.hardware),))
+        return Element(
+            name="ros2_control",
+            attributes=(("name", name), ("type", "system")),
+            children=(hardware, *joints, *map(new_transmission, transmissions)),
+        )
+
+
+@dataclass
+class _Work:
+    """One run over one model."""
+
+    model: Model
+    format: Format
+    notes: Notes
+    known: dict[str, Joint] = field(init=False)
+    controlled: dict[str, str] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.known = {joint.name: joint for joint in self.model.joints}
+        systems = [element for _, element in elements(self.model, self.format, "ros2_control")]
+        self.controlled = {
+            child.get("name") or "": system.get("name") or ""
+            for system in systems
+            for child in system.children
+            if child.name == "joint"
+        }
+
+    def takes(self, part: Opaque, transmission: Transmission) -> bool:
+        """Whether it can be said in ROS 2; why not, where it cannot."""
+        reason = self._obstacle(transmission)
+        if reason:
+            message = f"transmission {transmission.name!r} stays as it is: {reason}"
+            self.notes.report(rules.UNCONVERTED_TRANSMISSION, message, self._place(part), found=transmission.name)
+        return not reason
+
+    def joints(self, taken: Iterable[tuple[Opaque, Transmission]]) -> list[Element]:
+        """The joints of the system, in the order of the transmissions; several of one joint come together."""
+        commands: dict[str, list[str]] = {}
+        for part, transmission in taken:
+            for end in transmission.joints:
+                listed = commands.setdefault(end.name, [])
+                for interface in end.interfaces:
+                    listed += self._commands(part, end.name, interface)
+        return [_joint(name, dict.fromkeys(listed)) for name, listed in commands.items()]
+
+    def account(self, part: Opaque, transmission: Transmission, *, stays: bool) -> None:
+        """Say what became of one transmission."""
+        where, name = self._place(part), transmission.name
+        message = f"transmission {name!r} became a part of a ros2_control system"
+        self.notes.report(rules.CONVERTED_TRANSMISSION, message, where, found=name)
+        if transmission.type not in PLUGINS:
+            kind = f"{transmission.type!r}" if transmission.type else "no type"
+            message = f"transmission {name!r} is of {kind}, which ros2_control does not bring; its name stays"
+            self.notes.report(rules.FOREIGN_TRANSMISSION, message, where, found=transmission.type or None)
+        if transmission.foreign:
+            names = ", ".join(dict.fromkeys(_bare(each) for each in transmission.foreign))
+            message = f"transmission {name!r} stays beside the system: other programs read its {names}"
+            self.notes.report(rules.UNCONVERTED_TRANSMISSION, message, where, found=names)
+        if not stays:
+            weight = part.weight if self.format is Format.URDF else part.weight - 1  # the carrier is not of the source
+            message = f"transmission {name!r} is said in the words of ros2_control"
+            self.notes.account(Fate.APPROXIMATED, rules.CONVERTED_TRANSMISSION, message, where, weight)
+
+    def _obstacle(self, transmission: Transmission) -> str:
+        if not transmission.joints:
+            return "it has no joint"
+        for end in transmission.joints:
+            joint = self.known.get(end.name)
+            if joint is None:
+                return f"there is no joint {end.name!r}"
+            if joint.type in _UNMOVABLE:
+                return f"joint {end.name!r} is {joint.type}"
+            if end.name in self.controlled:
+                return f"joint {end.name!r} is in the ros2_control {self.controlled[end.name]!r} already"
+        return ""
+
+    def _commands(self, part: Opaque, joint: str, interface: str) -> tuple[str, ...]:
+        commands = commands_of(interface)
+        if commands is None:
+            message = f"joint {joint!r} has the interface {interface!r}, which ros2_control has no word for"
+            self.notes.report(rules.FOREIGN_HARDWARE_INTERFACE, message, self._place(part), found=interface)
+            return ()
+        if commands and self._mimics(joint):
+            message = f"joint {joint!r} mimics another, so ros2_control takes no commands for it"
+            self.notes.report(rules.FOREIGN_HARDWARE_INTERFACE, message, self._place(part), found=interface)
+            return ()
+        return commands
+
+    def _mimics(self, joint: str) -> bool:
+        axis = self.known[joint].axis
+        return axis is not None and axis.mimic is not None
+
+    def _place(self, part: Opaque) -> Location:
+        return place_of(part, self.model)
+
+
+def _joint(name: str, commands: Iterable[str]) -> Element:
+    interfaces = [_interface("command_interface", each) for each in commands]
+    interfaces += [_interface("state_interface", each) for each in STATES]
+    return Element(name="joint", attributes=(("name", name),), children=tuple(interfaces))
+
+
+def _interface(kind: str, name: str) -> Element:
+    return Element(name=kind, attributes=(("name", name),))
+
+
+def _bare(name: str) -> str:
+    return f"<{name.rpartition('}')[2]}>"

@@ -1,0 +1,171 @@
+"""A `<transmission>` of ROS 1 in all its generations, and one inside of `<ros2_control>`, as one value."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from twinform.ir import Element
+from twinform.passes.control.interfaces import COMMANDED_BY_TYPE, OLDER_TYPES, SIMPLE
+
+_REDUCTION = "mechanicalReduction"
+_KNOWN = frozenset({"type", "plugin", "joint", "actuator", "param", _REDUCTION})
+_KNOWN_OF_END = frozenset({"hardwareInterface", "role", _REDUCTION, "mechanical_reduction", "offset", "param"})
+_INTERFACE = "hardwareInterface"
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """A joint or actuator of a transmission.
+
+    `reduction` and `offset` are as they were written; joint position = actuator position / reduction + offset.
+    `parameters` are what else is said of it, by name.
+    """
+
+    name: str
+    role: str | None = None
+    reduction: str | None = None
+    offset: str | None = None
+    interfaces: tuple[str, ...] = ()
+    parameters: tuple[tuple[str, str], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Transmission:
+    """What leads from actuators to joints. `foreign` are names of parts that only other programs know."""
+
+    name: str
+    type: str
+    joints: tuple[End, ...]
+    actuators: tuple[End, ...]
+    parameters: tuple[tuple[str, str], ...] = ()
+    foreign: tuple[str, ...] = ()
+
+
+def read_transmission(element: Element) -> Transmission:
+    """A `<transmission>` of either generation; what has no place becomes parameters, or is foreign."""
+    type_ = _text(element, "type") or _text(element, "plugin") or element.get("type") or ""
+    ends = {kind: tuple(_end(each) for each in element.children if each.name == kind) for kind in ("joint", "actuator")}
+    joints, actuators = ends["joint"], ends["actuator"]
+    whole = _text(element, _REDUCTION)
+    if whole and len(actuators) == 1 and actuators[0].reduction is None:
+        actuators = (_with_reduction(actuators[0], whole),)
+    if type_ in COMMANDED_BY_TYPE:
+        joints = tuple(_with_interface(joint, COMMANDED_BY_TYPE[type_]) for joint in joints)
+    return Transmission(
+        name=element.get("name") or "_".join(joint.name for joint in joints),
+        type=OLDER_TYPES.get(type_, type_),
+        joints=joints,
+        actuators=actuators,
+        parameters=tuple(_parameters(element, _KNOWN)),
+        foreign=tuple(_foreign(element)),
+    )
+
+
+def new_transmission(transmission: Transmission) -> Element:
+    """It as an element of `<ros2_control>`.
+
+    A simple transmission of ROS 1 has its reduction at the actuator, one of ROS 2 at the joint.
+    """
+    joints, actuators = transmission.joints, transmission.actuators
+    if transmission.type == SIMPLE and len(joints) == len(actuators) == 1 and actuators[0].reduction:
+        joints = (_with_reduction(joints[0], actuators[0].reduction),)
+        actuators = (_with_reduction(actuators[0], None),)
+    children = [Element(name="plugin", text=transmission.type)]
+    children += [_new_end("actuator", actuator, number) for number, actuator in enumerate(actuators, 1)]
+    children += [_new_end("joint", joint, number) for number, joint in enumerate(joints, 1)]
+    children += [_param(name, value) for name, value in transmission.parameters]
+    for end in (*joints, *actuators):
+        children += [_param(f"{end.name}.{name}", value) for name, value in end.parameters]
+    return Element(name="transmission", attributes=(("name", transmission.name),), children=tuple(children))
+
+
+def old_transmission(transmission: Transmission) -> Element:
+    """It as a `<transmission>` of ROS 1."""
+    joints, actuators = transmission.joints, transmission.actuators
+    if transmission.type == SIMPLE and len(joints) == len(actuators) == 1 and joints[0].reduction:
+        actuators = (_with_reduction(actuators[0], joints[0].reduction),)
+        joints = (_with_reduction(joints[0], None),)
+    children = [Element(name="type", text=transmission.type)]
+    children += [_leaf(name, value) for name, value in _own(transmission)]
+    alone = len(joints) == len(actuators) == 1
+    children += [_old_end("joint", joint, transmission, role=not alone) for joint in joints]
+    children += [_old_end("actuator", actuator, transmission, role=not alone) for actuator in actuators]
+    return Element(name="transmission", attributes=(("name", transmission.name),), children=tuple(children))
+
+
+def _end(element: Element) -> End:
+    return End(
+        name=element.get("name") or "",
+        role=_text(element, "role") or element.get("role"),
+        reduction=_text(element, _REDUCTION) or _text(element, "mechanical_reduction"),
+        offset=_text(element, "offset"),
+        interfaces=tuple(each.text for each in element.children if each.name == _INTERFACE and each.text),
+        parameters=tuple(_parameters(element, _KNOWN_OF_END)),
+    )
+
+
+def _with_reduction(end: End, reduction: str | None) -> End:
+    return End(end.name, end.role, reduction, end.offset, end.interfaces, end.parameters)
+
+
+def _with_interface(end: End, interface: str) -> End:
+    return End(end.name, end.role, end.reduction, end.offset, end.interfaces or (interface,), end.parameters)
+
+
+def _text(element: Element, name: str) -> str | None:
+    child = element.find(name)
+    return child.text if child is not None else None
+
+
+def _is_plain(element: Element) -> bool:
+    return not (element.attributes or element.children or element.name.startswith("{") or ":" in element.name)
+
+
+def _parameters(element: Element, known: frozenset[str]) -> Iterator[tuple[str, str]]:
+    for child in element.children:
+        if child.name == "param":
+            yield child.get("name") or "", child.text or ""
+        elif child.name not in known and _is_plain(child):
+            yield child.name, child.text or ""
+
+
+def _foreign(element: Element) -> Iterator[str]:
+    for holder, known in ((element, _KNOWN), *((end, _KNOWN_OF_END) for end in element.children)):
+        if holder is not element and holder.name not in {"joint", "actuator"}:
+            continue
+        yield from (child.name for child in holder.children if child.name not in known and not _is_plain(child))
+
+
+def _new_end(kind: str, end: End, number: int) -> Element:
+    """ros2_control wants a role written."""
+    values = (("mechanical_reduction", end.reduction), ("offset", end.offset))
+    return Element(
+        name=kind,
+        attributes=(("name", end.name), ("role", end.role or f"{kind}{number}")),
+        children=tuple(_leaf(name, value) for name, value in values if value),
+    )
+
+
+def _old_end(kind: str, end: End, transmission: Transmission, *, role: bool) -> Element:
+    values = [(_INTERFACE, interface) for interface in end.interfaces]
+    values += [("role", end.role)] if role and end.role else []
+    values += [(name, value) for name, value in (("offset", end.offset), (_REDUCTION, end.reduction)) if value]
+    prefix = f"{end.name}."
+    parameters = [
+        (name.removeprefix(prefix), value) for name, value in transmission.parameters if name.startswith(prefix)
+    ]
+    children = tuple(_leaf(name, value) for name, value in (*values, *parameters))
+    return Element(name=kind, attributes=(("name", end.name),), children=children)
+
+
+def _own(transmission: Transmission) -> Iterator[tuple[str, str]]:
+    """The parameters that do not belong to an end."""
+    prefixes = tuple(f"{end.name}." for end in (*transmission.joints, *transmission.actuators))
+    return ((name, value) for name, value in transmission.parameters if not name.startswith(prefixes))
+
+
+def _leaf(name: str, text: str) -> Element:
+    return Element(name=name, text=text or None)
+
+
+def _param(name: str, value: str) -> Element:
+    return Element(name="param", attributes=(("name", name),), text=value or None)

@@ -1,0 +1,114 @@
+"""What has to hold for models and passes, as functions that raise AssertionError with the reason.
+
+A model is a document, a path, or the text or bytes of a file.
+"""
+
+from pathlib import Path
+from typing import Literal
+
+from twinform.compiler import CompileError, convert, read
+from twinform.compiler.compare import diff
+from twinform.compiler.emitting import emit
+from twinform.compiler.loading import Reading
+from twinform.diagnostics import Diagnostic, Notes
+from twinform.diagnostics.reporters import REPORTERS, Findings
+from twinform.ir import Document
+from twinform.ir.verify import verify
+from twinform.passes import Pass
+from twinform.passes.legalise.carrier import NAMESPACE
+
+Model = Document | Path | str | bytes
+Language = Literal["urdf", "sdf", "json"]
+
+
+def assert_valid(model: Model, *, strict: bool = False) -> Document:
+    """The document of a model that has no error."""
+    text, name = _text(model)
+    checked = read(text, Reading(strict=strict), name=name)
+    errors = [each for each in checked.diagnostics if each.is_error]
+    assert not errors, _report(name, errors)
+    assert checked.document is not None
+    return checked.document
+
+
+def assert_round_trip(model: Model, *, via: Language | None = None, sdf_version: str | None = None) -> None:
+    """There and back is the same document: written and read, or through the other format and home.
+
+    `sdf_version` is the version of SDF to go through. The declaration of our own prefix may stay behind.
+    """
+    document = assert_valid(model)
+    text, _ = _text(model if not isinstance(model, Path) or model.suffix == ".xacro" else document)
+    if via is None or via == document.format:
+        again = assert_valid(_emitted(document))
+    elif via == "json":
+        again = assert_valid(_converted(text, "json"))
+    else:
+        there = _converted(text, via, sdf_version if via == "sdf" else None)
+        assert_valid(there)
+        again = assert_valid(_converted(there.encode(), document.format.value))
+    assert _bare(again) == _bare(document), (
+        f"the document is another one {'once read again' if via is None else f'after {via}'}"
+    )
+
+
+def assert_same_robot(one: Model, other: Model) -> None:
+    """Two models describe the same robot, of whatever formats."""
+    found = diff(_text(one)[0], _text(other)[0]).differences
+    assert not found, "they are not the same robot:\n" + "\n".join(each.message for each in found[:20])
+
+
+def assert_pass_contract(step: Pass, model: Model, *, idempotent: bool = False) -> Document:
+    """A pass makes valid of valid, the same each time, and leaves its input alone; gives what it makes.
+
+    What it reports as an error is its verdict on the model, and no fault of it: then its document is not looked at.
+    With `idempotent`, running it again changes nothing more.
+    """
+    document = assert_valid(model)
+    before = document.model_dump_json()
+    notes, again = Notes(), Notes()
+    made = step.run(document, notes)
+    assert step.run(document, again) == made, f"{step.name} makes something else of the same document"
+    assert again.diagnostics == notes.diagnostics, f"{step.name} reports something else of the same document"
+    assert again.entries == notes.entries, f"{step.name} accounts for something else of the same document"
+    assert document.model_dump_json() == before, f"{step.name} changes the document that it is given"
+    if notes.has_errors:
+        return made
+    found = Notes()
+    verify(made, found)
+    errors = [each for each in found.diagnostics if each.is_error]
+    assert not errors, f"{step.name} makes a document that is not valid:\n{_report('', errors)}"
+    assert_valid(_emitted(made))
+    if idempotent:
+        assert step.run(made, Notes()) == made, f"{step.name} changes what it has made"
+    return made
+
+
+def _bare(document: Document) -> Document:
+    kept = tuple(pair for pair in document.namespaces if pair[1] != NAMESPACE)
+    return document.model_copy(update={"namespaces": kept})
+
+
+def _text(model: Model) -> tuple[bytes | Path, str]:
+    if isinstance(model, Document):
+        return _emitted(model), "<document>"
+    if isinstance(model, Path):
+        return model, str(model)
+    return (model.encode() if isinstance(model, str) else model), "<text>"
+
+
+def _emitted(document: Document) -> bytes:
+    notes = Notes()
+    text = emit(document, notes)
+    assert not notes.has_errors, "it cannot be written:\n" + _report("", notes.diagnostics)
+    return text.encode()
+
+
+def _converted(text: bytes | Path, to: Language, sdf_version: str | None = None) -> str:
+    try:
+        return convert(text, to=to, sdf_version=sdf_version).text
+    except CompileError as error:
+        raise AssertionError(f"it cannot become {to}:\n{_report('', error.diagnostics)}") from error
+
+
+def _report(name: str, diagnostics: list[Diagnostic] | tuple[Diagnostic, ...]) -> str:
+    return REPORTERS["text"]([Findings(name, tuple(diagnostics))])

@@ -1,0 +1,115 @@
+"""Whole files: robots of URDF, models and worlds of SDF."""
+
+from typing import Any
+
+from hypothesis import strategies as st
+
+from twinform.ir import Axis, Document, Format, Frame, Joint, Link, Model, Pose, World
+from twinform.testing.strategies._bodies import SDF_SHAPES, URDF_SHAPES, bodies
+from twinform.testing.strategies._joints import NOT_MOVING, URDF_TYPES, axes, movements
+from twinform.testing.strategies._values import maybe, poses
+
+_MOST = 1000
+_NEWEST_WORDS = "1.8"
+"""The oldest version of SDF that says frames as these models do."""
+
+
+def robots(
+    *,
+    min_links: int = 1,
+    max_links: int = 8,
+    joint_types: tuple[str, ...] = URDF_TYPES,
+    shapes: tuple[type[Any], ...] = URDF_SHAPES,
+) -> st.SearchStrategy[Document]:
+    """URDF documents: a tree of links with joints of every type but planar, as the front end reads them."""
+    _require(min_links, max_links)
+    segment = st.tuples(
+        bodies(Format.URDF, shapes), st.sampled_from(joint_types), maybe(poses()), axes(), st.integers(0, _MOST)
+    )
+    return st.lists(segment, min_size=min_links, max_size=max_links).map(_robot)
+
+
+def _require(least: int, most: int) -> None:
+    if not 1 <= least <= most <= _MOST:
+        raise ValueError(f"from {least} to {most} links: a model has at least one, and at most {_MOST}")
+
+
+def _robot(segments: list[tuple[dict[str, Any], Any, Pose | None, Axis, int]]) -> Document:
+    links: list[Link] = []
+    joints: list[Joint] = []
+    for number, (body, kind, pose, axis, pick) in enumerate(segments):
+        placed = Pose(relative_to=f"joint_{number}") if number else None
+        links.append(Link(name=f"link_{number}", pose=placed, **body))
+        if number:
+            parent = f"link_{pick % number}"
+            origin = (pose or Pose()).model_copy(update={"relative_to": parent})
+            joints.append(
+                Joint(
+                    name=f"joint_{number}",
+                    type=kind,
+                    parent=parent,
+                    child=f"link_{number}",
+                    pose=origin,
+                    axis=None if kind in NOT_MOVING else axis,
+                )
+            )
+    model = Model(name="robot", links=tuple(links), joints=tuple(joints))
+    return Document(format=Format.URDF, models=(model,))
+
+
+def sdf_models(
+    *,
+    version: str = "1.11",
+    min_links: int = 1,
+    max_links: int = 8,
+    joint_types: tuple[Any, ...] | None = None,
+    shapes: tuple[type[Any], ...] = SDF_SHAPES,
+) -> st.SearchStrategy[Document]:
+    """SDF documents of 1.8 or newer: a model whose links, joints and frames are posed in one another."""
+    models = _models(version, min_links, max_links, joint_types, shapes)
+    return models.map(lambda model: Document(format=Format.SDF, version=version, models=(model,)))
+
+
+def worlds(*, version: str = "1.11", max_models: int = 3, max_links: int = 4) -> st.SearchStrategy[Document]:
+    """SDF documents of 1.8 or newer with a world, whose models are posed in it and in one another."""
+    placed = st.tuples(
+        _models(version, 1, max_links, None, SDF_SHAPES), maybe(poses(whole=True)), st.integers(0, _MOST)
+    )
+
+    def world(parts: list[tuple[Model, Pose | None, int]]) -> Document:
+        models: list[Model] = []
+        for number, (model, pose, pick) in enumerate(parts):
+            base = f"model_{pick % number}" if number and pick % 2 else None
+            where = pose.model_copy(update={"relative_to": base}) if pose else None
+            models.append(model.model_copy(update={"name": f"model_{number}", "pose": where}))
+        return Document(format=Format.SDF, version=version, worlds=(World(name="arena", models=tuple(models)),))
+
+    return st.lists(placed, max_size=max_models).map(world)
+
+
+def _models(
+    version: str, least: int, most: int, types: tuple[Any, ...] | None, shapes: tuple[type[Any], ...]
+) -> st.SearchStrategy[Model]:
+    _require(least, most)
+    if tuple(map(int, version.split("."))) < tuple(map(int, _NEWEST_WORDS.split("."))):
+        raise ValueError(f"SDF {version} says frames in other words; these models need {_NEWEST_WORDS} or newer")
+    pose = poses(whole=True)
+    movement = movements(types=types, with_none=True)
+    segment = st.tuples(bodies(Format.SDF, shapes), movement, pose, pose, st.integers(0, _MOST), st.booleans())
+    return st.lists(segment, min_size=least, max_size=most).map(_sdf_model)
+
+
+def _sdf_model(segments: list[Any]) -> Model:
+    links: list[Link] = []
+    joints: list[Joint] = []
+    frames: list[Frame] = []
+    for number, (body, movement, pose, frame_pose, pick, framed) in enumerate(segments):
+        parent = f"link_{pick % number}" if number else None
+        placed = pose.model_copy(update={"relative_to": parent})
+        links.append(Link(name=f"link_{number}", pose=placed, **body))
+        if framed:
+            frames.append(Frame(name=f"frame_{number}", attached_to=f"link_{number}", pose=frame_pose))
+        if number and movement:
+            child = f"link_{number}"
+            joints.append(Joint(name=f"joint_{number}", parent=parent, child=child, pose=frame_pose, **movement))
+    return Model(name="model", links=tuple(links), joints=tuple(joints), frames=tuple(frames))
