@@ -4,12 +4,12 @@ from pathlib import Path
 from typing import ClassVar
 
 import pytest
-from twinform.passes.limits.fill_limits import FillLimits
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules.limits import FILLED_LIMIT
 from twinform.ir import Document, map_children
 from twinform.passes import Pass
+from twinform.passes.limits.fill_limits import FillLimits
 from twinform.testing import assert_pass_contract, assert_round_trip, assert_same_robot, assert_valid
 
 ROVER = Path(__file__).parents[3] / "examples/rover.urdf"
