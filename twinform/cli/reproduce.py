@@ -7,9 +7,11 @@ import click
 
 from twinform import __version__
 from twinform.cli.failure import FINDINGS, Unusable
+from twinform.compiler import Reading
+from twinform.compiler.other_documents import OtherDocuments
 from twinform.compiler.reproducing import read_reproducer
 from twinform.compiler.uris import LocalAssets, SearchPath
-from twinform.passes import Assets, PassError, PipelineError, RegistryError
+from twinform.passes import PassError, PipelineError, RegistryError
 from twinform.passes.hooks.reproducer import Reproducer
 
 
@@ -34,7 +36,7 @@ def command(ctx: click.Context, file: Path, paths: tuple[Path, ...]) -> None:
     click.echo(f"{found.pipeline} on a document of {found.source}; failed under twinform {found.twinform}", err=True)
     if found.twinform != __version__:
         click.echo(f"this is twinform {__version__}", err=True)
-    error = _run(found, file, LocalAssets(SearchPath.of(paths), Path(found.source)))
+    error = _run(found, file, SearchPath.of(paths))
     if error is None:
         other = "" if found.again else ", as it did when this file was written: it needs the source, lines and all"
         click.echo(f"it does not fail{other}", err=True)
@@ -53,8 +55,9 @@ def _read(file: Path) -> Reproducer:
         raise Unusable(f"{file} is no reproducer: {str(error).splitlines()[0]}") from error
 
 
-def _run(found: Reproducer, file: Path, assets: Assets) -> PassError | None:
+def _run(found: Reproducer, file: Path, search: SearchPath) -> PassError | None:
+    assets = LocalAssets(search, Path(found.source))
     try:
-        return found.run(assets)
+        return found.run(assets, OtherDocuments(Reading(search=search), found.source).read)
     except (PipelineError, RegistryError) as error:
         raise Unusable(f"{file}: {error}") from error

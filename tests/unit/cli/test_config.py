@@ -104,6 +104,13 @@ def test_a_key_in_pyproject_has_its_whole_name(run: Run, here: Path) -> None:
     assert "pyproject.toml: tool.twinform: " in run(*FILL).stderr
 
 
+def test_a_pyproject_that_is_named_has_to_have_our_table(run: Run, here: Path) -> None:
+    Path("pyproject.toml").write_text("[project]\nname = 'a'")
+    assert run("check", "good.urdf").exit_code == 0
+    done = run("check", "good.urdf", "--config", "pyproject.toml")
+    assert (done.exit_code, "pyproject.toml: tool.twinform: there is no such table" in done.stderr) == (2, True)
+
+
 def test_settings_are_the_defaults_of_options(run: Run, here: Path) -> None:
     Path("twinform.toml").write_text(
         "sdf-version = '1.9'\ncarriers = false\nstrict = true\npasses = 'fill-limits{effort=4}'"

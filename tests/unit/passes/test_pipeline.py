@@ -3,7 +3,7 @@ from enum import StrEnum
 from typing import ClassVar, Literal
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import Field
 
@@ -96,16 +96,19 @@ PIPELINES = st.lists(SAMPLES | st.builds(Needy, must=st.integers()), max_size=4)
 )
 
 
+@settings(deadline=None)  # how busy the machine is says nothing
 @given(PIPELINES)
 def test_parsing_a_printed_pipeline_gives_the_pipeline(pipeline: Pipeline) -> None:
     assert parse_pipeline(str(pipeline)) == pipeline
 
 
+@settings(deadline=None)  # how busy the machine is says nothing
 @given(PIPELINES)
 def test_printing_is_canonical(pipeline: Pipeline) -> None:
     assert str(parse_pipeline(str(pipeline))) == str(pipeline)
 
 
+@settings(deadline=None)  # how busy the machine is says nothing
 @given(st.text(alphabet='@ab-1{}[],= "\\\t\n.e_', max_size=20))
 def test_any_text_is_a_pipeline_or_a_readable_error(text: str) -> None:
     try:

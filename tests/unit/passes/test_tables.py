@@ -1,7 +1,7 @@
 import tomllib
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 
 from twinform.passes import Pipeline, UnknownPipelineError, parse_pipeline
 from twinform.passes.tables import TableError, parse_tables, print_tables, tables
@@ -16,6 +16,7 @@ def _installed(install: Install) -> None:
     install("stranger", {"sample": f"{samples}:Sample", "needs-2-options": f"{samples}:Needy"})
 
 
+@settings(deadline=None)  # how busy the machine is says nothing
 @given(PIPELINES)
 def test_text_and_table_are_the_same_pipeline(pipeline: Pipeline) -> None:
     text = print_tables(parse_pipeline(str(pipeline)), "a-1_B")

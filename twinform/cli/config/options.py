@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 
 import click
 
+from twinform.cli.config.errors import ConfigError
 from twinform.cli.config.files import Table, find, section
 from twinform.cli.config.pipelines import NamedPipelines
 from twinform.cli.config.settings import Settings, parse_settings
@@ -48,6 +49,13 @@ def settings_of(ctx: click.Context) -> Project:
     return found if isinstance(found, Project) else Project(Settings())
 
 
+def _section(path: Path) -> Table:
+    found = section(path)
+    if found is None:
+        raise ConfigError(path, "there is no such table")
+    return found
+
+
 def _nearest() -> tuple[Path, Table] | None:
     try:
         return find(Path.cwd())
@@ -66,7 +74,7 @@ def _load(ctx: click.Context, _option: click.Parameter, value: Path | None) -> N
         if value is not None:
             raise click.UsageError("--config and --no-config contradict each other")
         return
-    found = (value, section(value) or {}) if value is not None else _nearest()
+    found = (value, _section(value)) if value is not None else _nearest()
     if found is None:
         return
     path, table = found

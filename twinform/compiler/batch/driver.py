@@ -17,6 +17,7 @@ from twinform.compiler.orders import Order
 from twinform.compiler.workers import Failure, run
 from twinform.diagnostics import Policy
 from twinform.passes import AssetPass, registered_passes
+from twinform.passes.other_documents import DocumentPass
 
 LEDGER = ".ledger.json"
 """What the name of a result has more where it is that of its ledger."""
@@ -53,7 +54,7 @@ class Batch:
     @property
     def opens_files(self) -> bool:
         """Whether a pass may read more than the model."""
-        return any(isinstance(step, AssetPass) for step in self.order.passes)
+        return any(isinstance(step, AssetPass | DocumentPass) for step in self.order.passes)
 
     def _packages(self) -> Iterator[str]:
         """The packages that bring the passes, in their versions."""

@@ -16,6 +16,7 @@ from twinform.ir.verify import verify
 from twinform.passes.assets import NO_ASSETS, Assets
 from twinform.passes.errors import BrokenPassError, PassError
 from twinform.passes.legalise.known import legalisation_kinds
+from twinform.passes.other_documents import DocumentReader
 from twinform.passes.pipeline import Pipeline
 from twinform.passes.text import parse_pipeline
 
@@ -58,15 +59,15 @@ class Reproducer(BaseModel):
         )
         return found.model_copy(update={"again": found._run(Pipeline((error.step,))) is not None})
 
-    def run(self, assets: Assets = NO_ASSETS) -> PassError | None:
+    def run(self, assets: Assets = NO_ASSETS, reader: DocumentReader | None = None) -> PassError | None:
         """Run the pass again: what it does wrong, or None where it does nothing wrong any more.
 
-        `assets` are the files that the document names, for passes that open them.
+        `assets` are the files that the document names, for passes that open them; `reader` reads other models.
 
         Raises:
             PipelineError: the pass is not installed, or has other options now.
         """
-        return self._run(parse_pipeline(self.pipeline, kinds=legalisation_kinds()).with_files(assets))
+        return self._run(parse_pipeline(self.pipeline, kinds=legalisation_kinds()).with_files(assets, reader))
 
     def _run(self, pipeline: Pipeline) -> PassError | None:
         try:
