@@ -1,6 +1,5 @@
 """Give bodies that move and weigh nothing a mass."""
 
-from fnmatch import fnmatchcase
 from typing import ClassVar, Literal
 
 from pydantic import Field
@@ -16,6 +15,7 @@ from twinform.passes.inertia.possible import has_mass
 from twinform.passes.map_joints import map_joints
 from twinform.passes.map_links import map_links
 from twinform.passes.moving_bodies import Body, Neighbours, moving_bodies, neighbours
+from twinform.passes.patterns import matches
 
 _NOTHING = Solid(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
 
@@ -71,7 +71,7 @@ class SplitMassless(Pass):
         return map_links(document, lambda link, _: masses.applied(link))
 
     def _is_meant(self, body: Body) -> bool:
-        return any(fnmatchcase(link.name, each) for link in body for each in self.links)
+        return any(matches(link.name, self.links) for link in body)
 
     def _split(self, donor: Link, taker: Link, masses: Masses, notes: Notes) -> bool:
         """Let one link take a share of another; false where it is not known where they are."""

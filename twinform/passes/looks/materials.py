@@ -1,7 +1,6 @@
 """Say how visuals look in the words of newer Gazebo."""
 
 import math
-from fnmatch import fnmatchcase
 from typing import ClassVar
 
 from pydantic import Field
@@ -13,6 +12,7 @@ from twinform.ir.node import Node
 from twinform.passes.base import Pass
 from twinform.passes.legalise.carrier import to_element
 from twinform.passes.looks.classic_materials import ClassicMaterial, classic_materials
+from twinform.passes.patterns import matches
 from twinform.schemas import format_value, parse_version, table
 
 _PBR = "pbr/metal"
@@ -44,7 +44,9 @@ class Materials(Pass):
     pbr: bool = Field(default=False, description="Whether colours become those of PBR.")
     metalness: float = Field(default=0.0, ge=0, le=1, description="From 0, paint, to 1, bare metal.")
     roughness: float | None = Field(default=None, ge=0, le=1, description="From 0, a mirror, to 1.")
-    links: str = Field(default="*", description="Only links with such a name; `*`, `?` and `[...]` are wildcards.")
+    links: tuple[str, ...] = Field(
+        default=("*",), description="Only links with such a name; `*`, `?` and `[...]` are wildcards."
+    )
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The document with other materials."""
@@ -63,7 +65,7 @@ class Materials(Pass):
         return map_children(document, visit)
 
     def _is_meant(self, link: str | None) -> bool:
-        return link is not None and fnmatchcase(link, self.links)
+        return link is not None and matches(link, self.links)
 
     def _visual(self, node: Node, notes: Notes) -> Node:
         if not isinstance(node, Visual) or node.material is None:

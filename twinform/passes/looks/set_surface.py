@@ -1,6 +1,5 @@
 """Set how collisions touch."""
 
-from fnmatch import fnmatchcase
 from typing import ClassVar, Self
 
 from pydantic import Field, model_validator
@@ -11,6 +10,7 @@ from twinform.ir import Collision, Document, Format, Link, Model, Surface, map_c
 from twinform.ir.node import Node
 from twinform.passes.base import Pass
 from twinform.passes.gazebo_tags import with_element, with_tags
+from twinform.passes.patterns import matches
 from twinform.schemas import format_value
 
 _TAGS = {"mu": "mu1", "mu2": "mu2", "kp": "kp", "kd": "kd", "max_vel": "maxVel", "min_depth": "minDepth"}
@@ -40,8 +40,10 @@ class SetSurface(Pass):
     name = "set-surface"
     example: ClassVar[str] = 'set-surface{links="*wheel*" mu=0.9 mu2=0.5}'
 
-    links: str = Field(default="*", description="Only links with such a name; `*`, `?` and `[...]` are wildcards.")
-    collisions: str = Field(default="*", description="Only collisions with such a name.")
+    links: tuple[str, ...] = Field(
+        default=("*",), description="Only links with such a name; `*`, `?` and `[...]` are wildcards."
+    )
+    collisions: tuple[str, ...] = Field(default=("*",), description="Only collisions with such a name.")
     mu: float | None = Field(default=None, ge=0, description="Coulomb friction along the first direction.")
     mu2: float | None = Field(default=None, ge=0, description="Likewise along the second; not set, it stays as it is.")
     restitution: float | None = Field(default=None, ge=0, le=1, description="From 0, no bounce, to 1.")
@@ -77,14 +79,15 @@ class SetSurface(Pass):
 
         made = map_children(document, visit)
         if not matched:
-            message = f"no collision {self.collisions!r} on a link {self.links!r}"
-            notes.report(NOTHING_MATCHED, message, document.location, found=self.collisions)
+            collisions, links = ", ".join(self.collisions), ", ".join(self.links)
+            message = f"no collision {collisions!r} on a link {links!r}"
+            notes.report(NOTHING_MATCHED, message, document.location, found=collisions)
         return made
 
     def _matching(self, link: Link) -> list[Collision]:
-        if not fnmatchcase(link.name, self.links):
+        if not matches(link.name, self.links):
             return []
-        return [one for one in link.collisions if fnmatchcase(one.name or "", self.collisions)]
+        return [one for one in link.collisions if matches(one.name, self.collisions)]
 
     def _in_sdf(self, link: Link, matched: list[Collision]) -> Link:
         meant = self._matching(link)
