@@ -103,7 +103,7 @@ class SetSurface(Pass):
         return collision.model_copy(update={"surface": surface})
 
     def _in_urdf(self, model: Model, matched: list[Collision], notes: Notes) -> Model:
-        before = model
+        links: list[str] = []
         for link in model.links:
             meant = self._matching(link)
             matched += meant
@@ -112,14 +112,15 @@ class SetSurface(Pass):
                 message = f"URDF has one surface for all collisions of link {link.name!r}, not one for {names}"
                 notes.report(UNSET_SURFACE, message, meant[0].location, found=meant[0].name)
             elif meant:
-                model = self._tagged(model, link.name)
-        return before if model == before else model
+                links.append(link.name)
+        made = self._tagged(model, links)
+        return model if made == model else made
 
-    def _tagged(self, model: Model, link: str) -> Model:
+    def _tagged(self, model: Model, links: list[str]) -> Model:
         values = {name: format_value(value) for name, value in self._values().items()}
         tags = {tag: values[name] for name, tag in _TAGS.items() if name in values}
-        model = with_tags(model, link, tags) if tags else model
+        model = with_tags(model, links, tags)
         for name, path in _PATHS.items():
             if name in values:
-                model = with_element(model, link, path, values[name])
+                model = with_element(model, links, path, values[name])
         return model
