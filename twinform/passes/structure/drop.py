@@ -15,6 +15,7 @@ from twinform.ir import (
     Link,
     Model,
     Node,
+    Opaque,
     Plugin,
     Sensor,
     Visual,
@@ -22,6 +23,7 @@ from twinform.ir import (
     node_fields,
 )
 from twinform.passes.base import Pass
+from twinform.passes.legalise.carrier import is_ours
 from twinform.passes.patterns import matches
 from twinform.passes.structure.dangling import Gone, report_dangling
 
@@ -107,7 +109,17 @@ class Drop(Pass):
             kept = tuple(child for child in value if not self._goes(child, gone))
             if len(kept) < len(value):
                 update[name] = kept
+        if meant and node.opaque:
+            opaque = tuple(self._in_opaque(part, gone) for part in node.opaque)
+            update |= {"opaque": opaque} if opaque != node.opaque else {}
         return node.model_copy(update=update) if update else node
+
+    def _in_opaque(self, part: Opaque, gone: Gone) -> Opaque:
+        """A part that the IR keeps as it is, such as `<gui>`, without what is to go in it."""
+        if part.element is None or is_ours(part):
+            return part
+        inside = self._inside(part.element, gone)
+        return part if inside is part.element else part.model_copy(update={"element": inside})
 
     def _goes(self, node: Node, gone: Gone) -> bool:
         option = _KINDS.get(type(node))
