@@ -26,8 +26,7 @@ class SplitMassless(Pass):
     A body is what fixed joints hold together. It changes, for bodies of which no link has a positive mass:
 
     1. a body that carries others by joints: it takes the part `share` of the nearest one with a mass, as if that had
-    been
-       split: with the joints at zero, mass, centre of mass and inertia of the whole robot stay what they were;
+       been split: with the joints at zero, mass, centre of mass and inertia of the whole robot stay what they were;
     2. a body that carries nothing of any mass: with `ends=weigh` it gets a ball of `mass` and `radius` at the origin of
        its link, with `ends=fix` the joint that moves it becomes a fixed one, unless others mimic it.
 

@@ -28,13 +28,12 @@ class Materials(Pass):
        for those that the visual says itself;
     2. with `scripts`, in URDF, the tag `<material>Gazebo/Red</material>` of a `<gazebo>` element, which becomes a
        `<visual>` with the colours; the materials of URDF itself stay, ROS shows them;
-    3. with `pbr`, materials that have a colour and no `<pbr>`: they get its `metalness` and `roughness`, which is
-    computed
-       from the script's highlight where neither is given: sqrt(2 / (shininess + 2)).
+    3. with `pbr`, materials that have a colour and no `<pbr>`: they get its `metalness` and `roughness`; where that is
+       not given, it comes from the script's highlight: sqrt(2 / (shininess + 2)).
 
-    It never touches materials of URDF, textures, and scripts of others. It reports `unknown-script` for scripts whose
-    colours are not known, which stay, and `textured-script` for those that have an image as well, which newer Gazebo
-    does not bring.
+    It never touches materials of URDF, textures, and scripts of others.
+    It reports `unknown-script` for scripts whose colours are not known, which stay, and `textured-script` for those
+    that have an image as well, which newer Gazebo does not bring, and `pbr-too-old` for SDF before 1.6.
     """
 
     name = "materials"

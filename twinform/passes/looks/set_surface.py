@@ -29,8 +29,7 @@ class SetSurface(Pass):
 
     1. in SDF, the `<surface>` of each;
     2. in URDF, the `<gazebo reference="LINK">` tags `mu1`, `mu2`, `kp`, `kd`, `maxVel` and `minDepth`, and for what has
-    no
-       tag, restitution and slip, the `<collision>` in such an element. These are about all collisions of a link.
+       no tag, restitution and slip, the `<collision>` in such an element. These are about all collisions of a link.
 
     Only what an option is given for is set; all else that is written of a surface stays.
     It never touches links without collisions, and models that an `<include>` names.

@@ -51,10 +51,11 @@ class Drop(Pass):
     2. `plugins` whose name or file name matches, wherever they are;
     3. in URDF, such elements in `<gazebo>` too, and a `<gazebo>` element that has nothing left goes with them.
 
-    With `links`, only what is on links with such a name, or about them, goes. It never touches links, joints, inertias,
-    and models that an `<include>` names. It reports `dropped-reference` for plugins that name what is gone,
-    `nothing-matched` for a pattern that matches nothing, and what `check` would find in the result and did not in the
-    source, such as a contact sensor without its collision.
+    With `links`, only what is on links with such a name, or about them, goes.
+    It never touches links, joints, inertias, models that an `<include>` names, and what travels in carriers.
+    It reports `dropped-reference` for plugins that name what is gone, `nothing-matched` for a pattern that matches
+    nothing, and what `check` would find in the result and did not in the source, such as a contact sensor without its
+    collision.
     """
 
     name = "drop"
