@@ -45,7 +45,7 @@ class FillInertia(AssetPass):
     the `<density>` of each SDF collision, or water.
 
     It never touches links without shapes, links of static models, and inertias that the simulator computes (`auto`,
-    unless `replace=all`). A link of which one shape cannot be used stays as it is. Where shapes overlap, they count twice.
+    unless `replace=all`). A link of which one shape cannot be used stays as it is. Shapes that overlap count twice.
     It reports `filled-inertia` for each link that it fills, and `unfilled-inertia` at a shape that it cannot use and at
     a body that moves and is left without a mass.
     """
