@@ -1,36 +1,61 @@
-"""The tags of `<gazebo>` elements that are about one link of URDF, changed without touching the others."""
+"""The tags of `<gazebo>` elements that are about links of URDF, changed without touching the others."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 
 from twinform.ir import Element, GazeboExtension, Model
 
+Content = tuple[Element, ...]
 
-def with_tags(model: Model, link: str, tags: Mapping[str, str]) -> Model:
-    """The model with flat tags for a link; those that are there say the new value, others join the first extension."""
-    missing = dict(tags)
+
+def with_tags(model: Model, links: Iterable[str], tags: Mapping[str, str]) -> Model:
+    """The model with flat tags for some links; those that are there say the new value, wherever they stand."""
+
+    def change(content: Content) -> Content:
+        return tuple(_changed(element, tags) for element in content)
+
+    def missing(content: Content) -> Content:
+        names = {element.name for element in content}
+        return tuple(Element(name=name, text=text) for name, text in tags.items() if name not in names)
+
+    return _with_content(model, links, change, missing)
+
+
+def with_element(model: Model, links: Iterable[str], path: tuple[str, ...], text: str) -> Model:
+    """The model with a value in an element of SDF for some links, such as `collision/surface/bounce/threshold`."""
+
+    def change(content: Content) -> Content:
+        return tuple(_deep(each, path[1:], text) if each.name == path[0] else each for each in content)
+
+    def missing(content: Content) -> Content:
+        is_there = any(element.name == path[0] for element in content)
+        return () if is_there else (_deep(Element(name=path[0]), path[1:], text),)
+
+    return _with_content(model, links, change, missing)
+
+
+def _with_content(
+    model: Model, links: Iterable[str], change: Callable[[Content], Content], missing: Callable[[Content], Content]
+) -> Model:
+    """The model with other content for some links: what is missing in all of a link's extensions joins the first."""
+    wanted: dict[str, Content] = dict.fromkeys(links, ())
+    first: dict[str, int] = {}
     extensions: list[GazeboExtension] = []
-    for extension in model.extensions:
-        if extension.reference == link:
-            content = tuple(_changed(element, tags) for element in extension.content)
-            for element in content:
-                missing.pop(element.name, None)
-            extension = extension.model_copy(update={"content": content})  # noqa: PLW2901 - the same one, changed
-        extensions.append(extension)
-    more = tuple(Element(name=name, text=text) for name, text in missing.items())
-    return model.model_copy(update={"extensions": _joined(extensions, link, more)})
-
-
-def with_element(model: Model, link: str, path: tuple[str, ...], text: str) -> Model:
-    """The model with a value in an element of SDF for a link, such as `collision/surface/bounce/threshold`."""
-    extensions: list[GazeboExtension] = []
-    done = False
-    for extension in model.extensions:
-        if extension.reference == link and any(element.name == path[0] for element in extension.content):
-            content = tuple(_deep(each, path[1:], text) if each.name == path[0] else each for each in extension.content)
-            extension, done = extension.model_copy(update={"content": content}), True  # noqa: PLW2901 - likewise
-        extensions.append(extension)
-    more = () if done else (_deep(Element(name=path[0]), path[1:], text),)
-    return model.model_copy(update={"extensions": _joined(extensions, link, more)})
+    for index, extension in enumerate(model.extensions):
+        name = extension.reference or ""
+        if name not in wanted:
+            extensions.append(extension)
+            continue
+        first.setdefault(name, index)
+        wanted[name] += extension.content
+        extensions.append(extension.model_copy(update={"content": change(extension.content)}))
+    for name, content in wanted.items():
+        more = missing(content)
+        if more and name in first:
+            old = extensions[first[name]]
+            extensions[first[name]] = old.model_copy(update={"content": (*old.content, *more)})
+        elif more:
+            extensions.append(GazeboExtension(reference=name, content=more))
+    return model.model_copy(update={"extensions": tuple(extensions)})
 
 
 def _changed(element: Element, tags: Mapping[str, str]) -> Element:
@@ -49,14 +74,3 @@ def _deep(element: Element, path: tuple[str, ...], text: str) -> Element:
         return element.model_copy(update={"children": (*element.children, _deep(Element(name=name), rest, text))})
     children = tuple(_deep(each, rest, text) if each.name == name else each for each in element.children)
     return element.model_copy(update={"children": children})
-
-
-def _joined(extensions: list[GazeboExtension], link: str, more: tuple[Element, ...]) -> tuple[GazeboExtension, ...]:
-    """The extensions, with more content in the first one for the link."""
-    if not more:
-        return tuple(extensions)
-    for index, extension in enumerate(extensions):
-        if extension.reference == link:
-            extensions[index] = extension.model_copy(update={"content": (*extension.content, *more)})
-            return tuple(extensions)
-    return (*extensions, GazeboExtension(reference=link, content=more))

@@ -29,13 +29,14 @@ def moving_bodies(document: Document) -> list[Body]:
 
 def neighbours(document: Document) -> Iterator[Neighbours]:
     """The joints that move a body, in document order; the parent is empty where the world holds it."""
-    bodies, ground, groups = _grouped(document)
+    grouped, ground, groups = _grouped(document)
+    bodies: dict[str, Body] = {root: tuple(body) for root, body in grouped.items()}
     for joint, scope in _joints(document):
         if joint.type == "fixed" or not joint.parent or not joint.child:
             continue
         parent, child = (groups.find(_key(scope, name)) for name in (joint.parent, joint.child))
         if child != ground and child in bodies and (parent == ground or parent in bodies):
-            yield Neighbours(joint, () if parent == ground else tuple(bodies[parent]), tuple(bodies[child]))
+            yield Neighbours(joint, () if parent == ground else bodies[parent], bodies[child])
 
 
 def _grouped(document: Document) -> "tuple[dict[str, list[Link]], str, _Groups]":

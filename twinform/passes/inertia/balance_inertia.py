@@ -1,7 +1,6 @@
 """Replace impossible inertias by the nearest that a body can have."""
 
 import math
-from fnmatch import fnmatchcase
 from typing import ClassVar
 
 from pydantic import Field
@@ -15,6 +14,7 @@ from twinform.passes.base import Pass
 from twinform.passes.inertia.nearest import distance, nearest_possible, second_moments
 from twinform.passes.inertia.possible import DEFAULT_MOMENT, has_mass
 from twinform.passes.map_links import map_links
+from twinform.passes.patterns import matches
 
 _NOTHING_MUCH = 1e-3
 """A change of so small a part of an inertia is that of digits which were cut off, and no news."""
@@ -35,9 +35,9 @@ class BalanceInertia(Pass):
     mass is left with some extent along every axis: `thickness`, or the part `margin` of the trace if that is more. It
     runs only where it is asked for: the numbers that come out are possible, not measured.
 
-    It never touches an inertia that is possible, masses, centres of mass, and inertias that the simulator computes. It
-    reports `balanced-inertia` with the change for each link, and `unbalanced-inertia` for links without a positive mass
-    and for numbers that are not finite.
+    It never touches an inertia that is possible, masses, centres of mass, and inertias that the simulator computes.
+    It reports `balanced-inertia` with the change for each link, and `unbalanced-inertia` for links without a positive
+    mass and for numbers that are not finite.
     """
 
     name = "balance-inertia"
@@ -65,7 +65,7 @@ class BalanceInertia(Pass):
 
         def balance(link: Link, _model: Model) -> Link:
             inertial = link.inertial
-            if inertial is None or inertial.auto or not any(fnmatchcase(link.name, each) for each in self.links):
+            if inertial is None or inertial.auto or not matches(link.name, self.links):
                 return link
             matrix = inertia_matrix(inertial.inertia, DEFAULT_MOMENT[document.format])
             if inertial.inertia is None and document.format is Format.URDF and has_mass(inertial):

@@ -1,13 +1,13 @@
 """Check that bodies which move have a mass and an inertia that a body can have."""
 
-from collections.abc import Iterator
+from collections.abc import Mapping
 from typing import ClassVar, Self
 
 from pydantic import Field, model_validator
 
 from twinform.diagnostics import Notes, Severity
 from twinform.diagnostics.rules.inertia import MASS_RATIO, MISSING_INERTIAL, NON_POSITIVE_MASS
-from twinform.ir import Document, Format, Inertial, Joint, Link
+from twinform.ir import Document, Format, Inertial, Link
 from twinform.ir.verify.inertia import inertia_matrix, report_moments
 from twinform.passes.assets import AssetPass
 from twinform.passes.inertia.plausible import Plausible
@@ -15,7 +15,7 @@ from twinform.passes.inertia.possible import DEFAULT_MOMENT, DIGITS, ROUNDING
 from twinform.passes.inertia.shapes import Places
 from twinform.passes.map_links import movable_models
 from twinform.passes.meshes import Meshes
-from twinform.passes.moving_bodies import Body, moving_bodies, neighbours
+from twinform.passes.moving_bodies import Body, Neighbours, moving_bodies, neighbours
 
 
 class CheckInertia(AssetPass):
@@ -77,8 +77,9 @@ class CheckInertia(AssetPass):
                 if link.inertial and not link.inertial.auto:
                     _check_inertial(link, link.inertial, document.format, self.eps, notes)
         self._check_shapes(document, {id(link) for body in bodies for link in body}, notes)
-        for joint, parent, child in neighbours(document):
-            _check_ratio(joint, parent, child, self.ratio, notes)
+        masses = {id(body[0]): _mass(body) for body in bodies}
+        for each in neighbours(document):
+            _check_ratio(each, masses, self.ratio, notes)
         return document
 
     def _check_shapes(self, document: Document, moving: set[int], notes: Notes) -> None:
@@ -114,14 +115,19 @@ def _check_inertial(link: Link, inertial: Inertial, format_: Format, eps: float,
         report_moments(link, inertial, matrix, eps, notes, least=ROUNDING)
 
 
-def _check_ratio(joint: Joint, parent: Body, child: Body, limit: float, notes: Notes) -> None:
-    light, heavy = sorted(sum(_masses(body)) for body in (parent, child))
+def _check_ratio(each: Neighbours, masses: Mapping[int, float], limit: float, notes: Notes) -> None:
+    """Compare two bodies by their masses, which are known by the identity of their first links."""
+    weights = [masses.get(id(body[0]), 0.0) if body else 0.0 for body in (each.parent, each.child)]
+    light, heavy = sorted(weights)
     if not light > 0 or not heavy / light > limit:
         return
-    ends = " and ".join(f"{body[0].name!r} with {sum(_masses(body)):.4g} kg" for body in (parent, child))
-    message = f"joint {joint.name!r} connects {ends}"
-    notes.report(MASS_RATIO, message, joint.location, found=f"{heavy / light:.4g}", expected=f"at most {limit:g}")
+    ends = zip((each.parent, each.child), weights, strict=True)
+    words = " and ".join(f"{body[0].name!r} with {mass:.4g} kg" for body, mass in ends)
+    message = f"joint {each.joint.name!r} connects {words}"
+    found, expected = f"{heavy / light:.4g}", f"at most {limit:g}"
+    notes.report(MASS_RATIO, message, each.joint.location, found=found, expected=expected)
 
 
-def _masses(body: Body) -> Iterator[float]:
-    return (link.inertial.mass for link in body if link.inertial and link.inertial.mass is not None)
+def _mass(body: Body) -> float:
+    """What a body weighs, in kg; zero where nothing is written."""
+    return sum(link.inertial.mass or 0.0 for link in body if link.inertial)

@@ -1,7 +1,6 @@
 """Compute masses and inertias from shapes."""
 
 import math
-from fnmatch import fnmatchcase
 from typing import ClassVar, Literal, NamedTuple, Self
 
 from pydantic import Field, model_validator
@@ -17,6 +16,7 @@ from twinform.passes.inertia.shapes import Kind, NoSolidError, PlacedShape, Plac
 from twinform.passes.map_links import map_links, movable_models
 from twinform.passes.meshes import Meshes
 from twinform.passes.moving_bodies import moving_bodies
+from twinform.passes.patterns import matches
 
 _AMOUNTS = ("density", "mass", "total_mass")
 
@@ -45,9 +45,9 @@ class FillInertia(AssetPass):
     the `<density>` of each SDF collision, or water.
 
     It never touches links without shapes, links of static models, and inertias that the simulator computes (`auto`,
-    unless `replace=all`). A link of which one shape cannot be used stays as it is. It reports `filled-inertia` for each
-    link that it fills, and `unfilled-inertia` at a shape that it cannot use and at a body that moves and is left
-    without a mass.
+    unless `replace=all`). A link of which one shape cannot be used stays as it is. Shapes that overlap count twice.
+    It reports `filled-inertia` for each link that it fills, and `unfilled-inertia` at a shape that it cannot use and at
+    a body that moves and is left without a mass.
     """
 
     name = "fill-inertia"
@@ -101,7 +101,7 @@ class FillInertia(AssetPass):
         for model in movable_models(document):
             places = Places(model)
             for link in model.links:
-                if not _matches(link, self.links) or not self._is_wanted(link.inertial, document.format):
+                if not matches(link.name, self.links) or not self._is_wanted(link.inertial, document.format):
                     continue
                 filling = self._filling(link, places, meshes, notes)
                 if filling:
@@ -141,10 +141,6 @@ class FillInertia(AssetPass):
         return _Filling(whole if self.mass is None else with_mass(whole, self.mass), keeps_mass=False, shapes=shapes)
 
 
-def _matches(link: Link, patterns: tuple[str, ...]) -> bool:
-    return any(fnmatchcase(link.name, pattern) for pattern in patterns)
-
-
 def _is_solid(link: Link, whole: Solid, shapes: tuple[PlacedShape, ...], notes: Notes) -> bool:
     """Whether the numbers are those of a body: sizes may be zero, or so large that their powers overflow."""
     numbers = (whole.mass, *whole.centre, *whole.inertia)
@@ -171,6 +167,6 @@ def _report_empty(document: Document, patterns: tuple[str, ...], notes: Notes) -
     for body in moving_bodies(document):
         if any(link.inertial for link in body) or any(link.collisions or link.visuals for link in body):
             continue
-        if _matches(body[0], patterns):
+        if matches(body[0].name, patterns):
             message = f"link {body[0].name!r} moves and has no shape to compute a mass from"
             notes.report(UNFILLED_INERTIA, message, body[0].location, help="split-massless gives it one")

@@ -37,8 +37,8 @@ class Masses:
         return self._changed.get(id(link), link.inertial)
 
     def can_give(self, link: Link) -> bool:
-        """Whether a link has a mass and an inertia that can be divided."""
-        inertial = self.of(link)
+        """Whether a link was written with a mass and an inertia that can be divided; what it was given is its own."""
+        inertial = link.inertial
         return inertial is not None and not inertial.auto and is_possible(inertial, self._format)
 
     def mass(self, link: Link) -> float:

@@ -91,7 +91,7 @@ def solid_of(one: PlacedShape, density: float | None, meshes: Meshes) -> Solid:
         raise NoSolidError(f"{one.name}: {error.message}", one.holder.location, error.help) from error
     if found is None:
         what = f"a {one.shape.kind}" if one.shape else "no shape"
-        raise NoSolidError(f"{one.name} is {what}, which has no inside", one.holder.location)
+        raise NoSolidError(f"{one.name} is {what}, of which no volume is known", one.holder.location)
     return placed(found, one.at)
 
 

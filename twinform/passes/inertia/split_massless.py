@@ -1,6 +1,5 @@
 """Give bodies that move and weigh nothing a mass."""
 
-from fnmatch import fnmatchcase
 from typing import ClassVar, Literal
 
 from pydantic import Field
@@ -16,6 +15,7 @@ from twinform.passes.inertia.possible import has_mass
 from twinform.passes.map_joints import map_joints
 from twinform.passes.map_links import map_links
 from twinform.passes.moving_bodies import Body, Neighbours, moving_bodies, neighbours
+from twinform.passes.patterns import matches
 
 _NOTHING = Solid(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
 
@@ -26,10 +26,9 @@ class SplitMassless(Pass):
     A body is what fixed joints hold together. It changes, for bodies of which no link has a positive mass:
 
     1. a body that carries others by joints: it takes the part `share` of the nearest one with a mass, as if that had
-    been
-       split: with the joints at zero, mass, centre of mass and inertia of the whole robot stay what they were;
+       been split: with the joints at zero, mass, centre of mass and inertia of the whole robot stay what they were;
     2. a body that carries nothing of any mass: with `ends=weigh` it gets a ball of `mass` and `radius` at the origin of
-       its link, with `ends=fix` the joint that moves it becomes a fixed one.
+       its link, with `ends=fix` the joint that moves it becomes a fixed one, unless others mimic it.
 
     Bodies without an `<inertial>` are those of URDF; in SDF they weigh 1 kg, and a mass of zero has to be written.
     It never touches bodies that weigh something, but for what they give, and what cannot move.
@@ -62,7 +61,7 @@ class SplitMassless(Pass):
             if donor is not None and self._split(donor, taker, masses, notes):
                 continue
             joints = tree.moving(body)
-            if self.ends == "fix" and joints:
+            if self.ends == "fix" and joints and not tree.leads(joints):
                 fixed.update(map(id, joints))
                 _report_fixed(taker, joints, notes)
             else:
@@ -71,7 +70,7 @@ class SplitMassless(Pass):
         return map_links(document, lambda link, _: masses.applied(link))
 
     def _is_meant(self, body: Body) -> bool:
-        return any(fnmatchcase(link.name, each) for link in body for each in self.links)
+        return any(matches(link.name, self.links) for link in body)
 
     def _split(self, donor: Link, taker: Link, masses: Masses, notes: Notes) -> bool:
         """Let one link take a share of another; false where it is not known where they are."""
@@ -97,10 +96,17 @@ class _Tree:
     def __init__(self, document: Document) -> None:
         self._carried: dict[int, list[Neighbours]] = {}
         self._moving: dict[int, list[Joint]] = {}
+        self._leaders: set[str] = set()
         for each in neighbours(document):
             self._moving.setdefault(id(each.child[0]), []).append(each.joint)
+            axes = (each.joint.axis, each.joint.axis2)
+            self._leaders.update(axis.mimic.joint or "" for axis in axes if axis and axis.mimic)
             if each.parent:
                 self._carried.setdefault(id(each.parent[0]), []).append(each)
+
+    def leads(self, joints: list[Joint]) -> bool:
+        """Whether others mimic one of these joints, so that they have to move."""
+        return any(joint.name in self._leaders for joint in joints)
 
     def moving(self, body: Body) -> list[Joint]:
         """The joints that a body is the child of."""

@@ -26,8 +26,9 @@ class TightenLimits(Pass):
     2. limits that are written are moved inward by `margin`, on top of that.
 
     It never moves a limit outward, and never touches the `<safety_controller>`, effort and velocity, or joints without
-    an `<axis>`. It reports `tightened-limit` for each joint that it changes, and `untightened-limit` where no range
-    would be left. With a margin it moves limits again when it runs again.
+    an `<axis>`.
+    It reports `tightened-limit` for each joint that it changes, and `untightened-limit` where no range would be left.
+    With a margin it moves limits again when it runs again.
     """
 
     name = "tighten-limits"

@@ -1,7 +1,6 @@
 """Say how visuals look in the words of newer Gazebo."""
 
 import math
-from fnmatch import fnmatchcase
 from typing import ClassVar
 
 from pydantic import Field
@@ -13,6 +12,7 @@ from twinform.ir.node import Node
 from twinform.passes.base import Pass
 from twinform.passes.legalise.carrier import to_element
 from twinform.passes.looks.classic_materials import ClassicMaterial, classic_materials
+from twinform.passes.patterns import matches
 from twinform.schemas import format_value, parse_version, table
 
 _PBR = "pbr/metal"
@@ -28,13 +28,12 @@ class Materials(Pass):
        for those that the visual says itself;
     2. with `scripts`, in URDF, the tag `<material>Gazebo/Red</material>` of a `<gazebo>` element, which becomes a
        `<visual>` with the colours; the materials of URDF itself stay, ROS shows them;
-    3. with `pbr`, materials that have a colour and no `<pbr>`: they get its `metalness` and `roughness`, which is
-    computed
-       from the script's highlight where neither is given: sqrt(2 / (shininess + 2)).
+    3. with `pbr`, materials that have a colour and no `<pbr>`: they get its `metalness` and `roughness`; where that is
+       not given, it comes from the script's highlight: sqrt(2 / (shininess + 2)).
 
-    It never touches materials of URDF, textures, and scripts of others. It reports `unknown-script` for scripts whose
-    colours are not known, which stay, and `textured-script` for those that have an image as well, which newer Gazebo
-    does not bring.
+    It never touches materials of URDF, textures, and scripts of others.
+    It reports `unknown-script` for scripts whose colours are not known, which stay, and `textured-script` for those
+    that have an image as well, which newer Gazebo does not bring, and `pbr-too-old` for SDF before 1.6.
     """
 
     name = "materials"
@@ -44,7 +43,9 @@ class Materials(Pass):
     pbr: bool = Field(default=False, description="Whether colours become those of PBR.")
     metalness: float = Field(default=0.0, ge=0, le=1, description="From 0, paint, to 1, bare metal.")
     roughness: float | None = Field(default=None, ge=0, le=1, description="From 0, a mirror, to 1.")
-    links: str = Field(default="*", description="Only links with such a name; `*`, `?` and `[...]` are wildcards.")
+    links: tuple[str, ...] = Field(
+        default=("*",), description="Only links with such a name; `*`, `?` and `[...]` are wildcards."
+    )
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The document with other materials."""
@@ -63,7 +64,7 @@ class Materials(Pass):
         return map_children(document, visit)
 
     def _is_meant(self, link: str | None) -> bool:
-        return link is not None and fnmatchcase(link, self.links)
+        return link is not None and matches(link, self.links)
 
     def _visual(self, node: Node, notes: Notes) -> Node:
         if not isinstance(node, Visual) or node.material is None:

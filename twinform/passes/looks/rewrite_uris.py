@@ -19,8 +19,7 @@ class RewriteUris(AssetPass):
 
     1. `package://` and `model://` become each other, whether or not their files are there;
     2. to `file` and `relative`, they are looked up, in `roots` first, then as `--path` and the variables of ROS and
-    Gazebo
-       say; a relative path is relative to the folder of the document;
+       Gazebo say; a relative path is relative to the folder of the document;
     3. to `package` and `model`, files and paths are said from the folder around them that is in `roots`, has a
        package.xml, or a model.config.
 

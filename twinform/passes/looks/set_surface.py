@@ -1,6 +1,5 @@
 """Set how collisions touch."""
 
-from fnmatch import fnmatchcase
 from typing import ClassVar, Self
 
 from pydantic import Field, model_validator
@@ -11,6 +10,7 @@ from twinform.ir import Collision, Document, Format, Link, Model, Surface, map_c
 from twinform.ir.node import Node
 from twinform.passes.base import Pass
 from twinform.passes.gazebo_tags import with_element, with_tags
+from twinform.passes.patterns import matches
 from twinform.schemas import format_value
 
 _TAGS = {"mu": "mu1", "mu2": "mu2", "kp": "kp", "kd": "kd", "max_vel": "maxVel", "min_depth": "minDepth"}
@@ -29,8 +29,7 @@ class SetSurface(Pass):
 
     1. in SDF, the `<surface>` of each;
     2. in URDF, the `<gazebo reference="LINK">` tags `mu1`, `mu2`, `kp`, `kd`, `maxVel` and `minDepth`, and for what has
-    no
-       tag, restitution and slip, the `<collision>` in such an element. These are about all collisions of a link.
+       no tag, restitution and slip, the `<collision>` in such an element. These are about all collisions of a link.
 
     Only what an option is given for is set; all else that is written of a surface stays.
     It never touches links without collisions, and models that an `<include>` names.
@@ -40,8 +39,10 @@ class SetSurface(Pass):
     name = "set-surface"
     example: ClassVar[str] = 'set-surface{links="*wheel*" mu=0.9 mu2=0.5}'
 
-    links: str = Field(default="*", description="Only links with such a name; `*`, `?` and `[...]` are wildcards.")
-    collisions: str = Field(default="*", description="Only collisions with such a name.")
+    links: tuple[str, ...] = Field(
+        default=("*",), description="Only links with such a name; `*`, `?` and `[...]` are wildcards."
+    )
+    collisions: tuple[str, ...] = Field(default=("*",), description="Only collisions with such a name.")
     mu: float | None = Field(default=None, ge=0, description="Coulomb friction along the first direction.")
     mu2: float | None = Field(default=None, ge=0, description="Likewise along the second; not set, it stays as it is.")
     restitution: float | None = Field(default=None, ge=0, le=1, description="From 0, no bounce, to 1.")
@@ -77,14 +78,15 @@ class SetSurface(Pass):
 
         made = map_children(document, visit)
         if not matched:
-            message = f"no collision {self.collisions!r} on a link {self.links!r}"
-            notes.report(NOTHING_MATCHED, message, document.location, found=self.collisions)
+            collisions, links = ", ".join(self.collisions), ", ".join(self.links)
+            message = f"no collision {collisions!r} on a link {links!r}"
+            notes.report(NOTHING_MATCHED, message, document.location, found=collisions)
         return made
 
     def _matching(self, link: Link) -> list[Collision]:
-        if not fnmatchcase(link.name, self.links):
+        if not matches(link.name, self.links):
             return []
-        return [one for one in link.collisions if fnmatchcase(one.name or "", self.collisions)]
+        return [one for one in link.collisions if matches(one.name, self.collisions)]
 
     def _in_sdf(self, link: Link, matched: list[Collision]) -> Link:
         meant = self._matching(link)
@@ -100,7 +102,7 @@ class SetSurface(Pass):
         return collision.model_copy(update={"surface": surface})
 
     def _in_urdf(self, model: Model, matched: list[Collision], notes: Notes) -> Model:
-        before = model
+        links: list[str] = []
         for link in model.links:
             meant = self._matching(link)
             matched += meant
@@ -109,14 +111,15 @@ class SetSurface(Pass):
                 message = f"URDF has one surface for all collisions of link {link.name!r}, not one for {names}"
                 notes.report(UNSET_SURFACE, message, meant[0].location, found=meant[0].name)
             elif meant:
-                model = self._tagged(model, link.name)
-        return before if model == before else model
+                links.append(link.name)
+        made = self._tagged(model, links)
+        return model if made == model else made
 
-    def _tagged(self, model: Model, link: str) -> Model:
+    def _tagged(self, model: Model, links: list[str]) -> Model:
         values = {name: format_value(value) for name, value in self._values().items()}
         tags = {tag: values[name] for name, tag in _TAGS.items() if name in values}
-        model = with_tags(model, link, tags) if tags else model
+        model = with_tags(model, links, tags)
         for name, path in _PATHS.items():
             if name in values:
-                model = with_element(model, link, path, values[name])
+                model = with_element(model, links, path, values[name])
         return model

@@ -1,6 +1,5 @@
 """Take visuals, collisions, sensors, plugins and lights out of a model."""
 
-from fnmatch import fnmatchcase
 from typing import ClassVar, Self, TypeVar
 
 from pydantic import Field, model_validator
@@ -16,6 +15,7 @@ from twinform.ir import (
     Link,
     Model,
     Node,
+    Opaque,
     Plugin,
     Sensor,
     Visual,
@@ -23,6 +23,8 @@ from twinform.ir import (
     node_fields,
 )
 from twinform.passes.base import Pass
+from twinform.passes.legalise.carrier import is_ours
+from twinform.passes.patterns import matches
 from twinform.passes.structure.dangling import Gone, report_dangling
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -43,47 +45,48 @@ _FREE_CONTENT = {option.removesuffix("s"): option for option in _OPTIONS}
 class Drop(Pass):
     """Takes out what a simulation or a viewer does not need.
 
-    It changes, by one pattern for each kind:
+    It changes, by patterns for each kind:
 
     1. `visuals`, `collisions`, `sensors` and `lights` whose name matches; one without a name is matched by `*` alone;
     2. `plugins` whose name or file name matches, wherever they are;
     3. in URDF, such elements in `<gazebo>` too, and a `<gazebo>` element that has nothing left goes with them.
 
-    With `links`, only what is on links with such a name, or about them, goes. It never touches links, joints, inertias,
-    and models that an `<include>` names. It reports `dropped-reference` for plugins that name what is gone,
-    `nothing-matched` for a pattern that matches nothing, and what `check` would find in the result and did not in the
-    source, such as a contact sensor without its collision.
+    With `links`, only what is on links with such a name, or about them, goes.
+    It never touches links, joints, inertias, models that an `<include>` names, and what travels in carriers.
+    It reports `dropped-reference` for plugins that name what is gone, `nothing-matched` for a pattern that matches
+    nothing, and what `check` would find in the result and did not in the source, such as a contact sensor without its
+    collision.
     """
 
     name = "drop"
     example: ClassVar[str] = 'drop{sensors="*" plugins="*gazebo_ros*"}'
 
-    visuals: str | None = Field(
-        default=None, description="Visuals; `*`, `?` and `[...]` are wildcards in all of these."
+    visuals: tuple[str, ...] = Field(
+        default=(), description="Visuals; `*`, `?` and `[...]` are wildcards in all of these."
     )
-    collisions: str | None = Field(default=None, description="Collisions.")
-    sensors: str | None = Field(default=None, description="Sensors, with their plugins.")
-    plugins: str | None = Field(default=None, description="Plugins, by name or file name.")
-    lights: str | None = Field(default=None, description="Lights of links, models and worlds.")
-    links: str = Field(default="*", description="Only on links with such a name.")
+    collisions: tuple[str, ...] = Field(default=(), description="Collisions.")
+    sensors: tuple[str, ...] = Field(default=(), description="Sensors, with their plugins.")
+    plugins: tuple[str, ...] = Field(default=(), description="Plugins, by name or file name.")
+    lights: tuple[str, ...] = Field(default=(), description="Lights of links, models and worlds.")
+    links: tuple[str, ...] = Field(default=("*",), description="Only on links with such a name.")
 
     @model_validator(mode="after")
     def _check_any(self) -> Self:
-        if all(getattr(self, option) is None for option in _OPTIONS):
+        if not any(getattr(self, option) for option in _OPTIONS):
             raise ValueError(f"nothing is to go; say one of {', '.join(_OPTIONS)}")
         return self
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The document without what is to go."""
         gone = Gone()
-        everywhere = self.links == "*"
+        everywhere = "*" in self.links
         made = self._thinned(document, gone, meant=everywhere)
         made = map_children(made, lambda node: self._node(node, gone, meant=everywhere))
         for option in _OPTIONS:
-            pattern = getattr(self, option)
-            if pattern is not None and option not in gone.names:
-                message = f"nothing matches {option}={pattern!r}"
-                notes.report(NOTHING_MATCHED, message, document.location, found=pattern)
+            patterns = ", ".join(getattr(self, option))
+            if patterns and option not in gone.names:
+                message = f"none of the {option} is called {patterns}"
+                notes.report(NOTHING_MATCHED, message, document.location, found=patterns)
         if made is not document:
             report_dangling(document, made, gone, notes)
         return made
@@ -93,7 +96,7 @@ class Drop(Pass):
         if isinstance(node, GazeboExtension):
             return self._extension(node, gone)
         if isinstance(node, Link):
-            meant = fnmatchcase(node.name, self.links)
+            meant = matches(node.name, self.links)
         made = map_children(self._thinned(node, gone, meant=meant), lambda child: self._node(child, gone, meant=meant))
         return _without_empty(node, made) if isinstance(node, Model) and isinstance(made, Model) else made
 
@@ -107,7 +110,17 @@ class Drop(Pass):
             kept = tuple(child for child in value if not self._goes(child, gone))
             if len(kept) < len(value):
                 update[name] = kept
+        if meant and node.opaque:
+            opaque = tuple(self._in_opaque(part, gone) for part in node.opaque)
+            update |= {"opaque": opaque} if opaque != node.opaque else {}
         return node.model_copy(update=update) if update else node
+
+    def _in_opaque(self, part: Opaque, gone: Gone) -> Opaque:
+        """A part that the IR keeps as it is, such as `<gui>`, without what is to go in it."""
+        if part.element is None or is_ours(part):
+            return part
+        inside = self._inside(part.element, gone)
+        return part if inside is part.element else part.model_copy(update={"element": inside})
 
     def _goes(self, node: Node, gone: Gone) -> bool:
         option = _KINDS.get(type(node))
@@ -116,19 +129,28 @@ class Drop(Pass):
         return self._is_named(option, getattr(node, "name", None), getattr(node, "filename", None), gone)
 
     def _is_named(self, option: str, name: str | None, file: str | None, gone: Gone) -> bool:
-        pattern = getattr(self, option)
-        if pattern is None or not any(fnmatchcase(word, pattern) for word in (name or "", file or "")):
+        patterns = getattr(self, option)
+        if not matches(name, patterns) and not (file and matches(file, patterns)):
             return False
         gone.names.setdefault(option, set()).add(name or "")
         return True
 
     def _extension(self, extension: GazeboExtension, gone: Gone) -> GazeboExtension:
         """A `<gazebo>` element of URDF without what is to go in it."""
-        if not fnmatchcase(extension.reference or "", self.links):
+        if not matches(extension.reference, self.links):
             return extension
-        kept = tuple(element for element in extension.content if not self._element_goes(element, gone))
-        same = len(kept) == len(extension.content)
-        return extension if same else extension.model_copy(update={"content": kept})
+        kept = self._kept(extension.content, gone)
+        return extension if kept is extension.content else extension.model_copy(update={"content": kept})
+
+    def _kept(self, elements: tuple[Element, ...], gone: Gone) -> tuple[Element, ...]:
+        """The elements that stay, without what is to go in them; the parameters of plugins are theirs alone."""
+        kept = tuple(self._inside(each, gone) for each in elements if not self._element_goes(each, gone))
+        same = len(kept) == len(elements) and all(new is old for new, old in zip(kept, elements, strict=True))
+        return elements if same else kept
+
+    def _inside(self, element: Element, gone: Gone) -> Element:
+        children = element.children if element.name == "plugin" else self._kept(element.children, gone)
+        return element if children is element.children else element.model_copy(update={"children": children})
 
     def _element_goes(self, element: Element, gone: Gone) -> bool:
         option = _FREE_CONTENT.get(element.name)
