@@ -5,7 +5,19 @@ from functools import partial
 from posixpath import normpath
 from typing import TypeVar
 
-from twinform.ir import Document, Element, Heightmap, Image, Include, Material, Mesh, Node, Script, map_children
+from twinform.ir import (
+    Document,
+    Element,
+    GazeboExtension,
+    Heightmap,
+    Image,
+    Include,
+    Material,
+    Mesh,
+    Node,
+    Script,
+    map_children,
+)
 from twinform.passes.legalise.nodes import map_elements
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -50,6 +62,8 @@ def _node(node: AnyNode, folder: str) -> AnyNode:
             update[name] = moved
     if isinstance(node, Script):
         update["uris"] = tuple(relocated(uri, folder) for uri in node.uris)
+    if isinstance(node, GazeboExtension):
+        update["content"] = tuple(_element(element, folder) for element in node.content)
     if node.opaque:
         update["opaque"] = map_elements(node.opaque, partial(_element, folder=folder))
     return node.model_copy(update=update) if update else node
