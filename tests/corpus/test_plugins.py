@@ -6,19 +6,64 @@ from pathlib import Path
 import pytest
 
 import twinform
-from tests.corpus.files import CorpusFile, chunks
+from tests.corpus.files import CorpusFile, Kind, chunks
 from twinform.compiler.emitting import emit
 from twinform.diagnostics import Notes
-from twinform.ir import Document, Link, Model
+from twinform.ir import Document, Format, Link, Model, Plugin
 from twinform.ir.frames import WORLD
 from twinform.passes import Pass, Pipeline
 from twinform.passes.plugins.add_plugin import AddPlugin
 from twinform.passes.plugins.add_sensor import AddSensor
 from twinform.passes.plugins.bridge import bridges
+from twinform.passes.plugins.catalogue import systems_of_file
 from twinform.passes.plugins.check_plugins import CheckPlugins
 from twinform.passes.plugins.sites import plugins_of, sensors_of
+from twinform.passes.plugins.wheels import MEASURES, Measured, NotMeasuredError
 
 CHUNKS = chunks()
+
+
+ANOTHER_MEASURE = {
+    "gazebosim+gz-sim/examples/worlds/tunnel.sdf": "the wheels are 0.73 m apart, and the plugin was copied with 1.25 m",
+    "gazebosim+gz-sim/test/worlds/drive_to_pose_controller.sdf": "the joints that the plugin names are not in the file",
+}
+"""Files whose authors say other wheels than their models have."""
+
+
+def test_wheels_are_measured_as_their_authors_did(corpus: Path) -> None:
+    found = {file.name: list(drives(file)) for chunk in CHUNKS.values() for file in chunk if file.kind == Kind.SDF}
+    measured = {name: pairs for name, pairs in found.items() if pairs}
+    assert len(measured) > 15 or not corpus.is_dir()
+    wrong = {
+        name for name, pairs in measured.items() if any(theirs != pytest.approx(ours, 0.001) for theirs, ours in pairs)
+    }
+    assert wrong == set(ANOTHER_MEASURE) & set(measured)
+
+
+def drives(file: CorpusFile) -> Iterator[tuple[float, float]]:
+    """Wheel separation and radius of each differential drive: what the file says, and what is measured."""
+    if b"diff-drive" not in file.path.read_bytes():
+        return
+    try:
+        document = twinform.load(file.path)
+    except twinform.CompileError:
+        return
+    for plugin, site in plugins_of(document):
+        kinds = systems_of_file(plugin.filename or "")
+        if kinds and kinds[0].name == "diff-drive" and site.model is not None:
+            yield from compared(plugin, site.model)
+
+
+def compared(plugin: Plugin, model: Model) -> Iterator[tuple[float, float]]:
+    def names(option: str) -> tuple[str, ...]:
+        return tuple(each.text or "" for each in plugin.content if each.name == option.replace("-", "_"))
+
+    for parameter, measure in MEASURES["diff-drive"].items():
+        for said in names(parameter):
+            try:
+                yield float(said), measure(Measured(model, Format.SDF, names))
+            except NotMeasuredError:
+                yield float(said), 0.0
 
 
 @pytest.mark.parametrize("chunk", CHUNKS)
