@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import plugins as rules
-from twinform.ir import Document, Element, Format, Joint, Link, Model, Opaque, Pose, Sensor, Vector3
+from twinform.ir import Document, Element, Format, Joint, Link, Model, Opaque, Pose, Sensor
 from twinform.ir.frames import WORLD
 from twinform.passes.legalise.nodes import unique_name
 from twinform.passes.plugins.catalogue import release, releases, sensor
@@ -20,6 +20,10 @@ from twinform.passes.plugins.sites import sensors_of
 from twinform.passes.plugins.targets import find_model, missing, replace_world, world_of
 from twinform.passes.plugins.values import is_topic
 from twinform.passes.plugins.worlds import as_xml, has_element, has_system, needed_for, with_systems
+
+_Number = Annotated[float, Field(allow_inf_nan=False)]
+Finite = tuple[_Number, _Number, _Number]
+Word = Annotated[str, Field(min_length=1)]
 
 
 class AddSensor(SelectingPass):
@@ -49,14 +53,14 @@ class AddSensor(SelectingPass):
     type: str = Field(description="The kind of sensor: `imu`, `camera`, `gpu_lidar`, `navsat`, ...")
     link: str | None = Field(default=None, description="The link that it sits on.")
     joint: str | None = Field(default=None, description="The joint whose force and torque it measures.")
-    sensor_name: str | None = Field(default=None, description="Its name; by default that of its kind.")
+    sensor_name: Word | None = Field(default=None, description="Its name; by default that of its kind.")
     topic: str | None = Field(default=None, description="The topic that it publishes on.")
     rate: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None = Field(
         default=None, description="How often it measures, in Hz; by default what is usual for its kind."
     )
-    frame_id: str | None = Field(default=None, description="The frame that its messages are in, for ROS.")
-    xyz: Vector3 | None = Field(default=None, description="Where it is on its holder, in m.")
-    rpy: Vector3 | None = Field(default=None, description="Its rotation on its holder: roll, pitch and yaw, in rad.")
+    frame_id: Word | None = Field(default=None, description="The frame that its messages are in, for ROS.")
+    xyz: Finite | None = Field(default=None, description="Where it is on its holder, in m.")
+    rpy: Finite | None = Field(default=None, description="Its rotation on its holder: roll, pitch and yaw, in rad.")
     visualize: bool = Field(default=False, description="Whether the GUI shows it.")
     collision: str | None = Field(default=None, description="The collision of a contact sensor; by default all.")
     model: str | None = Field(default=None, description="The model to add to, where there are several.")

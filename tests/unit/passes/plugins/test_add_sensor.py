@@ -8,6 +8,7 @@ import twinform
 from twinform.diagnostics import Notes
 from twinform.ir import Document, Sensor
 from twinform.passes import PipelineError, parse_pipeline
+from twinform.passes.plugins.add_sensor import AddSensor
 from twinform.passes.plugins.catalogue import sensor, sensors
 from twinform.passes.plugins.check_plugins import CheckPlugins
 from twinform.passes.plugins.sensor_settings import addable, settings_of
@@ -201,11 +202,18 @@ def test_where_there_is_nothing_to_add_to_is_an_error(text: str, help_: str | No
         ("add-sensor{type=air_speed link=a release=fortress}", "does not simulate air_speed"),
         ("add-sensor{type=imu link=a gyro-stddev=-1}", "option gyro-stddev"),
         ("add-sensor{type=imu link=a noise=loud}", "option noise"),
+        ("add-sensor{type=imu link=a xyz=[inf,0,0]}", "option xyz"),
+        ('add-sensor{type=imu link=a sensor-name=""}', "option sensor-name"),
     ],
 )
 def test_a_wrong_option_is_said_at_its_place(text: str, says: str) -> None:
     with pytest.raises(PipelineError, match=says):
         parse_pipeline(text)
+
+
+def test_settings_have_names_of_their_own() -> None:
+    own = {field.alias for field in AddSensor.model_fields.values()}
+    assert not [option for type_ in addable() for option in AddSensor.fields_for(type_) if option in own]
 
 
 def test_a_pass_is_written_as_it_was() -> None:
