@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from enum import Enum
 from inspect import cleandoc
 from types import NoneType, UnionType
-from typing import Literal, NamedTuple, Union, cast, get_args, get_origin
+from typing import Annotated, Literal, NamedTuple, Union, cast, get_args, get_origin
 
 from twinform.diagnostics.committed import main
 from twinform.passes.base import Pass
@@ -65,6 +65,8 @@ def _words(annotation: object) -> str:
     """A type in the words of the pipeline's grammar."""
     inner = cast("tuple[object, ...]", get_args(annotation))
     origin = get_origin(annotation)
+    if origin is Annotated:
+        return _words(inner[0])
     if origin in {UnionType, Union}:
         return " or ".join(_words(each) for each in inner if each is not NoneType)
     if origin in {tuple, list, frozenset}:

@@ -3,7 +3,9 @@ import subprocess
 import sys
 from enum import StrEnum
 from pathlib import Path
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
 
 from twinform.diagnostics import Notes
 from twinform.ir import Document
@@ -29,6 +31,7 @@ class Sample(Pass):
     flag: bool = False
     side: Side = Side.LEFT
     kind: Literal["one", "two"] | None = None
+    place: tuple[Annotated[float, Field(ge=0)], float] | None = None
 
     def run(self, document: Document, notes: Notes) -> Document:
         del notes
@@ -43,6 +46,7 @@ def test_options_are_described_in_the_words_of_the_grammar() -> None:
         ("flag", "true or false", "false"),
         ("side", "left or right", "left"),
         ("kind", "one or two", "not set"),
+        ("place", "list of number", "not set"),
     ]
 
 

@@ -8,6 +8,7 @@ import twinform
 from twinform.diagnostics import Notes
 from twinform.ir import Document, Sensor
 from twinform.passes import PipelineError, parse_pipeline
+from twinform.passes.plugins.add_sensor import AddSensor
 from twinform.passes.plugins.catalogue import sensor, sensors
 from twinform.passes.plugins.check_plugins import CheckPlugins
 from twinform.passes.plugins.sensor_settings import addable, settings_of
@@ -71,6 +72,22 @@ def test_adding_twice_is_adding_once_and_another_one_gets_another_name() -> None
         assert run(pipeline("imu"), once)[0] == once
         other = run(pipeline("imu", "rate=7"), once)[0]
         assert [each.name for each, _ in sensors_of(other)] == ["imu", "imu_1"]
+
+
+def test_two_sensors_never_share_a_topic() -> None:
+    two = "add-sensor{type=camera link=base},add-sensor{type=camera link=hand}"
+    for model in (URDF, WORLD.format("")):
+        made = run(two, twinform.loads(model))[0]
+        topics = [(each.name, each.topic) for each, _ in sensors_of(made)]
+        assert topics == [("camera", "camera/image"), ("camera_1", "camera_1/image")]
+        assert run(two, made)[0] == made
+
+
+def test_the_world_of_urdf_carries_no_sensor() -> None:
+    text = '<robot name="r"><link name="world"/><link name="a"/><joint name="j" type="fixed"><parent link="world"/>'
+    document, notes = twinform.loads(f'{text}<child link="a"/></joint></robot>'), Notes()
+    assert parse_pipeline("add-sensor{type=imu link=world}").run(document, notes) is document
+    assert [each.rule.name for each in notes.diagnostics] == ["nothing-to-add-to"]
 
 
 def test_a_world_gets_what_the_sensor_needs_and_what_a_plugin_switches_off() -> None:
@@ -185,11 +202,18 @@ def test_where_there_is_nothing_to_add_to_is_an_error(text: str, help_: str | No
         ("add-sensor{type=air_speed link=a release=fortress}", "does not simulate air_speed"),
         ("add-sensor{type=imu link=a gyro-stddev=-1}", "option gyro-stddev"),
         ("add-sensor{type=imu link=a noise=loud}", "option noise"),
+        ("add-sensor{type=imu link=a xyz=[inf,0,0]}", "option xyz"),
+        ('add-sensor{type=imu link=a sensor-name=""}', "option sensor-name"),
     ],
 )
 def test_a_wrong_option_is_said_at_its_place(text: str, says: str) -> None:
     with pytest.raises(PipelineError, match=says):
         parse_pipeline(text)
+
+
+def test_settings_have_names_of_their_own() -> None:
+    own = {field.alias for field in AddSensor.model_fields.values()}
+    assert not [option for type_ in addable() for option in AddSensor.fields_for(type_) if option in own]
 
 
 def test_a_pass_is_written_as_it_was() -> None:
