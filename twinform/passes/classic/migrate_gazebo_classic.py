@@ -10,6 +10,7 @@ from twinform.passes.base import Pass
 from twinform.passes.classic.deeds import Deeds
 from twinform.passes.classic.emptied import without_emptied
 from twinform.passes.classic.hardware import modern_hardware
+from twinform.passes.classic.looks import in_colours
 from twinform.passes.classic.plugins import PluginMigration
 from twinform.passes.classic.reporting import accept, scratch
 from twinform.passes.classic.sensors import SensorMigration
@@ -42,10 +43,11 @@ class MigrateGazeboClassic(Pass):
     5. names of Ignition become those of Gazebo, but for Fortress, which has them;
     6. models that came with Gazebo Classic are included from Fuel;
     7. worlds get the systems that their sensors need, and all default systems once one is written;
-    8. SDF that is older is said in the version that the release reads.
+    8. material scripts become colours, by the pass `materials`;
+    9. SDF that is older is said in the version that the release reads.
 
-    It never touches plugins that are neither of Gazebo Classic nor of gz-sim, looks, and parts of worlds that gz-sim
-    skips; it says which these are.
+    It never touches plugins that are neither of Gazebo Classic nor of gz-sim, and parts of worlds that gz-sim skips; it
+    says which these are.
     It reports `migrated-plugin`, `migrated-sensor`, `ignition-name`, `shipped-model` and `added-world-system` for what
     was done; `plugin-without-counterpart`, `parameter-without-counterpart`, `sensor-without-counterpart`,
     `unread-world-part` and `unknown-plugin` for what could not be; `incomplete-migration` and `world-system-needed` for
@@ -99,7 +101,7 @@ class MigrateGazeboClassic(Pass):
         )
         done = deeds.run(without_emptied(sensed, map_plugins(sensed, migration)))
         done = ship_models(modern_hardware(done, target, notes), notes)
-        done = complete_worlds(done, target, notes)
+        done = in_colours(complete_worlds(done, target, notes), notes)
         if done is not document:
             report_needs(done, target, notes)
         report_unread(done, notes)
