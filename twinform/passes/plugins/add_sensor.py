@@ -1,6 +1,7 @@
 """Add a sensor to a link or joint."""
 
 from collections.abc import Iterator
+from itertools import count
 from typing import Annotated, ClassVar, Self
 
 from pydantic import Field, model_validator
@@ -8,13 +9,14 @@ from pydantic import Field, model_validator
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import plugins as rules
 from twinform.ir import Document, Element, Format, Joint, Link, Model, Opaque, Pose, Sensor, Vector3
+from twinform.ir.frames import WORLD
 from twinform.passes.legalise.nodes import unique_name
 from twinform.passes.plugins.catalogue import release, releases, sensor
 from twinform.passes.plugins.editing import add_sensor, replace_model
 from twinform.passes.plugins.parts import ReleaseName, SensorKind
 from twinform.passes.plugins.selecting import Fields, SelectingPass
 from twinform.passes.plugins.sensor_settings import addable, element_of, fields_of, settings_of
-from twinform.passes.plugins.sites import Site, sensors_of
+from twinform.passes.plugins.sites import sensors_of
 from twinform.passes.plugins.targets import find_model, missing, replace_world, world_of
 from twinform.passes.plugins.values import is_topic
 from twinform.passes.plugins.worlds import as_xml, has_element, has_system, needed_for, with_systems
@@ -35,7 +37,8 @@ class AddSensor(SelectingPass):
        at all, those that gz-sim adds only to such worlds.
 
     For a file without a world it says what the world has to have; `convert --world FILE` writes such a world.
-    It never touches a sensor that is there: another one gets another name, and the same one is not added again.
+    It never touches a sensor that is there: another one gets another name and topic, and the same one is not added
+    again.
     Diagnostics: `nothing-to-add-to`, `missing-world-system`, `world-system-needed`, `added-world-system`.
     """
 
@@ -84,42 +87,63 @@ class AddSensor(SelectingPass):
     def run(self, document: Document, notes: Notes) -> Document:
         """The document with the sensor."""
         model = find_model(document, self.model, notes)
-        holder = self._holder(model, notes) if model else None
+        holder = self._holder(model, document, notes) if model else None
         if model is None or holder is None:
             return document
-        made = self._sensor(model, holder, document.format, notes)
-        if made is None:
+        content = self._content(model, holder, document.format, notes)
+        if notes.has_errors:
             return document
-        world, same = world_of(document, model), _is_there(document, model, holder.name, made)
-        if not same:
+        made, is_new = self._named(document, model, holder, content)
+        world = world_of(document, model)
+        if is_new:
             kept = isinstance(holder, Joint) and holder.type == "fixed"
-            new = add_sensor(model, holder.name, _named(made, document, model, holder), document.format, kept=kept)
+            new = add_sensor(model, holder.name, made, document.format, kept=kept)
             document = replace_model(document, model, new)
         if world is None:
             self._say_what_is_needed(made, holder, notes)
             return document
         return self._in_world(document, world.name, made, notes)
 
-    def _holder(self, model: Model, notes: Notes) -> Link | Joint | None:
+    def _named(
+        self, document: Document, model: Model, holder: Link | Joint, content: tuple[Opaque, ...]
+    ) -> tuple[Sensor, bool]:
+        """The sensor under the first name that no other has, and whether it is new; one that says the same is it."""
+        everywhere = list(sensors_of(document))
+        here = [each for each, site in everywhere if site.model is model and site.link_or_joint == holder.name]
+        taken, first = {each.name for each, _ in everywhere}, self.sensor_name or settings_of(self.type).name
+        for number in count():
+            made = self._sensor(f"{first}_{number}" if number else first, content)
+            same = next((each for each in here if _plain(each) == _plain(made)), None)
+            if same is not None or made.name not in taken:
+                return made, same is None
+        raise AssertionError  # there are more numbers than sensors
+
+    def _holder(self, model: Model, document: Document, notes: Notes) -> Link | Joint | None:
         word, name = ("joint", self.joint) if self.joint is not None else ("link", self.link)
         nodes: tuple[Link | Joint, ...] = model.joints if word == "joint" else model.links
         found = next((each for each in nodes if each.name == name), None)
         if found is None:
             missing(model, word, name or "", [each.name for each in nodes], notes)
+        elif word == "link" and name == WORLD and document.format is Format.URDF:
+            message = "the link 'world' of URDF is what never moves; Gazebo has no such link to put a sensor on"
+            notes.report(rules.NOTHING_TO_ADD_TO, message, found.location, found=name)
+            return None
         return found
 
-    def _sensor(self, model: Model, holder: Link | Joint, format_: Format, notes: Notes) -> Sensor | None:
-        kind = sensor(self.type)
-        settings = settings_of(self.type)
-        name = self.sensor_name or settings.name
+    def _content(self, model: Model, holder: Link | Joint, format_: Format, notes: Notes) -> tuple[Opaque, ...]:
+        """The elements in the sensor that have no typed form."""
         values = {option: getattr(self, option.replace("-", "_"), None) for option in self.fields_for(self.type)}
-        element = element_of(self.type, values)
-        if kind.type == "contact":
-            element = self._contact(model, holder, format_, notes)
-            if element is None:
-                return None
+        is_contact = sensor(self.type).type == "contact"
+        element = self._contact(model, holder, format_, notes) if is_contact else element_of(self.type, values)
         frame = release(self.release).frame_element
-        made = Sensor(
+        own = self.frame_id is not None and frame is not None and frame != "frame_id"
+        said = (Element(name=frame, text=self.frame_id),) if own and frame else ()
+        return tuple(Opaque(element=each) for each in (*said, element) if each is not None)
+
+    def _sensor(self, name: str, content: tuple[Opaque, ...]) -> Sensor:
+        kind, settings = sensor(self.type), settings_of(self.type)
+        typed = release(self.release).frame_element == "frame_id"
+        return Sensor(
             name=name,
             type=kind.type,
             pose=Pose(xyz=self.xyz, rpy=self.rpy) if self.xyz or self.rpy else None,
@@ -127,13 +151,9 @@ class AddSensor(SelectingPass):
             update_rate=self.rate or float(settings.rate),
             visualize=self.visualize or None,
             topic=self.topic or usual_topic(kind, name, settings.name),
-            frame_id=self.frame_id if frame == "frame_id" else None,
-            opaque=(Opaque(element=element),) if element else (),
+            frame_id=self.frame_id if typed else None,
+            opaque=content,
         )
-        if self.frame_id is None or frame == "frame_id":
-            return made
-        own = Opaque(element=Element(name=frame or "gz_frame_id", text=self.frame_id))
-        return made.model_copy(update={"opaque": (own, *made.opaque)})
 
     def _contact(self, model: Model, holder: Link | Joint, format_: Format, notes: Notes) -> Element | None:
         names = list(_collisions(holder, format_))
@@ -180,25 +200,5 @@ def _collisions(holder: Link | Joint, format_: Format) -> Iterator[str]:
             yield name
 
 
-def _here(document: Document, model: Model, holder: str) -> Iterator[Sensor]:
-    """The sensors that are on a holder of a model already."""
-
-    def is_here(site: Site) -> bool:
-        return site.model is model and site.link_or_joint == holder
-
-    return (each for each, site in sensors_of(document) if is_here(site))
-
-
-def _is_there(document: Document, model: Model, holder: str, made: Sensor) -> bool:
-    """Whether the holder has a sensor that says the same."""
-    return any(_plain(each) == _plain(made) for each in _here(document, model, holder))
-
-
 def _plain(node: Sensor) -> object:
     return node.model_dump(exclude={"source", "spelling"}, exclude_defaults=True)
-
-
-def _named(made: Sensor, document: Document, model: Model, holder: Link | Joint) -> Sensor:
-    """The sensor with a name that no other one of its holder has."""
-    taken = {each.name or "" for each in _here(document, model, holder.name)}
-    return made if made.name not in taken else made.model_copy(update={"name": unique_name(made.name or "", taken)})

@@ -44,6 +44,9 @@ LATEST = "main"
 DEFAULT_SYSTEMS = ("physics", "user-commands", "scene-broadcaster")
 """What gz-sim adds to a world without any plugin, and to no other one."""
 
+_TOO_MANY = 2000
+"""Names beyond which none is guessed: comparing takes 10 us for each, and a hostile file has many of both."""
+
 Family = Literal["noetic", "ros2"]
 
 _SYSTEM_FILE = re.compile(r"(?:lib)?(?:ignition-gazebo|gz-sim)\d*-(.+?)(?:\.so|\.dylib|\.dll)?")
@@ -62,8 +65,10 @@ class UnknownNameError(LookupError):
 
 
 def nearest(name: str, known: Iterator[str] | list[str] | tuple[str, ...]) -> str | None:
-    """The name that was probably meant."""
+    """The name that was probably meant; none where there are too many to compare with each."""
     listed = list(known)
+    if len(listed) > _TOO_MANY:
+        return None
     near = get_close_matches(name, listed, n=1)
     if near:
         return near[0]

@@ -19,7 +19,7 @@ from twinform.passes.plugins.catalogue import (
     systems,
     systems_of_file,
 )
-from twinform.passes.plugins.parameters import Asked, check_parameters
+from twinform.passes.plugins.parameters import Asked, Names, check_parameters
 from twinform.passes.plugins.parts import PluginKind, ReleaseName, SensorKind
 from twinform.passes.plugins.sites import Site, plugins_of, sensors_of
 from twinform.passes.plugins.worlds import (
@@ -60,9 +60,10 @@ class CheckPlugins(Pass):
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The same document."""
+        names = Names()
         for plugin, site in plugins_of(document):
             if site.scope != "gui":
-                _check_plugin(plugin, site, self.release, notes)
+                _check_plugin(plugin, site, self.release, names, notes)
         for world in document.worlds:
             _check_defaults(world, notes)
         noted: set[str] = set()
@@ -71,7 +72,7 @@ class CheckPlugins(Pass):
         return document
 
 
-def _check_plugin(plugin: Plugin, site: Site, release: str, notes: Notes) -> None:
+def _check_plugin(plugin: Plugin, site: Site, release: str, names: Names, notes: Notes) -> None:
     kinds = systems_of_file(plugin.filename or "")
     if not kinds:
         _check_stranger(plugin, notes)
@@ -93,7 +94,7 @@ def _check_plugin(plugin: Plugin, site: Site, release: str, notes: Notes) -> Non
         message = f"{kind.class_name} stands in <{site.scope}> and belongs into {scopes}"
         notes.report(rules.WRONG_PLUGIN_SCOPE, message, plugin.location, found=site.scope, expected=scopes)
     model = site.model if "world" not in kind.scopes else None
-    check_parameters(plugin, Asked(kind, release, model, plugin.location, notes))
+    check_parameters(plugin, Asked(kind, release, model, names, notes))
 
 
 def _class_of(plugin: Plugin, kinds: tuple[PluginKind, ...], notes: Notes) -> PluginKind | None:

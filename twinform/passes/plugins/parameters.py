@@ -12,13 +12,27 @@ from twinform.passes.plugins.parts import Parameter, PluginKind
 from twinform.passes.plugins.values import problem_of
 
 
+class Names:
+    """The joints and links of models by name, each looked up once."""
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[int, str], set[str] | None] = {}
+
+    def of(self, model: Model, kind: str) -> set[str] | None:
+        """The names in a model; None where they are not all known."""
+        key = (id(model), kind)
+        if key not in self._known:
+            self._known[key] = names_in(model, kind)
+        return self._known[key]
+
+
 class Asked(NamedTuple):
     """What a plugin is held against: its kind, the release, and the model that it names parts of."""
 
     kind: PluginKind
     release: str
     model: Model | None
-    where: Location
+    names: Names
     notes: Notes
 
 
@@ -32,14 +46,13 @@ def names_in(model: Model, kind: str) -> set[str] | None:
 
     None where includes that were not read may bring others.
     """
-    if any(include.merge for include in model.includes):
-        return None
-    names = {each.name for each in (model.joints if kind == "joint" else model.links)}
-    for inner in model.models:
-        inside = names_in(inner, kind)
-        if inside is None:
+    names, stack = set[str](), [("", model)]
+    while stack:
+        scope, inner = stack.pop()
+        if any(include.merge for include in inner.includes):
             return None
-        names |= {f"{inner.name}::{name}" for name in inside}
+        names.update(f"{scope}{each.name}" for each in (inner.joints if kind == "joint" else inner.links))
+        stack.extend((f"{scope}{each.name}::", each) for each in inner.models)
     return names
 
 
@@ -109,7 +122,7 @@ def _check_value(row: Parameter, text: str, what: str, asked: Asked, at: Locatio
 
 
 def _check_reference(kind: str, name: str, what: str, asked: Asked, at: Location) -> None:
-    known = names_in(asked.model, kind) if asked.model else None
+    known = asked.names.of(asked.model, kind) if asked.model else None
     if known is None or name in known or (asked.model and asked.model.includes and "::" in name):
         return
     near = nearest(name, sorted(known))

@@ -52,6 +52,9 @@ class Site:
         return self.models[-1] if self.models else None
 
 
+_LEAVES = frozenset({"plugins", "sensors"})
+"""Fields whose nodes are what is looked for."""
+
 PluginChange = Callable[[Plugin, Site], Iterable[Plugin]]
 SensorChange = Callable[[Sensor, Site], Iterable[Sensor]]
 
@@ -130,14 +133,33 @@ class _Walk:
         self._sensor = sensor
 
     def node(self, node: AnyNode, site: Site) -> AnyNode:
-        """The node with what is in it changed."""
+        """The node with what is in it changed. Models may be nested deeply, so there is one call for each level."""
         site = _site_in(node, site)
         update: dict[str, Any] = {}
         for field in node_fields(type(node)):
             old = node.__dict__[field]
-            new = self._field(field, old, site)
+            if not old:
+                continue
+            if isinstance(old, Node):
+                new: Any = self.node(old, site)
+            elif field in _LEAVES:
+                new = self._leaves(field, old, site)
+            else:
+                many = tuple([self.node(each, site) for each in old])
+                new = many if any(mine is not each for mine, each in zip(many, old, strict=True)) else old
             if new is not old:
                 update[field] = new
+        update |= self._free(node, site)
+        return node.model_copy(update=update) if update else node
+
+    def _leaves(self, field: str, old: Any, site: Site) -> Any:
+        if field == "plugins":
+            return _replaced(old, lambda plugin: self._plugins(plugin, site))
+        return _replaced(old, lambda sensor: self._sensors(sensor, site))
+
+    def _free(self, node: Node, site: Site) -> dict[str, Any]:
+        """What changes among the parts of a node that have no typed form."""
+        update: dict[str, Any] = {}
         opaque = self._opaque(node.opaque, site)
         if opaque is not node.opaque:
             update["opaque"] = opaque
@@ -145,18 +167,7 @@ class _Walk:
             content = self._elements(node.content, site)
             if content is not node.content:
                 update["content"] = content
-        return node.model_copy(update=update) if update else node
-
-    def _field(self, name: str, value: Any, site: Site) -> Any:
-        if isinstance(value, Node):
-            return self.node(value, site)
-        if not value:
-            return value
-        if name == "plugins":
-            return _replaced(value, lambda plugin: self._plugins(plugin, site))
-        if name == "sensors":
-            return _replaced(value, lambda sensor: self._sensors(sensor, site))
-        return _replaced(value, lambda each: (self.node(each, site),))
+        return update
 
     def _plugins(self, plugin: Plugin, site: Site) -> Iterable[Plugin]:
         return self._plugin(plugin, site) if self._plugin else (plugin,)

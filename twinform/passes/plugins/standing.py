@@ -15,7 +15,7 @@ def lowest_point(model: Model) -> float | None:
     """
     graph, heights = FrameGraph(model), list[float]()
     try:
-        for name, link in _links("", model):
+        for name, link in _links(model):
             for each in link.collisions:
                 at = graph.resolve(each.pose, name, MODEL, base="model")
                 reach = _reach(each.geometry.shape if each.geometry else None, at.rotation)
@@ -27,11 +27,12 @@ def lowest_point(model: Model) -> float | None:
     return min(heights, default=None)
 
 
-def _links(scope: str, model: Model) -> Iterator[tuple[str, Link]]:
-    for link in model.links:
-        yield f"{scope}{link.name}", link
-    for inner in model.models:
-        yield from _links(f"{scope}{inner.name}::", inner)
+def _links(model: Model) -> Iterator[tuple[str, Link]]:
+    stack = [("", model)]
+    while stack:
+        scope, each = stack.pop()
+        yield from ((f"{scope}{link.name}", link) for link in each.links)
+        stack.extend((f"{scope}{inner.name}::", inner) for inner in each.models)
 
 
 def _reach(shape: Shape | None, rotation: Matrix3) -> float | None:

@@ -18,9 +18,11 @@ def models_of(document: Document) -> Iterator[tuple[str, Model]]:
 
 
 def _named(scope: str, model: Model) -> Iterator[tuple[str, Model]]:
-    yield f"{scope}{model.name}", model
-    for inner in model.models:
-        yield from _named(f"{scope}{model.name}::", inner)
+    stack = [(scope, model)]
+    while stack:
+        scope, each = stack.pop()
+        yield f"{scope}{each.name}", each
+        stack.extend((f"{scope}{each.name}::", inner) for inner in reversed(each.models))
 
 
 def find_model(document: Document, name: str | None, notes: Notes) -> Model | None:

@@ -73,6 +73,22 @@ def test_adding_twice_is_adding_once_and_another_one_gets_another_name() -> None
         assert [each.name for each, _ in sensors_of(other)] == ["imu", "imu_1"]
 
 
+def test_two_sensors_never_share_a_topic() -> None:
+    two = "add-sensor{type=camera link=base},add-sensor{type=camera link=hand}"
+    for model in (URDF, WORLD.format("")):
+        made = run(two, twinform.loads(model))[0]
+        topics = [(each.name, each.topic) for each, _ in sensors_of(made)]
+        assert topics == [("camera", "camera/image"), ("camera_1", "camera_1/image")]
+        assert run(two, made)[0] == made
+
+
+def test_the_world_of_urdf_carries_no_sensor() -> None:
+    text = '<robot name="r"><link name="world"/><link name="a"/><joint name="j" type="fixed"><parent link="world"/>'
+    document, notes = twinform.loads(f'{text}<child link="a"/></joint></robot>'), Notes()
+    assert parse_pipeline("add-sensor{type=imu link=world}").run(document, notes) is document
+    assert [each.rule.name for each in notes.diagnostics] == ["nothing-to-add-to"]
+
+
 def test_a_world_gets_what_the_sensor_needs_and_what_a_plugin_switches_off() -> None:
     made, found = run(pipeline("camera"), twinform.loads(WORLD.format("")))
     names = [(plugin.name or "").rsplit("::", 1)[-1] for plugin, _ in plugins_of(made)]

@@ -135,3 +135,13 @@ def test_plugins_are_added_to_worlds() -> None:
     document = load(SDF)
     world = add_world_plugin(document.worlds[0], Plugin(name="n", filename="f"))
     assert [plugin.name for plugin in world.plugins] == ["p", "n"]
+
+
+def test_deeply_nested_models_are_walked() -> None:
+    depth = 240
+    names = "".join(f'<model name="m{number}">' for number in range(depth))
+    inside = '<link name="l"><sensor name="s" type="imu"/></link><plugin name="p" filename="f"/>'
+    document = load(f'<sdf version="1.11">{names}{inside}{"</model>" * depth}</sdf>')
+    [(_, site)] = plugins_of(document)
+    assert len(site.models) == depth
+    assert len(sensors_of(document)) == 1
