@@ -2,7 +2,7 @@
 
 from typing import ClassVar
 
-from pydantic import Field, field_validator
+from pydantic import Field
 
 from twinform.diagnostics import Fate, Notes
 from twinform.ir import Document, Format, Model
@@ -18,7 +18,8 @@ from twinform.passes.classic.worlds import complete_worlds, report_needs, report
 from twinform.passes.control.carried_elements import declare_carriers
 from twinform.passes.control.ros2_control_from_transmissions import Ros2ControlFromTransmissions
 from twinform.passes.legalise.sdf_versions import change_version, known_version
-from twinform.passes.plugins.catalogue import UnknownNameError, release
+from twinform.passes.plugins.catalogue import release
+from twinform.passes.plugins.check_plugins import ReleaseName
 from twinform.passes.plugins.parts import Release
 from twinform.passes.plugins.sites import map_plugins, map_sensors
 from twinform.schemas import parse_version
@@ -57,21 +58,11 @@ class MigrateGazeboClassic(Pass):
     name = "migrate-gazebo-classic"
     example: ClassVar[str] = "migrate-gazebo-classic{release=harmonic}"
 
-    release: str = Field(
-        default="harmonic", description="The release of Gazebo: fortress, garden, harmonic, ionic or jetty."
-    )
+    release: ReleaseName = Field(default="harmonic", description="The release of Gazebo that the result is for.")
     keep: bool = Field(default=False, description="Whether plugins without a counterpart stay.")
     controllers: str | None = Field(
         default=None, min_length=1, description="The file with the controllers' parameters, for gz_ros2_control."
     )
-
-    @field_validator("release")
-    @classmethod
-    def _check_release(cls, value: str) -> str:
-        try:
-            return release(value).name
-        except UnknownNameError as error:
-            raise ValueError(str(error)) from None
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The document for gz-sim."""
