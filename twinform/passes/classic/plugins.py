@@ -51,7 +51,7 @@ class PluginMigration:
         if migration.make is not None:
             return self._make(plugin, site, migration, report)
         if migration.nothing is not None:
-            report.migrated(migration.nothing, [])
+            report.needless(migration.nothing, [])
             return ()
         if migration.sensor is not None:
             where = "a sensor that cannot be read" if site.scope == "sensor" else f"a {site.scope}"
