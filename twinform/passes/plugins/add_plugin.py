@@ -16,7 +16,7 @@ from twinform.passes.plugins.parts import PluginKind, ReleaseName
 from twinform.passes.plugins.selecting import Fields, SelectingPass
 from twinform.passes.plugins.sites import Site, map_sensors
 from twinform.passes.plugins.targets import find_model, find_world, missing, replace_world
-from twinform.passes.plugins.wheels import MEASURES, NotMeasuredError, Wheel, wheel
+from twinform.passes.plugins.wheels import MEASURES, Measured, NotMeasuredError
 from twinform.passes.plugins.worlds import system_plugin, with_defaults
 
 
@@ -34,8 +34,8 @@ class AddPlugin(SelectingPass):
        would have added;
     3. the sensor `on`, or the visual or all visuals of the link `on`, for systems of these.
 
-    Wheel separation, wheel radius and wheel base are read off the model where they are not given: the joints'
-    places and axes, and the cylinders, spheres and capsules of the wheels.
+    Wheel separation, wheel radius and wheel base, and how far tracks are apart, are read off the model where they are
+    not given: from the joints' places and axes, and the cylinders, spheres and capsules of the wheels.
     It never touches a plugin that is there; one that is the same already is not added again.
     Diagnostics: `nothing-to-add-to`, `plugin-reference`, `measured-wheels`, `wheels-not-measured`.
     """
@@ -160,18 +160,16 @@ class AddPlugin(SelectingPass):
         """What is not given and the model says."""
         kind, found = self._kind(), dict[str, object]()
 
-        def wheels(parameter: str) -> tuple[Wheel, ...]:
-            names = cast("tuple[str, ...]", self._values().get(parameter.replace("_", "-"), ()))
-            if not names:
-                raise NotMeasuredError(f"{parameter.replace('_', '-')} is not given")
-            return tuple(wheel(model, name, document.format) for name in names)
+        def names(option: str) -> tuple[str, ...]:
+            return cast("tuple[str, ...]", self._values().get(option, ()))
 
+        measured = Measured(model, document.format, names)
         for parameter, measure in MEASURES.get(kind.name, {}).items():
             option = parameter.replace("_", "-")
             if option in self._values() or self._values().get("steering-only"):
                 continue
             try:
-                found[option] = measure(wheels)
+                found[option] = measure(measured)
             except NotMeasuredError as error:
                 message = f"{option} is not given, and cannot be read off model {model.name!r}: {error}"
                 notes.report(rules.WHEELS_NOT_MEASURED, message, model.location)

@@ -175,10 +175,40 @@ def _unit(vector: Vector3) -> Vector3:
     return (vector[0] / length, vector[1] / length, vector[2] / length)
 
 
-Wheels = Callable[[str], tuple[Wheel, ...]]
-"""The wheels that the joints of a parameter turn."""
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """A model to measure; `names` are the joints or links that a parameter names, by its option."""
 
-Measure = Callable[[Wheels], float]
+    model: Model
+    format: Format
+    names: Callable[[str], tuple[str, ...]]
+
+    def __call__(self, parameter: str) -> tuple[Wheel, ...]:
+        """The wheels that the joints of a parameter turn."""
+        return tuple(wheel(self.model, name, self.format) for name in self._given(parameter))
+
+    def middle(self, parameter: str) -> Vector3:
+        """The mean of the places of the links of a parameter."""
+        places = [_place(self.model, name) for name in self._given(parameter)]
+        x, y, z = (sum(place[at] for place in places) / len(places) for at in range(3))
+        return (x, y, z)
+
+    def _given(self, parameter: str) -> tuple[str, ...]:
+        option = parameter.replace("_", "-")
+        names = self.names(option)
+        if not names:
+            raise NotMeasuredError(f"{option} is not given")
+        return names
+
+
+def _place(model: Model, link: str) -> Vector3:
+    try:
+        return FrameGraph(model).pose(link, MODEL, base="model").translation
+    except FrameError as error:
+        raise NotMeasuredError(error.message) from error
+
+
+Measure = Callable[[Measured], float]
 
 
 def _sides(left: str, right: str) -> Measure:
@@ -187,6 +217,12 @@ def _sides(left: str, right: str) -> Measure:
 
 def _radius_of(*joints: str) -> Measure:
     return lambda wheels: radius_of([wheel for each in joints for wheel in wheels(each)])
+
+
+def _tracks_apart(model: Measured) -> float:
+    """How far the tracks are from each other, across: a vehicle drives along x."""
+    left, right = model.middle("left_track_link"), model.middle("right_track_link")
+    return _more_than_nothing(abs(left[1] - right[1]), "the tracks of both sides are at the same place across")
 
 
 _MECANUM = ("front_left_joint", "back_left_joint", "front_right_joint", "back_right_joint")
@@ -207,6 +243,7 @@ MEASURES: dict[str, dict[str, Measure]] = {
         ),
         "wheel_radius": _radius_of(*_MECANUM),
     },
+    "tracked-vehicle": {"tracks_separation": _tracks_apart},
     "ackermann-steering": {
         "wheel_separation": _sides("left_joint", "right_joint"),
         "kingpin_width": lambda wheels: _distance(wheels("left_steering_joint"), wheels("right_steering_joint")),

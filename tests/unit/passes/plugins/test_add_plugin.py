@@ -61,6 +61,41 @@ def test_every_measure_of_a_mecanum_drive_is_read_off() -> None:
     assert (values["wheelbase"], values["wheel_separation"], values["wheel_radius"]) == ("0.38", "0.43", "0.1")
 
 
+def test_tracks_are_measured_from_link_to_link() -> None:
+    links = "".join(f'<link name="{name}"><pose>0.1 {y} 0 0 0 0</pose></link>' for name, y in (("l", 0.3), ("r", -0.2)))
+    document = twinform.loads(f'<sdf version="1.11"><model name="m"><link name="base"/>{links}</model></sdf>')
+    made, found = run("add-plugin{system=tracked-vehicle left-track-link=l right-track-link=r}", document)
+    assert found == [("measured-wheels", "")]
+    assert {each.name: each.text for each in plugins_of(made)[0][0].content}["tracks_separation"] == "0.5"
+
+
+def test_an_ackermann_drive_is_measured_at_its_steering_joints_and_driven_wheels() -> None:
+    shape = '<collision name="c"><geometry><cylinder><radius>0.2</radius><length>0.1</length></cylinder></geometry>'
+    side = '<pose relative_to="{0}">0 0 0 1.5707963267948966 0 0</pose></collision>'
+    ends = [
+        (end, hand, x, y) for end, x in (("front", 0.8), ("rear", 0.0)) for hand, y in (("left", 0.5), ("right", -0.5))
+    ]
+    links = "".join(
+        f'<link name="{end}_{hand}"><pose>{x} {y} 0 0 0 0</pose>{shape}{side.format(f"{end}_{hand}")}</link>'
+        f'<joint name="{end}_{hand}_wheel" type="revolute"><parent>{"base" if end == "rear" else f"k_{hand}"}</parent>'
+        f"<child>{end}_{hand}</child><axis><xyz>0 1 0</xyz></axis></joint>"
+        for end, hand, x, y in ends
+    )
+    knuckles = "".join(
+        f'<link name="k_{hand}"><pose>0.8 {y} 0 0 0 0</pose></link><joint name="steer_{hand}" type="revolute">'
+        f"<parent>base</parent><child>k_{hand}</child><axis><xyz>0 0 1</xyz></axis></joint>"
+        for hand, y in (("left", 0.4), ("right", -0.4))
+    )
+    text = f'<sdf version="1.11"><model name="m"><link name="base"/>{knuckles}{links}</model></sdf>'
+    joints = " ".join(
+        f"{hand}-steering-joint=steer_{hand} {hand}-joint=rear_{hand}_wheel" for hand in ("left", "right")
+    )
+    made, _ = run(f"add-plugin{{system=ackermann-steering {joints}}}", twinform.loads(text))
+    values = {each.name: each.text for each in plugins_of(made)[0][0].content}
+    assert (values["wheel_base"], values["kingpin_width"]) == ("0.8", "0.8")
+    assert (values["wheel_separation"], values["wheel_radius"]) == ("1", "0.2")
+
+
 def test_adding_twice_is_adding_once() -> None:
     once = f"add-plugin{{system=diff-drive {WHEELS}}}"
     assert run(f"{once},{once}", rover())[0] == run(once, rover())[0]
