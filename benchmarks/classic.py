@@ -13,6 +13,7 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 
 import twinform
+from benchmarks import transmissions
 from benchmarks.classic_judging import MIGRATED, Judged, judged
 from benchmarks.markdown import table, write
 from benchmarks.plugin_blocks import Block, blocks
@@ -84,9 +85,11 @@ def main() -> int:
     outcomes = sorted(_outcomes(), key=lambda one: one.name)
     known = _known(outcomes)
     read = judged(file for file in _candidates() if file.name in {one.name for one in outcomes if one.whole})
-    write(PAGE, INTRODUCTION, *_sections(outcomes, known), _by_libsdformat(read))
+    control, apart = transmissions.section()
+    write(PAGE, INTRODUCTION, *_sections(outcomes, known), _by_libsdformat(read), control)
     print(_totals(outcomes), f"written to {PAGE.relative_to(ROOT)}", sep="\n")
     faults = [f"{one.name}: {fault}" for one in outcomes for fault in _faults(one) if (one.name, fault) not in known]
+    faults += apart
     faults += [f"{one.name}: libsdformat: {error}" for one in read for error in one.new]
     print(*faults, sep="\n", file=sys.stderr)
     return 1 if faults else 0

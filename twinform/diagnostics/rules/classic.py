@@ -89,7 +89,7 @@ INCOMPLETE_MIGRATION = Rule(
     finds="Something that was migrated and needs a value which the source did not have.",
     matters="The plugin of Gazebo Classic took the value from elsewhere, or had no need of it; the system takes a "
     "default that hardly fits.",
-    example="`libSkidSteerDrivePlugin.so` measured the wheels itself; `DiffDrive` wants `wheel_separation` written.",
+    example="`libLinearBatteryPlugin.so` knows no `voltage`, which `LinearBatteryPlugin` of gz-sim needs.",
     better="Write the value that the message names.",
     references=_REFERENCES,
 )

@@ -2,7 +2,7 @@
 
 from typing import ClassVar
 
-from pydantic import Field, field_validator
+from pydantic import Field
 
 from twinform.diagnostics import Fate, Notes
 from twinform.ir import Document, Format, Model
@@ -10,6 +10,7 @@ from twinform.passes.base import Pass
 from twinform.passes.classic.deeds import Deeds
 from twinform.passes.classic.emptied import without_emptied
 from twinform.passes.classic.hardware import modern_hardware
+from twinform.passes.classic.looks import in_colours
 from twinform.passes.classic.plugins import PluginMigration
 from twinform.passes.classic.reporting import accept, scratch
 from twinform.passes.classic.sensors import SensorMigration
@@ -17,7 +18,8 @@ from twinform.passes.classic.worlds import complete_worlds, report_needs, report
 from twinform.passes.control.carried_elements import declare_carriers
 from twinform.passes.control.ros2_control_from_transmissions import Ros2ControlFromTransmissions
 from twinform.passes.legalise.sdf_versions import change_version, known_version
-from twinform.passes.plugins.catalogue import UnknownNameError, release
+from twinform.passes.plugins.catalogue import release
+from twinform.passes.plugins.check_plugins import ReleaseName
 from twinform.passes.plugins.parts import Release
 from twinform.passes.plugins.sites import map_plugins, map_sensors
 from twinform.schemas import parse_version
@@ -42,10 +44,11 @@ class MigrateGazeboClassic(Pass):
     5. names of Ignition become those of Gazebo, but for Fortress, which has them;
     6. models that came with Gazebo Classic are included from Fuel;
     7. worlds get the systems that their sensors need, and all default systems once one is written;
-    8. SDF that is older is said in the version that the release reads.
+    8. material scripts become colours, by the pass `materials`;
+    9. SDF that is older is said in the version that the release reads.
 
-    It never touches plugins that are neither of Gazebo Classic nor of gz-sim, looks, and parts of worlds that gz-sim
-    skips; it says which these are.
+    It never touches plugins that are neither of Gazebo Classic nor of gz-sim, and parts of worlds that gz-sim skips; it
+    says which these are.
     It reports `migrated-plugin`, `migrated-sensor`, `ignition-name`, `shipped-model` and `added-world-system` for what
     was done; `plugin-without-counterpart`, `parameter-without-counterpart`, `sensor-without-counterpart`,
     `unread-world-part` and `unknown-plugin` for what could not be; `incomplete-migration` and `world-system-needed` for
@@ -55,21 +58,11 @@ class MigrateGazeboClassic(Pass):
     name = "migrate-gazebo-classic"
     example: ClassVar[str] = "migrate-gazebo-classic{release=harmonic}"
 
-    release: str = Field(
-        default="harmonic", description="The release of Gazebo: fortress, garden, harmonic, ionic or jetty."
-    )
+    release: ReleaseName = Field(default="harmonic", description="The release of Gazebo that the result is for.")
     keep: bool = Field(default=False, description="Whether plugins without a counterpart stay.")
     controllers: str | None = Field(
         default=None, min_length=1, description="The file with the controllers' parameters, for gz_ros2_control."
     )
-
-    @field_validator("release")
-    @classmethod
-    def _check_release(cls, value: str) -> str:
-        try:
-            return release(value).name
-        except UnknownNameError as error:
-            raise ValueError(str(error)) from None
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The document for gz-sim."""
@@ -99,7 +92,7 @@ class MigrateGazeboClassic(Pass):
         )
         done = deeds.run(without_emptied(sensed, map_plugins(sensed, migration)))
         done = ship_models(modern_hardware(done, target, notes), notes)
-        done = complete_worlds(done, target, notes)
+        done = in_colours(complete_worlds(done, target, notes), notes)
         if done is not document:
             report_needs(done, target, notes)
         report_unread(done, notes)

@@ -9,6 +9,7 @@ from twinform.ir import Axis, Format, Joint, Mimic, Model, Plugin
 from twinform.ir.element import Element
 from twinform.passes.classic.deeds import Deeds
 from twinform.passes.classic.ignition import modern_plugin
+from twinform.passes.classic.measuring import with_measures
 from twinform.passes.classic.moving import Lost, Moved
 from twinform.passes.classic.reporting import Report, accept, scratch
 from twinform.passes.classic.sensors import SensorMigration
@@ -51,7 +52,7 @@ class PluginMigration:
         if migration.make is not None:
             return self._make(plugin, site, migration, report)
         if migration.nothing is not None:
-            report.migrated(migration.nothing, [])
+            report.needless(migration.nothing, [])
             return ()
         if migration.sensor is not None:
             where = "a sensor that cannot be read" if site.scope == "sensor" else f"a {site.scope}"
@@ -87,6 +88,11 @@ class PluginMigration:
         for each, row in made:
             if row.scope == "world" and site.world is not None:
                 self.deeds.worlds[site.world.name].append(each)
+            elif row.measured and site.model is not None:
+                measured, missing = with_measures(each, row.system, site.model, self.format)
+                here.append(measured)
+                for reason in missing:
+                    report.missing(reason)
             else:
                 here.append(self._controlled(each, site, report) if migration.control else each)
         return here

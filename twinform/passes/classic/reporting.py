@@ -46,7 +46,13 @@ class Report:
 
     def migrated(self, became: str, lost: Iterable[Lost]) -> None:
         """Say what it became, and which of its parameters went nowhere."""
-        message = f"{self.what} became {became}"
+        self._account(f"{self.what} became {became}", lost)
+
+    def needless(self, reason: str, lost: Iterable[Lost]) -> None:
+        """Say that gz-sim does without it."""
+        self._account(f"{self.what} is not needed: {reason}", lost)
+
+    def _account(self, message: str, lost: Iterable[Lost]) -> None:
         self.notes.report(rules.MIGRATED_PLUGIN, message, self.where, found=self.plugin.filename)
         weight = plugin_element(self.plugin).weight
         for each in lost:

@@ -84,8 +84,11 @@ class SensorMigration:
                 element = with_text(element, path, topic)
         taken = moved.moved | set(migration.make.of if migration.make else ())
         lost: list[Lost] = [*moved.lost, *unused(plugin, taken, names)]
-        became = migration.nothing or f"a part of the sensor {element.get('name')!r}, {element.get('type')}"
-        Report(self.notes, plugin, site).migrated(became, lost)
+        report = Report(self.notes, plugin, site)
+        if migration.nothing is not None:
+            report.needless(migration.nothing, lost)
+        else:
+            report.migrated(f"a part of the {element.get('type')} {element.get('name')!r}", lost)
         return element
 
     def say_type(self, sensor: Sensor, type_: str, site: Site) -> None:

@@ -72,12 +72,13 @@ class SystemRow(_Row):
     """A system that takes a plugin's place; `before` is the one that did so in releases that lack it.
 
     `sets` is what is written where no parameter says it: mostly what went without saying in the plugin and does not in
-    the system. `$model` is the name of the model.
+    the system. `$model` is the name of the model. What is `measured` are the sizes that the plugin took from the model.
     """
 
     system: str
     before: str | None = None
     scope: str | None = None
+    measured: bool = False
     sets: Mapping[str, str] = Field(default_factory=dict[str, str])
     moves: Moves = Field(default_factory=dict[str, Move])
     topics: Mapping[str, str] = Field(default_factory=dict[str, str])

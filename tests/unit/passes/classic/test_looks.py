@@ -1,0 +1,32 @@
+"""Material scripts are the business of the pass `materials`."""
+
+from typing import ClassVar
+
+import pytest
+
+from twinform.diagnostics import Notes
+from twinform.ir import Document, Format
+from twinform.passes import Pass
+from twinform.passes.classic import looks
+
+
+class Recoloured(Pass):
+    name: ClassVar[str] = "materials"
+
+    def run(self, document: Document, notes: Notes) -> Document:
+        del notes
+        return document.model_copy(update={"version": "recoloured"})
+
+
+DOCUMENT = Document(format=Format.URDF)
+
+
+def test_the_pass_materials_runs_where_it_is_installed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(looks, "registered_passes", lambda: {"materials": None})
+    monkeypatch.setattr(looks, "find_pass", {"materials": Recoloured}.__getitem__)
+    assert looks.in_colours(DOCUMENT, Notes()).version == "recoloured"
+
+
+def test_without_it_looks_stay(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(looks, "registered_passes", dict)
+    assert looks.in_colours(DOCUMENT, Notes()) is DOCUMENT
