@@ -85,7 +85,7 @@ def audit(source: XmlElement, result: str, ledger: Ledger) -> Audit:
 def fates(source: XmlElement, result: str, ledger: Ledger) -> Iterator[Met]:
     """What became of each element and attribute of `source`, from the outside in."""
     inside, outside = _words_of(etree.fromstring(result.encode()))
-    listed = {(entry.location.line, _bare(entry.location.path)): entry.fate for entry in reversed(ledger.entries)}
+    listed = {(entry.location.line, bare_path(entry.location.path)): entry.fate for entry in reversed(ledger.entries)}
     for part in _parts(source, listed):
         if part.fate is not None:
             yield Met(part.element, part.attribute, part.fate)
@@ -131,8 +131,8 @@ def _parts(root: XmlElement, fates: dict[_Place, Fate]) -> Iterator[_Piece]:
         stack += [(child, fate, path) for child in reversed(element) if isinstance(child.tag, str)]
 
 
-def _bare(path: str) -> str:
-    """A path without what tells one element from its like; the line does that."""
+def bare_path(path: str) -> str:
+    """A path without what tells one element from its like; the line of the part does that."""
     return _PREDICATE.sub("", path)
 
 
