@@ -42,27 +42,32 @@ class Place(NamedTuple):
 @cache
 def rows(format: FormatName) -> tuple[Row, ...]:
     """All rows that a file may use, in the order of the table."""
-    reachable = _reachable(format)
+    reachable = frozenset(sections(format))
     definitions = table(format).definitions.items()
     return tuple(row for name, fact in definitions if name in reachable for row in _rows_below(format, name, fact, ""))
 
 
 def unreachable(format: FormatName) -> list[str]:
     """Definitions that no row refers to: the specification describes them and gives them no place."""
-    reachable = _reachable(format)
+    reachable = frozenset(sections(format))
     return [name for name in table(format).definitions if name not in reachable]
 
 
 @cache
-def _reachable(format: FormatName) -> frozenset[str]:
+def sections(format: FormatName) -> tuple[str, ...]:
+    """The definitions that a file may use, from the root outwards."""
     facts = table(format)
-    found, ahead = {facts.root}, [facts.root]
-    while ahead:
-        for row in _rows_below(format, name := ahead.pop(), facts.definitions[name], ""):
+    found = [facts.root]
+    for name in found:  # it grows on the way
+        for row in _rows_below(format, name, facts.definitions[name], ""):
             if row.fact.reference and row.fact.reference not in found:
-                found.add(row.fact.reference)
-                ahead.append(row.fact.reference)
-    return frozenset(found)
+                found.append(row.fact.reference)
+    return tuple(found)
+
+
+def holders(format: FormatName, definition: str) -> list[str]:
+    """The paths of the rows that refer to a definition, each once."""
+    return list(dict.fromkeys(row.path for row in rows(format) if row.fact.reference == definition))
 
 
 def _rows_below(format: FormatName, definition: str, fact: Fact, around: str) -> Iterator[Row]:
