@@ -12,7 +12,7 @@ SYNCED := .venv/.synced
 ORACLES := .venv/.oracles
 DEMO := out/demo
 
-.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness equipment bench inertia lumping classic clean
+.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness equipment bench inertia lumping classic mapping clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -53,6 +53,7 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/python -m twinform.passes.legalise.page docs/explanation/pipeline.md --check
 	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md --check
 	$(BIN)/python -m benchmarks.libsdformat_codes docs/reference/libsdformat_codes.md --check
+	$(BIN)/python -m benchmarks.mapping docs/explanation/mapping.md --check
 	$(MAKE) --no-print-directory wheel
 
 wheel: $(SYNCED) ## build the wheel, list it, install it into an empty environment and run the command
@@ -101,6 +102,9 @@ equipment: $(SYNCED) ## sensors and plugins of SDF as libsdformat finds them in 
 
 inertia: $(ORACLES) ## corpus robots that engines refuse for their inertias, mended; writes docs/reference/inertia.md
 	$(BIN)/python -m benchmarks.inertia
+
+mapping: $(SYNCED) ## where every element of both formats goes; writes docs/explanation/mapping.md
+	$(BIN)/python -m benchmarks.mapping docs/explanation/mapping.md
 
 bench: $(SYNCED) ## how fast it is; writes docs/reference/performance.md
 	$(BIN)/python -m benchmarks.bench

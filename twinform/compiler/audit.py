@@ -26,6 +26,9 @@ _SAID_BY = {"frame": "fixed"}
 """Elements of one format whose being there says a word of the other: a frame stands for a fixed joint."""
 _SAID_BY_NOT = {"turnGravityOff": {"0.0": "1.0", "1.0": "0.0"}}
 """Truths of one format that the other says by their opposites."""
+_SAID_AS = {"revolute": "continuous"}
+"""Words that the other format may say by another one: a joint that turns without an end."""
+_TRUTHS = {"true": "1.0", "yes": "1.0", "false": "0.0", "no": "0.0"}
 _PREDICATE = re.compile(r"\[[^]]*\]|\{[^}]*\}|(?<=[/@])[\w.-]+:")
 _Place = tuple[int, str]
 """A line of the source, and the path of an element or attribute that begins there."""
@@ -85,7 +88,7 @@ def audit(source: XmlElement, result: str, ledger: Ledger) -> Audit:
 def fates(source: XmlElement, result: str, ledger: Ledger) -> Iterator[Met]:
     """What became of each element and attribute of `source`, from the outside in."""
     inside, outside = _words_of(etree.fromstring(result.encode()))
-    listed = {(entry.location.line, _bare(entry.location.path)): entry.fate for entry in reversed(ledger.entries)}
+    listed = {(entry.location.line, bare_path(entry.location.path)): entry.fate for entry in reversed(ledger.entries)}
     for part in _parts(source, listed):
         if part.fate is not None:
             yield Met(part.element, part.attribute, part.fate)
@@ -114,25 +117,32 @@ class _Piece:
 
 
 def _parts(root: XmlElement, fates: dict[_Place, Fate]) -> Iterator[_Piece]:
-    """All elements and attributes, from the outside in; what covers an element covers all that is in it."""
-    stack: list[tuple[XmlElement, Fate | None, str]] = [(root, None, "")]
+    """All elements and attributes, from the outside in; what covers an element covers all that is in it.
+
+    An entry may say the line of the element or of one around it, where the converter knows no better.
+    """
+    stack: list[tuple[XmlElement, Fate | None, str, tuple[int, ...]]] = [(root, None, "", ())]
     while stack:
-        element, above, around = stack.pop()
+        element, above, around, lines = stack.pop()
         if element.tag == SOURCE:
             continue
-        line, path = element.sourceline or 0, f"{around}/{_local(str(element.tag))}"
-        fate = above or fates.get((line, path))
+        path, lines = f"{around}/{_local(str(element.tag))}", (element.sourceline or 0, *lines)
+        fate = above or _fate_at(path, lines, fates)
         opposite = _SAID_BY_NOT.get(_local(str(element.tag)), {})
         words = frozenset(opposite.get(word, word) for word in _words(element.text or ""))
         yield _Piece(element, None, words, fate)
         for name, value in element.items():
-            own = fates.get((line, f"{path}/@{_local(str(name))}"))
+            own = _fate_at(f"{path}/@{_local(str(name))}", lines, fates)
             yield _Piece(element, str(name), frozenset(_words(str(value))), fate or own)
-        stack += [(child, fate, path) for child in reversed(element) if isinstance(child.tag, str)]
+        stack += [(child, fate, path, lines) for child in reversed(element) if isinstance(child.tag, str)]
 
 
-def _bare(path: str) -> str:
-    """A path without what tells one element from its like; the line does that."""
+def _fate_at(path: str, lines: tuple[int, ...], fates: dict[_Place, Fate]) -> Fate | None:
+    return next((fate for line in lines if (fate := fates.get((line, path)))), None)
+
+
+def bare_path(path: str) -> str:
+    """A path without what tells one element from its like; the line of the part does that."""
     return _PREDICATE.sub("", path)
 
 
@@ -166,8 +176,8 @@ def _words(text: str) -> Iterable[str]:
 
 
 def _spelt(word: str) -> str:
-    if word in {"true", "false"}:
-        return "1.0" if word == "true" else "0.0"
+    if word.lower() in _TRUTHS:
+        return _TRUTHS[word.lower()]
     try:
         return repr(float(word) + 0.0)
     except ValueError:
@@ -175,7 +185,9 @@ def _spelt(word: str) -> str:
 
 
 def _implied(word: str, words: frozenset[str]) -> bool:
-    """Whether it is the name that a shape of a link has where URDF gives it none."""
+    """Whether another word says it, or it is the name that a shape of a link has where URDF gives it none."""
+    if _SAID_AS.get(word) in words:
+        return True
     name = _SHAPE_NAME.fullmatch(word)
     return name is not None and name[1] in words
 

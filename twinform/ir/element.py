@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from typing import Self
 
+from twinform.diagnostics import Location
 from twinform.ir.sourced import Sourced
 
 Attributes = tuple[tuple[str, str], ...]
@@ -64,3 +65,10 @@ class Opaque(Sourced):
         if self.element:
             return f"<{self.element.name}>"
         return f"@{self.attribute[0]}" if self.attribute else "text"
+
+    def location_in(self, holder: Sourced) -> Location:
+        """Where it was read, if that is known, or else its place in the element that holds it."""
+        if self.source is not None or holder.source is None:
+            return self.location
+        name = self.element.name if self.element else f"@{self.attribute[0]}" if self.attribute else ""
+        return holder.location.at("/".join(filter(None, (self.at, name)))) if self.at or name else holder.location

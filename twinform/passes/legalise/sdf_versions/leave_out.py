@@ -212,6 +212,8 @@ class _Elements:
         if span is None:
             return [child]
         row = span.row(self.version)
+        if row is not None and row.type and any(not is_foreign(inner) for inner in child.children):
+            row, span = None, span.containers()  # a wrench is a value, and was a position and a force
         if row is None:
             return self._keep(Opaque(element=child), span.terms(self.version), f"<{child.name}>", where)
         inner, lost = self._element(child, row, span.shape(row), where)

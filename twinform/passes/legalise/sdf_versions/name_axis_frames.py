@@ -3,9 +3,9 @@
 from functools import partial
 from typing import ClassVar
 
-from twinform.ir import Axis, Document, Joint
-from twinform.ir.frames import MODEL
-from twinform.passes.legalise.sdf_versions.base import VersionPass
+from twinform.ir import Axis, Document, Joint, World
+from twinform.ir.frames import MODEL, WORLD
+from twinform.passes.legalise.sdf_versions.base import VersionPass, map_worlds
 from twinform.passes.legalise.sdf_versions.carriers import Keeper
 from twinform.passes.map_joints import map_joints
 
@@ -17,7 +17,7 @@ class NameAxisFrames(VersionPass):
     """Say that an axis is in the model frame: by `use_parent_model_frame` from 1.5 on, by `expressed_in` from 1.7 on.
 
     Changes: 1. every axis of a file before 1.5 (`source`), where all are in the model frame; 2. from 1.7 on, those with
-    `use_parent_model_frame` true.
+    `use_parent_model_frame` true. A joint of a world has no model around it: its axis is in the world.
     Never touches: `use_parent_model_frame` false, which 1.7 does not have.
     """
 
@@ -26,17 +26,23 @@ class NameAxisFrames(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with axes in the words of the version."""
-        named = self.number >= _BY_NAME
-        return map_joints(document, partial(_joint, always=self.source_before_1_5, named=named))
+        change = partial(_joint, always=self.source_before_1_5, named=self.number >= _BY_NAME)
+
+        def in_world(world: World) -> World:
+            if not world.joints:
+                return world
+            return world.model_copy(update={"joints": tuple(change(joint, frame=WORLD) for joint in world.joints)})
+
+        return map_joints(map_worlds(document, in_world), partial(change, frame=MODEL))
 
 
-def _joint(joint: Joint, *, always: bool, named: bool) -> Joint:
+def _joint(joint: Joint, *, always: bool, named: bool, frame: str) -> Joint:
     update: dict[str, object] = {}
     for field in ("axis", "axis2"):
         axis: Axis | None = getattr(joint, field)
         if axis is not None and axis.expressed_in is None and _in_model(axis, always=always):
             said = (
-                {"expressed_in": MODEL, "use_parent_model_frame": None} if named else {"use_parent_model_frame": True}
+                {"expressed_in": frame, "use_parent_model_frame": None} if named else {"use_parent_model_frame": True}
             )
             update[field] = axis.model_copy(update=said)
     return joint.model_copy(update=update) if update else joint

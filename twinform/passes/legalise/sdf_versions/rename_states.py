@@ -1,11 +1,12 @@
 """Since 1.12 the states in a world have names of their own."""
 
-from functools import partial
+from dataclasses import dataclass
 from typing import ClassVar
 
 from twinform.ir import Document, Element, World
-from twinform.passes.legalise.sdf_versions.base import VersionPass, map_own_elements, map_worlds
+from twinform.passes.legalise.sdf_versions.base import VersionPass, is_foreign, map_own_elements, map_worlds
 from twinform.passes.legalise.sdf_versions.carriers import Keeper
+from twinform.schemas import Fact, Version, table
 
 _NAMES = {
     "state": {"model": "model_state", "light": "light_state"},
@@ -20,6 +21,8 @@ class RenameStates(VersionPass):
 
     Changes: 1. `<model>` in a `<state>` is `<model_state>`, and so on; 2. the second `<angle>` of a joint is the
     position of its `axis2_state`.
+    Never touches: a state whose other name the version does not have where it stands, or of which the other name could
+    not say all: the velocity of a joint, the pose of a collision. A later pass carries it as it is.
     """
 
     name: ClassVar[str] = "rename-states"
@@ -27,9 +30,10 @@ class RenameStates(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with states in the words of the version."""
+        renaming = _Renaming(self.number, self.back)
 
         def of_state(element: Element) -> Element:
-            return _renamed(element, "state", back=self.back) if element.name == "state" else element
+            return renaming.inside(element, "state") if element.name == "state" else element
 
         def in_world(world: World) -> World:
             return map_own_elements(world, of_state)
@@ -37,22 +41,34 @@ class RenameStates(VersionPass):
         return map_worlds(document, in_world)
 
 
-def _renamed(element: Element, kind: str, *, back: bool) -> Element:
-    """A state with its children renamed; `kind` is its new name."""
-    if kind == "joint_state":
-        return _second_angle_back(element) if back else _second_angle(element)
-    names = _NAMES.get(kind, {})
-    old_names = {new: old for old, new in names.items()}
-    children = tuple(map(partial(_child, names, old_names, back=back), element.children))
-    return element.model_copy(update={"children": children})
+@dataclass(frozen=True, slots=True)
+class _Renaming:
+    """To the names of a version, which has those since 1.12 or, where it goes `back`, those before."""
 
+    version: Version
+    back: bool
 
-def _child(names: dict[str, str], old_names: dict[str, str], child: Element, *, back: bool) -> Element:
-    kind = child.name if back else names.get(child.name, "")
-    if kind not in old_names:
-        return child
-    changed = _renamed(child, kind, back=back)
-    return changed.model_copy(update={"name": old_names[kind] if back else kind})
+    def inside(self, element: Element, kind: str) -> Element:
+        """A state with its children renamed; `kind` is its new name."""
+        if kind == "joint_state":
+            return _second_angle_back(element) if self.back else _second_angle(element)
+        children = tuple(self._child(child, kind) for child in element.children)
+        return element.model_copy(update={"children": children})
+
+    def _child(self, child: Element, around: str) -> Element:
+        pairs = [(new, old) if self.back else (old, new) for old, new in _NAMES.get(around, {}).items()]
+        name = dict(pairs).get(child.name)
+        if name is None or (row := self._row(around, name)) is None:
+            return child
+        changed = self.inside(child, child.name if self.back else name)
+        told = {inner.name for inner in table("sdf").resolve(row).rows}
+        lost = [inner for inner in changed.children if not is_foreign(inner) and inner.name not in told]
+        return child if lost else changed.model_copy(update={"name": name})
+
+    def _row(self, around: str, name: str) -> Fact | None:
+        """The row of a state in the version; None where it has none."""
+        rows = table("sdf").definitions[around].rows
+        return next((row for row in rows if row.name == name and row.exists_in(self.version)), None)
 
 
 def _second_angle(joint: Element) -> Element:

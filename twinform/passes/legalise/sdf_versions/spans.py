@@ -35,6 +35,10 @@ class Span:
         repeating = [each for each in self.rows if each[2].repeats]
         return Span(repeating) if repeating else None
 
+    def containers(self) -> "Span":
+        """When it has children, which in other versions may be a value."""
+        return Span([each for each in self.rows if each[2].type is None])
+
     @property
     def is_split(self) -> bool:
         """Whether it is one thing in some versions and another one in others."""

@@ -63,7 +63,7 @@ def _finish(model: Model, document: Document, keeper: Keeper) -> Model:
         return model
     version = Opaque(at="/sdf", attribute=("version", document.version))
     message = f"the file is SDF {document.version}"
-    return keeper.keep(model, [version], rules.SDF_ONLY, message, document.location)
+    return keeper.keep(model, [version], rules.SDF_ONLY, message, document.location.at("@version"))
 
 
 class _Rest:
@@ -100,7 +100,7 @@ class _Rest:
         for piece in pieces:
             what = f"{piece.at}/{piece.name}" if piece.at else piece.name
             message = f"{what} of {of} has no word in URDF"
-            kept = self.keeper.keep(kept, [piece], rules.SDF_ONLY, message, node.location)
+            kept = self.keeper.keep(kept, [piece], rules.SDF_ONLY, message, piece.location_in(node))
         for path, text in endless:
             message = f"{path} of {of} is {text}, and numbers in URDF are finite"
             self.keeper.notes.report(rules.UNSAYABLE_NUMBER, message, node.location, found=text)

@@ -106,7 +106,7 @@ def _outside(document: Document, chosen: _Chosen) -> Iterator[_Part]:
         if world is not chosen.world:
             yield _Part(f"world {world.name!r}", world.location, count_parts(world))
             continue
-        yield _Part(f"world {world.name!r} around the model", world.location, 2)
+        yield _Part(f"world {world.name!r} around the model", world.location.at("@name"), 2)
         yield from _opaque_parts(world)
         if world.gravity is not None:
             yield _Part("<gravity> of the world", world.location.at("gravity"), 1)

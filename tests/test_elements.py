@@ -1,0 +1,117 @@
+"""Each row of the facts tables stands in a case file, and no part of these files is lost on any way."""
+
+from pathlib import Path
+
+import pytest
+
+import twinform
+from benchmarks.mapping_measure import CASES, measured, ways
+from benchmarks.mapping_rows import FORMATS, FormatName, rows
+from tests.corpus.examine import robots
+from tests.corpus.ir_difference import first_difference as first_ir_difference
+from tests.oracles.xml_trees import first_difference
+from twinform.compiler.audit import audit
+from twinform.compiler.emitting import emit
+from twinform.compiler.memory.document import forget
+from twinform.diagnostics import Fate, Notes, Severity
+from twinform.ir import Document, Format
+from twinform.passes.legalise.sdf_versions.comparison import comparable
+from twinform.passes.legalise.to_urdf.select_model import SelectModel
+
+_FILES = sorted((CASES / "elements").glob("*"))
+_SDF = [path for path in _FILES if path.suffix == ".sdf"]
+_OUTSIDE = "outside-model"
+"""The rule for parts of a world that are no part of a robot."""
+_ALLOWED = frozenset({"several-at-top"})
+"""Warnings that some of the files are about."""
+
+
+def _name(path: Path) -> str:
+    return path.name
+
+
+def _read(path: Path) -> Document:
+    checked = twinform.check(path)
+    found = [each for each in checked.diagnostics if each.severity > Severity.INFO and each.rule.name not in _ALLOWED]
+    assert [each.message for each in found] == []
+    assert checked.document is not None
+    return checked.document
+
+
+@pytest.mark.parametrize("format", FORMATS)
+def test_every_row_of_the_facts_stands_in_a_case_that_is_accepted(format: FormatName) -> None:
+    proved = {row for row, seen in measured().items() if seen.proof is not None}
+    assert [row.path for row in rows(format) if row not in proved] == []
+
+
+@pytest.mark.parametrize("path", _FILES, ids=_name)
+def test_it_is_written_as_it_was_read(path: Path) -> None:
+    document = _read(path)
+    if document.format is Format.SDF:
+        text = twinform.convert(path, to="sdf", sdf_version=document.version).text
+    else:
+        text = twinform.convert(path, to="urdf").text
+    assert first_difference(path.read_bytes(), text.encode()) is None
+
+
+@pytest.mark.parametrize("carriers", [True, False], ids=["carriers", "no_carriers"])
+@pytest.mark.parametrize("path", _FILES, ids=_name)
+def test_an_audit_accounts_for_every_part_there_and_back(path: Path, carriers: bool) -> None:
+    for made in ways(path, _read(path), carriers=carriers):
+        assert isinstance(made, twinform.Conversion)
+        assert _unaccounted(made) == []
+        if not carriers:
+            assert _unaccounted(twinform.convert(made.text.encode(), to=_home(path), carriers=False)) == []
+
+
+@pytest.mark.parametrize("path", _FILES, ids=_name)
+def test_the_other_format_drops_nothing_of_a_robot(path: Path) -> None:
+    for made in ways(path, _read(path)):
+        assert isinstance(made, twinform.Conversion)
+        dropped = [entry for entry in made.ledger.entries if entry.fate is Fate.DROPPED]
+        assert [entry.message for entry in dropped if entry.rule.name != _OUTSIDE] == []
+        assert twinform.check(made.text.encode()).accepted
+
+
+@pytest.mark.parametrize("path", _FILES, ids=_name)
+def test_the_way_home_gives_the_same_ir(path: Path) -> None:
+    document = _read(path)
+    home = _home(path)
+    for robot in robots(document) if home == "sdf" else [None]:
+        there = twinform.convert(path, to="urdf" if home == "sdf" else "sdf", model=robot)
+        back = twinform.convert(there.text.encode(), to=home)
+        assert first_ir_difference(comparable(_alone(document, robot)), comparable(forget(back.document))) is None
+
+
+@pytest.mark.parametrize("path", [path for path in _SDF if path.stem.startswith("words")], ids=_name)
+def test_the_newest_version_says_old_words_without_a_loss(path: Path) -> None:
+    newer = twinform.convert(path, to="sdf", sdf_version="1.12")
+    assert [entry.message for entry in newer.ledger.entries if entry.fate is Fate.DROPPED] == []
+    found = [each for each in twinform.check(newer.text.encode()).diagnostics if each.severity > Severity.INFO]
+    assert [each.message for each in found if each.rule.name not in {*_ALLOWED, "outside-version"}] == []
+
+
+@pytest.mark.parametrize("version", ["1.5", "1.7", "1.9"])
+@pytest.mark.parametrize("path", [path for path in _SDF if not path.stem.startswith("words")], ids=_name)
+def test_an_older_version_brings_it_back(path: Path, version: str) -> None:
+    older = twinform.convert(path, to="sdf", sdf_version=version)
+    again = twinform.convert(older.text.encode(), to="sdf", sdf_version=_read(path).version)
+    assert {entry.fate for entry in older.ledger.entries} <= {Fate.CARRIED}
+    assert first_difference(path.read_bytes(), again.text.encode()) is None
+
+
+def _alone(document: Document, robot: str | None) -> Document:
+    """What has to come back: the document, or the text of the one model of it that was chosen."""
+    if robot is None:
+        return document
+    return twinform.loads(emit(SelectModel(model=robot).run(document, Notes()), Notes()))
+
+
+def _home(path: Path) -> FormatName:
+    return "sdf" if path.suffix == ".sdf" else "urdf"
+
+
+def _unaccounted(made: twinform.Conversion) -> list[str]:
+    assert made.source is not None
+    parts = audit(made.source, made.text, made.ledger).unaccounted
+    return [f"line {part.location.line}: {part.location.path}: {part.says}" for part in parts]
