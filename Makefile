@@ -12,7 +12,7 @@ SYNCED := .venv/.synced
 ORACLES := .venv/.oracles
 DEMO := out/demo
 
-.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness equipment bench inertia lumping classic mapping clean
+.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness equipment bench inertia lumping classic mapping prove coverage fuzz clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -63,6 +63,18 @@ wheel: $(SYNCED) ## build the wheel, list it, install it into an empty environme
 	$(PYTHON) -m venv .wheel-venv
 	.wheel-venv/bin/python -m pip install --quiet --disable-pip-version-check dist/*.whl
 	.wheel-venv/bin/twinform check examples/rover.urdf
+
+prove: $(ORACLES) ## all tests at depth: 2,000 examples of each property, 100,000 documents before four judges
+	TWINFORM_PROFILE=deep $(BIN)/python -m pytest -n $(JOBS)
+
+coverage: $(SYNCED) ## how much of the package the tests run, branches and child processes too
+	$(BIN)/python -m pytest -n $(JOBS) --cov --cov-report=term --cov-report=html:out/coverage
+
+fuzz: $(SYNCED) ## ten minutes of atheris for each target; docs/reference/proof.md says how to run it for hours
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --group fuzz
+	mkdir -p out/fuzz/load out/fuzz/pipeline
+	PYTHONPATH=. $(BIN)/python fuzz/load.py out/fuzz/load tests/fuzz/found/load examples -max_total_time=600
+	PYTHONPATH=. $(BIN)/python fuzz/pipeline.py out/fuzz/pipeline tests/fuzz/found/pipeline -max_total_time=600
 
 test: $(SYNCED) ## all tests
 	$(BIN)/python -m pytest -n $(JOBS)

@@ -17,7 +17,7 @@ import twinform
 from twinform.diagnostics import Diagnostic, Rule
 from twinform.diagnostics.rules import edits
 from twinform.testing import Case, cases
-from twinform.testing.cases import Finding
+from twinform.testing.case_files import Finding
 
 FOLDER = Path(__file__).parent / "cases" / "structure"
 _PASSES = re.compile(r"<!--\s*passes:\s*(.*?)\s*-->")

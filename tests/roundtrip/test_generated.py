@@ -1,17 +1,26 @@
 """What holds for every model, tried on models that Hypothesis makes up."""
 
+from typing import Literal
+
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
+from hypothesis import strategies as st
 
 import twinform
+from tests.profile import examples
 from twinform.compiler import check
+from twinform.compiler.audit import audit
 from twinform.compiler.emitting import emit
 from twinform.diagnostics import Notes
-from twinform.ir import Axis, Document, Joint, Link, Mesh
+from twinform.ir import Axis, Document, Format, Joint, Link, Mesh
 from twinform.ir.frames import FrameGraph
-from twinform.testing import strategies
+from twinform.schemas import table
+from twinform.testing import assert_round_trip, strategies
 
-_SETTINGS = settings(max_examples=50, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+_SETTINGS = examples()
+
+
+_OTHER: dict[Format, Literal["urdf", "sdf"]] = {Format.URDF: "sdf", Format.SDF: "urdf"}
 
 
 def _text(document: Document) -> str:
@@ -31,6 +40,52 @@ def test_urdf_to_ir_to_urdf_is_identity(robot: Document) -> None:
 @given(strategies.sdf_models())
 def test_sdf_to_ir_to_sdf_is_identity(model: Document) -> None:
     assert twinform.loads(_text(model)) == model
+
+
+@_SETTINGS
+@given(strategies.worlds())
+def test_a_world_is_itself_once_read_again(world: Document) -> None:
+    assert_round_trip(world)
+
+
+@_SETTINGS
+@given(strategies.robots())
+def test_a_robot_comes_home_from_sdf(robot: Document) -> None:
+    assert_round_trip(robot, via="sdf")
+
+
+@_SETTINGS
+@given(strategies.sdf_models())
+def test_a_model_comes_home_from_urdf(model: Document) -> None:
+    assert_round_trip(model, via="urdf")
+
+
+@pytest.mark.parametrize("version", table("sdf").versions)
+def test_a_robot_comes_home_from_every_version_of_sdf(version: str) -> None:
+    @examples(0.2)
+    @given(strategies.robots(max_links=5))
+    def comes_home(robot: Document) -> None:
+        assert_round_trip(robot, via="sdf", sdf_version=version)
+
+    comes_home()
+
+
+@pytest.mark.parametrize("version", [each for each in table("sdf").versions if len(each) > 3 or each >= "1.8"])
+def test_every_version_that_says_frames_alike_is_itself_once_read_again(version: str) -> None:
+    @examples(0.2)
+    @given(strategies.sdf_models(version=version, max_links=5))
+    def is_itself(model: Document) -> None:
+        assert_round_trip(model)
+
+    is_itself()
+
+
+@examples(0.3)
+@given(strategies.robots(max_links=5) | strategies.sdf_models(max_links=5), st.booleans())
+def test_the_ledger_and_the_output_account_for_every_part(model: Document, carriers: bool) -> None:
+    made = twinform.convert(_text(model).encode(), to=_OTHER[model.format], carriers=carriers)
+    assert made.source is not None
+    assert [part.says for part in audit(made.source, made.text, made.ledger).unaccounted] == []
 
 
 @_SETTINGS

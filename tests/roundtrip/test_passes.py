@@ -1,57 +1,27 @@
-"""Passes over generated models: what comes out is valid, and running a pass again changes nothing."""
+"""Every installed pass keeps its contract on models that Hypothesis makes up, whatever format they are in."""
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 
-import twinform
-from twinform.compiler.emitting import emit
-from twinform.diagnostics import Notes
+from tests.profile import examples
 from twinform.ir import Document
-from twinform.ir.verify import verify
-from twinform.passes import parse_pipeline
-from twinform.testing import strategies
+from twinform.passes import registered_passes
+from twinform.testing import assert_pass_contract, strategies
 
-_SETTINGS = settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.too_slow])
-_PIPELINES = (
-    "check-inertia",
-    "fill-inertia{shapes=either}",
-    "balance-inertia",
-    "split-massless{ends=fix}",
-    "check-limits",
-    "fill-limits{effort=1 velocity=2 lower=-1 upper=1 damping=0.1 friction=0.2}",
-    "tighten-limits",
-    "set-surface{mu=0.5 slip1=0.1 restitution=0.5}",
-    "materials{pbr=true}",
-    "rewrite-uris{to=model}",
-    'drop{visuals="*" sensors="*"}',
+_NEEDS = {name: entry.load() for name, entry in registered_passes().items()}
+_WITH_DEFAULTS = sorted(
+    name for name, kind in _NEEDS.items() if not any(field.is_required() for field in kind.model_fields.values())
 )
+"""Passes that can be run without being told anything."""
 
 
-def _judge(pipeline: str, document: Document) -> None:
-    once = parse_pipeline(pipeline).run(document, Notes(), verify=verify)
-    assert parse_pipeline(pipeline).run(once, Notes()) == once
-    if once is not document:
-        notes = Notes()
-        text = emit(once, notes)
-        assert notes.diagnostics == []
-        assert twinform.loads(text) == once
+@pytest.mark.parametrize("name", _WITH_DEFAULTS)
+def test_a_pass_keeps_its_contract(name: str) -> None:
+    step = _NEEDS[name]()
 
+    @examples(0.5)
+    @given(strategies.robots() | strategies.sdf_models() | strategies.worlds(max_models=2))
+    def keeps(model: Document) -> None:
+        assert_pass_contract(step, model)
 
-@pytest.mark.parametrize("pipeline", _PIPELINES)
-def test_robots_stay_valid(pipeline: str) -> None:
-    @_SETTINGS
-    @given(strategies.robots())
-    def judge(robot: Document) -> None:
-        _judge(pipeline, robot)
-
-    judge()
-
-
-@pytest.mark.parametrize("pipeline", _PIPELINES)
-def test_models_of_sdf_stay_valid(pipeline: str) -> None:
-    @_SETTINGS
-    @given(strategies.sdf_models())
-    def judge(model: Document) -> None:
-        _judge(pipeline, model)
-
-    judge()
+    keeps()

@@ -1,10 +1,11 @@
 """What holds for every comparison of robots, tried on models that Hypothesis makes up."""
 
 import pytest
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import twinform
+from tests.profile import examples
 from twinform import Comparison
 from twinform.compiler.emitting import emit
 from twinform.diagnostics import Notes
@@ -12,12 +13,8 @@ from twinform.ir import Document
 from twinform.testing import strategies
 from twinform.testing.mutations import MUTATIONS, OF_SDF, OF_URDF, mutate
 
-_SETTINGS = settings(
-    max_examples=20,
-    deadline=None,
-    suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much],
-)
-_FEW = settings(_SETTINGS, max_examples=3)
+_SETTINGS = examples(0.5)
+_FEW = examples(0.05)
 
 
 def _text(document: Document) -> bytes:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from twinform.testing import strategies
-    from twinform.testing.cases import Case, CheckOptions, Finding, cases
+    from twinform.testing.case_files import Case, CheckOptions, Finding, cases
     from twinform.testing.pass_cases import PassCase, pass_cases
     from twinform.testing.properties import assert_pass_contract, assert_round_trip, assert_same_robot, assert_valid
 
@@ -33,7 +33,7 @@ __all__ = [
 ]
 
 _HOMES = {
-    **dict.fromkeys(("Case", "CheckOptions", "Finding", "cases"), "cases"),
+    **dict.fromkeys(("Case", "CheckOptions", "Finding", "cases"), "case_files"),
     **dict.fromkeys(("PassCase", "pass_cases"), "pass_cases"),
     **dict.fromkeys(("assert_pass_contract", "assert_round_trip", "assert_same_robot", "assert_valid"), "properties"),
 }

@@ -14,7 +14,7 @@ from typing import Literal
 
 from twinform.compiler import CompileError, Conversion, convert
 from twinform.diagnostics import Diagnostic
-from twinform.testing.cases import Case, Finding, cases
+from twinform.testing.case_files import Case, Finding, cases
 
 _PASSES = re.compile(r"<!--\s*passes:\s*(?P<pipeline>.*?)\s*-->", re.DOTALL)
 _FORMATS: dict[str, Literal["sdf", "urdf"]] = {".urdf": "urdf", ".sdf": "sdf"}

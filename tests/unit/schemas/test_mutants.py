@@ -7,7 +7,7 @@ from random import Random
 import pytest
 from lxml import etree
 
-from tests.unit.schemas.mutants import mutant
+from tests.differential.mutants import mutant
 from twinform.diagnostics import Notes
 from twinform.schemas import (
     Context,

@@ -13,7 +13,7 @@ import pytest
 import twinform
 from twinform.diagnostics import Notes, Severity
 from twinform.passes.plugins.check_plugins import CheckPlugins
-from twinform.testing.cases import Case, cases
+from twinform.testing.case_files import Case, cases
 
 _CASES = Path(__file__).parents[3] / "cases/plugins"
 

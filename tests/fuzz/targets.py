@@ -1,0 +1,28 @@
+"""What must hold for any input at all; `fuzz/` runs these under atheris, and the tests on what that has found."""
+
+import twinform
+from twinform.compiler import check
+from twinform.compiler.emitting import emit
+from twinform.diagnostics import Notes
+from twinform.passes import PipelineError, parse_pipeline
+
+
+def load(data: bytes) -> None:
+    """Nothing but findings comes of any bytes, and what is accepted is the same text once written, read and written."""
+    checked = check(data)
+    if not checked.accepted or checked.document is None:
+        assert checked.diagnostics, "refused without a word"
+        return
+    notes = Notes()
+    text = emit(checked.document, notes)
+    if not notes.has_errors:
+        assert emit(twinform.loads(text), notes) == text, "another text once read again"
+
+
+def pipeline(data: bytes) -> None:
+    """A text is a pipeline, whose own text is the same pipeline, or a PipelineError."""
+    try:
+        found = parse_pipeline(data.decode("utf-8", errors="replace"))
+    except PipelineError:
+        return
+    assert parse_pipeline(str(found)) == found, "another pipeline once written and parsed again"
