@@ -1,7 +1,7 @@
 """What plugins of Gazebo Classic took from the model, and systems want to have written."""
 
 from twinform.ir import Element, Format, Model, Plugin
-from twinform.passes.plugins.wheels import MEASURES, NotMeasuredError, Wheel, wheel
+from twinform.passes.plugins.wheels import MEASURES, Measured, NotMeasuredError
 from twinform.schemas import format_value
 
 
@@ -11,18 +11,17 @@ def with_measures(plugin: Plugin, system: str, model: Model, format_: Format) ->
     for child in plugin.content:
         joints.setdefault(child.name, []).append(child.text or "")
 
-    def wheels(parameter: str) -> tuple[Wheel, ...]:
-        if parameter not in joints:
-            raise NotMeasuredError(f"{parameter} is not written")
-        return tuple(wheel(model, name, format_) for name in joints[parameter])
+    def named(option: str) -> tuple[str, ...]:
+        return tuple(joints.get(option.replace("-", "_"), ()))
 
+    measured = Measured(model, format_, named)
     found: list[Element] = []
     missing: list[str] = []
     for name, measure in MEASURES[system].items():
         if name in joints:
             continue
         try:
-            found.append(Element(name=name, text=format_value(measure(wheels))))
+            found.append(Element(name=name, text=format_value(measure(measured))))
         except NotMeasuredError as error:
             missing.append(f"it needs <{name}>, which cannot be read off the model: {error}")
     return plugin.model_copy(update={"content": (*plugin.content, *found)}), missing
