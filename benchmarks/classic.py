@@ -145,7 +145,7 @@ def _told(name: str, found: list[Block], made: twinform.Conversion, *, whole: bo
                 reasons[subject[1], entry.message.partition(": ")[2]] += 1
     for each in made.diagnostics:
         if each.rule is rules.PARAMETER_WITHOUT_COUNTERPART:
-            lost[each.message.partition(">")[0] + ">", each.message.rpartition(": ")[2]] += 1
+            lost[each.message.partition(">")[0] + ">", each.message.partition(" has no counterpart: ")[2]] += 1
     wanted = Counter(block.filename for block in found)
     told = Counter[str]()
     for (filename, _), count in ends.items():

@@ -7,18 +7,15 @@ from twinform.schemas import format_value
 
 def with_measures(plugin: Plugin, system: str, model: Model, format_: Format) -> tuple[Plugin, list[str]]:
     """The plugin with the sizes that its system can read off the model, and why the others are missing."""
-    joints: dict[str, list[str]] = {}
+    written: dict[str, tuple[str, ...]] = {}
     for child in plugin.content:
-        joints.setdefault(child.name, []).append(child.text or "")
-
-    def named(option: str) -> tuple[str, ...]:
-        return tuple(joints.get(option.replace("-", "_"), ()))
-
-    measured = Measured(model, format_, named)
+        option = child.name.replace("_", "-")
+        written[option] = (*written.get(option, ()), child.text or "")
+    measured = Measured(model, format_, lambda option: written.get(option, ()))
     found: list[Element] = []
     missing: list[str] = []
     for name, measure in MEASURES[system].items():
-        if name in joints:
+        if name.replace("_", "-") in written:
             continue
         try:
             found.append(Element(name=name, text=format_value(measure(measured))))
