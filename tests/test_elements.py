@@ -91,13 +91,27 @@ def test_the_newest_version_says_old_words_without_a_loss(path: Path) -> None:
     assert [each.message for each in found if each.rule.name not in {*_ALLOWED, "outside-version"}] == []
 
 
-@pytest.mark.parametrize("version", ["1.5", "1.7", "1.9"])
+@pytest.mark.parametrize("version", ["1.5", "1.6", "1.9"])
 @pytest.mark.parametrize("path", [path for path in _SDF if not path.stem.startswith("words")], ids=_name)
 def test_an_older_version_brings_it_back(path: Path, version: str) -> None:
     older = twinform.convert(path, to="sdf", sdf_version=version)
     again = twinform.convert(older.text.encode(), to="sdf", sdf_version=_read(path).version)
     assert {entry.fate for entry in older.ledger.entries} <= {Fate.CARRIED}
     assert first_difference(path.read_bytes(), again.text.encode()) is None
+
+
+def test_a_pose_in_a_frame_of_its_own_element_comes_home_from_a_version_without_such_frames() -> None:
+    path = CASES / "elements/words_1_5.sdf"
+    newer = twinform.convert(path, to="sdf", sdf_version="1.9")
+    again = twinform.convert(newer.text.encode(), to="sdf", sdf_version="1.5")
+    assert first_difference(path.read_bytes(), again.text.encode()) is None
+
+
+def test_the_audit_does_not_take_a_whole_file_for_carried() -> None:
+    made = twinform.convert(CASES / "elements/shapes.sdf", to="urdf")
+    assert made.source is not None
+    counted = audit(made.source, made.text, made.ledger)
+    assert (counted.expressed, counted.carried) == (made.ledger.expressed, made.ledger.count(Fate.CARRIED))
 
 
 def _alone(document: Document, robot: str | None) -> Document:

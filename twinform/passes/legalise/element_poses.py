@@ -57,6 +57,8 @@ class ElementPoses:
             for child in element.children
         )
         pose = element.find("pose")
+        if pose is not None and not moves and _frame_of(pose) in _own_frames(element):  # of SDF 1.5 and 1.6
+            return element.model_copy(update={"children": children})
         names_frame = pose is not None and _frame_of(pose) is not None
         if not names_frame and not (moves and (pose is not None or element.name in _posed())):
             return element.model_copy(update={"children": children}) if children != element.children else element
@@ -83,6 +85,10 @@ def _posed() -> frozenset[str]:
 
 def _frame_of(pose: Element) -> str | None:
     return next((value for name in _FRAME_ATTRIBUTES if (value := pose.get(name))), None)
+
+
+def _own_frames(element: Element) -> frozenset[str]:
+    return frozenset(child.get("name") or "" for child in element.children if child.name == "frame")
 
 
 def _names_frame(element: Element) -> bool:

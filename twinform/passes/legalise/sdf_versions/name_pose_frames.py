@@ -1,10 +1,9 @@
 """Since 1.7 a pose names its frame `relative_to`."""
 
-from functools import partial
 from typing import ClassVar
 
 from twinform.ir import Document, Element, Opaque, Pose, map_children
-from twinform.passes.legalise.sdf_versions.base import AnyNode, VersionPass, map_inside, map_own_elements
+from twinform.passes.legalise.sdf_versions.base import AnyNode, VersionPass, is_foreign, map_own_elements
 from twinform.passes.legalise.sdf_versions.carriers import Keeper
 
 _OLD = "frame"
@@ -16,7 +15,7 @@ class NamePoseFrames(VersionPass):
 
     Changes: every pose, those in untyped elements too.
     Never touches: an empty name, which means nothing; the pose of a model at the root of the file, which names no frame
-    in newer versions.
+    in newer versions; in an untyped element the pose in a frame of its own, which goes along with that frame.
     """
 
     name: ClassVar[str] = "name-pose-frames"
@@ -32,7 +31,7 @@ def _renamed_in(node: AnyNode) -> AnyNode:
     node = map_children(node, _renamed_in)
     if isinstance(node, Pose):
         return _pose(node)
-    return map_own_elements(node, partial(map_inside, change=_element))
+    return map_own_elements(node, _inside)
 
 
 def _pose(pose: Pose) -> Pose:
@@ -43,8 +42,20 @@ def _pose(pose: Pose) -> Pose:
     return pose.model_copy(update={_NEW: found.attribute[1], "opaque": rest})
 
 
-def _element(element: Element) -> Element:
-    if element.name != "pose" or not element.get(_OLD) or element.get(_NEW) is not None:
+def _inside(element: Element, own: frozenset[str | None] = frozenset()) -> Element:
+    """An untyped element with its poses renamed; `own` are the frames of the one around it."""
+    if element.name == "plugin" or is_foreign(element):
         return element
-    attributes = tuple((_NEW if name == _OLD else name, value) for name, value in element.attributes)
-    return element.model_copy(update={"attributes": attributes})
+    if element.name == "pose":
+        return element if element.get(_OLD) in own else _element(element)
+    frames = frozenset(child.get("name") for child in element.children if child.name == "frame")
+    children = tuple(_inside(child, frames) for child in element.children)
+    same = all(new is old for new, old in zip(children, element.children, strict=True))
+    return element if same else element.model_copy(update={"children": children})
+
+
+def _element(pose: Element) -> Element:
+    if not pose.get(_OLD) or pose.get(_NEW) is not None:
+        return pose
+    attributes = tuple((_NEW if name == _OLD else name, value) for name, value in pose.attributes)
+    return pose.model_copy(update={"attributes": attributes})
