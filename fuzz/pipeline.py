@@ -1,4 +1,4 @@
-"""Run by `PYTHONPATH=. python fuzz/pipeline.py CORPUS [-max_total_time=SECONDS]`: a target of tests/fuzz under atheris."""
+"""`PYTHONPATH=. python fuzz/pipeline.py CORPUS [-max_total_time=SECONDS]`: a target of tests/fuzz under atheris."""
 
 import sys
 
