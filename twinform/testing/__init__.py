@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from twinform.testing import strategies
     from twinform.testing.case_files import Case, CheckOptions, Finding, cases
-    from twinform.testing.pass_cases import PassCase, pass_cases
+    from twinform.testing.pass_case_files import PassCase, pass_cases
     from twinform.testing.properties import assert_pass_contract, assert_round_trip, assert_same_robot, assert_valid
 
 __all__ = [
@@ -34,7 +34,7 @@ __all__ = [
 
 _HOMES = {
     **dict.fromkeys(("Case", "CheckOptions", "Finding", "cases"), "case_files"),
-    **dict.fromkeys(("PassCase", "pass_cases"), "pass_cases"),
+    **dict.fromkeys(("PassCase", "pass_cases"), "pass_case_files"),
     **dict.fromkeys(("assert_pass_contract", "assert_round_trip", "assert_same_robot", "assert_valid"), "properties"),
 }
 
