@@ -10,6 +10,8 @@ from functools import cache
 from itertools import groupby
 from pathlib import Path
 
+from tests.profile import DEEP
+
 ROOT = Path(__file__).resolve().parents[2]
 SHARED = Path(os.environ.get("TWINFORM_SHARED", ROOT.parent / "shared"))
 CORPUS = Path(os.environ.get("TWINFORM_CORPUS", SHARED / "corpus"))
@@ -86,10 +88,10 @@ def chunks(*kinds: Kind) -> dict[str, tuple[CorpusFile, ...]]:
 
 
 def portions(wanted: Iterable[CorpusFile]) -> dict[str, tuple[CorpusFile, ...]]:
-    """Some files in portions of one repository."""
+    """Some files in portions of one repository: every third of each, and all of them in the deep profile."""
     found: dict[str, tuple[CorpusFile, ...]] = {}
     for repository, group in groupby(wanted, key=lambda file: file.repository):
-        files = tuple(group)
+        files = tuple(group)[:: 1 if DEEP else 3]
         found |= {f"{repository}-{i}": files[i : i + _PORTION] for i in range(0, len(files), _PORTION)}
     # without a corpus one empty portion stays, for the test to skip with its reason
     return found or {"none": ()}

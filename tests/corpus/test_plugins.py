@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import twinform
-from tests.corpus.files import CorpusFile, Kind, chunks
+from tests.corpus.files import CorpusFile, Kind, chunks, models
 from twinform.compiler.emitting import emit
 from twinform.diagnostics import Notes
 from twinform.ir import Document, Format, Link, Model, Plugin
@@ -31,7 +31,7 @@ ANOTHER_MEASURE = {
 
 
 def test_wheels_are_measured_as_their_authors_did(corpus: Path) -> None:
-    found = {file.name: list(drives(file)) for chunk in CHUNKS.values() for file in chunk if file.kind == Kind.SDF}
+    found = {file.name: list(drives(file)) for file in models() if file.kind == Kind.SDF}
     measured = {name: pairs for name, pairs in found.items() if pairs}
     assert len(measured) > 15 or not corpus.is_dir()
     wrong = {

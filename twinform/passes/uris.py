@@ -59,14 +59,20 @@ def map_uris(node: AnyNode, change: Change) -> AnyNode:
     if isinstance(node, Script):
         uris = tuple(change(uri, "texture", node.location) for uri in node.uris)
         update |= {"uris": uris} if uris != node.uris else {}
+    if isinstance(node, GazeboExtension) or node.opaque:
+        update |= _in_elements(node, change)
+    return node.model_copy(update=update) if update else node
+
+
+def _in_elements(node: Node, change: Change) -> dict[str, object]:
+    """What changes in the parts of a node that have no typed form."""
     in_element = partial(_element, change=change, where=node.location)
+    update: dict[str, object] = {}
     if isinstance(node, GazeboExtension):
         content = tuple(map(in_element, node.content))
         update |= {"content": content} if content != node.content else {}
-    if node.opaque:
-        opaque = map_elements(node.opaque, in_element)
-        update |= {"opaque": opaque} if opaque != node.opaque else {}
-    return node.model_copy(update=update) if update else node
+    opaque = map_elements(node.opaque, in_element)
+    return {**update, "opaque": opaque} if opaque != node.opaque else update
 
 
 def _element(element: Element, change: Change, where: Location, inside: str = "") -> Element:
