@@ -5,7 +5,7 @@ from pathlib import Path
 
 import click
 
-from twinform.cli.companions import write_companions
+from twinform.cli.companions import Companions
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.findings import show
 from twinform.cli.targets import Job
@@ -27,6 +27,7 @@ class Options:
     notes: bool
     policy: Policy
     watching: Watching
+    companions: Companions
     audit: bool = False
 
     def order_for(self, job: Job) -> Order:
@@ -57,7 +58,7 @@ def run_conversion(job: Job, options: Options, label: str) -> int:
     if not options.show(job.source.name, conversion.diagnostics):
         return FINDINGS
     _write(conversion, job.path, options.ledger)
-    if not write_companions(conversion, job.source.name, notes=options.notes):
+    if not options.companions.write(conversion, job.source.name, notes=options.notes):
         return FINDINGS
     click.echo(f"{label}{': ' if label else ''}{summary(conversion.ledger)}", err=True)
     return _audit(conversion, job.source.name) if options.audit else 0

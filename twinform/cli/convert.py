@@ -6,7 +6,7 @@ from typing import Unpack
 import click
 from click.core import ParameterSource
 
-from twinform.cli.companions import companion_options
+from twinform.cli.companions import Companions, companion_options
 from twinform.cli.conversion import Options, print_plan, run_conversion
 from twinform.cli.findings import notes_option
 from twinform.cli.inputs import how_to_read, inputs, reading_options
@@ -47,6 +47,9 @@ def command(
     target: Target | None,
     *,
     ledger: Path | None,
+    bridge: Path | None,
+    world: Path | None,
+    gazebo: str,
     model: str | None,
     split: bool,
     audit: bool,
@@ -82,7 +85,10 @@ def command(
         policy=policy,
         watching=watching,
         audit=audit,
+        companions=Companions(bridge, world, gazebo),
     )
+    if options.companions and (split or len(sources) > 1):
+        raise click.UsageError("--bridge and --world take one input, and no --split")
     if split:
         ctx.exit(run_split(_only(sources), options, _folder(out, target, model)))
     todo = jobs(sources, out, target)

@@ -76,3 +76,11 @@ def test_a_file_that_cannot_be_written_is_said(tmp_path: Path) -> None:
     code, text = run(tmp_path, "-o", f"{tmp_path}/r.sdf", "--bridge", f"{tmp_path}/taken/b.yaml")
     assert code == 2
     assert "cannot write" in text
+
+
+def test_one_file_is_not_written_for_several_models(tmp_path: Path) -> None:
+    (tmp_path / "other.urdf").write_text(ROBOT.format(IMU))
+    bridge = tmp_path / "bridge.yaml"
+    code, said = run(tmp_path, str(tmp_path / "other.urdf"), "-o", f"{tmp_path}/out/", "--bridge", str(bridge))
+    assert (code, bridge.exists()) == (2, False)
+    assert "--bridge and --world take one input" in said
