@@ -130,7 +130,10 @@ def _accounted(file: CorpusFile, name: str, way: Way, made: twinform.Conversion,
     places = [_bare(entry.location.path) for entry in made.ledger.entries]
     names = [name for entry in made.ledger.entries for name in _NAME.findall(entry.location.path)]
     names.append(made.document.models[0].name)  # of a model without links: URDF has to have one
-    silent = [each.message for each in found.differences if not _is_listed(each, places, names)]
+    unlisted = [each for each in found.differences if not _is_listed(each, places, names)]
+    if any(each.group == "joint" and each not in unlisted for each in found.differences):
+        unlisted = [each for each in unlisted if each.group != "kinematics"]  # other joints move links to other places
+    silent = [each.message.replace(found.a, "source").replace(found.b, "result") for each in unlisted]
     silent += [f"{part.location.path}: {part.says}" for part in audit(made.source, made.text, made.ledger).unaccounted]
     verdict = Verdict.DIFFERENT if silent else Verdict.SAME if found.same else Verdict.LEDGER
     return Outcome(name, way, verdict, next(iter(silent), ""), notes=len(found.notes), seconds=seconds)

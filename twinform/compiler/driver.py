@@ -11,7 +11,7 @@ from twinform.compiler.loading import Checked, Reading, garbage_collection_pause
 from twinform.compiler.orders import Language, Order, UrdfVersion
 from twinform.compiler.other_documents import OtherDocuments
 from twinform.compiler.uris import LocalAssets, SearchPath
-from twinform.diagnostics import Diagnostic, Ledger, Notes
+from twinform.diagnostics import Diagnostic, Fate, Ledger, Notes
 from twinform.diagnostics.rules.model import MISSING_LIMIT
 from twinform.diagnostics.rules.structure import MISSING_ATTRIBUTE
 from twinform.ir import Document
@@ -145,6 +145,8 @@ def _run(
     if not checked.accepted:
         verify(changed, notes)
     source = changed if changed is not document or said is None else said
+    if source is said and order.to not in {document.format, "json"} and order.carriers:
+        _remember_includes(notes, len(checked.entries))
     text = ""
     if not notes.has_errors:
         document, text = _written(changed, source, order, notes, watch, fit=checked.mixed)
@@ -153,6 +155,12 @@ def _run(
     lost = sum(entry.weight for entry in notes.entries)
     ledger = Ledger(max(0, checked.size - lost), tuple(notes.entries))
     return Conversion(text, document, tuple(notes.diagnostics), ledger, checked.tree)
+
+
+def _remember_includes(notes: Notes, count: int) -> None:
+    """What went when includes were expanded, the first entries, travels in the memory of what the file said."""
+    remembered = [replace(each, fate=Fate.CARRIED) for each in notes.entries[:count]]
+    notes.entries[:count] = remembered
 
 
 def _written(

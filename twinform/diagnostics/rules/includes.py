@@ -69,8 +69,8 @@ MERGED_AWAY = Rule(
 INCLUDE_LEFTOVER = Rule(
     name="include-leftover",
     severity=Severity.WARNING,
-    finds="Something in an include that an expanded model has no place for.",
-    matters="It is left out.",
+    finds="Something in an include that an expanded model has no place for, such as its URI, for the ledger.",
+    matters="It is left out; what stands in its place is what it named.",
     example="An unknown element inside `<include>`.",
     better="Write it into the included model.",
 )

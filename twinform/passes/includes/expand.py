@@ -9,7 +9,7 @@ from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import includes as rules
 from twinform.ir import Document, Include, Model, World
 from twinform.passes.includes.merge import merge_into_model, merge_into_world
-from twinform.passes.includes.place import placed_actor, placed_light, placed_model, report_leftovers
+from twinform.passes.includes.place import account_replaced, placed_actor, placed_light, placed_model, report_leftovers
 from twinform.passes.includes.relocate import relocate
 from twinform.passes.includes.upgrade import newest, upgrade_document
 
@@ -142,6 +142,7 @@ class _Expansion:
         for include in includes:
             source = self.found.get(id(include))
             if source is not None:
+                account_replaced(include, self.notes)
                 yield include, source
 
     def _kept(self, includes: Iterable[Include]) -> tuple[Include, ...]:

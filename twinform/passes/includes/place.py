@@ -72,6 +72,12 @@ def _has_namespace(model: Model) -> bool:
     return any(part.attribute and part.attribute[0] == "namespace" for part in model.opaque)
 
 
+def account_replaced(include: Include, notes: Notes) -> None:
+    """Say that the URI of an include went: what it names stands there now."""
+    message = f"the include of {include.uri!r} is replaced by what it names"
+    notes.account(Fate.DROPPED, rules.INCLUDE_LEFTOVER, message, include.location.at("uri"))
+
+
 def report_leftovers(include: Include, notes: Notes) -> None:
     """Say of all untyped parts of an include that they come to nothing."""
     for part in include.opaque:
