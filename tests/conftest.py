@@ -7,6 +7,8 @@ import pytest
 
 from tests.corpus.files import CORPUS, MISSING
 
+pytest.register_assert_rewrite("tests.expected")  # so that it shows what differs, as tests do
+
 
 @pytest.fixture(scope="session")
 def corpus() -> Path:

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.expected import assert_expected
 from twinform.testing import Case, CheckOptions, cases
 
 _CASES = Path(__file__).parent / "cases"
@@ -23,7 +24,7 @@ def test_check_finds_what_the_case_announces(case: Case) -> None:
     assert case.mismatches() == []
 
 
-@pytest.mark.parametrize("case", cases(_CASES / "includes", options=_EXPANDED, below=False), ids=_name)
+@pytest.mark.parametrize("case", cases(_CASES / "includes", options=_EXPANDED), ids=_name)
 def test_expanding_includes_finds_what_the_case_announces(case: Case) -> None:
     assert case.mismatches() == []
 
@@ -31,18 +32,10 @@ def test_expanding_includes_finds_what_the_case_announces(case: Case) -> None:
 @pytest.mark.parametrize("case", cases(_CASES / "convert"), ids=_name)
 def test_convert_makes_what_the_case_shows(case: Case) -> None:
     assert case.mismatches() == []
-    if not case.output_path.exists():
-        case.output_path.write_text(case.output(), encoding="utf-8")
-        pytest.fail(f"{case.output_path.name} was missing and is written now; read it before you keep it")
-    assert case.output() == case.output_path.read_text(encoding="utf-8")
+    assert_expected(case.output(), case.output_path)
 
 
 @pytest.mark.parametrize("case", cases(_CASES / "versions"), ids=_name)
 def test_an_older_version_is_written_as_the_case_shows(case: Case) -> None:
     assert case.mismatches() == []
-    expected = case.path.with_suffix(".expected.sdf")
-    text = case.output(_OLDER, to="sdf")
-    if not expected.exists():
-        expected.write_text(text, encoding="utf-8")
-        pytest.fail(f"{expected.name} was missing and is written now; read it before you keep it")
-    assert text == expected.read_text(encoding="utf-8")
+    assert_expected(case.output(_OLDER, to="sdf"), case.path.with_suffix(".expected.sdf"))

@@ -30,6 +30,7 @@ _FILES = (
     "examples/rover.urdf",
     "examples/warehouse.sdf",
     "tests/cases/check/all_at_once.urdf",
+    "tests/cases/check/gazebo_conflicts.urdf",
     *sorted(str(path.relative_to(_ROOT)) for path in (_ROOT / "tests/cases/convert").glob("*.[us]*df"))[::3],
 )
 

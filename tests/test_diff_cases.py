@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from tests.expected import assert_expected
 from twinform.cli import main
 
 _CASES = sorted(path for path in (Path(__file__).parent / "cases/diff").iterdir() if path.is_dir())
@@ -18,10 +19,6 @@ def test_diff_prints_what_the_case_shows(case: Path, monkeypatch: pytest.MonkeyP
     a, b = (next(Path().glob(f"{side}.*")).name for side in "ab")
     done = CliRunner().invoke(main, ["diff", a, b], catch_exceptions=False)
     assert done.exit_code == _CODES[case.name.partition("_")[0]], done.output
-    expected = Path("expected.txt")
-    if not expected.exists():
-        expected.write_text(done.output, encoding="utf-8")
-        pytest.fail("expected.txt was missing and is written now; read it before you keep it")
-    assert done.output == expected.read_text(encoding="utf-8")
+    assert_expected(done.output, Path("expected.txt"))
     back = CliRunner().invoke(main, ["diff", b, a], catch_exceptions=False)
     assert back.exit_code == done.exit_code

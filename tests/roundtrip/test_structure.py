@@ -156,12 +156,17 @@ def test_a_prefix_changes_names_alone(model: Document) -> None:
     assert run(Rename(names=("left_*:*",)), prefixed) == model
 
 
+@pytest.mark.parametrize("separator", ["_", "::"])
 @_SETTINGS
-@given(strategies.sdf_models(max_links=4), strategies.sdf_models(max_links=4), strategies.poses(whole=True))
-def test_flattening_keeps_mass_and_every_link_where_it_is(outer: Document, inner: Document, pose: Pose) -> None:
+@given(
+    outer=strategies.sdf_models(max_links=4),
+    inner=strategies.sdf_models(max_links=4),
+    pose=strategies.poses(whole=True),
+)
+def test_flattening_keeps_every_link_where_it_is(separator: str, outer: Document, inner: Document, pose: Pose) -> None:
     nested = inner.models[0].model_copy(update={"name": "inner", "pose": pose})
     document = outer.model_copy(update={"models": (outer.models[0].model_copy(update={"models": (nested,)}),)})
-    flat = run(FlattenModels(), document)
+    flat = run(FlattenModels(separator=separator), document)
     names = [f"inner::{link.name}" for link in nested.links]
     there = places(document.models[0], names)
-    assert close(there, places(flat.models[0], [name.replace("::", "_") for name in names]))
+    assert close(there, places(flat.models[0], [name.replace("::", separator) for name in names]))

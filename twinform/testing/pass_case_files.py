@@ -1,20 +1,22 @@
 """Cases of passes as data: a model that says itself which pipeline runs over it and what that finds.
 
-A comment `<!-- passes: PIPELINE -->` names the passes; what `cases.py` says of `expect` holds here for what they report
-and what is found in the source. Beside `NAME.urdf` lies `NAME.expected.urdf`, and beside `NAME.sdf`
-`NAME.expected.sdf`: the file after the passes. Where they change nothing there is none.
+A comment `<!-- passes: PIPELINE -->` names the passes; what `case_files.py` says of `expect` holds here for what they
+report and what is found in the source. They run in the folder of the file, where relative paths begin. Beside
+`NAME.urdf` lies `NAME.expected.urdf`, and beside `NAME.sdf` `NAME.expected.sdf`: the file after the passes. Where they
+change nothing, or refuse the model, there is none.
 """
 
 import re
 from collections import Counter
+from contextlib import chdir
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Literal
 
 from twinform.compiler import CompileError, Conversion, convert
-from twinform.diagnostics import Diagnostic
-from twinform.testing.case_files import Case, Finding, cases
+from twinform.diagnostics import Diagnostic, Entry
+from twinform.testing.case_files import Case, Finding, cases, findings
 
 _PASSES = re.compile(r"<!--\s*passes:\s*(?P<pipeline>.*?)\s*-->", re.DOTALL)
 _FORMATS: dict[str, Literal["sdf", "urdf"]] = {".urdf": "urdf", ".sdf": "sdf"}
@@ -32,26 +34,18 @@ class PassCase(Case):
             raise ValueError(f"{self.path.name} has no <!-- passes: ... -->")
         return found["pipeline"]
 
-    @cached_property
-    def _made(self) -> tuple[Conversion | None, tuple[Diagnostic, ...]]:
-        try:
-            made = self._converted(self.pipeline)
-        except CompileError as error:
-            return None, error.diagnostics
-        return made, made.diagnostics
-
-    def _converted(self, pipeline: str) -> Conversion:
-        return convert(self.path, to=_FORMATS[self.path.suffix], passes=pipeline, strict=self.strict)
-
-    @property
-    def diagnostics(self) -> tuple[Diagnostic, ...]:
-        """All that was found."""
-        return self._made[1]
-
     @property
     def found(self) -> Counter[Finding]:
         """What the compiler and the passes report."""
-        return Counter((each.location.line, str(each.severity), each.rule.name) for each in self.diagnostics)
+        return findings(self._made.diagnostics, self.path.name)
+
+    @property
+    def rules(self) -> frozenset[str]:
+        """Every rule that has something to say, be it a finding or an entry of the ledger."""
+        said: tuple[Diagnostic | Entry, ...] = self._made.diagnostics
+        if isinstance(self._made, Conversion):
+            said = (*said, *self._made.ledger.entries)
+        return frozenset(each.rule.name for each in said)
 
     @property
     def output_path(self) -> Path:
@@ -59,21 +53,38 @@ class PassCase(Case):
         return self.path.with_suffix(f".expected{self.path.suffix}")
 
     @property
-    def changes(self) -> bool:
-        """Whether the passes change the document."""
-        made = self._made[0]
-        try:
-            return made is None or made.text != self._converted("").text
-        except CompileError:
-            return True  # what was wrong with it they have put right
+    def changed(self) -> str | None:
+        """The file after the passes; None where they leave it as it is, or refuse it."""
+        made = self._made
+        if isinstance(made, CompileError):
+            return None
+        unchanged = self._run(self._file, "")
+        return None if isinstance(unchanged, Conversion) and made.text == unchanged.text else made.text
 
     @property
-    def text(self) -> str:
-        """The file after the passes; the errors where it does not become anything."""
-        made, found = self._made
-        return made.text if made else "\n".join(f"{each.location.line}: {each.rule.name}" for each in found)
+    def settles(self) -> bool:
+        """Whether the passes leave alone what they made."""
+        if isinstance(self._made, CompileError):
+            return True
+        again = self._run(self._made.text.encode(), self.pipeline)
+        return isinstance(again, Conversion) and again.text == self._made.text
+
+    @property
+    def _file(self) -> Path:
+        return Path(self.path.name)
+
+    @cached_property
+    def _made(self) -> Conversion | CompileError:
+        return self._run(self._file, self.pipeline)
+
+    def _run(self, source: Path | bytes, pipeline: str) -> Conversion | CompileError:
+        with chdir(self.path.parent):
+            try:
+                return convert(source, to=_FORMATS[self.path.suffix], passes=pipeline, strict=self.strict)
+            except CompileError as error:
+                return error
 
 
 def pass_cases(folder: Path) -> list[PassCase]:
-    """Every case of a folder and those below it, in the order of their names; expected outputs are not cases."""
+    """Every case of a folder and those below it, in the order of their names, without parts and expected outputs."""
     return [PassCase(case.path) for case in cases(folder)]

@@ -126,9 +126,11 @@ class _Expansion:
         return world.model_copy(update={"includes": self._kept(world.includes)})
 
     def model(self, model: Model) -> Model:
-        if not _model_has_includes(model):
+        models = tuple(map(self.model, model.models))
+        if any(now is not was for now, was in zip(models, model.models, strict=True)):
+            model = model.model_copy(update={"models": models})
+        if not model.includes:
             return model
-        model = model.model_copy(update={"models": tuple(map(self.model, model.models))})
         for include, source in self._split(model.includes):
             included = self._model(include, source)
             if included is not None and include.merge:

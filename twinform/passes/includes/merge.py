@@ -12,29 +12,15 @@ from twinform.passes.includes.place import placed_model
 from twinform.passes.legalise.nodes import map_elements, map_poses
 
 AnyNode = TypeVar("AnyNode", bound=Node)
-Posed = TypeVar("Posed", Link, Model)
+Posed = TypeVar("Posed", Link, Model, Include)
+Holder = TypeVar("Holder", Model, World)
 
 _SETTINGS = ("static", "self_collide", "allow_auto_disable", "enable_wind")
 
 
 def merge_into_model(holder: Model, include: Include, model: Model, notes: Notes) -> Model:
     """The model with the contents of another; a frame stands for the other's own frame."""
-    model = placed_model(include, model, notes)
-    proxy = _proxy(model, MODEL, notes)
-    if proxy is None:
-        return holder
-    into = _Contents(proxy.name)
-    _account_settings(model, notes)
-    update = {
-        "links": (*holder.links, *(into.posed(link) for link in model.links)),
-        "joints": (*holder.joints, *map(into.joint, model.joints)),
-        "frames": (*holder.frames, proxy, *map(into.frame, model.frames)),
-        "models": (*holder.models, *map(into.posed, model.models)),
-        "includes": (*holder.includes, *model.includes),
-        "plugins": (*holder.plugins, *model.plugins),
-        "opaque": (*holder.opaque, *(part for part in model.opaque if part.element)),
-    }
-    return holder.model_copy(update=update)
+    return _merged(holder, include, model, MODEL, notes)
 
 
 def merge_into_world(holder: World, include: Include, model: Model, notes: Notes) -> World:
@@ -43,20 +29,29 @@ def merge_into_world(holder: World, include: Include, model: Model, notes: Notes
         message = f"{include.uri!r} cannot be merged into a world: it has links"
         notes.report(rules.UNMERGEABLE_INCLUDE, message, include.location, found=include.uri)
         return holder
+    return _merged(holder, include, model, WORLD, notes)
+
+
+def _merged(holder: Holder, include: Include, model: Model, around: str, notes: Notes) -> Holder:
+    """The holder with the contents of a model; `around` is what its own frame is called."""
     model = placed_model(include, model, notes)
-    proxy = _proxy(model, WORLD, notes)
+    proxy = _proxy(model, around, notes)
     if proxy is None:
         return holder
     into = _Contents(proxy.name)
     _account_settings(model, notes)
-    update = {
-        "joints": (*holder.joints, *map(into.joint, model.joints)),
-        "frames": (*holder.frames, proxy, *map(into.frame, model.frames)),
-        "models": (*holder.models, *map(into.posed, model.models)),
-        "plugins": (*holder.plugins, *model.plugins),
-        "opaque": (*holder.opaque, *(part for part in model.opaque if part.element)),
+    contents: dict[str, tuple[object, ...]] = {
+        "links": tuple(map(into.posed, model.links)),
+        "joints": tuple(map(into.joint, model.joints)),
+        "frames": (proxy, *map(into.frame, model.frames)),
+        "models": tuple(map(into.posed, model.models)),
+        "includes": tuple(map(into.posed, model.includes)),
+        "plugins": model.plugins,
+        "opaque": tuple(part for part in model.opaque if part.element),
     }
-    return holder.model_copy(update=update)
+    return holder.model_copy(
+        update={name: (*getattr(holder, name), *parts) for name, parts in contents.items() if parts}
+    )
 
 
 def _proxy(model: Model, around: str, notes: Notes) -> Frame | None:
@@ -84,11 +79,11 @@ class _Contents:
     proxy: str
 
     def posed(self, node: Posed) -> Posed:
-        """A link or nested model; without a frame of its own its pose was in the model's."""
+        """A link, nested model or include; without a frame of its own its pose was in the model's."""
         pose = node.pose or Pose()
         if not pose.relative_to:
             pose = pose.model_copy(update={"relative_to": self.proxy})
-        if isinstance(node, Model):  # what is inside a nested model has frames of its own
+        if isinstance(node, Model | Include):  # what is inside has frames of its own
             return node.model_copy(update={"pose": self._pose(pose)})
         return self._inside(node.model_copy(update={"pose": pose}))
 

@@ -8,7 +8,6 @@ from pydantic import Field
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import edits as rules
 from twinform.ir import Document, Format, Model
-from twinform.ir.frames import FrameError
 from twinform.ir.node import Vector3
 from twinform.passes.other_documents import DocumentPass, DocumentReader
 from twinform.passes.structure.join_models import Mount, join_sdf, join_urdf, root_of
@@ -47,23 +46,18 @@ class Attach(DocumentPass):
 
     def run_with(self, document: Document, notes: Notes, read: DocumentReader) -> Document:
         """The document with the other model in one of its own."""
-        own = Notes(notes.file, notes.strict, origins=notes.origins)
-        modern = in_new_words(document, own)
-        target = self._target(modern, notes)
-        other = read(self.file, modern, notes) if target is not None else None
-        guest = self._guest(other, modern, notes) if other is not None else None
+        return in_new_words(document, notes, lambda modern: self._attached(modern, notes, read))
+
+    def _attached(self, document: Document, notes: Notes, read: DocumentReader) -> Document:
+        target = self._target(document, notes)
+        other = read(self.file, document, notes) if target is not None else None
+        guest = self._guest(other, document, notes) if other is not None else None
         if target is None or other is None or guest is None:
             return document
-        try:
-            made = self._joined(target, guest, document.format, notes)
-        except FrameError as error:
-            error.report(notes)
-            return document
+        made = self._joined(target, guest, document.format, notes)
         if made is target:
             return document
-        notes.extend_new(own.diagnostics)
-        notes.entries.extend(own.entries)
-        return _replaced(modern, target, made).model_copy(update={"namespaces": _namespaces(modern, other)})
+        return _replaced(document, target, made).model_copy(update={"namespaces": _namespaces(document, other)})
 
     def _joined(self, target: Model, guest: Model, format_: Format, notes: Notes) -> Model:
         scope = scope_of(guest, self._choose, deep=False)

@@ -1,5 +1,6 @@
 """Make one model of a model with models in it."""
 
+from collections.abc import Iterator
 from typing import ClassVar
 
 from pydantic import Field
@@ -8,7 +9,7 @@ from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import edits as rules
 from twinform.diagnostics.rules.to_urdf import INCLUDE_NOT_EXPANDED
 from twinform.ir import Document, Format, Frame, Link, Model, World
-from twinform.ir.frames import FrameGraph
+from twinform.ir.frames import MODEL, FrameGraph
 from twinform.passes.legalise.flattening import flatten
 from twinform.passes.legalise.joint_ends import report_self_joint, resolve_ends
 from twinform.passes.legalise.marks import without_marks
@@ -30,7 +31,8 @@ class FlattenModels(ModelEdit):
     `inner` stands for the nested model's own, and poses that were relative to it name it; 3. plugins and other parts of
     the nested model become those of the outer one, with names followed; its `self_collide` and `enable_wind` become
     those of its links; 4. joints and frames of the world that name what was nested follow. With `separator="::"` names
-    are as libsdformat writes them before 1.8, and the result is SDF 1.7, since later versions forbid `::` in names.
+    are as libsdformat writes them before 1.8, with the frame called `inner::__model__`, and the result is SDF 1.7,
+    since later versions forbid `::` in names.
     Never touches: where anything is; URDF, which has no models in models.
     Diagnostics: `include-not-expanded`; `nested-setting` where a nested model is static, or may not rest, and the outer
     one says otherwise; `self-joint`; `name-clash`; `unfollowed-name`.
@@ -61,22 +63,28 @@ class FlattenModels(ModelEdit):
         flat = _with_rest(flat, model, place)
         if _has_self_joint(flat, place.notes):
             return model
-        scope = scope_of(flat, self._choose)
+        scope = self._scope(flat, model)
         if self.separator != _SCOPE and report_clashes(flat, scope, place.format, place.notes):
             return model
         return renamed_model(flat, scope, place.format, place.notes)
 
-    def _choose(self, part: Part, name: str) -> str:
-        del part
-        return name.replace(_SCOPE, self.separator)
+    def _scope(self, flat: Model, model: Model) -> Scope:
+        """The names of a flat model after the pass; it was made of this one."""
+        stand_ins = set(_nested_names(model, ""))
+
+        def choose(part: Part, name: str) -> str:
+            if self.separator != _SCOPE:
+                return name.replace(_SCOPE, self.separator)
+            return f"{name}{_SCOPE}{MODEL}" if part == "frame" and name in stand_ins else name
+
+        return scope_of(flat, choose)
 
     def in_world(self, before: World, after: World) -> World:
         """The world, whose joints and frames follow."""
         from twinform.passes.structure.world_names import followed  # noqa: PLC0415 - most files have no world
 
         def scope(model: Model) -> Scope:
-            bare = flatten(model, _plain) if model.models else model
-            return scope_of(bare, self._choose)
+            return self._scope(flatten(model, _plain) if model.models else model, model)
 
         return followed(before, after, scope, self.model)
 
@@ -84,6 +92,13 @@ class FlattenModels(ModelEdit):
 def _plain(frame: Frame, shell: Model) -> Frame:
     del shell
     return frame
+
+
+def _nested_names(model: Model, prefix: str) -> Iterator[str]:
+    """The scoped names of the models in a model, which are also those of the frames that stand for them."""
+    for nested in model.models:
+        yield prefix + nested.name
+        yield from _nested_names(nested, f"{prefix}{nested.name}{_SCOPE}")
 
 
 def _has_includes(model: Model, notes: Notes) -> bool:

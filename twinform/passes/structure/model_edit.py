@@ -1,6 +1,7 @@
 """The shape of the passes on the structure: every model of a document, or the one that is named."""
 
 from abc import abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import chain
 
@@ -40,21 +41,7 @@ class ModelEdit(Pass):
             message = f"there is no model {self.model!r}"
             notes.report(rules.UNKNOWN_NAME, message, document.location, found=self.model)
             return document
-        own = Notes(notes.file, notes.strict, origins=notes.origins)
-        modern = in_new_words(document, own)
-        if own.has_errors:
-            notes.extend(own.diagnostics)
-            return document
-        try:
-            made = self._each(modern, notes)
-        except FrameError as error:
-            error.report(notes)
-            return document
-        if made is modern:
-            return document
-        notes.extend_new(own.diagnostics)
-        notes.entries.extend(own.entries)
-        return made
+        return in_new_words(document, notes, lambda modern: self._each(modern, notes))
 
     def _each(self, document: Document, notes: Notes) -> Document:
         place = Place(document.format, notes)
@@ -92,7 +79,29 @@ def _has_model(document: Document, name: str | None) -> bool:
     return name is None or any(model.name == name for model in models)
 
 
-def in_new_words(document: Document, notes: Notes) -> Document:
+def in_new_words(document: Document, notes: Notes, change: Callable[[Document], Document]) -> Document:
+    """A document after a change that is made in the words of SDF 1.8; the one that came in where that changes nothing.
+
+    URDF, and SDF that is newer, is changed as it is. What raising the version has to say is said only after a change.
+    """
+    own = Notes(notes.file, notes.strict, origins=notes.origins)
+    modern = _modern(document, own)
+    if own.has_errors:
+        notes.extend(own.diagnostics)
+        return document
+    try:
+        made = change(modern)
+    except FrameError as error:
+        error.report(notes)
+        return document
+    if made is modern:
+        return document
+    notes.extend_new(own.diagnostics)
+    notes.entries.extend(own.entries)
+    return made
+
+
+def _modern(document: Document, notes: Notes) -> Document:
     """A document of SDF before 1.8 in the words of 1.8; any other as it is."""
     known, version = table("sdf").versions, document.version
     if document.format is not Format.SDF or version not in known:

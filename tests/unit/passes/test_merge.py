@@ -1,0 +1,25 @@
+"""Merging models into what is around them."""
+
+import pytest
+
+from twinform.diagnostics import Notes
+from twinform.ir import Include, Model, Pose, World
+from twinform.passes.includes.merge import merge_into_model, merge_into_world
+
+INNER = Include(uri="model://inner", pose=Pose(xyz=(0.0, 0.0, 1.0)))
+OUTER = Include(uri="model://outer", merge=True, pose=Pose(xyz=(1.0, 0.0, 0.0)))
+
+
+def merged(holder: Model | World, model: Model) -> Model | World:
+    if isinstance(holder, Model):
+        return merge_into_model(holder, OUTER, model, Notes())
+    return merge_into_world(holder, OUTER, model, Notes())
+
+
+@pytest.mark.parametrize("holder", [Model(name="around"), World(name="around")], ids=["into a model", "into a world"])
+def test_an_include_that_was_not_read_stays_where_it_is(holder: Model | World) -> None:
+    made = merged(holder, Model(name="outer", includes=(INNER,)))
+    (frame,), (include,) = made.frames, made.includes
+    assert frame.pose
+    assert frame.pose.xyz == (1.0, 0.0, 0.0)
+    assert include == INNER.model_copy(update={"pose": Pose(xyz=(0.0, 0.0, 1.0), relative_to=frame.name)})
