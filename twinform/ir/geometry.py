@@ -10,26 +10,27 @@ Vector2 = tuple[float, float]
 
 
 class ShapeNode(Node):
-    """What all shapes share: their kind is always written out, because it is what tells them apart."""
+    """What all shapes share: their kind is always written out, because it is what tells them apart.
 
-    kind: str
+    Each declares it, `kind`, as a field with one value.
+    """
 
     @model_serializer(mode="wrap")
     def _with_kind(self, serialize: SerializerFunctionWrapHandler) -> dict[str, object]:
-        return {"kind": self.kind, **serialize(self)}
+        return {"kind": type(self).model_fields["kind"].default, **serialize(self)}
 
 
 class Box(ShapeNode):
     """A box about the origin; `size` is its full extent along x, y, z."""
 
-    kind: Literal["box"] = "box"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
+    kind: Literal["box"] = "box"
     size: Vector3 | None = None
 
 
 class Cylinder(ShapeNode):
     """A cylinder about the origin with its axis along z."""
 
-    kind: Literal["cylinder"] = "cylinder"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
+    kind: Literal["cylinder"] = "cylinder"
     radius: float | None = None
     length: float | None = None
 
@@ -37,14 +38,14 @@ class Cylinder(ShapeNode):
 class Sphere(ShapeNode):
     """A sphere about the origin."""
 
-    kind: Literal["sphere"] = "sphere"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
+    kind: Literal["sphere"] = "sphere"
     radius: float | None = None
 
 
 class Capsule(ShapeNode):
     """A cylinder along z with half spheres on both ends; `length` is the cylinder's alone."""
 
-    kind: Literal["capsule"] = "capsule"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
+    kind: Literal["capsule"] = "capsule"
     radius: float | None = None
     length: float | None = None
 
@@ -52,7 +53,7 @@ class Capsule(ShapeNode):
 class Cone(ShapeNode):
     """A cone along z, its base at -length/2 and its tip at +length/2."""
 
-    kind: Literal["cone"] = "cone"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
+    kind: Literal["cone"] = "cone"
     radius: float | None = None
     length: float | None = None
 
@@ -60,14 +61,14 @@ class Cone(ShapeNode):
 class Ellipsoid(ShapeNode):
     """An ellipsoid about the origin with these semi-axes along x, y, z."""
 
-    kind: Literal["ellipsoid"] = "ellipsoid"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
+    kind: Literal["ellipsoid"] = "ellipsoid"
     radii: Vector3 | None = None
 
 
 class Plane(ShapeNode):
     """A plane through the origin; `size` is the extent that is drawn."""
 
-    kind: Literal["plane"] = "plane"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
+    kind: Literal["plane"] = "plane"
     normal: Vector3 | None = None
     size: Vector2 | None = None
 
@@ -75,7 +76,7 @@ class Plane(ShapeNode):
 class Mesh(ShapeNode):
     """A mesh file, scaled along x, y, z. `submesh` names one part of the file."""
 
-    kind: Literal["mesh"] = "mesh"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
+    kind: Literal["mesh"] = "mesh"
     uri: str | None = None
     scale: Vector3 | None = None
 
@@ -83,27 +84,27 @@ class Mesh(ShapeNode):
 class Empty(ShapeNode):
     """No shape, said explicitly."""
 
-    kind: Literal["empty"] = "empty"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
+    kind: Literal["empty"] = "empty"
 
 
 class Heightmap(ShapeNode):
     """A terrain; its parameters stay as they are written."""
 
-    kind: Literal["heightmap"] = "heightmap"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
+    kind: Literal["heightmap"] = "heightmap"
     uri: str | None = None
 
 
 class Image(ShapeNode):
     """An image that is extruded into boxes; its parameters stay as they are written."""
 
-    kind: Literal["image"] = "image"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
+    kind: Literal["image"] = "image"
     uri: str | None = None
 
 
 class Polyline(ShapeNode):
     """An extruded outline; its points stay as they are written."""
 
-    kind: Literal["polyline"] = "polyline"  # pyright: ignore[reportIncompatibleVariableOverride] - frozen, so it may be narrower
+    kind: Literal["polyline"] = "polyline"
     height: float | None = None
 
 

@@ -16,7 +16,13 @@ _ESSENTIAL = frozenset({"parent", "child"})
 
 
 _BEYOND_THE_XSD = frozenset(
-    {structure.OUT_OF_RANGE.name, structure.DEPRECATED_ELEMENT.name, structure.DEFAULTED_ATTRIBUTE.name}
+    rule.name
+    for rule in (
+        structure.OUT_OF_RANGE,
+        structure.DEPRECATED_ELEMENT,
+        structure.DEFAULTED_ATTRIBUTE,
+        structure.BLANK_VALUE,
+    )
 )
 """Findings that no XSD refuses a document for."""
 
@@ -50,7 +56,7 @@ class Context:
     tolerated: list[tuple[XmlElement, str | None]] = field(default_factory=list[tuple[XmlElement, str | None]])
     replaced: list[tuple[XmlElement, str, str]] = field(default_factory=list[tuple[XmlElement, str, str]])
     structural: int = 0
-    namespaces: dict[str, str] = field(default_factory=dict[str, str])
+    namespaces: set[tuple[str, str]] = field(default_factory=set[tuple[str, str]])
     clean: bool = False
     simple: bool = False
     aside: bool = False
@@ -228,6 +234,12 @@ def missing_text(context: Context, element: XmlElement, expected: str) -> None:
     """A required value that was left blank."""
     message = f"<{element.tag}> is empty; expected {expected}"
     context.report(structure.MISSING_ELEMENT, element, message, found="", expected=expected)
+
+
+def blank_value(context: Context, element: XmlElement, expected: str) -> None:
+    """A value that was left blank where that means something."""
+    message = f"<{element.tag}> is empty; expected {expected}"
+    context.report(structure.BLANK_VALUE, element, message, found="", expected=expected)
 
 
 def repeated(context: Context, element: XmlElement) -> None:

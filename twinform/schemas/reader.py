@@ -10,9 +10,12 @@ from functools import cache
 from twinform.diagnostics import Source
 from twinform.schemas import messages
 from twinform.schemas.facts import Fact, Table, Version, table
+from twinform.schemas.keeping import element_data, keep_element, keep_part, locate, note_namespaces
 from twinform.schemas.messages import Context
 from twinform.schemas.quick import GIVE_UP, quick_attributes, quick_parse, quick_pose
-from twinform.schemas.stores import Data, value_check, value_store
+from twinform.schemas.remarks import ReadChild, remarked
+from twinform.schemas.stores import Data
+from twinform.schemas.value_readers import attribute_reader, text_reader
 from twinform.schemas.values import VALUE_TYPES
 from twinform.schemas.xml import XmlElement, is_blank
 
@@ -20,40 +23,8 @@ _INSTANCE = "{http://www.w3.org/2001/XMLSchema-instance}"
 _OF_SCHEMAS = frozenset({_INSTANCE + "type", _INSTANCE + "nil"})
 """Foreign attributes that make an XSD engine check an element in another way."""
 
-_locate: Callable[[type[Source], tuple[object, ...]], Source] = tuple.__new__  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] - typeshed leaves the items open
-"""Makes a Source without the detour through its own constructor: this file makes one for every node."""
-
 Fill = Callable[[XmlElement, Data, str, Context], None]
 """Reads the inside of an element into the dict of its node: (element, node, path from the node, context)"""
-ReadAttribute = Callable[[XmlElement, str, Data, str, Context], None]
-"""Reads an attribute: (element, text, node, path from the node, context)"""
-ReadChild = Callable[[XmlElement, Data, str, int, Context], None]
-"""Reads a child: (child, node, path from the node to the parent, place among its like, context)"""
-
-
-def element_data(element: XmlElement, context: Context, above: Source | None = None) -> Data:
-    """The subtree as data for the IR's `Element`, with sources below the one that is given."""
-    tag = str(element.tag)
-    note_namespaces(element, context)
-    data: Data = {"name": tag}
-    if above is not None:
-        line, key = element.sourceline or 0, element.get("name")
-        above = data["source"] = _locate(Source, (context.file, line, above, tag, key))
-    if element.attrib:
-        data["attributes"] = tuple(element.items())
-    if element.text and not element.text.isspace():
-        data["text"] = element.text.strip()
-    if element.tail and not element.tail.isspace():
-        data["tail"] = element.tail.strip()
-    if len(element):
-        data["children"] = tuple([element_data(child, context, above) for child in element])
-    return data
-
-
-def note_namespaces(element: XmlElement, context: Context) -> None:
-    """Remember the prefixes that an element declares, so that they can be written again."""
-    if element.nsmap:
-        context.namespaces.update({prefix: uri for prefix, uri in element.nsmap.items() if prefix})
 
 
 class Reader:
@@ -87,7 +58,10 @@ class Reader:
 
     def _fill(self, fact: Fact, *, keep: bool) -> Fill:  # noqa: C901 - closures over one set of tables
         """The reader of an element's inside. Where `keep` is false it only checks."""
-        attributes = {row.name[1:]: self._attribute(row, keep=keep) for row in self._rows(fact.attributes)}
+        attributes = {
+            row.name[1:]: attribute_reader(row, self.types, self.version, keep=keep)
+            for row in self._rows(fact.attributes)
+        }
         parses = [(row, quick_parse(row, self.types, self.version)) for row in fact.attributes if keep]
         quick = {row.name[1:]: (row.place or "", parse) for row, parse in parses if parse}
         children = {row.name: self._child(row, keep=keep) for row in self._rows(fact.children)}
@@ -98,7 +72,7 @@ class Reader:
         needed_children = frozenset(row.name for row in present if not row.is_attribute and row.required)
         once = frozenset(row.name for row in self._rows(fact.children) if not row.repeats)
         free, content = fact.any, fact.place if fact.any and keep else None
-        read_text = self._text(fact, fact.place, keep=keep) if fact.type else None
+        read_text = text_reader(fact, self.types, fact.place, keep=keep) if fact.type else None
         kinds = frozenset(row.name for row in fact.children if row.kind)
 
         def fill(element: XmlElement, node: Data, at: str, context: Context) -> None:  # noqa: C901 - the hot path
@@ -133,7 +107,7 @@ class Reader:
                 elif place > 1 and tag in once:
                     messages.repeated(context, child)
                     if keep:
-                        _keep_element(child, node, at, context)
+                        keep_element(child, node, at, context)
                 else:
                     read_child(child, node, at, place, context)
                 if not context.clean and content is None and not is_blank(child.tail or ""):
@@ -150,7 +124,7 @@ class Reader:
             if not free:
                 messages.stray_text(context, element, text, after)
             if keep:
-                _keep(element, node, context, {"at": at, "text": " ".join(text.split())})
+                keep_part(element, node, context, {"at": at, "text": " ".join(text.split())})
 
         def other_child(child: XmlElement, node: Data, at: str, context: Context) -> None:
             if content is not None:
@@ -161,7 +135,7 @@ class Reader:
             elif not free:
                 messages.prefixed_element(context, child)
             if keep:
-                _keep_element(child, node, at, context)
+                keep_element(child, node, at, context)
 
         def other_attribute(element: XmlElement, name: str, text: str, node: Data, at: str, context: Context) -> None:
             if name[0] == "{":
@@ -170,7 +144,7 @@ class Reader:
             if name in _OF_SCHEMAS or (name[0] != "{" and not free):
                 messages.unknown_attribute(context, element, name, attributes)
             if keep:
-                _keep(element, node, context, {"at": at, "attribute": (name, text)})
+                keep_part(element, node, context, {"at": at, "attribute": (name, text)})
 
         return fill
 
@@ -181,31 +155,6 @@ class Reader:
             if row.name not in best or not best[row.name].exists_in(self.version):
                 best[row.name] = row
         return list(best.values())
-
-    def _attribute(self, row: Fact, *, keep: bool) -> ReadAttribute:
-        value_type = self.types[row.type or "string"]
-        parse, check = value_type.parse, value_check(row)
-        late, name, dialect = not row.exists_in(self.version), row.name[1:], row.dialect
-        store = value_store(row, row.place) if keep and row.place else None
-
-        def read(element: XmlElement, text: str, node: Data, at: str, context: Context) -> None:
-            if late:
-                messages.outside_version(context, element, row)
-            if dialect:
-                messages.dialect_attribute(context, element, name, dialect)
-            try:
-                value = parse(text)
-            except ValueError:
-                messages.invalid_value(context, element, row.name, text, value_type.expected)
-                return
-            if check is not None:
-                check(element, value, context)
-            if store is not None:
-                store(element, node, (value, text), context)
-            elif keep:
-                _keep(element, node, context, {"at": at, "attribute": (name, text)})
-
-        return read
 
     def _child(self, row: Fact, *, keep: bool) -> ReadChild:
         if not keep:
@@ -218,13 +167,7 @@ class Reader:
             read = self._hoisted(row)
         else:
             read = self._own_node(row, row.place)
-        if row.deprecated and row.exists_in(self.version):
-            return _deprecated(row, read)
-        if row.dialect:
-            return _of_dialect(row.dialect, _aside(read))
-        if row.aside:
-            return _aside(read)
-        return read if row.exists_in(self.version) else _late(row, read)
+        return remarked(row, self.version, read)
 
     def _inner(self, row: Fact, *, keep: bool) -> Fill:
         if row.reference is None:
@@ -249,7 +192,7 @@ class Reader:
 
         def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
             check(child, {}, "", context)
-            _keep_element(child, node, at, context)
+            keep_element(child, node, at, context)
 
         return read
 
@@ -265,7 +208,7 @@ class Reader:
                 fill(child, node, f"{at}/{name}" if at else name, context)
             else:
                 fill(child, {}, "", context)
-                _keep_element(child, node, at, context)
+                keep_element(child, node, at, context)
 
         return read
 
@@ -282,12 +225,12 @@ class Reader:
         def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
             key = (child.get("name") if is_named else None) or (place if repeats else None)
             above, line = node["source"], child.sourceline or 0
-            data: Data = {"source": _locate(Source, (context.file, line, above, f"{at}/{name}" if at else name, key))}
+            data: Data = {"source": locate(Source, (context.file, line, above, f"{at}/{name}" if at else name, key))}
             if kind is not None:
                 data["kind"] = kind
                 if field in node:
                     check(child, {}, "", context)
-                    _keep_element(child, node, at, context)
+                    keep_element(child, node, at, context)
                     return
             if quick is None or not context.simple or not quick(child, data):
                 fill(child, data, "", context)
@@ -297,14 +240,14 @@ class Reader:
             elif len(data) > 1:
                 holder[inner] = data
             else:  # it says nothing, so the field stays unwritten
-                _keep_element(child, node, at, context)
+                keep_element(child, node, at, context)
 
         return read
 
     def _leaf(self, row: Fact, place: str) -> ReadChild:
         """The reader of an element with text, and perhaps attributes, whose value is a field of the node around it."""
         fill, name, field = self._fill(row, keep=True), row.name, place
-        read_text = self._text(row, place, keep=True)
+        read_text = text_reader(row, self.types, place, keep=True)
         parse = quick_parse(row, self.types, self.version) if row.type != "string" and not row.attributes else None
 
         def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
@@ -318,34 +261,7 @@ class Reader:
             if child.keys() or len(child):
                 fill(child, node, f"{at}/{name}" if at else name, context)
             elif not read_text(child, node, at, context):
-                _keep_element(child, node, at, context)
-
-        return read
-
-    def _text(self, row: Fact, place: str | None, *, keep: bool) -> Callable[[XmlElement, Data, str, Context], bool]:
-        """The reader of an element's text; it says whether there was any. Blank text means the default."""
-        value_type = self.types[row.type or "string"]
-        parse, check, is_string, needed = value_type.parse, value_check(row), row.type == "string", row.needs_text
-        store = value_store(row, place) if keep and place else None
-
-        def read(element: XmlElement, node: Data, at: str, context: Context) -> bool:
-            text = element.text or ""
-            if is_string:
-                text = text.strip(" \t\r\n")
-            elif is_blank(text):
-                if needed:
-                    messages.missing_text(context, element, value_type.expected)
-                return False
-            try:
-                value = parse(text)
-            except ValueError:
-                messages.invalid_value(context, element, "", text.strip(), value_type.expected)
-                return True
-            if check is not None:
-                check(element, value, context)
-            if store is not None:
-                store(element, node, (value, text), context)
-            return True
+                keep_element(child, node, at, context)
 
         return read
 
@@ -362,62 +278,3 @@ def _other_kinds(element: XmlElement, kinds: frozenset[str], context: Context) -
     for child in found:
         if child.tag != found[0].tag:
             messages.repeated(context, child)
-
-
-def _late(row: Fact, read: ReadChild) -> ReadChild:
-    """The same reader for an element of another version: it is reported first."""
-
-    def read_late(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
-        messages.outside_version(context, child, row)
-        read(child, node, at, place, context)
-
-    return read_late
-
-
-def _aside(read: ReadChild) -> ReadChild:
-    """The same reader for an element that is no business of those who read the robot: its faults are theirs alone."""
-
-    def read_aside(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
-        before, context.aside = context.aside, True
-        read(child, node, at, place, context)
-        context.aside = before
-
-    return read_aside
-
-
-def _of_dialect(dialect: str, read: ReadChild) -> ReadChild:
-    """The same reader for an element that only some readers know."""
-
-    def read_dialect(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
-        messages.dialect_element(context, child, dialect)
-        read(child, node, at, place, context)
-
-    return read_dialect
-
-
-def _deprecated(row: Fact, read: ReadChild) -> ReadChild:
-    """The same reader for an element that is on its way out."""
-
-    def read_deprecated(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
-        messages.deprecated(context, child)
-        read(child, node, at, place, context)
-
-    return read_deprecated
-
-
-def _keep(element: XmlElement, node: Data, context: Context, part: Data) -> None:
-    """Keep a part that has no typed field, with where it stood."""
-    called = (
-        part["element"]["name"]
-        if "element" in part
-        else f"@{part['attribute'][0]}"
-        if "attribute" in part
-        else "text()"
-    )
-    step = f"{part['at']}/{called}" if part["at"] else called
-    source = Source(context.file, element.sourceline or 0, node.get("source"), step)
-    node.setdefault("opaque", []).append({"source": source, **part})
-
-
-def _keep_element(child: XmlElement, node: Data, at: str, context: Context) -> None:
-    _keep(child, node, context, {"at": at, "element": element_data(child, context) | {"tail": None}})

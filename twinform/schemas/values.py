@@ -73,7 +73,7 @@ def _loose_float(text: str) -> float:
     return value
 
 
-def _vector(counts: tuple[int, ...], *, loose: bool = False) -> Parser:
+def _vector(counts: tuple[int, ...]) -> Parser:
     def parse(text: str) -> tuple[float, ...]:
         values = tuple(map(float, text.split()))
         if len(values) not in counts:
@@ -81,9 +81,7 @@ def _vector(counts: tuple[int, ...], *, loose: bool = False) -> Parser:
         # a finite sum has finite terms, and is quicker to see
         if (math.isfinite(sum(values)) or all(map(math.isfinite, values))) and _is_plain(text):
             return values
-        if not loose:
-            raise ValueError
-        return tuple(map(_loose_float, _ascii(text).split()))
+        raise ValueError
 
     return parse
 
@@ -141,8 +139,7 @@ _URDF = {
 
 _SDF = _URDF | {
     "double": ValueType(_loose_float, "a number"),
-    "vector3": ValueType(_vector((3,), loose=True), "three numbers"),
-    "vector2d": ValueType(_vector((2,), loose=True), "two numbers"),
+    "vector2d": ValueType(_vector((2,)), "two numbers"),
     "vector2i": ValueType(_ints, "two whole numbers"),
     "quaternion": ValueType(_vector((3, 4)), "three or four numbers"),
     "color": ValueType(_vector((3, 4)), "three or four numbers from 0 to 1: red green blue and perhaps alpha"),

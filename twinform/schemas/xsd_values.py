@@ -41,8 +41,7 @@ _URDF = {
 
 _SDF = _URDF | {
     "double": Words(_NUMBER),
-    "vector3": Words(_NUMBER, 3, 3),
-    "vector2d": Words(_NUMBER, 2, 2),
+    "vector2d": Words(_FINITE, 2, 2),
     "vector2i": Words(_INT, 2, 2),
     "quaternion": Words(_FINITE, 3, 4),
     "color": Words(_FINITE, 3, 4),

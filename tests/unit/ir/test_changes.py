@@ -52,11 +52,21 @@ def said(text: str) -> list[str]:
             "<gain>2</gain><gain>1</gain>",
             ["> /models['m']/plugins['p']/content"],
         ),
+        (
+            '<link name="b">',
+            '<link name="b"><sensor name="s" type="imu"/>',
+            [f"+ /models['m']/links['b']/sensors['s']{field}" for field in ("", "/name", "/type")],
+        ),
         ("</model>", '<link name="a2"/></model>', ["+ /models['m']/links['a2']", "+ /models['m']/links['a2']/name"]),
     ],
 )
 def test_each_change_has_its_path(old: str, new: str, expected: list[str]) -> None:
     assert said(ROBOT.replace(old, new, 1) if old else ROBOT) == expected
+
+
+def test_a_part_without_fields_belongs_to_its_node() -> None:
+    found = changes(OLD, twinform.loads(ROBOT.replace(">1</mine", ">3</mine")))
+    assert {each.node for each in found} == {"/models['m']/links['b']"}
 
 
 def with_links(change: Callable[[tuple[Link, ...]], tuple[Link, ...]]) -> Document:

@@ -32,8 +32,9 @@ UNNAMED_MATERIAL = Rule(
     name="unnamed-material",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
-    finds="A material of a URDF visual without a name.",
-    matters="urdfdom refuses the visual and drops the rest of the link with it.",
+    finds="A material of URDF without a name.",
+    matters="urdfdom refuses the visual and drops the rest of the link with it, or the whole file where the material "
+    "is a shared one.",
     example="`<visual>...<material><color rgba='1 0 0 1'/></material></visual>`",
     better="Give it a name; an empty one will do.",
 )

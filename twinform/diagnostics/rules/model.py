@@ -24,7 +24,7 @@ RESERVED_NAME = Rule(
     name="reserved-name",
     severity=Severity.ERROR,
     finds="A name that SDF keeps for itself: `world`, one that begins and ends with two underscores, or from 1.8 on "
-    "one with `::` in it.",
+    "one with `::` in it. Before that, one with nothing on one side of the `::`.",
     matters="References to it mean the world, the model, or something inside of a model, never the thing that has the "
     "name.",
     example="`<link name='world'/>` in an SDF model, `<visual name='arm::shell'>`.",
@@ -34,9 +34,11 @@ RESERVED_NAME = Rule(
 EMPTY_NAME = Rule(
     name="empty-name",
     severity=Severity.ERROR,
-    finds="A link, joint, model or frame whose name is empty.",
-    matters="Nothing can refer to it.",
-    example="`<link name=''/>`",
+    finds="A link, joint, model or frame, or in SDF a world, visual, collision, sensor or light, whose name is empty "
+    "or made of blanks. For a robot in URDF it is a warning.",
+    matters="Nothing can refer to it. libsdformat drops the blanks around a name, and refuses the file where nothing "
+    "is left.",
+    example="`<link name=''/>`, `<collision name=' '>`",
     better="Give it a name.",
 )
 DANGLING_LINK = Rule(

@@ -93,6 +93,37 @@ INVALID_VALUE = Rule(
     example="`<origin xyz='0 0'/>`, `<mass>1.0kg</mass>`, `<limit effort='inf' .../>` in URDF, `1e400`.",
     better="Write a value of the type; vectors are separated by blanks, not commas.",
 )
+BLANK_VALUE = Rule(
+    name="blank-value",
+    severity=Severity.WARNING,
+    strict=Severity.ERROR,
+    finds="An element that is there to hold a value and holds none. A `<pose/>` is none of them: it may only name its "
+    "frame.",
+    matters="libsdformat refuses the file where the format asks for the element, and takes the default where it does "
+    "not. Here the default is meant in both.",
+    example="`<cylinder><radius/><length>1</length></cylinder>`",
+    better="Write the value, or delete the element.",
+)
+SPLIT_VALUE = Rule(
+    name="split-value",
+    severity=Severity.WARNING,
+    strict=Severity.ERROR,
+    finds="A value with a comment in the middle.",
+    matters="To XML, and here, the pieces are one text. libsdformat reads the first piece alone: a number that is cut "
+    "in two is another number there, without a word.",
+    example="`<mass>1<!-- about -->2.5</mass>` weighs 12.5 kg here and 1 kg in Gazebo.",
+    better="Put the comment before or behind the value.",
+)
+TABBED_NUMBERS = Rule(
+    name="tabbed-numbers",
+    severity=Severity.WARNING,
+    strict=Severity.ERROR,
+    finds="Numbers in an attribute of URDF that have a tab or a new line before, between or behind them.",
+    matters="To XML, and here, they are blanks. urdfdom takes the number and the tab for one word that is no number, "
+    "and drops the rest of the link; of a joint, the whole file.",
+    example="`<origin xyz='0 0` and `0.1'/>` on the next line.",
+    better="Put blanks between the numbers, on one line.",
+)
 OUT_OF_RANGE = Rule(
     name="out-of-range",
     severity=Severity.WARNING,

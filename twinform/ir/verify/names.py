@@ -9,7 +9,7 @@ from twinform.ir.node import Node
 Kinds = Iterable[tuple[str, Iterable[Node]]]
 """What shares a scope: the word for a kind, and the nodes of that kind."""
 
-_REFERRED_TO = frozenset({"link", "joint", "model", "frame"})
+_NEED_NAMES = frozenset({"world", "link", "joint", "model", "frame", "visual", "collision", "sensor", "light"})
 
 
 def name_of(node: Node) -> str:
@@ -18,11 +18,11 @@ def name_of(node: Node) -> str:
 
 
 def report_names(kind: str, nodes: Iterable[Node], notes: Notes) -> None:
-    """Report names that are empty, or there twice."""
+    """Report names that are empty or blank, or there twice."""
     seen: dict[str, Node] = {}
     for node in nodes:
         name = name_of(node)
-        if not name and kind in _REFERRED_TO:
+        if not name.strip() and kind in _NEED_NAMES:
             notes.report(rules.EMPTY_NAME, f"a {kind} has an empty name", node.location)
         if name in seen:
             message = f"{kind} {name!r} is there twice"
@@ -46,16 +46,24 @@ def report_scope(kinds: Kinds, shared: Severity, notes: Notes) -> None:
 
 
 def report_reserved(kinds: Kinds, severity: Severity, notes: Notes, *, scoped: bool) -> None:
-    """Report names that SDF keeps for itself; where `scoped`, also those with `::`, which stands between scopes."""
+    """Report names that SDF keeps for itself; where `scoped`, also those with `::`, which stands between scopes.
+
+    Where they are not, `::` is part of a name and stands between two others.
+    """
     for kind, nodes in kinds:
         for node in nodes:
             name: str | None = node.__dict__["name"]
             if name is None or not (name == "world" or "__" in name or "::" in name):
                 continue
+            where = node.location.at("@name")
             if name == "world" or (name.startswith("__") and name.endswith("__")):
                 message = f"{kind} {name!r} has a name that SDF keeps for itself"
             elif scoped and "::" in name:
                 message = f"{kind} {name!r} has '::' in its name, which stands between a model and what is in it"
+            elif not all(part.strip() for part in name.split("::")):
+                message = f"{kind} {name!r} has nothing on one side of '::', where a name belongs"
+                notes.report(rules.RESERVED_NAME, message, where, found=name, severity=Severity.WARNING)
+                continue
             else:
                 continue
-            notes.report(rules.RESERVED_NAME, message, node.location.at("@name"), found=name, severity=severity)
+            notes.report(rules.RESERVED_NAME, message, where, found=name, severity=severity)

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from twinform.diagnostics import Location, Notes, Rule, Severity
+from twinform.diagnostics import Notes, Rule, Severity
 from twinform.diagnostics.rules import frames as rules
 from twinform.diagnostics.rules import model as joints
 from twinform.ir.joint import Joint
@@ -10,6 +10,7 @@ from twinform.ir.light import Light
 from twinform.ir.link import Link
 from twinform.ir.model import Model
 from twinform.ir.pose import Pose
+from twinform.ir.sourced import Sourced
 from twinform.ir.verify.scope import Scope
 from twinform.ir.world import World
 
@@ -42,7 +43,7 @@ class References:
         for joint in holder.joints:
             self._joint(joint)
         for frame in holder.frames:
-            self._frame(frame.attached_to, frame.location.at("@attached_to"))
+            self._frame(frame.attached_to, frame, "@attached_to")
             self._pose(frame.pose)
         for inner in (*holder.models, *holder.includes):
             self._pose(inner.pose)
@@ -58,7 +59,7 @@ class References:
             message = f"the canonical link of model {model.name!r} is {model.canonical_link!r}, which is no link in it"
             where = model.location.at("@canonical_link")
             self.notes.report(rules.UNKNOWN_CANONICAL_LINK, message, where, found=model.canonical_link)
-        self._frame(model.placement_frame, model.location.at("@placement_frame"))
+        self._frame(model.placement_frame, model, "@placement_frame")
 
     def _link(self, link: Link) -> None:
         self._pose(link.pose)
@@ -84,7 +85,7 @@ class References:
                 self._end(joint, end, name)
         for axis in (joint.axis, joint.axis2):
             if axis is not None and axis.expressed_in:
-                self._frame(axis.expressed_in, axis.location.at("xyz/@expressed_in"))
+                self._frame(axis.expressed_in, axis, "xyz/@expressed_in")
         reference = joint.gearbox_reference_body
         if reference and joint.type == "gearbox" and not self.is_link(reference):
             where = joint.location.at("gearbox_reference_body")
@@ -92,19 +93,18 @@ class References:
             self.notes.report(joints.DANGLING_LINK, message, where, found=reference, severity=Severity.WARNING)
 
     def _end(self, joint: Joint, end: str, name: str) -> None:
-        where = joint.location.at(end)
         if name == joint.name and self.scope.find(name) == "joint":
             message = f"joint {joint.name!r} has itself as its {end}"
-            self.notes.report(joints.SELF_JOINT, message, where, found=name)
+            self.notes.report(joints.SELF_JOINT, message, joint.location.at(end), found=name)
         elif name != self.own:
             what = f"joint {joint.name!r} has the {end} {name!r}, which is no link or frame of the "
-            self._look_up(joints.DANGLING_LINK, what + ("model" if self.own == MODEL else "world"), where, name)
+            self._look_up(joints.DANGLING_LINK, what + ("model" if self.own == MODEL else "world"), (joint, end), name)
 
     def _pose(self, pose: Pose | None) -> None:
         if pose is None:
             return
         if pose.relative_to:
-            self._frame(pose.relative_to, pose.location.at("@relative_to"))
+            self._frame(pose.relative_to, pose, "@relative_to")
         elif pose.opaque and not self.one_scope:
             self._old_frame(pose)
 
@@ -112,17 +112,22 @@ class References:
         """The frame of a pose before 1.7, which means what `relative_to` means since."""
         name = next((part.attribute[1] for part in pose.opaque if part.attribute and part.attribute[0] == "frame"), "")
         if name not in self._inner_frames:
-            self._frame(name, pose.location.at("@frame"))
+            self._frame(name, pose, "@frame")
 
-    def _frame(self, name: str | None, where: Location) -> None:
+    def _frame(self, name: str | None, node: Sourced, step: str) -> None:
         if name and name != self.own:
-            self._look_up(rules.DANGLING_FRAME, f"there is no frame {name!r}", where, name)
+            self._look_up(rules.DANGLING_FRAME, f"there is no frame {name!r}", (node, step), name)
 
-    def _look_up(self, rule: Rule, message: str, where: Location, name: str) -> None:
+    def _look_up(self, rule: Rule, message: str, part: tuple[Sourced, str], name: str) -> None:
+        """Report a name that means nothing; `part` is where it stands, whose path is dear and made only then."""
         found = self.scope.find(name)
+        if found is not None and not (found == "twice" and self.one_scope):
+            return
+        node, step = part
+        where = node.location.at(step)
         if found is None:
             self.notes.report(rule, message, where, found=name)
-        elif found == "twice" and self.one_scope:
+        else:
             message = f"{name!r} is the name of two things, and this may mean either"
             self.notes.report(rules.AMBIGUOUS_FRAME, message, where, found=name)
 

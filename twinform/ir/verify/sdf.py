@@ -113,7 +113,7 @@ class _Verifier:
     def _link(self, link: Link, model: Model) -> None:
         kinds = (("visual", link.visuals), ("collision", link.collisions), ("sensor", link.sensors))
         for kind, nodes in kinds:
-            report_names(kind, [node for node in nodes if node.name], self.notes)
+            report_names(kind, [node for node in nodes if node.name is not None], self.notes)
         self._reserved((*kinds, ("light", link.lights)))
         self._siblings(link)
         verify_inertial(link, _DEFAULT_MOMENT, self.notes)

@@ -1,12 +1,15 @@
 """The rules of URDF, which describes one tree."""
 
-from twinform.diagnostics import Notes
+from collections.abc import Iterable, Iterator
+
+from twinform.diagnostics import Location, Notes, Severity
 from twinform.diagnostics.rules import bodies
 from twinform.diagnostics.rules import joints as joint_rules
 from twinform.diagnostics.rules import model as rules
 from twinform.ir.joint import Joint
 from twinform.ir.material import Material
 from twinform.ir.model import Model
+from twinform.ir.node import Node
 from twinform.ir.verify.inertia import verify_inertial
 from twinform.ir.verify.joints import verify_joint, verify_limits_there, verify_mimics
 from twinform.ir.verify.names import report_names
@@ -16,6 +19,9 @@ from twinform.ir.verify.tree import report_loops
 
 def verify_robot(model: Model, notes: Notes, *, optional: bool) -> None:
     """Report what is wrong with a robot; `optional` says whether limits may lack effort and velocity."""
+    if not model.name.strip():
+        message = "the robot has an empty name"
+        notes.report(rules.EMPTY_NAME, message, model.location, severity=Severity.WARNING)
     for kind, nodes in (("link", model.links), ("joint", model.joints)):
         report_names(kind, nodes, notes)
     _report_materials(model, notes)
@@ -67,18 +73,32 @@ def _report_materials(model: Model, notes: Notes) -> None:
         if _is_bare(material):
             message = f"the shared material {material.name!r} has neither a colour nor a texture"
             notes.report(bodies.BARE_MATERIAL, message, material.location, expected="<color> or <texture>")
+    _report_unnamed(model, notes)
     defined = {material.name: material for material in model.materials if material.name}
     used = [visual.material for link in model.links for visual in link.visuals if visual.material]
     for material in used:
-        if material.name is None:
-            message = "the material of a visual has no name"
-            notes.report(bodies.UNNAMED_MATERIAL, message, material.location, expected="@name")
-        elif material.name and not _is_bare(material):
+        if material.name and not _is_bare(material):
             _report_conflict(material, defined.setdefault(material.name, material), notes)
     for material in used:
         if material.name and _is_bare(material) and material.name not in defined:
             message = f"material {material.name!r} is not defined"
             notes.report(rules.UNKNOWN_MATERIAL, message, material.location, found=material.name)
+
+
+def _report_unnamed(model: Model, notes: Notes) -> None:
+    for place in _unnamed(model, model.materials):
+        notes.report(bodies.UNNAMED_MATERIAL, "a shared material has no name", place, expected="@name")
+    for visual in (visual for link in model.links for visual in link.visuals):
+        for place in _unnamed(visual, (visual.material,) if visual.material else ()):
+            message = "the material of a visual has no name"
+            notes.report(bodies.UNNAMED_MATERIAL, message, place, expected="@name")
+
+
+def _unnamed(holder: Node, materials: Iterable[Material]) -> Iterator[Location]:
+    """Where materials without a name are; one that says nothing at all is an opaque part of what it is in."""
+    yield from (material.location for material in materials if material.name is None)
+    blank = (part for part in holder.opaque if part.element and part.element.name == "material" and not part.at)
+    yield from (part.location for part in blank if part.element and "name" not in dict(part.element.attributes))
 
 
 def _is_bare(material: Material) -> bool:

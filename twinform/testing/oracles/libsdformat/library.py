@@ -5,18 +5,15 @@ import json
 import os
 import shutil
 import subprocess
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
-from itertools import islice
 from pathlib import Path
 from typing import NotRequired, TypedDict
 
 MISSING = "libsdformat 12 is not here: it needs libsdformat-dev, pkg-config and g++"
 
 _SOURCE = Path(__file__).with_name("sdf_load.cpp")
-_AT_ONCE = 50
-_SECONDS_PER_FILE = 20
 
 
 class _Error(TypedDict):
@@ -88,15 +85,21 @@ class _Row(TypedDict):
     path: str
     ok: bool
     errors: list[_Error]
+    console: str
     robot: NotRequired[RobotRow]
 
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """Whether the file was read without an error, and the errors as `code: message`."""
+    """Whether the file was read without an error, and the errors as `code: message`.
+
+    `console` is what the library writes to the terminal, warnings of its own and all that urdfdom finds: nothing of it
+    keeps a file from being read.
+    """
 
     ok: bool
     errors: tuple[str, ...] = ()
+    console: str = ""
 
 
 @cache
@@ -110,11 +113,10 @@ def available() -> bool:
 def judge(paths: Iterable[Path]) -> dict[Path, Reading]:
     """The verdict on each file. A file on which the library crashes or hangs gets an error of its own."""
     waiting = [Path(path).resolve() for path in paths]
-    verdicts: dict[Path, Reading] = {}
-    for chunk in _chunks(waiting):
-        while rest := [path for path in chunk if path not in verdicts]:
-            verdicts |= _run(rest)
-    return verdicts
+    names = "".join(f"{path}\n" for path in waiting).encode()
+    done = subprocess.run([str(_program())], input=names, stdout=subprocess.PIPE, check=True)
+    rows: list[_Row] = [json.loads(line) for line in done.stdout.decode(errors="replace").splitlines()]
+    return {path: _reading(row) for path, row in zip(waiting, rows, strict=True)}
 
 
 def describe(path: Path) -> RobotRow:
@@ -124,9 +126,7 @@ def describe(path: Path) -> RobotRow:
         RuntimeError: the library has errors for the file, or there is no model in it.
     """
     command = [str(_program()), "--robots", str(path)]
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
-    if done.returncode:
-        raise RuntimeError(f"libsdformat ended with {done.returncode}")
+    done = subprocess.run(command, stdout=subprocess.PIPE, check=True)
     row: _Row = json.loads(done.stdout.decode(errors="replace"))
     if errors := _reading(row).errors:
         raise RuntimeError("; ".join(errors))
@@ -135,28 +135,9 @@ def describe(path: Path) -> RobotRow:
     return row["robot"]
 
 
-def _chunks(paths: list[Path]) -> Iterator[list[Path]]:
-    upcoming = iter(paths)
-    while chunk := list(islice(upcoming, _AT_ONCE)):
-        yield chunk
-
-
-def _run(paths: list[Path]) -> dict[Path, Reading]:
-    """The verdicts up to and including the first file that the library does not survive."""
-    command = [str(_program()), *map(str, paths)]
-    try:
-        seconds = _SECONDS_PER_FILE * len(paths)
-        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False, timeout=seconds)
-        output, failure = done.stdout, f"libsdformat ended with {done.returncode}"
-    except subprocess.TimeoutExpired as expired:
-        output, failure = expired.stdout or b"", "libsdformat did not come to an end"
-    rows: list[_Row] = [json.loads(line) for line in output.decode(errors="replace").splitlines()]
-    verdicts = {path: _reading(row) for path, row in zip(paths, rows, strict=False)}
-    return verdicts if len(verdicts) == len(paths) else verdicts | {paths[len(verdicts)]: Reading(False, (failure,))}
-
-
 def _reading(row: _Row) -> Reading:
-    return Reading(row["ok"], tuple(f"{error['code']}: {error['message']}" for error in row["errors"]))
+    errors = tuple(f"{error['code']}: {error['message']}" for error in row["errors"])
+    return Reading(row["ok"], errors, row["console"])
 
 
 @cache

@@ -1,14 +1,25 @@
 // Loads files with libsdformat 12 and says what it thinks of each, one JSON object per line.
 // File names come from the arguments, or from standard input, one per line. After `--robots` the first model of each
 // file is described too, with the models in it: poses in the frame of that model, and everything in SI units.
+//
+// The description of the format, which takes longer to read than most files, is read once. Every file is loaded by a
+// fork of the process, so that one on which the library crashes or hangs spoils no other.
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <cmath>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <sdf/sdf.hh>
 #include <sstream>
 #include <string>
 
 namespace {
+
+constexpr unsigned SECONDS_PER_FILE = 20;
 
 using ignition::math::Pose3d;
 
@@ -201,19 +212,74 @@ void describe(const sdf::Root &root) {
   std::cout << "]}";
 }
 
-void judge(const std::string &path, const bool robots) {
+std::string error(const int code, const std::string &message) {
+  return "{\"code\": " + std::to_string(code) + ", \"message\": " + quoted(message) + "}";
+}
+
+// what sdf::Root::Load(path) does, but for reading the description of the format
+sdf::Errors load(const std::string &path, const sdf::SDFPtr &description, sdf::Root &root) {
+  sdf::Errors errors;
+  if (!sdf::readFile(path, description, errors)) {
+    errors.push_back({sdf::ErrorCode::FILE_READ, "Unable to read file:" + path});
+    return errors;
+  }
+  const sdf::Errors more = root.Load(description);
+  errors.insert(errors.end(), more.begin(), more.end());
+  return errors;
+}
+
+void judge(const std::string &path, const sdf::SDFPtr &description, const bool robots) {
   sdf::Root root;
-  const sdf::Errors errors = root.Load(path);
-  std::cout << "{\"path\": " << quoted(path) << ", \"ok\": " << (errors.empty() ? "true" : "false") << ", \"errors\": [";
+  const sdf::Errors errors = load(path, description, root);
+  std::cout << "\"ok\": " << (errors.empty() ? "true" : "false") << ", \"errors\": [";
   const char *separator = "";
-  for (const sdf::Error &error : errors) {
-    std::cout << separator << "{\"code\": " << static_cast<int>(error.Code())
-              << ", \"message\": " << quoted(error.Message()) << "}";
+  for (const sdf::Error &each : errors) {
+    std::cout << separator << error(static_cast<int>(each.Code()), each.Message());
     separator = ", ";
   }
   std::cout << "]";
   if (robots) describe(root);
-  std::cout << "}" << std::endl;
+}
+
+// what was written to a file that is only in memory
+std::string contents(const int file) {
+  std::string text(static_cast<size_t>(lseek(file, 0, SEEK_END)), '\0');
+  return pread(file, text.data(), text.size(), 0) < 0 ? "" : text;
+}
+
+int memory(const char *name) {
+  const int file = memfd_create(name, 0);
+  if (file < 0) std::abort();
+  return file;
+}
+
+// its verdict, as members of a JSON object, from a process of its own; `console` has what it writes beside
+std::string verdict(const std::string &path, const sdf::SDFPtr &description, const bool robots, const int console) {
+  const int answer = memory("answer");
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(SECONDS_PER_FILE);
+    dup2(answer, STDOUT_FILENO);
+    dup2(console, STDERR_FILENO);
+    judge(path, description, robots);
+    std::cout.flush();
+    _exit(0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  const std::string text = contents(answer);
+  close(answer);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return text;
+  const std::string how = WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM ? "did not come to an end" : "crashed";
+  return "\"ok\": false, \"errors\": [" + error(0, "libsdformat " + how) + "]";
+}
+
+void answer(const std::string &path, const sdf::SDFPtr &description, const bool robots) {
+  const int console = memory("console");
+  const std::string text = verdict(path, description, robots, console);
+  std::cout << "{\"path\": " << quoted(path) << ", " << text << ", \"console\": " << quoted(contents(console)) << "}"
+            << std::endl;
+  close(console);
 }
 
 }  // namespace
@@ -221,8 +287,10 @@ void judge(const std::string &path, const bool robots) {
 int main(int count, char **arguments) {
   const bool robots = count > 1 && std::string(arguments[1]) == "--robots";
   const int first = robots ? 2 : 1;
-  for (int i = first; i < count; ++i) judge(arguments[i], robots);
+  const sdf::SDFPtr description(new sdf::SDF());
+  sdf::init(description);
+  for (int i = first; i < count; ++i) answer(arguments[i], description, robots);
   std::string path;
-  while (count == first && std::getline(std::cin, path)) judge(path, robots);
+  while (count == first && std::getline(std::cin, path)) answer(path, description, robots);
   return 0;
 }

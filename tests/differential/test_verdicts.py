@@ -1,0 +1,42 @@
+"""Corpus files with mistakes before us and before the parsers of record: where we disagree, somebody knows why."""
+
+from pathlib import Path
+
+import pytest
+
+from benchmarks.verdict_judging import QUESTIONS, Judge, missing
+from benchmarks.verdicts import judged, unexplained
+from tests.corpus.files import Kind
+from tests.differential.mutated import mutated
+from tests.profile import DEEP
+
+CHUNKS = 4
+EACH = 500 if DEEP else 25
+
+
+@pytest.fixture(autouse=True)
+def judges(corpus: Path) -> None:
+    assert corpus.is_dir()
+    for judge in Judge:
+        if why := missing(judge):
+            pytest.skip(why)
+
+
+@pytest.mark.parametrize("kind", [Kind.SDF, Kind.URDF])
+@pytest.mark.parametrize("chunk", range(CHUNKS))
+def test_every_disagreement_with_a_parser_of_record_has_a_reason(chunk: int, kind: Kind) -> None:
+    found = judged(kind, range(chunk * EACH, (chunk + 1) * EACH))
+    assert list(map(str, unexplained(found))) == []
+
+
+@pytest.mark.parametrize("kind", [Kind.SDF, Kind.URDF])
+def test_the_documents_are_of_both_kinds_for_all(kind: Kind) -> None:
+    for question in (question for question in QUESTIONS if question.kind is kind):
+        found = [verdict for verdict in judged(kind, range(25)) if verdict.question == question]
+        assert {verdict.accepted for verdict in found} == {True, False}
+        assert {verdict.opinion.accepts for verdict in found} == {True, False}
+
+
+def test_a_number_makes_the_same_document_again() -> None:
+    assert mutated(Kind.SDF, 5) == mutated(Kind.SDF, 5)
+    assert mutated(Kind.SDF, 5) != mutated(Kind.SDF, 6)
