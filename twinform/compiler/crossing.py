@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 
 from twinform.compiler.emitting import serialised, valid_tree
-from twinform.compiler.memory import Memory, recall, recall_whole, remember, take_memory
+from twinform.compiler.memory import Memory, is_unedited, recall, recall_whole, remember, take_memory
 from twinform.compiler.orders import Order
 from twinform.diagnostics import Entry, Fate, Notes
 from twinform.diagnostics.rules.to_urdf import OUTSIDE_MODEL
@@ -28,7 +28,8 @@ def cross(document: Document, source: Document, order: Order, notes: Notes, watc
     """Take a document into the other format. `source` is what the file said before its includes were expanded."""
     document, memory = take_memory(document)
     entries, notes.entries = notes.entries, []
-    made, at_home = _legalised(document, order, memory, notes, watch)
+    unedited = memory is not None and is_unedited(document, memory)
+    made, at_home = _legalised(document, order, memory, notes, unedited=unedited, watch=watch)
     if not notes.has_errors:
         verify_again(made, notes)
     root = None if notes.has_errors else valid_tree(made, notes, fit=not at_home)
@@ -36,7 +37,8 @@ def cross(document: Document, source: Document, order: Order, notes: Notes, watc
         return Crossing(made)
     text = serialised(root, made)
     new = None
-    if order.carriers and not (at_home and has_includes(made)):  # what it includes would have to be read again
+    # what was not edited is made of the source again; what it includes would have to be read again
+    if order.carriers and not (at_home and (unedited or has_includes(made))):
         new = remember(_without_the_rest(take_memory(source)[0], document, order), text.encode(), order.assets)
         if not (at_home and new.goes_without_saying):
             made, text = _with_memory(made, root, new, source)
@@ -46,13 +48,14 @@ def cross(document: Document, source: Document, order: Order, notes: Notes, watc
 
 
 def _legalised(
-    document: Document, order: Order, memory: Memory | None, notes: Notes, watch: Watch | None
+    document: Document, order: Order, memory: Memory | None, notes: Notes, *, unedited: bool, watch: Watch | None
 ) -> tuple[Document, bool]:
     """The document in the other format, and whether it is home again: in the version, too, that is remembered."""
     if memory is None or memory.format != order.to:
         return order.legalisation(document).run(document, notes, watch=watch), False
-    back, fits = recall_whole(memory, document), True
-    if back is None:
+    if memory.is_whole and unedited:
+        back, fits = recall_whole(memory), True
+    else:
         back = order.home(memory.version).legalisation(document).run(document, notes, watch=watch)
         if notes.has_errors:
             return back, False

@@ -4,6 +4,7 @@ import gc
 from collections.abc import Callable, Generator, Iterable, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,8 @@ from twinform.compiler.parsing import (
     strip_default_namespace,
 )
 from twinform.compiler.sdf import front_end as sdf
+from twinform.compiler.split_values import report_split_values
+from twinform.compiler.tabbed_numbers import report_tabbed_numbers
 from twinform.compiler.urdf import front_end as urdf
 from twinform.compiler.urdf.extensions import check_extensions
 from twinform.compiler.uris import SearchPath
@@ -226,6 +229,7 @@ def read_document(text: bytes, notes: Notes, engine: Engine) -> tuple[Document |
     if text.lstrip()[:1] == b"{":
         return _from_json(text, notes), None
     root = parse(text, notes)
+    report_split_values(text, notes)
     namespace = strip_default_namespace(root)
     if root.tag == _OLD_ROOT and root.get("version") in _OLD_ROOT_VERSIONS:
         message = f"the root of SDF {root.get('version')} is <{_OLD_ROOT}>; read, and written, as <sdf>"
@@ -239,6 +243,8 @@ def read_document(text: bytes, notes: Notes, engine: Engine) -> tuple[Document |
     if b"<xacro:" in text:
         _report_macros(root, notes)
     format_, lower = _ROOTS[str(root.tag)]
+    if format_ == "urdf":
+        report_tabbed_numbers(text, notes)
     context = Context(notes, notes.file, format_, _declared_version(root, format_, notes))
     errors = refusals(root, context, engine)
     context.clean = not errors
@@ -313,8 +319,13 @@ def _is_plain(text: bytes, notes: Notes) -> bool:
 
 
 def _namespaces(root: XmlElement, context: Context, default: str | None) -> tuple[tuple[str, str], ...]:
-    found = {prefix: uri for prefix, uri in root.nsmap.items() if prefix} | context.namespaces
-    found = {undeclared_prefix(uri) or prefix: uri for prefix, uri in found.items()}
+    """The prefixes of a document, those of its root first; one that is another namespace inside gets another name."""
+    found: dict[str, str] = {}
+    own = [(prefix, uri) for prefix, uri in root.nsmap.items() if prefix]
+    for prefix, uri in (*own, *sorted(context.namespaces.difference(own))):
+        wanted = undeclared_prefix(uri) or prefix
+        if found.setdefault(wanted, uri) != uri and uri not in found.values():
+            found[next(name for n in count(2) if (name := f"{wanted}{n}") not in found)] = uri
     return (*((("", default),) if default else ()), *sorted(found.items()))
 
 

@@ -1,7 +1,6 @@
 """Mesh files as solids: what `trimesh` knows of them, in the frame of the shape."""
 
 import importlib
-import io
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,12 +11,7 @@ from twinform.diagnostics.rules import meshes as rules
 from twinform.ir import Element, Mesh, Vector3
 from twinform.ir.solids import Solid
 from twinform.passes.assets import AssetError, Assets
-
-_READ = frozenset({"stl", "obj", "dae", "ply", "off", "glb"})
-"""Formats that hold all of a mesh in one file, or what else they name is only its looks."""
-_LARGEST = 2**28
-"""A file of a quarter of a gigabyte has five million triangles."""
-_EXTRA = "pip install 'twinform[meshes]'"
+from twinform.passes.mesh_files import EXTRA, READ, kind_of, open_scene
 
 _Triangles = Any
 """A `trimesh.Trimesh`."""
@@ -104,7 +98,7 @@ def _hull(mesh: Mesh, triangles: _Triangles) -> _Triangles:
     try:
         hull = triangles.convex_hull
     except ImportError as error:
-        raise MeshError(rules.MESH_READER_MISSING, f"convex hulls need scipy: {error}", _EXTRA) from error
+        raise MeshError(rules.MESH_READER_MISSING, f"convex hulls need scipy: {error}", EXTRA) from error
     except Exception as error:  # flat, or of fewer than four points; scipy raises an error of its own
         message = f"the mesh {mesh.uri!r} has no convex hull with an inside"
         raise MeshError(rules.OPEN_MESH, message) from error
@@ -127,18 +121,16 @@ def _text(element: Element, name: str) -> str | None:
 
 
 def _read(path: Path, uri: str, submesh: str | None, center: bool) -> _Triangles:
-    kind = path.suffix.lower().removeprefix(".")
     if not path.is_file():
         raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} is no file")
-    if kind not in _READ:
-        message = f"the mesh {uri!r} is in no format that is read here: {', '.join(sorted(_READ))}"
+    if kind_of(path) not in READ:
+        message = f"the mesh {uri!r} is in no format that is read here: {', '.join(sorted(READ))}"
         raise MeshError(rules.UNREADABLE_MESH, message)
     try:
-        trimesh: Any = importlib.import_module("trimesh")
-        triangles = _triangles(trimesh, path, kind, submesh)
+        triangles = _triangles(path, submesh)
     except ImportError as error:
         message = f"the mesh {uri!r} is not looked into: {error.name} is not installed"
-        raise MeshError(rules.MESH_READER_MISSING, message, _EXTRA) from error
+        raise MeshError(rules.MESH_READER_MISSING, message, EXTRA) from error
     except Exception as error:  # readers of six formats raise whatever they like
         message = f"the mesh {uri!r} cannot be read: {str(error) or type(error).__name__}"
         raise MeshError(rules.UNREADABLE_MESH, message) from error
@@ -147,18 +139,16 @@ def _read(path: Path, uri: str, submesh: str | None, center: bool) -> _Triangles
     return triangles
 
 
-def _triangles(trimesh: Any, path: Path, kind: str, submesh: str | None) -> _Triangles:
+def _triangles(path: Path, submesh: str | None) -> _Triangles:
     """The triangles of a file in metres, with vertices merged that are at one place.
 
     Raises:
         Exception: what the reader of the format raises, or ours where nothing is left.
     """
-    if path.stat().st_size > _LARGEST:
-        raise ValueError(f"it is larger than {_LARGEST >> 20} MiB")
-    # without a resolver nothing is read but this file
-    scene = trimesh.load_scene(io.BytesIO(path.read_bytes()), file_type=kind, resolver=None, skip_materials=True)
+    scene = open_scene(path)
+    trimesh: Any = importlib.import_module("trimesh")
     whole = scene.to_mesh() if submesh is None else _part(trimesh, scene, submesh)
-    meter = _unit(trimesh, scene.geometry.values()) if kind == "dae" else 1.0
+    meter = _unit(trimesh, scene.geometry.values()) if kind_of(path) == "dae" else 1.0
     # made anew, so that vertices which differ in their looks are merged as well
     triangles = trimesh.Trimesh(vertices=whole.vertices * meter, faces=whole.faces, process=True)
     if not len(triangles.faces):

@@ -2,7 +2,7 @@
 
 import sys
 
-PROFILES = {"smoke": 15, "default": 100, "deep": 2000}
+PROFILES = {"smoke": 15, "default": 100, "deep": 1000}
 """How many examples each property is tried with."""
 
 

@@ -10,13 +10,11 @@ from twinform.compiler import CompileError, convert, read
 from twinform.compiler.compare import diff
 from twinform.compiler.emitting import emit
 from twinform.compiler.loading import Reading
-from twinform.compiler.memory.document import forget
 from twinform.diagnostics import Diagnostic, Notes
 from twinform.diagnostics.reporters import REPORTERS, Findings
 from twinform.ir import Document
 from twinform.ir.verify import verify
 from twinform.passes import Pass
-from twinform.passes.legalise.carrier import NAMESPACE
 
 Model = Document | Path | str | bytes
 Language = Literal["urdf", "sdf", "json"]
@@ -35,8 +33,7 @@ def assert_valid(model: Model, *, strict: bool = False) -> Document:
 def assert_round_trip(model: Model, *, via: Language | None = None, sdf_version: str | None = None) -> None:
     """There and back is the same document: written and read, or through the other format and home.
 
-    `sdf_version` is the version of SDF to go through. What the file at home
-    remembers of the other one, and the declaration of our prefix, are no part of the model.
+    `sdf_version` is the version of SDF to go through.
     """
     document = assert_valid(model)
     text, _ = _text(model if not isinstance(model, Path) or model.suffix == ".xacro" else document)
@@ -48,9 +45,7 @@ def assert_round_trip(model: Model, *, via: Language | None = None, sdf_version:
         there = _converted(text, via, sdf_version if via == "sdf" else None)
         assert_valid(there)
         again = assert_valid(_converted(there.encode(), document.format.value))
-    assert _bare(again) == _bare(document), (
-        f"the document is another one {'once read again' if via is None else f'after {via}'}"
-    )
+    assert again == document, f"the document is another one {'once read again' if via is None else f'after {via}'}"
 
 
 def assert_same_robot(one: Model, other: Model) -> None:
@@ -83,11 +78,6 @@ def assert_pass_contract(step: Pass, model: Model, *, idempotent: bool = False) 
     if idempotent:
         assert step.run(made, Notes()) == made, f"{step.name} changes what it has made"
     return made
-
-
-def _bare(document: Document) -> Document:
-    kept = tuple(pair for pair in document.namespaces if pair[1] != NAMESPACE)
-    return forget(document).model_copy(update={"namespaces": kept})
 
 
 def _text(model: Model) -> tuple[bytes | Path, str]:

@@ -55,6 +55,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (folder / "empty.stl").write_bytes(b"")
     (folder / "noise.dae").write_bytes(b"\x00\xff<COLLADA>")
     (folder / "hostile.obj").write_text("f 1 2 99999999999\nmtllib /etc/passwd\n")
+    (folder / "hostile.dae").write_text(f"<!DOCTYPE x SYSTEM 'file:///etc/passwd'>{text[text.index('<COLLADA') :]}")
     (folder / "part.step").write_text("ISO-10303-21;")
     return folder
 
@@ -128,6 +129,7 @@ def test_a_submesh_is_a_part_and_may_be_centred(folder: Path) -> None:
         ("empty.stl", "unreadable-mesh", "empty.stl"),
         ("noise.dae", "unreadable-mesh", "noise.dae"),
         ("hostile.obj", "unreadable-mesh", "hostile.obj"),
+        ("hostile.dae", "unreadable-mesh", "document type"),
         ("part.step", "unreadable-mesh", "dae, glb, obj"),
         ("missing.stl", "unreadable-mesh", "missing.stl"),
     ],

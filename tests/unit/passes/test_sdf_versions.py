@@ -123,6 +123,15 @@ UP: list[tuple[str, str, str, list[str]]] = [
     ),
     (
         "1.7",
+        model(
+            "<frame name='n::__model__' attached_to='n::a'><pose relative_to='b'>0 2 0 0 0 0</pose></frame>"
+            "<link name='n::a'><pose relative_to='n::__model__'/></link><link name='b'/>"
+        ),
+        "/sdf/model/model/pose/@relative_to | /sdf/model/model/pose/text()",
+        ["b", "0 2 0 0 0 0"],
+    ),
+    (
+        "1.7",
         model(LINKS.replace("<link name='a'/>", "<link name='a'><inertial><pose relative_to='b'>1 0 0 0 0 0</pose>")
         .replace("</pose><link", "</pose></inertial></link><link")),
         "//inertial/pose/text()",

@@ -1,7 +1,7 @@
 """The memory of a source in the document that was made of it: one element of our namespace at the end of the model.
 
-<tf:source format="urdf" version="1.0">   what the way back to this format makes of the model, and the source does not
-...                                     the changes to that; `edits.py` has their words
+<tf:source format="urdf" version="1.0" of="...">   what the way back to this format makes of the model, and the source
+...                                              does not; the changes to that; `edits.py` has their words
 </tf:source>
 """
 
@@ -11,6 +11,7 @@ from typing import TypeVar
 
 from lxml import etree
 
+from twinform.compiler.memory.edits import EDITS
 from twinform.compiler.orders import DEFAULT_SDF_VERSION
 from twinform.ir import Document, Node, Opaque, map_children
 from twinform.passes.legalise.carrier import NAMESPACE, PREFIX, SOURCE
@@ -23,16 +24,22 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 class Memory:
     """What a source said where its way back would not find it.
 
-    `edits` holds the changes to the tree that the way back makes. Where there is no way back, `made_of` is the digest
-    of the document that the memory belongs to, and the only thing in `edits` is the whole source. `bare` says that the
-    source has nothing of our own namespace, so that whatever of that is on the way back does not count.
+    `edits` holds the changes to the tree that the way back makes; where there is no way back, the only thing in it is
+    the whole source. `beside` is the digest of the document that was made of the source, and tells whether somebody
+    has edited that. `bare` says that the source has nothing of our own namespace, so that whatever of that is on the
+    way back does not count.
     """
 
     format: str
     version: str
     edits: XmlElement
-    made_of: str | None = None
+    beside: str
     bare: bool = True
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether this is the source itself, and no changes to its way back."""
+        return len(self.edits) == 1 and self.edits[0].tag not in EDITS
 
     @property
     def says_nothing(self) -> bool:
@@ -49,8 +56,7 @@ class Memory:
         made = etree.Element(SOURCE, nsmap={**namespaces, PREFIX: NAMESPACE})
         made.set("format", self.format)
         made.set("version", self.version)
-        if self.made_of is not None:
-            made.set("of", self.made_of)
+        made.set("of", self.beside)
         if not self.bare:
             made.set("with", PREFIX)
         made.extend(map(deepcopy, self.edits))
@@ -83,4 +89,4 @@ def _is_memory(part: Opaque) -> bool:
 def _memory(part: Opaque) -> Memory:
     element = element_xml(part.element)
     bare = element.get("with") is None
-    return Memory(element.get("format") or "", element.get("version") or "", element, element.get("of"), bare)
+    return Memory(element.get("format") or "", element.get("version") or "", element, element.get("of") or "", bare)

@@ -22,6 +22,7 @@ from twinform.schemas import XmlElement
 IN, ATTRIBUTE, TEXT, WITHOUT, INSTEAD, ADD, MOVE = (
     f"{{{NAMESPACE}}}{name}" for name in ("in", "attribute", "text", "without", "instead", "add", "move")
 )
+EDITS = frozenset({IN, ATTRIBUTE, TEXT, WITHOUT, INSTEAD, ADD, MOVE})
 
 
 def changes(wanted: XmlElement, made: XmlElement) -> list[XmlElement]:

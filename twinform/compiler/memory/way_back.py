@@ -33,13 +33,13 @@ def remember(source: Document, made: bytes, assets: Assets) -> Memory:
     version = print_version(written_version(source))
     document = lower_tree(etree.fromstring(made), Notes(_MADE), valid=True)
     back = way_back(document, source.format, version, Notes(_MADE), assets)
-    wanted, edits = document_tree(source), etree.Element("edits")
+    wanted, edits, beside = document_tree(source), etree.Element("edits"), digest(document_tree(document))
     if back is None:
         edits.append(wanted)
-        return Memory(source.format, version, edits, made_of=digest(document_tree(document)))
-    bare = not any(True for _ in wanted.iter(_OURS))
+        return Memory(source.format, version, edits, beside)
+    bare = not _is_declared(source) and not any(True for _ in wanted.iter(_OURS))
     edits.extend(changes(wanted, _tree(back, bare=bare)))
-    return Memory(source.format, version, edits, bare=bare)
+    return Memory(source.format, version, edits, beside, bare)
 
 
 def way_back(document: Document, format_: Format, version: str, notes: Notes, assets: Assets) -> Document | None:
@@ -50,10 +50,13 @@ def way_back(document: Document, format_: Format, version: str, notes: Notes, as
     return None if notes.has_errors else found
 
 
-def recall_whole(memory: Memory, document: Document) -> Document | None:
-    """The source that is remembered whole, if nothing was edited in the document that was made of it."""
-    if memory.made_of is None or digest(document_tree(document)) != memory.made_of:
-        return None
+def is_unedited(document: Document, memory: Memory) -> bool:
+    """Whether a document, without the memory, is still what was made of the source."""
+    return digest(document_tree(document)) == memory.beside
+
+
+def recall_whole(memory: Memory) -> Document:
+    """The source of a memory that is whole."""
     tree = memory.edits[0]
     _number(tree)
     return lower_tree(tree, Notes())
@@ -80,8 +83,15 @@ def recall(memory: Memory, back: Document, notes: Notes) -> tuple[Document, bool
     return document, not misfits
 
 
+def _is_declared(document: Document) -> bool:
+    return any(uri == NAMESPACE for _, uri in document.namespaces)
+
+
 def _tree(document: Document, *, bare: bool) -> XmlElement:
     """The tree of a document, without elements and attributes of our own namespace if it has to be bare."""
+    if bare and _is_declared(document):
+        others = tuple(pair for pair in document.namespaces if pair[1] != NAMESPACE)
+        document = document.model_copy(update={"namespaces": others})
     tree = document_tree(document)
     if document.format is Format.URDF:
         take_off_additions(tree)

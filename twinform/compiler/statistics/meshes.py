@@ -3,22 +3,15 @@
 `trimesh` counts the triangles; without it, only the bytes are known.
 """
 
-import importlib
-import io
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from twinform.compiler.uris import SearchPath, UriError
 from twinform.ir import Collision, Mesh, Model, Visual, walk
-
-_READ = frozenset({"stl", "dae", "obj"})
-_LARGEST = 2**28
-"""A file of a quarter of a gigabyte has five million triangles."""
-_READERS = frozenset({"trimesh", "collada"})
-_INSTALL = "pip install 'twinform[meshes]'"
+from twinform.passes.mesh_files import EXTRA, READ, READERS, RefusedMeshError, kind_of, open_scene
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,37 +74,33 @@ def _meshes(model: Model, kind: type[Visual] | type[Collision]) -> Iterator[str]
 
 
 def _looked_at(path: Path) -> _File:
-    kind = path.suffix.lower().removeprefix(".")
     try:
         size = path.stat().st_size
         if not path.is_file():
             return _File(problem="it is no file")
-        if kind not in _READ:
-            return _File(size, problem=f"triangles are counted in {', '.join(sorted(_READ))}")
-        if size > _LARGEST:
-            return _File(size, problem=f"it is larger than {_LARGEST >> 20} MiB")
-        return _counted(path.read_bytes(), kind)
+        if kind_of(path) not in READ:
+            return _File(size, problem=f"triangles are counted in {', '.join(sorted(READ))}")
+        return _counted(path, size)
     except OSError as error:
         return _File(problem=f"it cannot be read: {error.strerror}")
 
 
-def _counted(content: bytes, kind: str) -> _File:
-    size = len(content)
-    if kind == "dae" and b"<!" in content.replace(b"<!--", b"").replace(b"<![CDATA[", b""):
-        return _File(size, problem="it declares a document type, which may name other files")
+def _counted(path: Path, size: int) -> _File:
     try:
-        triangles = _triangles(content, kind)
-    except Exception as error:  # noqa: BLE001 - readers of three formats raise whatever they like
-        if isinstance(error, ImportError) and error.name in _READERS:
-            return _File(size, problem=f"{error.name} is not installed: {_INSTALL}")
+        triangles = _triangles(path)
+    except OSError:
+        raise
+    except RefusedMeshError as error:
+        return _File(size, problem=str(error))
+    except Exception as error:  # noqa: BLE001 - readers of six formats raise whatever they like
+        if isinstance(error, ImportError) and error.name in READERS:
+            return _File(size, problem=f"{error.name} is not installed: {EXTRA}")
         return _File(size, problem=f"it cannot be read: {str(error) or type(error).__name__}")
     return _File(size, triangles, "" if triangles else "it has no triangles")
 
 
-def _triangles(content: bytes, kind: str) -> int:
+def _triangles(path: Path) -> int:
     """All triangles of a file, those of a part as often as the file places it."""
-    trimesh: Any = importlib.import_module("trimesh")
-    # without a resolver nothing is read but this file
-    scene = trimesh.load_scene(io.BytesIO(content), file_type=kind, resolver=None, skip_materials=True, process=False)
+    scene = open_scene(path, process=False)
     placed = (scene.graph[node][1] for node in scene.graph.nodes_geometry)
     return sum(len(getattr(scene.geometry[name], "faces", ())) for name in placed)

@@ -298,7 +298,8 @@ def _limit() -> None:
     try:
         resource: Any = import_module("resource")
         for kind, most in ((resource.RLIMIT_AS, _MEMORY), (resource.RLIMIT_CPU, _SECONDS), (resource.RLIMIT_FSIZE, 0)):
-            resource.setrlimit(kind, (most, resource.getrlimit(kind)[1]))
+            hard = resource.getrlimit(kind)[1]
+            resource.setrlimit(kind, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
     except (ImportError, OSError, ValueError):
         return  # there are systems without
 

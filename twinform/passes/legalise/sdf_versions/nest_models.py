@@ -112,10 +112,11 @@ def _model(inner: _Inner, around: Model, graph: FrameGraph, notes: Notes) -> Mod
     if own is not None:
         base = own.name
         pose = own.pose
-        if own.attached_to and not (pose and pose.relative_to) and not inner.holds(own.attached_to):
-            pose = (pose or Pose()).model_copy(update={"relative_to": own.attached_to})
-        elif inner.holds(own.attached_to) or (pose and inner.holds(pose.relative_to)):
+        frame = (pose.relative_to if pose else None) or own.attached_to
+        if inner.holds(frame):
             pose = graph.pose(own.name, MODEL, kind="frame").to_pose()
+        elif frame:
+            pose = (pose or Pose()).model_copy(update={"relative_to": frame})
         canonical = inner.strip(own.attached_to) if inner.holds(own.attached_to) else None
     nested = Model(
         name=inner.name,

@@ -32,7 +32,7 @@ def read_content(
     context = Context(found, notes.file, "sdf", table("sdf").newest, declared=False)
     data = reader("sdf", context.version).read(xml, context, kind, listed[0].source)
     _report(found, f"{kind}[@name='{name}']", name if kind != "model" else "", notes)
-    fields = set(data) - _GIVEN
+    fields = [field for field in data if field not in _GIVEN]
     if notes.has_errors or not fields:
         return {}
     base: dict[str, Any] = {"name": name, **_REQUIRED.get(kind, {})}

@@ -13,8 +13,8 @@ Shape = TypeVar("Shape", Visual, Collision)
 class NameShapes(ModelPass):
     """Name what has no name, or the name of another one of its kind in the link.
 
-    Changes: 1. the unnamed become `LINK_visual` or `LINK_collision`, with `_1`, `_2`, ... from the second on;
-    2. a repeated name gets a number.
+    Changes: 1. those without a name, or with one made of blanks, become `LINK_visual` or `LINK_collision`, with `_1`,
+    `_2`, ... from the second on; 2. a repeated name gets a number.
     Never touches: names that are there and differ.
     Diagnostics: none; a ledger entry under `shape-name` for each name that was changed.
     """
@@ -37,21 +37,29 @@ def _name_link(link: Link, notes: Notes) -> Link:
 
 def name_all(shapes: tuple[Shape, ...], base: str, notes: Notes) -> tuple[Shape, ...]:
     """The shapes with one name each; `base` names those that have none."""
-    taken = {shape.name for shape in shapes if shape.name}
+    taken = {shape.name for shape in shapes if shape.name and shape.name.strip()}
     if len(taken) == len(shapes):
         return shapes
     seen: set[str] = set()
     named: list[Shape] = []
     for shape in shapes:
-        name = shape.name
+        name = (shape.name or "") if _is_named(shape) else ""
         if not name or name in seen:
             name = _free(name or base, taken | seen)
             if shape.name:
-                message = f"{shape.name!r} is there twice; the second one is called {name!r} in SDF"
+                message = f"{shape.name!r} {_why(shape)} is called {name!r} in SDF"
                 notes.account(Fate.APPROXIMATED, to_sdf.SHAPE_NAME, message, shape.location)
         seen.add(name)
         named.append(shape if shape.name == name else shape.model_copy(update={"name": name}))
     return tuple(named)
+
+
+def _is_named(shape: Visual | Collision) -> bool:
+    return bool(shape.name and shape.name.strip())
+
+
+def _why(shape: Visual | Collision) -> str:
+    return "is there twice; the second one" if _is_named(shape) else "is no name; it"
 
 
 def _free(base: str, taken: set[str]) -> str:

@@ -58,7 +58,8 @@ class SharedMaterials(ModelPass):
 
     def _account(self, material: Material, weight: int, notes: Notes) -> None:
         fate = Fate.CARRIED if self.carriers else Fate.DROPPED
-        message = f"SDF has no name for the material {material.name!r}"
+        named = f"SDF has no name for the material {material.name!r}"
+        message = named if material.name else "SDF has no shared materials"
         notes.account(fate, to_sdf.MATERIAL_NAME, message, material.location, weight)
 
 

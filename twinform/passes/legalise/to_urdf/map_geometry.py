@@ -34,6 +34,14 @@ _DEFAULTS: dict[type[Node], dict[str, object]] = {
     Mesh: {},
 }
 """The shapes of URDF, with SDF's defaults in metres for what URDF requires."""
+_UNSAYABLE = {
+    "ellipsoid": "is an ellipsoid, which URDF does not have",
+    "empty": "has an empty shape, which URDF does not have",
+    "image": "is an image, which URDF does not have",
+    "mesh": "is one part of a mesh, which URDF cannot say",
+    "no shape": "has no shape, which URDF cannot say",
+}
+"""What is said of a shape that is not simply a box, a plane and so on."""
 
 
 class MapGeometry(ToUrdfPass):
@@ -65,9 +73,8 @@ def _sort(link: Link, field: str, tag: str, shapes: tuple[AnyShaped, ...], sayab
             kept.append(_map_shape(one, tag, keeper))
             continue
         kind = one.geometry.shape.kind if one.geometry and one.geometry.shape else "no shape"
-        message = f"{tag} {one.name!r} of link {link.name!r} is a {kind}, which URDF does not have"
-        if kind == "mesh":
-            message = f"{tag} {one.name!r} of link {link.name!r} is one part of a mesh, which URDF cannot say"
+        what = _UNSAYABLE.get(kind, f"is a {kind}, which URDF does not have")
+        message = f"{tag} {one.name!r} of link {link.name!r} {what}"
         keeper.notes.report(rules.UNSAYABLE_SHAPE, message, one.location, found=kind)
         weight = count_parts(one)
         link = keeper.keep(link, [piece(one, tag)], rules.UNSAYABLE_SHAPE, message, one.location, weight)
