@@ -12,7 +12,7 @@ SYNCED := .venv/.synced
 ORACLES := .venv/.oracles
 DEMO := out/demo
 
-.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness equipment bench inertia lumping classic mapping prove coverage fuzz clean
+.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness equipment bench inertia lumping classic mapping verdicts prove coverage mutation fuzz clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -64,11 +64,14 @@ wheel: $(SYNCED) ## build the wheel, list it, install it into an empty environme
 	.wheel-venv/bin/python -m pip install --quiet --disable-pip-version-check dist/*.whl
 	.wheel-venv/bin/twinform check examples/rover.urdf
 
-prove: $(ORACLES) ## all tests at depth: 2,000 examples of each property, 100,000 documents before four judges
+prove: $(ORACLES) ## all tests at depth: 1,000 examples of each property, 100,000 documents before four judges
 	TWINFORM_PROFILE=deep $(BIN)/python -m pytest -n $(JOBS)
 
 coverage: $(SYNCED) ## how much of the package the tests run, branches and child processes too
 	$(BIN)/python -m pytest -n $(JOBS) --cov --cov-report=term --cov-report=html:out/coverage
+
+mutation: $(SYNCED) ## how many small faults the tests notice, in a sample of each room; writes docs/reference/mutation.md
+	$(BIN)/python -m benchmarks.mutation --processes $(JOBS)
 
 fuzz: $(SYNCED) ## ten minutes of atheris for each target; docs/reference/proof.md says how to run it for hours
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --group fuzz
@@ -112,6 +115,9 @@ probes: $(ORACLES) ## what libsdformat makes of small URDF files beside what we 
 equipment: $(SYNCED) ## sensors and plugins of SDF as libsdformat finds them in URDF; writes docs/reference/equipment.md
 	$(BIN)/python -m benchmarks.equipment
 
+verdicts: $(SYNCED) ## mutated corpus files before libsdformat 12 and urdfdom; writes docs/reference/verdicts.md
+	$(BIN)/python -m benchmarks.verdicts
+
 inertia: $(ORACLES) ## corpus robots that engines refuse for their inertias, mended; writes docs/reference/inertia.md
 	$(BIN)/python -m benchmarks.inertia
 
@@ -122,4 +128,4 @@ bench: $(SYNCED) ## how fast it is; writes docs/reference/performance.md
 	$(BIN)/python -m benchmarks.bench
 
 clean: ## delete what the other targets made
-	rm -rf .venv .wheel-venv build dist out
+	rm -rf .venv .wheel-venv build dist out mutants

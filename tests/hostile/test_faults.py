@@ -16,6 +16,7 @@ from benchmarks import robots
 _COMMAND = [sys.executable, "-c", "from twinform.cli import main; main()"]
 _SIGNALLED = """
 import os, signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)  # who runs the tests may have it ignored
 real = os.{call}
 def call(*args, **more):
     os.kill(os.getpid(), signal.{name})

@@ -134,7 +134,7 @@ DOCTYPE = DAE.replace("<COLLADA", "<!DOCTYPE x SYSTEM 'file:///etc/passwd'><COLL
         pytest.param("a.stl", "", None, "it has no triangles", id="empty stl"),
         pytest.param("a.stl", "\0" * 80 + "\xff" * 4, None, "it cannot be read", id="stl that promises too much"),
         pytest.param("a.obj", "# nothing", None, "it ", id="empty obj"),
-        pytest.param("a.blend", "BLENDER", None, "triangles are counted in dae, obj, stl", id="another format"),
+        pytest.param("a.blend", "BLENDER", None, "triangles are counted in dae, glb, obj", id="another format"),
     ],
 )
 def test_a_mesh_costs_bytes_and_triangles(
