@@ -5,7 +5,6 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from twinform.compiler.crossing import cross
 from twinform.compiler.emitting import emit
 from twinform.compiler.errors import CompileError
 from twinform.compiler.includes import expand
@@ -111,6 +110,8 @@ class _Files:
         alone = document.model_copy(
             update={"models": (model,), "worlds": (), "lights": (), "includes": (), "opaque": ()}
         )
+        from twinform.compiler.crossing import cross  # noqa: PLC0415 - whoever splits nothing does not need it
+
         notes = Notes(self.notes.file, self.notes.strict, origins=self.notes.origins)
         text = cross(alone, alone, self.order, notes, self.watch).text
         self.notes.extend(notes.diagnostics)

@@ -13,7 +13,7 @@ _UNSEEN = frozenset({"source", "spelling"})
 class Sourced(BaseModel):
     """A frozen part of a document. `source`, the place it was read from, takes no part in equality or in JSON."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", ser_json_inf_nan="strings")
+    model_config = ConfigDict(frozen=True, extra="forbid", ser_json_inf_nan="strings", defer_build=True)
 
     source: SkipJsonSchema[Annotated[Source | None, SkipValidation]] = Field(default=None, exclude=True, repr=False)
 

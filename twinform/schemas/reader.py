@@ -6,6 +6,7 @@ typed field is kept as opaque parts. The dicts hold IR field names and know noth
 
 from collections.abc import Callable
 from functools import cache
+from typing import TypeVar
 
 from twinform.diagnostics import Source
 from twinform.schemas import messages
@@ -26,22 +27,34 @@ _OF_SCHEMAS = frozenset({_INSTANCE + "type", _INSTANCE + "nil"})
 Fill = Callable[[XmlElement, Data, str, Context], None]
 """Reads the inside of an element into the dict of its node: (element, node, path from the node, context)"""
 
+_Closure = TypeVar("_Closure")
+
+
+class _Made(dict[str, _Closure]):
+    """Closures by name, each made when it is first looked up."""
+
+    def __init__(self, make: Callable[[str], _Closure]) -> None:
+        super().__init__()
+        self._make = make
+
+    def __missing__(self, name: str) -> _Closure:
+        made = self[name] = self._make(name)
+        return made
+
 
 class Reader:
     """Reads elements of one format in one version.
 
-    Definitions refer to each other, so the closures look each other up when they are called.
+    Definitions refer to each other, so the closures look each other up when they are called. Each is made when it is
+    first needed: a file has few of the elements that there are.
     """
 
     def __init__(self, facts: Table, version: Version) -> None:
         self.table = facts
         self.version = version
         self.types = VALUE_TYPES[facts.format]
-        self.fills: dict[str, Fill] = {}
-        self.checks: dict[str, Fill] = {}
-        for name, definition in facts.definitions.items():
-            self.fills[name] = self._fill(definition, keep=True)
-            self.checks[name] = self._fill(definition, keep=False)
+        self.fills = _Made(lambda name: self._fill(facts.definitions[name], keep=True))
+        self.checks = _Made(lambda name: self._fill(facts.definitions[name], keep=False))
 
     def read(
         self, element: XmlElement, context: Context, definition: str | None = None, source: Source | None = None
@@ -58,19 +71,18 @@ class Reader:
 
     def _fill(self, fact: Fact, *, keep: bool) -> Fill:  # noqa: C901 - closures over one set of tables
         """The reader of an element's inside. Where `keep` is false it only checks."""
-        attributes = {
-            row.name[1:]: attribute_reader(row, self.types, self.version, keep=keep)
-            for row in self._rows(fact.attributes)
-        }
+        attribute_rows = {row.name[1:]: row for row in self._rows(fact.attributes)}
+        child_rows = {row.name: row for row in self._rows(fact.children)}
+        attributes = _Made(lambda name: attribute_reader(attribute_rows[name], self.types, self.version, keep=keep))
+        children = _Made(lambda name: self._child(child_rows[name], keep=keep))
         parses = [(row, quick_parse(row, self.types, self.version)) for row in fact.attributes if keep]
         quick = {row.name[1:]: (row.place or "", parse) for row, parse in parses if parse}
-        children = {row.name: self._child(row, keep=keep) for row in self._rows(fact.children)}
         present = [row for row in fact.rows if row.exists_in(self.version)]
         asked = [row for row in present if row.is_attribute and (row.required or row.expected)]
         needed_attributes = frozenset(row.name[1:] for row in asked)
         rows_asked = {row.name[1:]: row for row in asked}
         needed_children = frozenset(row.name for row in present if not row.is_attribute and row.required)
-        once = frozenset(row.name for row in self._rows(fact.children) if not row.repeats)
+        once = frozenset(row.name for row in child_rows.values() if not row.repeats)
         free, content = fact.any, fact.place if fact.any and keep else None
         read_text = text_reader(fact, self.types, fact.place, keep=keep) if fact.type else None
         kinds = frozenset(row.name for row in fact.children if row.kind)
@@ -84,9 +96,8 @@ class Reader:
                         continue
                     except GIVE_UP:
                         pass
-                read = attributes.get(name)
-                if read is not None:
-                    read(element, text, node, at, context)
+                if name in attribute_rows:
+                    attributes[name](element, text, node, at, context)
                 else:
                     other_attribute(element, name, text, node, at, context)
             if needed_attributes and not needed_attributes.issubset(element.keys()):
@@ -101,15 +112,14 @@ class Reader:
             for child in element:
                 tag: str = child.tag  # pyright: ignore[reportAssignmentType] - the parser removes comments
                 place = counts[tag] = counts.get(tag, 0) + 1
-                read_child = children.get(tag)
-                if read_child is None:
+                if tag not in child_rows:
                     other_child(child, node, at, context)
                 elif place > 1 and tag in once:
                     messages.repeated(context, child)
                     if keep:
                         keep_element(child, node, at, context)
                 else:
-                    read_child(child, node, at, place, context)
+                    children[tag](child, node, at, place, context)
                 if not context.clean and content is None and not is_blank(child.tail or ""):
                     stray(element, child.tail or "", node, at, context, after=child)
             if kinds and len(kinds & counts.keys()) > 1:
@@ -131,7 +141,7 @@ class Reader:
                 node.setdefault(content, []).append(element_data(child, context, node.get("source")))
                 return
             if not free and (read_text is not None or str(child.tag)[0] != "{"):
-                messages.unknown_element(context, child, children)
+                messages.unknown_element(context, child, child_rows)
             elif not free:
                 messages.prefixed_element(context, child)
             if keep:
@@ -142,7 +152,7 @@ class Reader:
                 note_namespaces(element, context)
                 messages.prefixed_attribute(context, element, name)
             if name in _OF_SCHEMAS or (name[0] != "{" and not free):
-                messages.unknown_attribute(context, element, name, attributes)
+                messages.unknown_attribute(context, element, name, attribute_rows)
             if keep:
                 keep_part(element, node, context, {"at": at, "attribute": (name, text)})
 

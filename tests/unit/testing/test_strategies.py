@@ -13,6 +13,7 @@ from twinform.schemas import libxml2_errors, parse_version, table
 from twinform.testing import assert_valid, profiles, strategies
 
 _FEW = settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+_ONE = settings(_FEW, phases=(Phase.generate,))
 _FIND = settings(max_examples=2000, deadline=None, database=None, phases=(Phase.generate, Phase.shrink))
 LANGUAGES: tuple[Literal["urdf", "sdf"], ...] = ("urdf", "sdf")
 
@@ -82,7 +83,7 @@ def test_what_cannot_be_is_refused_at_once(name: str) -> None:
 def test_types_have_strategies(kind: type[Node]) -> None:
     profiles.register_types()
     drawn: st.SearchStrategy[Node] = st.from_type(kind)
-    assert isinstance(find(drawn, lambda _: True, settings=_FEW), kind)
+    assert isinstance(find(drawn, lambda _: True, settings=_ONE), kind)
 
 
 def test_hypothesis_knows_the_profiles() -> None:
