@@ -14,7 +14,7 @@ from tests.profile import DEEP
 
 MEMORY = 512 * 2**20
 SECONDS = 2 if DEEP else 4
-"""Of processor time. `make prove` holds what is promised; a quick look must not fail on a slow machine, or a busy one."""
+"""Of processor time. `make prove` holds what is promised; the quick tests must not fail where a machine is slow."""
 _OWN = (sys.prefix, sys.base_prefix, sysconfig.get_path("stdlib"), str(Path(__file__).parents[2] / "twinform"), "/proc")
 _WATCHED = """
 import json, os, sys
