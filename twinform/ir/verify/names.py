@@ -18,16 +18,25 @@ def name_of(node: Node) -> str:
 
 
 def report_names(kind: str, nodes: Iterable[Node], notes: Notes) -> None:
-    """Report names that are empty or blank, or there twice."""
+    """Report names that are empty or blank, cannot be printed, or are there twice."""
     seen: dict[str, Node] = {}
     for node in nodes:
         name = name_of(node)
         if not name.strip() and kind in _NEED_NAMES:
             notes.report(rules.EMPTY_NAME, f"a {kind} has an empty name", node.location)
+        report_unprintable(kind, node, notes)
         if name in seen:
             message = f"{kind} {name!r} is there twice"
             notes.report(rules.DUPLICATE_NAME, message, node.location, found=name, related=(seen[name].location,))
         seen.setdefault(name, node)
+
+
+def report_unprintable(kind: str, node: Node, notes: Notes) -> None:
+    """Report a name with a character that nobody can see."""
+    name = node.__dict__["name"]
+    if name is not None and not name.isprintable():
+        message = f"{kind} {name!r} has characters in its name that cannot be seen"
+        notes.report(rules.UNPRINTABLE_NAME, message, node.location, found=name)
 
 
 def report_scope(kinds: Kinds, shared: Severity, notes: Notes) -> None:

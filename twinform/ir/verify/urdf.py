@@ -12,7 +12,7 @@ from twinform.ir.model import Model
 from twinform.ir.node import Node
 from twinform.ir.verify.inertia import verify_inertial
 from twinform.ir.verify.joints import verify_joint, verify_limits_there, verify_mimics
-from twinform.ir.verify.names import report_names
+from twinform.ir.verify.names import report_names, report_unprintable
 from twinform.ir.verify.shapes import verify_shapes
 from twinform.ir.verify.tree import report_loops
 
@@ -22,6 +22,7 @@ def verify_robot(model: Model, notes: Notes, *, optional: bool) -> None:
     if not model.name.strip():
         message = "the robot has an empty name"
         notes.report(rules.EMPTY_NAME, message, model.location, severity=Severity.WARNING)
+    report_unprintable("robot", model, notes)
     for kind, nodes in (("link", model.links), ("joint", model.joints)):
         report_names(kind, nodes, notes)
     _report_materials(model, notes)
@@ -33,6 +34,9 @@ def verify_robot(model: Model, notes: Notes, *, optional: bool) -> None:
     for link in model.links:
         verify_inertial(link, None, notes)
         verify_shapes(link, notes, geometry_is_required=True)
+        for kind, shapes in (("visual", link.visuals), ("collision", link.collisions)):
+            for shape in shapes:
+                report_unprintable(kind, shape, notes)
     _verify_tree(model, links, notes)
     known = links | {joint.name for joint in model.joints}
     for extension in model.extensions:
