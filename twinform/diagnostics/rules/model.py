@@ -44,10 +44,10 @@ EMPTY_NAME = Rule(
 UNPRINTABLE_NAME = Rule(
     name="unprintable-name",
     severity=Severity.ERROR,
-    finds="A name with a character that cannot be seen: a line break, a tab, a command to a terminal, a mark that turns "
-    "the direction of writing, a space of another width.",
-    matters="No topic or frame of ROS can have the name, logs and scripts that print it break or lie, and two names that "
-    "look the same are not.",
+    finds="A name with a character that cannot be seen: a line break, a tab, a command to a terminal, a mark that "
+    "turns the direction of writing, a space of another width.",
+    matters="No topic or frame of ROS can have the name, logs and scripts that print it break or lie, and two names "
+    "that look the same are not.",
     example="`<link name='arm&#10;base'/>`",
     better="Write the name in letters, digits and underscores.",
 )
