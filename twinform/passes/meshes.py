@@ -73,7 +73,8 @@ class Meshes:
         if key not in self._read:
             self._read[key] = _read(path, mesh.uri or "", *_submesh(mesh))
         triangles = self._read[key].copy()
-        triangles.apply_scale(mesh.scale or (1.0, 1.0, 1.0))
+        if mesh.scale:
+            triangles.vertices = triangles.vertices * mesh.scale  # `apply_scale` leaves out what is nearly one
         return triangles
 
     def _closed(self, mesh: Mesh, triangles: _Triangles) -> _Triangles:

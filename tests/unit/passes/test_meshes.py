@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from twinform.ir import Element, Mesh, Opaque
@@ -81,7 +81,8 @@ def test_a_box_is_the_box_of_the_closed_form_in_every_format(folder: Path, kind:
 SIZES = st.floats(0.01, 10) | st.floats(-10, -0.01)
 
 
-@given(st.tuples(SIZES, SIZES, SIZES))
+@given(scale=st.tuples(SIZES, SIZES, SIZES))
+@example(scale=(1.0, 1.0, 1.000000001))  # trimesh takes it for one
 def test_a_scaled_box_is_the_scaled_box_mirrored_or_not(folder: Path, scale: tuple[float, float, float]) -> None:
     found = meshes(folder).solid(Mesh(uri="box.stl", scale=scale), 1000)
     x, y, z = map(abs, scale)
