@@ -7,11 +7,12 @@ import pytest
 import twinform
 from tests.unit.passes.told import entries
 from twinform.ir import Axis, Joint
+from twinform.passes.legalise.carrier import NAMESPACE
 
 JOINT = "/sdf/model[@name='m']/joint[@name='j']"
 MODEL = """<sdf version="{version}"><model name="m"><link name="a"/>
 <link name="b"><pose>0 0 0 0 0 {yaw}</pose></link>
-<joint name="j" type="revolute2"><parent>a</parent><child>b</child>
+<joint name="j" type="universal"><parent>a</parent><child>b</child>
 {axis}
 <axis2><xyz>0 0 1</xyz></axis2></joint></model></sdf>"""
 
@@ -74,6 +75,26 @@ def test_the_word_for_the_frame_of_the_model_goes_where_there_is_none(word: str)
     assert made.axis
     assert made.axis.use_parent_model_frame is None
     assert made.axis.xyz == pytest.approx((1, 0, 0) if word == "1" else (0, 1, 0))
+
+
+@pytest.mark.parametrize(
+    ("source", "axis"),
+    [
+        ("1.11", '<axis><xyz expressed_in="__model__">1 0 0</xyz></axis>'),
+        ("1.6", "<axis><xyz>1 0 0</xyz><use_parent_model_frame>1</use_parent_model_frame></axis>"),
+    ],
+)
+@pytest.mark.parametrize("carriers", [True, False])
+def test_an_axis_in_the_frame_that_the_oldest_versions_mean_loses_nothing(
+    source: str, axis: str, *, carriers: bool
+) -> None:
+    text = MODEL.format(version=source, axis=axis, yaw=1)
+    text = text.replace("<axis2><xyz>0 0 1</xyz></axis2>", "").replace("universal", "revolute")
+    made = twinform.convert(text.encode(), to="sdf", sdf_version="1.4", carriers=carriers)
+    assert joint(made).axis == Axis(xyz=(1, 0, 0))
+    assert made.diagnostics == ()
+    assert entries(made) == []
+    assert NAMESPACE not in made.text
 
 
 def test_the_ledger_says_which_axis_was_in_which_frame() -> None:
