@@ -119,8 +119,9 @@ def test_a_drive_without_a_limit_is_reported_at_its_joint() -> None:
 
 def test_the_second_axis_is_looked_at_too() -> None:
     axis = joint(0.5, 1).axis
-    two = Joint(name="j", type="universal", axis=Axis(), axis2=axis, source=at(JOINT))
-    assert found(two, Format.SDF) == [away(0.5, 1)]
+    for first in (Axis(), None):
+        two = Joint(name="j", type="universal", axis=first, axis2=axis, source=at(JOINT))
+        assert found(two, Format.SDF) == [away(0.5, 1)]
 
 
 @pytest.mark.parametrize(

@@ -97,6 +97,19 @@ def test_a_link_stays_that_is_kept_by_its_name_or_its_joints(keep: str, left: li
     assert not_lumped(made) == []
 
 
+def test_a_joint_between_frames_is_one_between_their_links() -> None:
+    frames = "<frame name='f' attached_to='b'/><frame name='g' attached_to='c'/>"
+    text = sdf("a b c", ("a_b", "revolute", "a", "b"), ("f_g", "fixed", "f", "g"))
+    made = lumped(text.replace(b"</model>", f"{frames}</model>".encode()))
+    assert links(made) == ["a", "b"]
+    assert not_lumped(made) == []
+    inner = sdf("a", ("hold", "fixed", "n::x", "a")).replace(
+        b"</model>", b"<model name='n'><link name='x'/></model></model>"
+    )
+    why = "'n::x', which it is fixed to, is in another model"
+    assert not_lumped(lumped(inner)) == [finding(2, "hold", "a", "n::x", why)]
+
+
 NAMED = b"""<robot name="r"><link name="base"/>
 <link name="box"/>
 <link name="lid"/>
