@@ -100,8 +100,10 @@ def test_a_link_stays_that_is_kept_by_its_name_or_its_joints(keep: str, left: li
 def test_a_joint_between_frames_is_one_between_their_links() -> None:
     frames = "<frame name='f' attached_to='b'/><frame name='g' attached_to='c'/>"
     text = sdf("a b c", ("a_b", "revolute", "a", "b"), ("f_g", "fixed", "f", "g"))
+    shape = b"<visual name='v'><geometry><sphere><radius>1</radius></sphere></geometry></visual>"
+    text = text.replace(b"<link name='c'/>", b"<link name='c'>" + shape + b"</link>")
     made = lumped(text.replace(b"</model>", f"{frames}</model>".encode()))
-    assert links(made) == ["a", "b"]
+    assert [(link.name, len(link.visuals)) for link in made.document.models[0].links] == [("a", 0), ("b", 1)]
     assert not_lumped(made) == []
     inner = sdf("a", ("hold", "fixed", "n::x", "a")).replace(
         b"</model>", b"<model name='n'><link name='x'/></model></model>"
