@@ -27,6 +27,12 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     _empty_caches(f"twinform.{room}.")
 
 
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    """A file of tests that cannot be imported fails: mutmut takes pytest's word for it for an interruption by hand."""
+    if session.testsfailed and session.exitstatus == pytest.ExitCode.INTERRUPTED:
+        session.exitstatus = pytest.ExitCode.TESTS_FAILED
+
+
 @cache
 def _seconds() -> dict[str, float]:
     return json.loads(_MEASURED.read_text(encoding="utf-8"))["duration_by_test"] if _MEASURED.exists() else {}

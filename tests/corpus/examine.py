@@ -161,10 +161,7 @@ def robots(document: Document) -> list[str | None]:
 def _written_again(path: Path, data: bytes, document: Document, found: Examined) -> Examined:
     """The identity: the file in its own format and version, compared by a judge that knows nothing of the compiler."""
     try:
-        if document.format is Format.URDF:
-            text = twinform.convert(path, to="urdf").text
-        else:
-            text = twinform.convert(path, to="sdf", sdf_version=document.version).text
+        text = twinform.convert(path, to="urdf" if document.format is Format.URDF else "sdf").text
         difference = first_difference(data, text.encode())
     except twinform.CompileError as error:
         return replace(found, difference=f"not written: {_short(str(error))}")

@@ -18,7 +18,7 @@ from twinform.ir import Document
 from twinform.ir.verify import verify, verify_again
 from twinform.passes import Pass, Pipeline, Watch, parse_pipeline
 from twinform.passes.legalise.candidates import name_once_expanded, wanted_includes
-from twinform.schemas import Engine, XmlElement
+from twinform.schemas import Engine, XmlElement, table
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,10 +45,14 @@ def plan(
     carriers: bool = True,
     model: str | None = None,
 ) -> Pipeline:
-    """Every pass that `convert` runs on this document."""
+    """Every pass that `convert` runs on this document.
+
+    Raises:
+        ValueError: SDF has no such version.
+    """
     order = Order(
         to=to,
-        sdf_version=sdf_version,
+        sdf_version=_known(sdf_version),
         urdf_version=urdf_version,
         passes=_pipeline(passes),
         carriers=carriers,
@@ -84,10 +88,11 @@ def convert(
         CompileError: the source, a pass or the result has an error.
         PassError: a pass is at fault.
         PipelineError: `passes` is not a pipeline.
+        ValueError: SDF has no such version.
     """
     order = Order(
         to=to,
-        sdf_version=sdf_version,
+        sdf_version=_known(sdf_version),
         urdf_version=urdf_version,
         passes=_pipeline(passes),
         carriers=carriers,
@@ -122,6 +127,13 @@ def fulfil(
         if checked.document is None or not (checked.accepted or (order.passes and _may_be_mended(checked))):
             raise CompileError(checked.diagnostics, unreadable=checked.unreadable)
         return _run(checked, checked.document, said, order, how, watch=watch)
+
+
+def _known(version: str | None) -> str | None:
+    versions = table("sdf").versions
+    if version is not None and version not in versions:
+        raise ValueError(f"SDF has no version {version!r}; it has {', '.join(versions)}")
+    return version
 
 
 def _pipeline(passes: str | Sequence[Pass] | None) -> Pipeline:

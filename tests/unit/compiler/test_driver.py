@@ -87,3 +87,12 @@ def test_a_prefix_declared_in_utf_16_is_not_lost() -> None:
       <robot name="r" xmlns:my="urn:mine"><link name="a"><collision><geometry>
       <mesh filename="package://r/a.obj"><my:part/></mesh></geometry></collision></link></robot>"""
     assert "<my:part/>" in twinform.convert(text.encode("utf-16"), to="urdf").text
+
+
+@pytest.mark.parametrize("version", ["1.0", "9.9", "1.110", "newest", ""])
+def test_a_version_that_sdf_does_not_have_is_refused(version: str) -> None:
+    robot = b'<robot name="r"><link name="a"/></robot>'
+    with pytest.raises(ValueError, match=f"SDF has no version '{version}'; it has 1.2, .*, 1.12$"):
+        twinform.convert(robot, to="sdf", sdf_version=version)
+    with pytest.raises(ValueError, match="SDF has no version"):
+        plan(twinform.loads(robot), to="sdf", sdf_version=version)

@@ -3,6 +3,7 @@
 import pytest
 
 import twinform
+from twinform.diagnostics import Location
 
 
 @pytest.mark.parametrize(
@@ -14,5 +15,5 @@ import twinform
 )
 def test_what_does_not_fit_is_said_with_its_path(text: str, path: str, words: str) -> None:
     found = twinform.check(text.encode(), name="robot.json").diagnostics
-    assert [(each.rule.name, each.location.path) for each in found] == [("invalid-value", path)]
+    assert [(each.rule.name, each.location) for each in found] == [("invalid-value", Location("robot.json", 0, path))]
     assert found[0].message.startswith(words)

@@ -7,6 +7,8 @@ import pytest
 import twinform
 from twinform.compiler import check
 from twinform.compiler.limits import LARGEST
+from twinform.compiler.parsing import parse
+from twinform.diagnostics import Notes
 
 _LINK = b'<link name="a"/>'
 _ROBOT = b'<robot name="r">' + _LINK + b"</robot>"
@@ -59,6 +61,32 @@ ACCEPTED = {
 def test_what_is_xml_is_read(name: str) -> None:
     checked = check(ACCEPTED[name])
     assert [each.message for each in checked.diagnostics] == []
+
+
+PREFIXED = b"""<robot name="r" xmlns:k="urn:known">
+<link name="a" k:x="1" y:z="2"><w:part k:q="3"/><k:part y:name="4"/></link>
+<y:link z="5" k:v="6" xml:space="preserve"/></robot>"""
+_UNDECLARED = "{urn:twinform:undeclared:"
+
+
+def test_only_names_of_undeclared_prefixes_get_a_namespace() -> None:
+    notes = Notes("r.urdf")
+    root = parse(PREFIXED, notes)
+    assert [(each.tag, dict(each.attrib)) for each in root.iter()] == [
+        ("robot", {"name": "r"}),
+        ("link", {"name": "a", "{urn:known}x": "1", f"{_UNDECLARED}y}}z": "2"}),
+        (f"{_UNDECLARED}w}}part", {"{urn:known}q": "3"}),
+        ("{urn:known}part", {f"{_UNDECLARED}y}}name": "4"}),
+        (
+            f"{_UNDECLARED}y}}link",
+            {"z": "5", "{urn:known}v": "6", "{http://www.w3.org/XML/1998/namespace}space": "preserve"},
+        ),
+    ]
+    said = [(each.rule.name, each.location.file, each.location.line, each.message) for each in notes.diagnostics]
+    assert said == [
+        ("repaired-xml", "r.urdf", line, f"not well-formed XML, repaired: Namespace prefix {what} is not defined")
+        for line, what in [(2, "y for z on link"), (2, "w on part"), (2, "y for name on part"), (3, "y on link")]
+    ]
 
 
 def test_a_million_mistakes_are_reported_a_thousand_times() -> None:

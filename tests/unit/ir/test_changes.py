@@ -4,7 +4,7 @@ import pytest
 
 import twinform
 from twinform.ir import Document, Link, Model
-from twinform.ir.changes import changes, count_changes
+from twinform.ir.changes import Change, How, changes, count_changes
 
 ROBOT = """
 <sdf version="1.11"><model name="m">
@@ -65,8 +65,43 @@ def test_each_change_has_its_path(old: str, new: str, expected: list[str]) -> No
 
 
 def test_a_part_without_fields_belongs_to_its_node() -> None:
-    found = changes(OLD, twinform.loads(ROBOT.replace(">1</mine", ">3</mine")))
-    assert {each.node for each in found} == {"/models['m']/links['b']"}
+    new = twinform.loads(ROBOT.replace(">1</mine", ">3</mine"))
+    link = "/models['m']/links['b']"
+    before, after = OLD.models[0].links[1].opaque[0], new.models[0].links[1].opaque[0]
+    assert list(changes(OLD, new)) == [
+        Change(How.REMOVED, link, f"{link}/opaque[0]", before, None),
+        Change(How.ADDED, link, f"{link}/opaque[0]", None, after),
+    ]
+
+
+def test_a_value_is_said_with_its_node_and_what_it_was() -> None:
+    body = "/models['m']/links['a']/inertial"
+    heavy = twinform.loads(ROBOT.replace("<mass>1", "<mass>2"))
+    assert list(changes(OLD, heavy)) == [Change(How.CHANGED, body, f"{body}/mass", 1.0, 2.0)]
+    none = twinform.loads(ROBOT.replace("<inertial><mass>1</mass></inertial>", ""))
+    assert list(changes(OLD, none)) == [
+        Change(How.REMOVED, body, body),
+        Change(How.REMOVED, body, f"{body}/mass", 1.0, None),
+    ]
+    assert list(changes(none, OLD)) == [
+        Change(How.ADDED, body, body),
+        Change(How.ADDED, body, f"{body}/mass", None, 1.0),
+    ]
+
+
+def test_parts_are_added_to_and_taken_from_lists_that_have_none() -> None:
+    sensor = "/models['m']/links['b']/sensors['s']"
+    new = twinform.loads(ROBOT.replace('<link name="b">', '<link name="b"><sensor name="s" type="imu"/>'))
+    assert list(changes(OLD, new)) == [
+        Change(How.ADDED, sensor, sensor),
+        Change(How.ADDED, sensor, f"{sensor}/name", None, "s"),
+        Change(How.ADDED, sensor, f"{sensor}/type", None, "imu"),
+    ]
+    assert list(changes(new, OLD)) == [
+        Change(How.REMOVED, sensor, sensor),
+        Change(How.REMOVED, sensor, f"{sensor}/name", "s", None),
+        Change(How.REMOVED, sensor, f"{sensor}/type", "imu", None),
+    ]
 
 
 def with_links(change: Callable[[tuple[Link, ...]], tuple[Link, ...]]) -> Document:

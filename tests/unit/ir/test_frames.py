@@ -225,6 +225,61 @@ def test_what_cannot_be_resolved_is_a_located_error(model: Model, ask: str, rule
     assert [(each.rule.name, each.location.line, each.is_error) for each in notes.diagnostics] == [(rule, line, True)]
 
 
+def source(line: int, tag: str) -> Source:
+    return Source("m.sdf", line, None, tag)
+
+
+@pytest.mark.parametrize(
+    ("where", "line"),
+    [(Source("m.sdf", 7, None, "pose"), 7), (None, 3)],
+    ids=["the pose that names it", "the model where the pose was not written"],
+)
+def test_an_unknown_frame_is_reported_where_it_is_named(where: Source | None, line: int) -> None:
+    graph = FrameGraph(ARM.model_copy(update={"source": source(3, "model")}))
+    with pytest.raises(FrameError) as caught:
+        graph.resolve(at(1, relative_to="nowhere").model_copy(update={"source": where}), "a", "b")
+    error = caught.value
+    assert (error.rule.name, error.message, error.found) == (
+        "dangling-frame",
+        "there is no frame 'nowhere'",
+        "nowhere",
+    )
+    assert (error.location.file, error.location.line) == ("m.sdf", line)
+
+
+def test_a_frame_without_a_body_is_reported_where_it_was_asked_for() -> None:
+    with pytest.raises(FrameError, match="there is no frame 'nowhere'") as caught:
+        FrameGraph(ARM).body("nowhere", source=source(5, "plugin"))
+    assert caught.value.location.line == 5
+    for question in (lambda: FrameGraph(ARM).resolve(at(1), "nowhere", "b"), lambda: FrameGraph(ARM).pose("a", "x")):
+        with pytest.raises(FrameError, match="there is no frame"):
+            question()
+
+
+def test_a_pose_names_a_joint_rather_than_a_link_of_the_same_name() -> None:
+    robot = Model(
+        name="r",
+        links=(Link(name="base"), Link(name="hip", pose=at(5)), Link(name="leg", pose=Pose(relative_to="hip"))),
+        joints=(joint("hip", "base", "leg", at(3, relative_to="base")),),
+    )
+    graph = FrameGraph(robot)
+    assert place(graph.resolve(at(1, relative_to="hip"), "base", "base")) == (4, 0, 0)
+    assert place(graph.resolve(at(1), "hip", "base")) == (6, 0, 0)
+    assert place(graph.resolve(at(1), "hip", "base", kind="joint")) == (4, 0, 0)
+    assert place(graph.resolve(at(1), "base", "hip", base="joint")) == (-2, 0, 0)
+
+
+def test_every_frame_that_cannot_be_resolved_is_a_problem() -> None:
+    frames = (Frame(name="f", attached_to="x", source=source(4, "frame")), Frame(name="g", attached_to="g"))
+    lost = Link(name="a", pose=at(1, relative_to="y"), source=source(6, "link"))
+    found = list(FrameGraph(Model(name="m", links=(lost,), frames=frames)).problems())
+    assert [(each.rule.name, each.location.line, each.found) for each in found] == [
+        ("dangling-frame", 6, "y"),
+        ("dangling-frame", 4, "x"),
+        ("frame-cycle", 0, "g"),
+    ]
+
+
 def test_frames_attached_in_a_circle_are_an_error() -> None:
     frames = (Frame(name="f", attached_to="g"), Frame(name="g", attached_to="f"))
     with pytest.raises(FrameError, match="frame 'f' is attached to frame 'g' is attached to frame 'f'"):

@@ -1,10 +1,18 @@
 """Gearboxes of SDF: a mimic in URDF where two joints turn as they say, and gearboxes again in SDF."""
 
+from math import pi
+
 import pytest
 
 import twinform
 from twinform.compiler import Conversion
-from twinform.ir import Joint, Mimic
+from twinform.diagnostics import Notes
+from twinform.ir import Axis, Joint, Link, Mimic, Model, Pose
+from twinform.ir.frames import FrameGraph
+from twinform.ir.node import Vector3
+from twinform.passes.legalise.gearboxes import Relation, UngearedError, relation
+from twinform.passes.legalise.marks import made_fields, mark_made
+from twinform.passes.legalise.to_sdf.fold_gearboxes import FoldGearboxes
 
 ROBOT = """<sdf version='1.11'><model name='m'><link name='body'/><link name='motor'/>
 <link name='wheel'><pose>0 0 1 0.3 0 0</pose></link>
@@ -118,3 +126,62 @@ def test_names_that_change_change_in_gearboxes_too():
     assert (gears.parent, gears.gearbox_reference_body) == ("a_link", "a_link")
     assert gears.axis2
     assert gears.axis2.mimic == Mimic(joint="b_joint")
+
+
+def test_a_mimic_that_was_edited_is_marked_as_made_no_more():
+    made = back(there().text.replace('multiplier="-4"', 'multiplier="-5"', 1))
+    stale = next(each for each in made.diagnostics if each.rule.name == "stale-carrier")
+    assert stale.message == "joint 'axle' mimics 'drive', and no gearbox couples them so any more"
+    assert stale.found == "axle"
+    assert stale.location.path == "/robot[@name='m']/joint[@name='axle']"
+    assert stale.location.line > 0
+    assert mimics(made) == {"axle": Mimic(joint="drive", multiplier=-5.0)}
+    assert made_fields(joints(made)["axle"]) == ()
+    assert mimics(back(twinform.convert(made.text.encode(), to="urdf").text)) == mimics(made)
+
+
+def turning(name: str, child: str, direction: Vector3, mimic: Mimic | None = None) -> Joint:
+    return Joint(name=name, type="revolute", parent="body", child=child, axis=Axis(xyz=direction, mimic=mimic))
+
+
+GEARS = Joint(
+    name="gears",
+    type="gearbox",
+    parent="motor",
+    child="wheel",
+    gearbox_ratio=4,
+    gearbox_reference_body="body",
+    axis=Axis(xyz=(0, 1, 0)),
+    axis2=Axis(xyz=(0, 1, 0)),
+)
+TURNED = Pose(rpy=(pi / 2, 0, 0))
+"""That of the wheel, whose y is the body's z."""
+
+
+def geared(*joints: Joint) -> Model:
+    links = (Link(name="body"), Link(name="motor"), Link(name="wheel", pose=TURNED))
+    return Model(name="m", links=links, joints=(*joints, GEARS))
+
+
+@pytest.mark.parametrize(
+    ("multiplier", "left"), [(-4.0, None), (-5.0, Mimic(joint="drive", multiplier=-5.0)), (None, Mimic(joint="drive"))]
+)
+def test_the_mark_of_the_mimic_goes_and_every_other_stays(multiplier: float | None, left: Mimic | None):
+    axle = turning("axle", "wheel", (0, 1, 0), Mimic(joint="drive", multiplier=multiplier))
+    drive = turning("drive", "motor", (0, 0, 1))
+    notes = Notes()
+    made = FoldGearboxes().run_model(geared(drive, mark_made(axle, "pose", "axis.mimic")), notes)
+    assert made.joints == (drive, mark_made(turning("axle", "wheel", (0, 1, 0), left), "pose"), GEARS)
+    assert [(each.rule.name, each.found) for each in notes.diagnostics] == ([("stale-carrier", "axle")] if left else [])
+
+
+def test_a_joint_with_the_name_of_a_link_is_the_joint():
+    axle = turning("axle", "wheel", (0, 1, 0))
+    for direction, fits in (((0.0, 0.0, 1.0), True), ((0.0, 1.0, 0.0), False)):
+        model = geared(turning("wheel", "motor", direction), axle)
+        joints = {joint.name: joint for joint in model.joints if joint is not GEARS}
+        if fits:
+            assert relation(GEARS, joints, FrameGraph(model)) == Relation("wheel", "axle", -4.0)
+        else:
+            with pytest.raises(UngearedError, match="joint 'wheel' turns about another axis"):
+                relation(GEARS, joints, FrameGraph(model))

@@ -218,14 +218,13 @@ class _Lumping:
     def _report_dangling(self, made: Model) -> None:
         """Names of what goes in places that libsdformat leaves as they are."""
         named = mentions(made)
-        gone = {joint.name for joint in self.planned.joints.values()}
         for name, holder in named.links.items():
             if name in self.planned.hosts:
                 message = f"{holder} names link {name!r}, which is a part of {self.planned.hosts[name]!r} now"
                 where = self.links[name].location
                 self.place.notes.report(rules.LUMPED_AWAY, message, where, found=name)
         for joint in self.planned.joints.values():
-            if joint.name in gone & named.joints.keys():
+            if joint.name in named.joints:
                 message = f"{named.joints[joint.name]} names joint {joint.name!r}, which is gone"
                 self.place.notes.report(rules.LUMPED_AWAY, message, joint.location, found=joint.name)
 

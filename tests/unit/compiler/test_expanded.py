@@ -1,0 +1,64 @@
+"""A text that a file was expanded to is read as any other; findings are where their parts were written."""
+
+from pathlib import Path
+
+import pytest
+
+from twinform.compiler import Checked, check
+from twinform.compiler.xacro import expansion
+from twinform.compiler.xacro.expansion import Expansion
+from twinform.diagnostics import Location, Origins
+
+TEXT = b"""<robot name="r"><link name="a"/>
+<link name="b"><nonsense/></link>
+<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint></robot>"""
+
+
+def read(monkeypatch: pytest.MonkeyPatch, *, strict: bool, text: bytes = TEXT) -> Checked:
+    origins = Origins.of([(1, Location("/arm.xacro", 10)), (2, Location("/parts.xacro", 20))])
+
+    def expand(path: Path, *_: object) -> Expansion:
+        assert path == Path("arm.xacro")
+        return Expansion(text, origins)
+
+    monkeypatch.setattr(expansion, "expand", expand)
+    return check(Path("arm.xacro"), strict=strict)
+
+
+@pytest.mark.parametrize(("strict", "severity"), [(False, "warning"), (True, "error")])
+def test_it_is_read_as_strictly(monkeypatch: pytest.MonkeyPatch, *, strict: bool, severity: str) -> None:
+    checked = read(monkeypatch, strict=strict)
+    path = "/robot[@name='r']/link[@name='b']/nonsense"
+    assert [(each.rule.name, str(each.severity), each.location) for each in checked.diagnostics] == [
+        ("unknown-element", severity, Location("/parts.xacro", 20, path))
+    ]
+    assert checked.diagnostics[0].related == (Location("arm.xacro (expanded)", 2, path),)
+    assert checked.accepted is not strict
+    assert not checked.unreadable
+    assert checked.path == "arm.xacro"
+    assert list(checked.origins) == ["arm.xacro (expanded)"]
+
+
+def test_the_document_knows_its_lines_in_the_expanded_text(monkeypatch: pytest.MonkeyPatch) -> None:
+    document = read(monkeypatch, strict=False).document
+    assert document
+    assert [(link.name, link.location.file, link.location.line) for link in document.models[0].links] == [
+        ("a", "arm.xacro (expanded)", 1),
+        ("b", "arm.xacro (expanded)", 2),
+    ]
+
+
+def test_what_is_expanded_may_be_no_model_at_all(monkeypatch: pytest.MonkeyPatch) -> None:
+    checked = read(monkeypatch, strict=False, text=b"<mujoco/>")
+    assert [(each.rule.name, each.location.file) for each in checked.diagnostics] == [("unknown-root", "/arm.xacro")]
+    assert checked.document is None
+    assert checked.unreadable
+
+
+def test_where_it_is_refused_nothing_is_expanded(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(expansion, "expand", None)
+    checked = check(Path("arm.xacro"), xacro=False)
+    assert [(each.rule.name, each.location) for each in checked.diagnostics] == [
+        ("xacro-refused", Location("arm.xacro", 1))
+    ]
+    assert checked.unreadable

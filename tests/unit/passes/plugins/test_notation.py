@@ -1,0 +1,81 @@
+"""The notation of the tables of plugins: everything that a row can say, and where it goes."""
+
+from twinform.passes.plugins.catalogue import LATEST, releases
+from twinform.passes.plugins.notation import read_plugins
+from twinform.passes.plugins.parts import Alternative, Channel, Parameter, PluginKind, Release
+
+NAMES = ("old", "middle", "new", "main")
+EVER = frozenset(NAMES)
+TABLE = """# what a comment says is no row
+system wheel-slip  file=slip.so class=gz::Slip scope=model|link
+
+  wheel         +  element  until=new
+    @link_name  1  link
+    limits      *  number   any except=old|new
+  mode          ?  text     default="a=b c" enum=a|b since=middle
+  > topic  gz.msgs.Twist  /cmd  alt=sub:/{sub}/x alt=other:/y:gz.msgs.Pose unless=quiet
+  < -      gz.msgs.Odom   /odom
+plugin bare  file=bare.so class=Bare scope=world any since=new
+  only  1  bool
+"""
+
+
+def row(name: str, count: str, type_: str, **given: object) -> Parameter:
+    usual = {
+        "name": name,
+        "count": count,
+        "type": type_,
+        "default": None,
+        "choices": (),
+        "free": False,
+        "releases": EVER,
+        "is_attribute": False,
+        "children": (),
+    }
+    return Parameter(**{**usual, **given})  # pyright: ignore[reportArgumentType] - the fields of a parameter
+
+
+def test_a_table_is_read_whole() -> None:
+    early = EVER - {"main"}
+    wheel = (
+        row("@link_name", "1", "link", is_attribute=True, releases=early),
+        row("limits", "*", "number", free=True, releases=frozenset({"middle"})),
+    )
+    slip = PluginKind(
+        name="wheel-slip",
+        file="slip.so",
+        class_name="gz::Slip",
+        scopes=("model", "link"),
+        releases=EVER,
+        parameters=(
+            row("wheel", "+", "element", children=wheel, releases=early),
+            row("mode", "?", "text", default="a=b c", choices=("a", "b"), releases=EVER - {"old"}),
+        ),
+        channels=(
+            Channel(
+                ">",
+                "topic",
+                "gz.msgs.Twist",
+                "/cmd",
+                (Alternative("sub", "/{sub}/x", None), Alternative("other", "/y", "gz.msgs.Pose")),
+                "quiet",
+            ),
+            Channel("<", None, "gz.msgs.Odom", "/odom", (), None),
+        ),
+        free=False,
+    )
+    late = frozenset({"new", "main"})
+    bare = PluginKind("bare", "bare.so", "Bare", ("world",), late, (row("only", "1", "bool", releases=late),), (), True)
+    assert list(read_plugins(TABLE, NAMES)) == [slip, bare]
+
+
+def test_releases_are_read_whole() -> None:
+    releases.cache_clear()
+    assert releases() == {
+        "fortress": Release("fortress", 6, "1.9", ("humble", "iron"), True, "ignition_frame_id"),
+        "garden": Release("garden", 7, "1.10", (), False, "gz_frame_id"),
+        "harmonic": Release("harmonic", 8, "1.11", ("jazzy",), True, "gz_frame_id"),
+        "ionic": Release("ionic", 9, "1.12", ("kilted",), False, "frame_id"),
+        "jetty": Release("jetty", 10, "1.12", ("lyrical",), True, "frame_id"),
+    }
+    assert LATEST not in releases()

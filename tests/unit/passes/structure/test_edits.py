@@ -1,0 +1,170 @@
+"""New names, other roots and welds: all that comes out of them, and where what they say belongs."""
+
+import pytest
+
+import twinform
+from tests.unit.passes.told import findings
+from twinform.diagnostics import Location, Notes, Origins
+from twinform.passes import parse_pipeline
+from twinform.passes.structure.model_edit import in_new_words
+
+ROBOT = "/robot[@name='r']"
+
+
+def edited(text: str, passes: str) -> twinform.Conversion:
+    version = text.partition('<sdf version="')[2].partition('"')[0]
+    return twinform.convert(text.encode(), to="sdf" if version else "urdf", sdf_version=version or None, passes=passes)
+
+
+SHARED = """<robot name="r"><link name="base"/><link name="x"/>
+<joint name="x" type="fixed"><parent link="base"/><child link="x"/></joint>
+<gazebo reference="x"><gravity>false</gravity></gazebo>
+<gazebo reference="base"><gravity>false</gravity></gazebo>
+</robot>"""
+
+
+@pytest.mark.parametrize(
+    ("options", "names", "link"),
+    [
+        ("names=[x:y] kinds=[link]", ("y", "x", "y"), "y"),
+        ("names=[x:y] kinds=[joint]", ("x", "y", "x"), "x"),
+        ("names=[x:y]", ("y", "y", "y"), None),
+    ],
+)
+def test_a_block_for_two_parts_follows_the_link(options: str, names: tuple[str, str, str], link: str | None) -> None:
+    made = edited(SHARED, f"rename{{{options}}}")
+    model = made.document.models[0]
+    joint = model.joints[0]
+    assert (model.links[1].name, joint.name, joint.child) == names
+    assert [each.reference for each in model.extensions] == [names[0], "base"]
+    message = f"<gazebo> for 'x', a link and a joint, follows the link to {link!r}"
+    said = [("unfollowed-name", 3, f"{ROBOT}/gazebo[1]/@reference", message, "x")]
+    assert findings(made) == (said if link else [])
+
+
+def chain(*joints: tuple[str, str, str, str, str]) -> str:
+    """A robot of joints that stand in a row; the order of links is that of the chain."""
+    links = "".join(f'<link name="{name}"/>' for name in ("base", "arm", "hand", "tip"))
+    return f'<robot name="r">{links}{"".join(map(_joint, joints))}</robot>'
+
+
+def _joint(words: tuple[str, str, str, str, str]) -> str:
+    name, kind, parent, child, xyz = words
+    axis = "" if kind == "fixed" else '<axis xyz="0 0 1"/><limit lower="-1" upper="2" effort="1" velocity="1"/>'
+    ends = f'<parent link="{parent}"/><child link="{child}"/>'
+    return f'<joint name="{name}" type="{kind}">{ends}<origin xyz="{xyz}"/>{axis}</joint>'
+
+
+FIX = ("fix", "fixed", "base", "arm", "0 0 1")
+TURN = ("turn", "revolute", "arm", "hand", "1 0 0")
+BEND = ("bend", "revolute", "hand", "tip", "0 1 0")
+
+
+@pytest.mark.parametrize("joints", [(FIX, TURN, BEND), (TURN, FIX, BEND), (BEND, TURN, FIX)])
+def test_there_and_back_no_helper_is_left_wherever_its_joint_stands(
+    joints: tuple[tuple[str, str, str, str, str], ...],
+) -> None:
+    text = chain(*joints)
+    there = edited(text, "reroot{link=tip}").document.models[0]
+    assert {link.name for link in there.links} == {"base", "arm", "hand", "tip", "turn_reversed", "bend_reversed"}
+    ends = {joint.name: (joint.type, joint.parent, joint.child) for joint in there.joints}
+    assert ends == {
+        "fix": ("fixed", "arm", "base"),
+        "turn": ("revolute", "hand", "turn_reversed"),
+        "turn_reversed_joint": ("fixed", "turn_reversed", "arm"),
+        "bend": ("revolute", "tip", "bend_reversed"),
+        "bend_reversed_joint": ("fixed", "bend_reversed", "hand"),
+    }
+    assert edited(text, "reroot{link=tip},reroot{link=base}").document == twinform.loads(text)
+
+
+@pytest.mark.parametrize(
+    "block",
+    ['<gazebo reference="turn_reversed"><gravity>0</gravity></gazebo>', '<gazebo reference="turn_reversed_joint"/>'],
+)
+def test_a_helper_stays_that_something_is_said_about(block: str) -> None:
+    there = edited(chain(FIX, TURN, BEND), "reroot{link=tip}").text.replace("</robot>", f"{block}</robot>")
+    back = edited(there, "reroot{link=base}").document.models[0]
+    assert "turn_reversed" in [link.name for link in back.links]
+    assert "bend_reversed" not in [link.name for link in back.links]
+
+
+def sdf(links: str, joints: str = "", model: str = "") -> str:
+    made = "".join(f"<link name='{name}'/>\n" for name in links.split())
+    return f'<sdf version="1.9"><model name="r">{model}\n{made}{joints}</model></sdf>'
+
+
+def held(name: str, parent: str, child: str, kind: str = "fixed", inside: str = "") -> str:
+    return f"<joint name='{name}' type='{kind}'><parent>{parent}</parent><child>{child}</child>{inside}</joint>\n"
+
+
+GEARS = "<gearbox_reference_body>a</gearbox_reference_body>"
+
+
+@pytest.mark.parametrize(
+    ("joints", "base"),
+    [
+        ("", "a"),
+        (held("j", "a", "b"), "a"),
+        (held("j", "b", "a"), "b"),
+        (held("j", "b", "a") + held("k", "c", "b"), "c"),
+        (held("g", "b", "a", "gearbox", GEARS), "a"),
+        (held("g", "b", "a", "gearbox", GEARS) + held("j", "c", "a"), "c"),
+        (held("j", "c", "a") + held("k", "b", "a"), "c"),
+    ],
+)
+def test_the_link_that_all_else_hangs_from_is_welded(joints: str, base: str) -> None:
+    made = edited(sdf("a b c", joints), "weld-to-world").document.models[0].joints[-1]
+    assert (made.name, made.type, made.parent, made.child, made.pose) == ("world_joint", "fixed", "world", base, None)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (sdf("a b", held("j", "world", "a")), "fixed to the world"),
+        (sdf("a b", held("j", "b", "a") + held("k", "world", "b")), "fixed to the world"),
+        (sdf("a b", model="<static>true</static>"), "static"),
+    ],
+)
+def test_what_is_held_already_is_not_welded(text: str, words: str) -> None:
+    made = edited(text, "weld-to-world{xyz=[0,0,1]}")
+    assert made.document == twinform.loads(text)
+    assert [each for each in findings(made) if each[0] == "already-held"] == [
+        ("already-held", 1, "/sdf/model[@name='r']", f"model 'r' is {words} already", "r")
+    ]
+
+
+def test_a_weld_takes_no_name_twice() -> None:
+    document = twinform.loads(sdf("a b", held("j", "a", "b")))
+    for name, line, path in (("j", 4, "joint[@name='j']"), ("b", 3, "link[@name='b']")):
+        notes = Notes()
+        made = parse_pipeline(f"weld-to-world{{joint={name}}}").run(document, notes)
+        assert made is document
+        assert [
+            (each.rule.name, each.location.line, each.location.path, each.message, each.found)
+            for each in notes.diagnostics
+        ] == [
+            (
+                "name-clash",
+                line,
+                f"/sdf/model[@name='r']/{path}",
+                f"{name!r} is the name of another part of model 'r'",
+                name,
+            )
+        ]
+
+
+def test_what_raising_the_version_says_is_said_where_an_expanded_text_was_written() -> None:
+    text = sdf(
+        "a b",
+        held(
+            "j", "a", "b", "revolute", "<axis><xyz>1 0 0</xyz><use_parent_model_frame>0</use_parent_model_frame></axis>"
+        ),
+    )
+    document = twinform.loads(text.replace("1.9", "1.6"), "x (expanded)")
+    notes = Notes("x", origins={"x (expanded)": Origins.of([(1, Location("x.xacro", 30))])})
+    made = in_new_words(document, notes, lambda modern: modern.model_copy(update={"models": modern.models * 1}))
+    assert made.version == "1.8"
+    said = [(each.rule.name, each.location.file, each.location.line, each.found) for each in notes.diagnostics]
+    assert said == [("raised-version", "x.xacro", 30, "1.6")]
+    assert {(each.location.file, each.location.line) for each in notes.entries} == {("x.xacro", 30)}
