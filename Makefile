@@ -67,7 +67,7 @@ wheel: $(SYNCED) ## build the wheel, list it, install it into an empty environme
 prove: $(ORACLES) ## all tests at depth: 1,000 examples of each property, 100,000 documents before four judges
 	TWINFORM_PROFILE=deep $(BIN)/python -m pytest -n $(JOBS)
 
-coverage: $(SYNCED) ## how much of the package the tests run, branches and child processes too
+coverage: $(ORACLES) ## how much of the package the tests run, branches and child processes too
 	$(BIN)/python -m pytest -n $(JOBS) --cov --cov-report=term --cov-report=html:out/coverage
 
 mutation: $(SYNCED) ## how many small faults the tests notice, in a sample of each room; writes docs/reference/mutation.md

@@ -24,7 +24,7 @@ _LARGEST = 64 * 2**20
 _MOST_TAGS = 1_000_000
 _MEMORY = 2**29
 _SECONDS = 10
-"""Of processor time. The slowest real file that we know takes one."""
+"""Of processor time. The slowest real file that we know takes from one to nine, as machines are."""
 _DEEPEST = 4000
 """Frames of Python. xacro takes about ten for each macro inside a macro."""
 _KEY = "source"
