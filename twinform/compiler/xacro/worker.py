@@ -16,7 +16,7 @@ from importlib import import_module
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, Protocol
 from xml.dom import expatbuilder, minidom
 from xml.parsers.expat import ExpatError
 
@@ -44,7 +44,7 @@ def _load_guard() -> Any:
     return module
 
 
-_GUARD = _load_guard()
+GUARD = _load_guard()
 
 
 class _Keeper:
@@ -93,6 +93,22 @@ class _Arguments(dict[str, str]):
         return super().__getitem__(name)
 
 
+class Compiler(Protocol):
+    """Who gives tasks, and knows where packages are."""
+
+    def receive(self) -> dict[str, Any]:
+        """The task."""
+        ...
+
+    def find(self, uri: str, beside: str) -> str:
+        """Where a URI leads that stands in a file.
+
+        Raises:
+            NotFoundError: nowhere.
+        """
+        ...
+
+
 class _Channel:
     """The pipes to the compiler. What is printed here goes into the remarks instead."""
 
@@ -115,7 +131,7 @@ class _Channel:
         self.send({"find": uri, "beside": beside})
         answer = self.receive()
         if "error" in answer:
-            raise _NotFoundError(answer["error"], answer["help"])
+            raise NotFoundError(answer["error"], answer["help"])
         return answer["path"]
 
 
@@ -135,7 +151,7 @@ class _Remarks(io.StringIO):
 class _Expander:
     """xacro, with its functions replaced that read files, find packages, and look at elements."""
 
-    def __init__(self, channel: _Channel, file: str) -> None:
+    def __init__(self, channel: Compiler, file: str) -> None:
         self.xacro: Any = import_module("xacro")
         self.channel = channel
         self.file = file
@@ -143,7 +159,7 @@ class _Expander:
         self._watch()
         substitution: ModuleType = import_module("xacro.substitution_args")
         builtins = vars(substitution)["_eval_dict"]["__builtins__"]
-        vars(substitution)["eval"] = _GUARD.guarded_eval(builtins)
+        vars(substitution)["eval"] = GUARD.guarded_eval(builtins)
         self.evaluate: Callable[..., Any] = self.xacro.safe_eval
         self.xacro.safe_eval = self._evaluate
         vars(substitution)["_eval_find"] = self._package
@@ -179,7 +195,7 @@ class _Expander:
         return call
 
     def _evaluate(self, expression: str, *names: Any) -> Any:
-        return self.evaluate(_GUARD.checked(expression), *names)
+        return self.evaluate(GUARD.checked(expression), *names)
 
     def _package(self, name: str) -> str:
         return self._find(f"package://{name}")
@@ -211,7 +227,7 @@ class _Expander:
             raise _BadFileError(f"not well-formed XML: {error}", (filename, error.lineno)) from error
 
 
-class _NotFoundError(Exception):
+class NotFoundError(Exception):
     """A URI or package that leads nowhere."""
 
     def __init__(self, message: str, advice: str) -> None:
@@ -231,7 +247,8 @@ def _say_nothing() -> None:
     """Every remark has its place already."""
 
 
-def _run(channel: _Channel) -> dict[str, Any]:
+def run(channel: Compiler) -> dict[str, Any]:
+    """Do the task that the compiler gives, and say what became of it."""
     task = channel.receive()
     try:
         expander = _Expander(channel, task["file"])
@@ -240,7 +257,7 @@ def _run(channel: _Channel) -> dict[str, Any]:
     remarks = _Remarks(expander.place)
     sys.stdout = sys.stderr = remarks
     arguments = _Arguments(task["arguments"])
-    _GUARD.watch([task["file"]], task["folders"], task["trusted"])
+    GUARD.watch([task["file"]], task["folders"], task["trusted"])
     outcome = _expanded(expander, arguments)
     noted = [[text, *place] for text, place in remarks.found]
     return {**outcome, "remarks": noted, "unused": sorted(arguments.unused)}
@@ -265,9 +282,9 @@ def _words(error: Exception) -> dict[str, str]:
         return {"error": "macros or expressions go round without an end"}
     if isinstance(cause, MemoryError):
         return {"error": "an expression needs more memory than there is for it"}
-    if isinstance(cause, _NotFoundError):
+    if isinstance(cause, NotFoundError):
         return {"error": str(cause), "help": cause.advice}
-    if isinstance(cause, _GUARD.ForbiddenError):
+    if isinstance(cause, GUARD.ForbiddenError):
         return {"error": str(cause)}
     if isinstance(cause, OSError) and cause.filename:
         return {"error": f"cannot read {cause.filename!r}: {cause.strerror}"}
@@ -292,7 +309,7 @@ def _elements(root: Any) -> Iterator[Any]:
         stack.extend(node for node in reversed(element.childNodes) if node.nodeType == node.ELEMENT_NODE)
 
 
-def _limit() -> None:
+def limit() -> None:
     """Keep an expression such as `'x' * 10**12` from taking the machine with it."""
     sys.setrecursionlimit(_DEEPEST)
     try:
@@ -306,9 +323,9 @@ def _limit() -> None:
 
 def main() -> None:
     """Do one task."""
-    _limit()
+    limit()
     channel = _Channel()
-    channel.send(_run(channel))
+    channel.send(run(channel))
 
 
 if __name__ == "__main__":
