@@ -162,7 +162,6 @@ class FrameGraph:
             vertex = _Vertex("model", scope + model.name, scope, model.pose, base, "link", body, model.source, inside)
             vertex.placement = model.placement_frame
             self._add(vertex)
-            self._named.setdefault(inside + MODEL, []).append(vertex)
             self._add_links(model.links, inside)
             self._add_members(model.frames, model.joints, inside, MODEL)
             self._add_inner((), model.includes, inside, MODEL)

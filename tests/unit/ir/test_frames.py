@@ -293,3 +293,9 @@ def test_an_error_leaves_the_graph_usable() -> None:
         with pytest.raises(FrameError):
             graph.pose("a", "b")
     assert place(graph.pose("b", "__model__")) == (1, 0, 0)
+
+
+def test_the_world_is_the_same_one_inside_a_nested_model() -> None:
+    inner = Model(name="inner", pose=at(1), links=(Link(name="l", pose=at(7, relative_to="world")),))
+    assert place(FrameGraph(Model(name="m", pose=at(10), models=(inner,))).pose("inner::l", "__model__")) == (-3, 0, 0)
+    assert place(FrameGraph(World(name="w", models=(inner,))).pose("inner::l", "world")) == (7, 0, 0)
