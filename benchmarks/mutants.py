@@ -20,6 +20,7 @@ UNTRIED = "not checked"
 _EQUIVALENT = Path(__file__).with_name("mutation_equivalent.toml")
 _FOLDERS = {"ir": ("ir",), "passes": ("passes",), "readers": ("schemas", "compiler")}
 _STRICT = re.compile(r",\s*(?:strict=\w+)?(?=\))")
+_CAST = re.compile(r'\bcast\((?:"[^"]*"|\w+)')
 _LITERAL = re.compile(r'"(?:[^"\\]|\\.)*"')
 
 
@@ -83,8 +84,10 @@ def is_wording(diff: Sequence[str]) -> bool:
 
 
 def is_assertion(diff: Sequence[str]) -> bool:
-    """Whether it only takes `strict=True` from a `zip`, which asserts what is so."""
-    before, after = ([_STRICT.sub("", line[1:]) for line in diff if line[0] == sign] for sign in "-+")
+    """Whether it only takes `strict=True` from a `zip`, or the type from a `cast`: both only assert what is so."""
+    before, after = (
+        [_CAST.sub("cast(", _STRICT.sub("", line[1:])) for line in diff if line[0] == sign] for sign in "-+"
+    )
     return before == after
 
 

@@ -36,7 +36,7 @@ Never changed are tables and other data outside functions, fields with their def
 decorator other than `@staticmethod` and `@classmethod`, such as `@property`, `@cache` and the validators of Pydantic:
 mutmut leaves them out. Passed over when drawn is what only changes the wording of a message: a literal with a blank in
 it that becomes capitals, small letters or stands between XX; names and words without a blank stay in. So is what takes
-`strict=True` from a `zip`, which asserts that two lists are equally long where they always are.
+`strict=True` from a `zip` or the type from a `cast`, which only assert what is so.
 
 The score is what was killed or ran into the time limit, of all that were tried and are not equivalent.
 Those that few tests reach are tried first: where a run was ended before all that were drawn were tried, the score is of

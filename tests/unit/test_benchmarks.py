@@ -107,3 +107,9 @@ def test_mutants_that_only_take_an_assertion_away_are_known(after: str):
 @pytest.mark.parametrize("after", ["zip(a, None, strict=True)", "zip(a, strict=True)", "zip(b, strict=True)"])
 def test_mutants_that_change_what_is_zipped_take_more(after: str):
     assert not is_assertion(("-for x in zip(a, b, strict=True):", f"+for x in {after}:"))
+
+
+@pytest.mark.parametrize("after", ["None", '"NODE"', '"node"', '"XXNodeXX"'])
+def test_the_type_of_a_cast_is_an_assertion(after: str) -> None:
+    assert is_assertion(('-x = f(cast("Node", old or ()), 1)', f"+x = f(cast({after}, old or ()), 1)"))
+    assert not is_assertion(('-x = f(cast("Node", old or ()), 1)', f"+x = f(cast({after}, old and ()), 1)"))
