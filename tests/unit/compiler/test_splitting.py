@@ -87,3 +87,34 @@ def test_libsdformat_accepts_every_file(tmp_path: Path) -> None:
         (tmp_path / name).write_text(text)
     robots = [tmp_path / name for name in result.files if name.endswith(".urdf")]
     assert {path.name: verdict.errors for path, verdict in libsdformat.judge(robots).items() if not verdict.ok} == {}
+
+
+def test_a_joint_in_the_world_ends_on_links_and_stays_where_it_was() -> None:
+    world = _split(
+        """
+        <sdf version="1.11"><world name="room">
+          <model name="cart"><pose>1 0 0 0 0 0</pose><link name="l"><pose>0 2 0 0 0 0</pose></link>
+            <link name="k"/><joint name="j" type="revolute"><parent>l</parent><child>k</child><axis/></joint>
+            <frame name="hitch" attached_to="l"><pose>0 0 3 0 0 0</pose></frame></model>
+          <joint name="tow" type="fixed"><parent>world</parent><child>cart::hitch</child></joint>
+          <joint name="chain" type="fixed">
+            <pose relative_to="cart::hitch">0 0 1 0 0 0</pose><parent>cart::hitch</parent><child>cart::k</child>
+          </joint>
+          <joint name="post" type="fixed"><parent>world</parent><child>stake</child></joint>
+          <frame name="stake" attached_to="cart::l"/>
+        </world></sdf>"""
+    )["room.sdf"]
+    rows = [
+        (each.get("name"), each.findtext("parent"), each.findtext("child"), *_pose(each))
+        for each in world.iterfind("world/joint")
+    ]
+    assert rows == [
+        ("tow", "world", "cart::l", "cart", "0 2 3 0 0 0"),
+        ("chain", "cart::l", "cart::k", "cart", "0 2 4 0 0 0"),
+        ("post", "world", "stake", None, None),
+    ]
+
+
+def _pose(element: etree._Element) -> tuple[str | None, str | None]:  # pyright: ignore[reportPrivateUsage] - likewise
+    pose = element.find("pose")
+    return (None, None) if pose is None else (pose.get("relative_to"), pose.text)

@@ -15,7 +15,7 @@ from importlib.resources.abc import Traversable
 from typing import Any, Literal
 
 from twinform.passes.plugins.notation import read_plugins
-from twinform.passes.plugins.parts import Parameter, PluginKind, Published, Release, SensorKind
+from twinform.passes.plugins.parts import PluginKind, Published, Release, SensorKind
 
 __all__ = [
     "DEFAULT_SYSTEMS",
@@ -238,8 +238,3 @@ def _sensor(type_: str, row: dict[str, Any]) -> SensorKind:
         releases=frozenset(everything[everything.index(row.get("since", everything[0])) :]),
         publishes=tuple(Published(*each) for each in row["publishes"]),
     )
-
-
-def parameter_names(rows: tuple[Parameter, ...]) -> list[str]:
-    """The names of parameters that stand beside each other."""
-    return [row.name for row in rows]

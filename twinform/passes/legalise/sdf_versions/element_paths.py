@@ -41,23 +41,3 @@ def has(element: Element, path: tuple[str, ...]) -> bool:
     for name in path:
         found = found.find(name) if found is not None else None
     return found is not None
-
-
-def attribute_into_child(element: Element, name: str) -> Element:
-    """The element with one of its attributes as a child with the same text."""
-    value = element.get(name)
-    if value is None or element.find(name) is not None:
-        return element
-    attributes = tuple(pair for pair in element.attributes if pair[0] != name)
-    return element.model_copy(
-        update={"attributes": attributes, "children": (*element.children, Element(name=name, text=value))}
-    )
-
-
-def child_into_attribute(element: Element, name: str) -> Element:
-    """The inverse of `attribute_into_child`."""
-    child = element.find(name)
-    if child is None or element.get(name) is not None or child.attributes or child.children:
-        return element
-    attributes = (*element.attributes, (name, child.text or ""))
-    return without(element, child).model_copy(update={"attributes": attributes})
