@@ -275,9 +275,13 @@ def test_a_tree_of_ours_is_lowered_as_a_file_is() -> None:
     assert document.namespaces == (("a", "urn:a"),)
     assert document.models[0].links[0].location.file == "ours.urdf"
     assert [(each.rule.name, each.location.file) for each in notes.diagnostics] == [("unknown-attribute", "ours.urdf")]
-    notes = Notes(file="ours.urdf")
-    assert lower_tree(etree.fromstring(LINK.join(("<robot name='r'>", "</robot>"))), notes, valid=True)
-    assert not notes.diagnostics
+
+
+@pytest.mark.parametrize(("valid", "rules"), [(False, ["stray-text"]), (True, [])])
+def test_what_is_known_to_be_valid_is_not_asked_again(*, valid: bool, rules: list[str]) -> None:
+    notes = Notes()
+    lower_tree(etree.fromstring(f'<robot name="r">{LINK}stray</robot>'), notes, valid=valid)
+    assert [each.rule.name for each in notes.diagnostics] == rules
 
 
 def test_the_size_of_a_source_is_its_elements_and_attributes() -> None:
