@@ -37,6 +37,8 @@ thing
   flag       ?  bool                                      -> flag
   depth      ?  double                                    -> box.depth
   width      ?  double                                    -> box.width
+  limit      ?                                            -> box.limit
+    @top     ?  double                                    -> top
   style      ?  string   enum=plain|fancy                 -> style
   span       ?  double                                    -> span
     @of      ?  string                                    -> span_of
