@@ -58,7 +58,7 @@ def test_what_is_expanded_may_be_no_model_at_all(monkeypatch: pytest.MonkeyPatch
 def test_where_it_is_refused_nothing_is_expanded(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(expansion, "expand", None)
     checked = check(Path("arm.xacro"), xacro=False)
-    assert [(each.rule.name, each.location) for each in checked.diagnostics] == [
-        ("xacro-refused", Location("arm.xacro", 1))
+    assert [(each.rule.name, each.location, each.message) for each in checked.diagnostics] == [
+        ("xacro-refused", Location("arm.xacro", 1), "this is a xacro file, and xacro is refused here")
     ]
     assert checked.unreadable

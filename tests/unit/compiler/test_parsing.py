@@ -3,12 +3,13 @@
 from pathlib import Path
 
 import pytest
+from lxml import etree
 
 import twinform
 from twinform.compiler import check
 from twinform.compiler.limits import LARGEST
-from twinform.compiler.parsing import parse
-from twinform.diagnostics import Notes
+from twinform.compiler.parsing import UnreadableError, parse, read_bytes, strip_default_namespace
+from twinform.diagnostics import Location, Notes
 
 _LINK = b'<link name="a"/>'
 _ROBOT = b'<robot name="r">' + _LINK + b"</robot>"
@@ -120,3 +121,108 @@ def test_a_document_is_its_own_format() -> None:
 def test_json_that_is_no_document_is_refused(text: str) -> None:
     with pytest.raises(twinform.CompileError):
         twinform.loads(text)
+
+
+NO_MODEL = "a model begins with '<': delete what stands before it, or name another file if this is no model"
+NO_START = "not well-formed XML: Start tag expected, '<' not found"
+ENCODING = "save the file as UTF-8, or name an encoding that it may have, such as UTF-8 or ISO-8859-1"
+CROWD = " ".join(f"{{}}a{n}='1'" for n in range(257))
+NOWHERE = Location("r.urdf")
+TOP = Location("r.urdf", 1, "/")
+
+SAID: dict[str, tuple[bytes, list[tuple[str, Location, str, str | None]]]] = {
+    "nothing": (b" \n", [("unreadable-file", NOWHERE, "the file is empty", None)]),
+    "no element": (b"<!-- a -->", [("not-well-formed", TOP, f"{NO_START} (column 11)", NO_MODEL)]),
+    "zero bytes": (
+        b"\0\0",
+        [("not-well-formed", TOP, "not well-formed XML: Document is empty (column 1)", NO_MODEL)],
+    ),
+    "a document type": (
+        b"\n<!DOCTYPE robot><robot/>",
+        [("doctype", TOP, "the document has a DOCTYPE; none is allowed", None)],
+    ),
+    "an encoding": (
+        b"<?xml version='1.0' encoding='utf-7'?><robot/>",
+        [("not-well-formed", TOP, "the encoding 'utf-7' is none that models are written in", ENCODING)],
+    ),
+    "a crowd": (
+        f"<robot>\n<link {CROWD.format(*[''] * 257)}/></robot>".encode(),
+        [
+            (
+                "oversized-file",
+                Location("r.urdf", 2, "/robot/link"),
+                "<link> has 257 attributes; the limit is 256",
+                None,
+            )
+        ],
+    ),
+    "a crowd with a prefix": (
+        f"<robot {CROWD.format(*['x:'] * 257)}/>".encode(),
+        [("oversized-file", Location("r.urdf", 1, "/robot"), "<robot> has 257 attributes; the limit is 256", None)],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SAID)
+def test_why_there_is_no_tree_is_all_that_is_said(name: str) -> None:
+    text, expected = SAID[name]
+    notes = Notes("r.urdf")
+    with pytest.raises(UnreadableError):
+        parse(text, notes)
+    assert [(each.rule.name, each.location, each.message, each.help) for each in notes.diagnostics] == expected
+
+
+@pytest.mark.parametrize(
+    ("path", "reason"),
+    [("nowhere", "No such file or directory"), (".", "Is a directory"), ("a\0b", "embedded null byte")],
+)
+def test_why_a_file_cannot_be_read_is_said(path: str, reason: str) -> None:
+    notes = Notes("r.urdf")
+    with pytest.raises(UnreadableError):
+        read_bytes(Path(path), notes)
+    (found,) = notes.diagnostics
+    assert (found.rule.name, found.location, found.message) == (
+        "unreadable-file",
+        NOWHERE,
+        f"cannot read the file: {reason}",
+    )
+
+
+def test_a_file_may_have_as_many_bytes_as_the_limit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("twinform.compiler.parsing.LARGEST", 1000)
+    path = tmp_path / "r.urdf"
+    path.write_bytes(b"x" * 1000)
+    notes = Notes("r.urdf")
+    assert read_bytes(path, notes) == b"x" * 1000
+    assert notes.diagnostics == []
+    path.write_bytes(b"x" * 1001)
+    with pytest.raises(UnreadableError):
+        read_bytes(path, notes)
+    assert [(each.location, each.message) for each in notes.diagnostics] == [
+        (NOWHERE, "the file has more than 1,000 bytes, which is the limit")
+    ]
+
+
+@pytest.mark.parametrize("flaw", ["", " z:z='1'"])
+def test_comments_and_instructions_are_left_out(flaw: str) -> None:
+    """The same where the text is mended."""
+    root = parse(f"<!-- a --><robot{flaw}>a<!-- b -->c<?p?>d<link/>e<!-- f -->g</robot><?q?>".encode(), Notes())
+    assert [(each.tag, each.text, each.tail) for each in root.iter()] == [("robot", "acd", None), ("link", None, "eg")]
+    assert root.getprevious() is None
+    assert root.getnext() is None
+
+
+@pytest.mark.parametrize(
+    ("text", "namespace", "tags"),
+    [
+        ("<a xmlns='urn:a'><b/><c xmlns='urn:c'/></a>", "urn:a", ["a", "b", "{urn:c}c"]),
+        ("<a xmlns='urn:a' xmlns:p='urn:a'><p:b/></a>", "urn:a", ["a", "b"]),
+        ("<a xmlns='urn:a' xmlns:p='urn:p'><p:b/></a>", "urn:a", ["a", "{urn:p}b"]),
+        ("<p:a xmlns:p='urn:p'><b/></p:a>", None, ["{urn:p}a", "b"]),
+        ("<a><b xmlns='urn:b'/></a>", None, ["a", "{urn:b}b"]),
+    ],
+)
+def test_the_default_namespace_of_the_root_is_taken_off(text: str, namespace: str | None, tags: list[str]) -> None:
+    root = etree.fromstring(text)
+    assert strip_default_namespace(root) == namespace
+    assert [each.tag for each in root.iter()] == tags

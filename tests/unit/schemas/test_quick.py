@@ -1,0 +1,143 @@
+"""The short way through an element gives up on all that needs a word, and has then done nothing."""
+
+import math
+from typing import Any
+
+import pytest
+from lxml import etree
+
+from twinform.schemas import Fact
+from twinform.schemas.quick import GIVE_UP, quick_attributes, quick_parse, quick_pose
+from twinform.schemas.values import VALUE_TYPES
+
+TYPES = VALUE_TYPES["sdf"]
+NOW = (1, 5)
+
+UNUSUAL: dict[str, Fact] = {
+    "no place": Fact("a", type="double"),
+    "a node further in": Fact("a", type="double", place="outer.field"),
+    "the header": Fact("a", type="double", place="/field"),
+    "no type": Fact("a", place="field"),
+    "a tuple": Fact("a", "*", type="double", place="field"),
+    "a tuple of one": Fact("a", "?", type="double", place="field", many=True),
+    "a later version": Fact("a", type="double", place="field", since=(1, 6)),
+    "an earlier version": Fact("a", type="double", place="field", until=(1, 4)),
+    "a dialect": Fact("a", type="double", place="field", dialect="drake"),
+}
+
+
+@pytest.mark.parametrize("name", UNUSUAL)
+def test_there_is_no_short_way_for_an_unusual_row(name: str) -> None:
+    assert quick_parse(UNUSUAL[name], TYPES, NOW) is None
+
+
+PARSED: list[tuple[dict[str, Any], dict[str, object], list[str]]] = [
+    ({"type": "double"}, {"1": 1.0, " -2e3 ": -2000.0, "inf": math.inf}, ["", "a", "1_0", "1e999"]),
+    ({"type": "string"}, {"": "", " a ": " a "}, []),
+    ({"type": "bool"}, {"true": True, "false": False}, ["1", "0", "True", " true", ""]),
+    ({"type": "string", "enum": ("a", "b")}, {"a": "a", "b": "b"}, ["c", " a", "", "A"]),
+    ({"type": "double", "min": 0.0}, {"0": 0.0, "inf": math.inf}, ["-0.1", "nan"]),
+    ({"type": "int", "max": 2.0}, {"2": 2, "-9": -9}, ["3"]),
+    ({"type": "double", "min": 0.0, "max": 1.0}, {"0": 0.0, "0.5": 0.5, "1": 1.0}, ["-0.1", "1.1"]),
+    (
+        {"type": "vector3", "min": 0.0, "max": 1.0},
+        {"0 1 0.5": (0.0, 1.0, 0.5)},
+        ["-0.1 0 0", "0 0 -0.1", "0 1.1 0", "0 0", "0 0 0 0"],
+    ),
+    ({"type": "vector2d", "max": 1.0}, {"-5 1": (-5.0, 1.0)}, ["0 2"]),
+    ({"type": "color", "min": 0.0}, {"0 1 2": (0.0, 1.0, 2.0)}, ["0 -1 0"]),
+    ({"type": "vector3"}, {"-1 2 3": (-1.0, 2.0, 3.0)}, ["1 2", "1 2 nan"]),
+]
+
+
+@pytest.mark.parametrize(("row", "values", "bad"), PARSED)
+def test_usual_values_are_parsed(row: dict[str, Any], values: dict[str, object], bad: list[str]) -> None:
+    parse = quick_parse(Fact("@a", place="field", **row), TYPES, NOW)
+    assert parse
+    assert {text: parse(text) for text in values} == values
+    for text in bad:
+        with pytest.raises(GIVE_UP):
+            parse(text)
+
+
+def test_bounds_of_urdf_colours_are_those_of_vectors() -> None:
+    parse = quick_parse(Fact("@rgba", type="color4", min=0, max=1, place="rgba"), VALUE_TYPES["urdf"], (1, 0))
+    assert parse
+    assert parse("0 1 0 1") == (0.0, 1.0, 0.0, 1.0)
+    with pytest.raises(GIVE_UP):
+        parse("0 2 0 1")
+
+
+ROWS = [
+    Fact("@must", "1", type="double", place="must"),
+    Fact("@may", "?", type="int", place="may"),
+    Fact("@asked", "?", type="int", place="other", expected=True, default="1"),
+    Fact("@gone", "1", type="int", place="gone", until=(1, 4)),
+    Fact("@kept", "?", type="int"),
+]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("<a must='1' asked='2'/>", {"must": 1.0, "other": 2}),
+        ("<a must='1' may='3' asked='2'/>", {"must": 1.0, "may": 3, "other": 2}),
+        ("<a/>", None),
+        ("<a must='1'/>", None),
+        ("<a asked='2'/>", None),
+        ("<a must='x' asked='2'/>", None),
+        ("<a must='1' asked='2' gone='1'/>", None),
+        ("<a must='1' asked='2' kept='1'/>", None),
+        ("<a must='1' asked='2' strange='1'/>", None),
+    ],
+)
+def test_attributes_are_read_at_once_or_not_at_all(text: str, expected: dict[str, object] | None) -> None:
+    read = quick_attributes(Fact("a", rows=ROWS), TYPES, NOW)
+    assert read
+    node: dict[str, object] = {"before": 1}
+    assert read(etree.fromstring(text), node) is (expected is not None)
+    assert node == {"before": 1, **(expected or {})}
+
+
+def test_an_element_without_attributes_says_nothing() -> None:
+    read = quick_attributes(Fact("a", rows=[ROWS[1]]), TYPES, NOW)
+    assert read
+    assert not read(etree.fromstring("<a/>"), {})
+
+
+@pytest.mark.parametrize(
+    "fact",
+    [
+        Fact("a"),
+        Fact("a", any=True, rows=ROWS),
+        Fact("a", type="string", rows=ROWS),
+        Fact("a", rows=[*ROWS, Fact("child")]),
+        Fact("a", rows=[Fact("child")]),
+    ],
+)
+def test_what_has_more_than_attributes_has_no_short_way(fact: Fact) -> None:
+    assert quick_attributes(fact, TYPES, NOW) is None
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("<pose>1 2 3 4 5 6</pose>", {"xyz": (1.0, 2.0, 3.0), "rpy": (4.0, 5.0, 6.0)}),
+        ("<pose relative_to='a'>1 2 3 4 5 6</pose>", None),
+        ("<pose>1 2 3 0 0 0 1</pose>", None),
+        ("<pose>1 2 3</pose>", None),
+        ("<pose>1 2 3 4 5 x</pose>", None),
+        ("<pose/>", None),
+    ],
+)
+def test_a_pose_is_six_numbers(text: str, expected: dict[str, object] | None) -> None:
+    read = quick_pose(Fact("pose", type="pose"), TYPES)
+    assert read
+    node: dict[str, object] = {}
+    assert read(etree.fromstring(text), node) is (expected is not None)
+    assert node == (expected or {})
+
+
+@pytest.mark.parametrize("type", [None, "vector3", "string"])
+def test_what_is_no_pose_is_not_read_as_one(type: str | None) -> None:
+    assert quick_pose(Fact("pose", type=type), TYPES) is None
