@@ -162,7 +162,7 @@ class AddSensor(SelectingPass):
     def _contact(self, model: Model, holder: Link | Joint, format_: Format, notes: Notes) -> Element | None:
         names = list(_collisions(holder, format_))
         if not names or (self.collision is not None and self.collision not in names):
-            missing(model, "collision", self.collision or "", names, notes)
+            missing(model, "collision", self.collision, names, notes)
             return None
         chosen = [self.collision] if self.collision else names
         return Element(name="contact", children=tuple(Element(name="collision", text=each) for each in chosen))
