@@ -127,7 +127,7 @@ class AddSensor(SelectingPass):
         nodes: tuple[Link | Joint, ...] = model.joints if word == "joint" else model.links
         found = next((each for each in nodes if each.name == name), None)
         if found is None:
-            missing(model, word, name or "", [each.name for each in nodes], notes)
+            missing(model, word, name, [each.name for each in nodes], notes)
         elif word == "link" and name == WORLD and document.format is Format.URDF:
             message = "the link 'world' of URDF is what never moves; Gazebo has no such link to put a sensor on"
             notes.report(rules.NOTHING_TO_ADD_TO, message, found.location, found=name)
