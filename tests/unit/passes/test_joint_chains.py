@@ -196,6 +196,48 @@ def test_an_edited_chain_stays_as_it_stands(kind: str, inside: str, old: str, ne
     assert not [part.attribute for part in parts if part.name.endswith("part_of") or part.attribute == (MADE, ".")]
 
 
+@pytest.mark.parametrize(
+    ("kind", "inside", "old", "new", "why"),
+    [
+        (*EDITS[0], "joint 'j' is not where the others are"),
+        (*EDITS[1], "link 'j_axis_link' has a body"),
+        (*EDITS[2], "joint 'j_axis' does not turn"),
+        (*EDITS[4], "joint 'j_y' does not turn freely about (0.0, 1.0, 0.0)"),
+        (*EDITS[5], "its joints are damped unlike each other"),
+        (*EDITS[6], "joint 'j_slide' does not follow 'j'"),
+        (*EDITS[7], "joint 'j_slide' does not follow 'j'"),
+        (*EDITS[8], "it slides along another axis than it turns about"),
+        (
+            "universal",
+            TWO_AXES,
+            '<limit lower="-1"',
+            '<limit jerk="1" lower="-1"',
+            "joint 'j_axis' has limits that SDF has no word for",
+        ),
+        (
+            "universal",
+            TWO_AXES,
+            '<limit lower="-0.5"',
+            '<limit jerk="1" lower="-0.5"',
+            "joint 'j' has limits that SDF has no word for",
+        ),
+        (
+            "universal",
+            TWO_AXES,
+            "</robot>",
+            '<link name="x"/><joint name="y" type="ball"><parent link="j_axis_link"/><child link="x"/></joint></robot>',
+            "joint 'y' hangs from a link of it",
+        ),
+    ],
+)
+def test_what_was_edited_is_said(kind: str, inside: str, old: str, new: str, why: str) -> None:
+    urdf = there(kind, inside).text.replace("<robot ", '<robot version="1.2" ')
+    assert old in urdf
+    made = back(urdf.replace(old, new, 1))
+    said = [each.message for each in made.diagnostics if (each.rule.name, each.found) == ("stale-carrier", "j")]
+    assert said == [f"joint 'j' was {kind}, and the chain that it became has changed: {why}"]
+
+
 def test_a_limit_that_was_edited_is_the_limit_of_the_axis():
     urdf = there("universal", TWO_AXES).text
     made = robot(back(urdf.replace('lower="-1"', 'lower="-1.25"')).text).joints[0]

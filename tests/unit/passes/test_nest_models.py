@@ -93,3 +93,31 @@ def test_the_frame_of_the_model_places_it() -> None:
         pytest.approx((0, -2, 0)),
         pytest.approx((0, -3, 0)),
     ]
+
+
+KNUCKLE = '<link name="k"/></model>\n'
+
+
+@pytest.mark.parametrize("own", ["", OWN])
+@pytest.mark.parametrize(
+    ("pose", "expected", "in_own"),
+    [
+        ("", None, Pose(xyz=(0, -2, 0), rpy=(0, 0, -pi / 2))),
+        ("<pose>1 0 0 0 0 0</pose>", Pose(xyz=(1, 0, 0), rpy=(0, 0, 0)), Pose(xyz=(0, -3, 0), rpy=(0, 0, -pi / 2))),
+        ('<pose relative_to="base">1 0 0 0 0 0</pose>', Pose(xyz=(0, 1, 0), rpy=(0, 0, pi / 2)), Pose(xyz=(1, -2, 0))),
+        (
+            '<pose relative_to="arm::fore">1 0 0 0 0 0</pose>',
+            Pose(xyz=(1, 0, 0), rpy=(0, 0, 0), relative_to="fore"),
+            Pose(xyz=(1, 0, 0), rpy=(0, 0, 0), relative_to="fore"),
+        ),
+    ],
+)
+def test_a_nested_model_stays_where_it_is(own: str, pose: str, expected: Pose | None, in_own: Pose) -> None:
+    model = only(inner(nested(BASE + LINKS + own + f'<model name="arm::hand">{pose}{KNUCKLE}')).models)
+    wanted = in_own if own else expected
+    assert (model.name, [link.name for link in model.links]) == ("hand", ["k"])
+    assert (model.pose is None) == (wanted is None)
+    if model.pose and wanted:
+        assert model.pose.xyz == pytest.approx(wanted.xyz)
+        assert (model.pose.rpy or (0, 0, 0)) == pytest.approx(wanted.rpy or (0, 0, 0))
+        assert model.pose.relative_to == wanted.relative_to

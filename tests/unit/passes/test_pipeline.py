@@ -286,6 +286,27 @@ def test_watches_nest_like_brackets() -> None:
     assert [words.partition(" needs")[0] for words in seen] == ["one before", "two before", "two after", "one after"]
 
 
+def test_every_watch_is_told_the_same() -> None:
+    told: list[tuple[object, ...]] = []
+
+    class Teller(Watch):
+        def before(self, step: Pass, document: Document, notes: Notes) -> None:
+            told.append((step, document, notes))
+
+        def after(self, step: Pass, old: Document, new: Document, notes: Notes) -> None:
+            told.append((step, old, new, notes))
+
+        def failed(self, step: Pass, error: PassError, notes: Notes) -> None:
+            told.append((step, error, notes))
+
+    notes, [step] = Notes(), parse_pipeline("sample{word=new}")
+    with pytest.raises(BrokenPassError) as caught:
+        Pipeline((step,)).run(DOCUMENT, notes, watch=Watches([Teller(), Teller()]), verify=refuse)
+    made = DOCUMENT.model_copy(update={"version": "new"})
+    each = [(step, DOCUMENT, notes), (step, DOCUMENT, made, notes), (step, caught.value, notes)]
+    assert told == [one for one in each for _ in range(2)]
+
+
 def test_a_name_stands_for_its_pipeline() -> None:
     def names(name: str) -> Pipeline:
         if name != "Two_1":

@@ -165,6 +165,12 @@ FRAMED = model(
     "<frame name='f'><pose>0 1 0 0 0 0</pose></frame><link name='a'><pose relative_to='f'>1 0 0 0 0 0</pose>"
     f"<visual name='v'><pose relative_to='__model__'>0 0 0 0 0 0</pose>{BOX}</visual></link>"
 )
+HELD = (
+    "<model name='m'><link name='a'/><frame name='f' attached_to='a'><pose>1 0 0 0 0 0</pose></frame></model>"
+    "<model name='n'><link name='c'/></model><frame name='h' attached_to='m::f'/>"
+    + joint("fixed", parent="world", child="m::f")
+    + joint("fixed", name="k", parent="h", child="n")
+)
 QUARTER = "0 0 1.5707963267948966"
 OLDER: list[tuple[str, str, str, list[str]]] = [
     # 1.11 and before
@@ -182,11 +188,16 @@ OLDER: list[tuple[str, str, str, list[str]]] = [
     ("1.9", model("<link name='a'/><plugin filename='libwheels.so'/>"), "//plugin/@name", ["wheels"]),
     ("1.8", model("<link name='a'><pose degrees='true'>0 0 0 0 0 90</pose></link>"), "/sdf/model/link/pose/text()",
      [f"0 0 0 {QUARTER}"]),
+    ("1.8", world("<actor name='a'><pose degrees='true'>1 2 3 0 0 90</pose></actor>"),
+     "//actor/pose/text() | //actor/pose/@*", [f"1 2 3 {QUARTER}"]),
+    ("1.8", world("<frame name='f'/><actor name='a'><pose degrees='true' relative_to='f'>1 2 3 0 0 90</pose></actor>"),
+     "//actor/pose/text() | //actor/pose/@*", [f"1 2 3 {QUARTER}", "f"]),
     # 1.7: shapes, ends of joints, placement
     ("1.7", model("<link name='a'><visual name='v'><geometry><capsule/></geometry></visual></link>"), "//link/visual",
      []),
     ("1.7", model(LINKS + "<frame name='f' attached_to='a'/>" + joint("fixed", parent="f")), "//joint/parent/text()",
      ["a"]),
+    ("1.7", world(HELD), "//joint/parent/text() | //joint/child/text()", ["world", "m::a", "m::a", "n::c"]),
     ("1.7", world("<model name='m' placement_frame='f'><pose>5 0 0 0 0 0</pose><link name='a'/>"
                   "<frame name='f'><pose>1 0 0 0 0 0</pose></frame></model>"), "//world/model/pose/text()",
      ["4 0 0 0 0 0"]),

@@ -127,7 +127,7 @@ class AddSensor(SelectingPass):
         nodes: tuple[Link | Joint, ...] = model.joints if word == "joint" else model.links
         found = next((each for each in nodes if each.name == name), None)
         if found is None:
-            missing(model, word, name or "", [each.name for each in nodes], notes)
+            missing(model, word, name, [each.name for each in nodes], notes)
         elif word == "link" and name == WORLD and document.format is Format.URDF:
             message = "the link 'world' of URDF is what never moves; Gazebo has no such link to put a sensor on"
             notes.report(rules.NOTHING_TO_ADD_TO, message, found.location, found=name)
@@ -162,7 +162,7 @@ class AddSensor(SelectingPass):
     def _contact(self, model: Model, holder: Link | Joint, format_: Format, notes: Notes) -> Element | None:
         names = list(_collisions(holder, format_))
         if not names or (self.collision is not None and self.collision not in names):
-            missing(model, "collision", self.collision or "", names, notes)
+            missing(model, "collision", self.collision, names, notes)
             return None
         chosen = [self.collision] if self.collision else names
         return Element(name="contact", children=tuple(Element(name="collision", text=each) for each in chosen))

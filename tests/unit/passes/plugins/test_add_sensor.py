@@ -167,21 +167,29 @@ def test_a_fixed_joint_that_is_measured_stays_one() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "help_"),
+    ("text", "message", "found", "help_"),
     [
-        ("add-sensor{type=imu link=bas}", "did you mean base?"),
-        ("add-sensor{type=force_torque joint=rist}", "did you mean wrist?"),
-        ("add-sensor{type=contact link=hand}", None),
-        ("add-sensor{type=contact link=base collision=skim}", "base_collision"),
-        ("add-sensor{type=imu link=base model=s}", "there are r"),
+        ("{type=imu link=bas}", "there is no link 'bas' to add to", "bas", "did you mean base?"),
+        ("{type=force_torque joint=rist}", "there is no joint 'rist' to add to", "rist", "did you mean wrist?"),
+        ("{type=contact link=hand}", "which collision to add to? there is none", None, None),
+        ("{type=contact link=hand collision=x}", "there is no collision 'x' to add to", "x", None),
+        (
+            "{type=contact link=base collision=skim}",
+            "there is no collision 'skim' to add to",
+            "skim",
+            "there are base_collision, base_collision_1",
+        ),
+        ("{type=imu link=base model=s}", "there is no model 's' to add to", "s", "there are r"),
     ],
 )
-def test_where_there_is_nothing_to_add_to_is_an_error(text: str, help_: str | None) -> None:
+def test_where_there_is_nothing_to_add_to_is_an_error(
+    text: str, message: str, found: str | None, help_: str | None
+) -> None:
     document, notes = twinform.loads(URDF), Notes()
-    assert parse_pipeline(text).run(document, notes) is document
-    [found] = notes.diagnostics
-    assert (found.rule.name, found.is_error) == ("nothing-to-add-to", True)
-    assert (help_ or "") in (found.help or "")
+    assert parse_pipeline(f"add-sensor{text}").run(document, notes) is document
+    [said] = notes.diagnostics
+    assert (said.rule.name, said.is_error, said.location.line) == ("nothing-to-add-to", True, 1)
+    assert (said.message, said.found, said.help) == (message, found, help_)
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,7 @@
 """New names, other roots and welds: all that comes out of them, and where what they say belongs."""
 
+from math import cos, sin
+
 import pytest
 
 import twinform
@@ -154,6 +156,100 @@ def test_a_weld_takes_no_name_twice() -> None:
         ]
 
 
+@pytest.mark.parametrize(
+    ("options", "xyz", "rpy"),
+    [
+        ("xyz=[1,2,3]", (1, 1, 3), None),
+        ("rpy=[0,0,0.5]", (sin(0.5), -cos(0.5), 0), (0, 0, 0.5)),
+        ("xyz=[1,2,3] rpy=[0,0,0.5]", (1 + sin(0.5), 2 - cos(0.5), 3), (0, 0, 0.5)),
+    ],
+)
+def test_a_weld_puts_the_base_where_it_is_told(
+    options: str, xyz: tuple[float, float, float], rpy: tuple[float, float, float] | None
+) -> None:
+    base = "<link name='a'><pose>0 1 0 0 0 0</pose></link>"
+    text = sdf("b", model=f"<pose>7 7 7 0 0 0</pose>{base}")
+    pose = edited(text, f"weld-to-world{{{options}}}").document.models[0].pose
+    assert pose
+    assert pose.xyz == pytest.approx(xyz)
+    assert pose.rpy == (pytest.approx(rpy) if rpy else None)
+    assert pose.relative_to is None
+
+
+TURNS = "<axis><xyz>0 0 1</xyz></axis>"
+
+
+@pytest.mark.parametrize(
+    ("pose", "expected"),
+    [
+        ("", "<pose relative_to='b'/>"),
+        ("<pose>1 2 3 0 0 0</pose>", "<pose relative_to='b'>1 2 3 0 0 0</pose>"),
+        ("<pose relative_to='a'/>", ""),
+        ("<pose relative_to='a'>1 2 3 0 0 0</pose>", "<pose>1 2 3 0 0 0</pose>"),
+        ("<pose relative_to='c'>1 2 3 0 0 0</pose>", "<pose relative_to='c'>1 2 3 0 0 0</pose>"),
+    ],
+)
+def test_the_frame_of_a_reversed_joint_stays_where_it_is(pose: str, expected: str) -> None:
+    rest = held("k", "b", "c")
+    made = edited(sdf("a b c", held("j", "a", "b", "revolute", pose + TURNS) + rest), "reroot{link=b}")
+    turned = TURNS.replace("1<", "-1<")
+    assert made.document == twinform.loads(sdf("a b c", held("j", "b", "a", "revolute", expected + turned) + rest))
+
+
+def block(content: str) -> str:
+    return f'<gazebo reference="turn">{content}</gazebo>'
+
+
+def torque(type_: str, frame: str, direction: str) -> str:
+    words = f"<frame>{frame}</frame><measure_direction>{direction}</measure_direction>"
+    return f'<sensor name="s" type="{type_}"><update_rate>3</update_rate><force_torque>{words}</force_torque></sensor>'
+
+
+BARE = '<sensor name="s" type="{}"/>'
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        (torque("force_torque", "child", "child_to_parent"), torque("force_torque", "parent", "parent_to_child")),
+        (torque("force_torque", "parent", "parent_to_child"), torque("force_torque", "child", "child_to_parent")),
+        (torque("imu", "child", "child_to_parent"), torque("imu", "child", "child_to_parent")),
+        (BARE.format("imu"), BARE.format("imu")),
+        (
+            BARE.format("force_torque"),
+            torque("force_torque", "parent", "parent_to_child").replace("<update_rate>3</update_rate>", ""),
+        ),
+    ],
+)
+def test_a_sensor_of_force_on_a_reversed_joint_measures_the_other_way(before: str, after: str) -> None:
+    made = edited(chain(FIX, TURN, BEND).replace("</robot>", block(before) + "</robot>"), "reroot{link=tip}")
+    wanted = twinform.loads(f'<robot name="r"><link name="a"/>{block(after)}</robot>'.replace("turn", "a"))
+    [found] = made.document.models[0].extensions
+    assert found.content == wanted.models[0].extensions[0].content
+
+
+@pytest.mark.parametrize("names", ["m:new", "l:new", "m:new,l:other"])
+def test_the_state_of_a_model_follows_its_parts_and_keeps_what_else_it_says(names: str) -> None:
+    world = """<sdf version="1.9"><world name="w"><model name="r"><link name="a"/>
+<model name="{m}"><link name="k"/></model><link name="{l}"/></model>
+<state world_name="w"><model name="r" about="m"><link name="{l}"><pose>1 0 0 0 0 0</pose></link>
+<model name="{m}" about="m"><link name="k"/></model></model></state></world></sdf>"""
+    new = dict(pair.split(":") for pair in names.split(","))
+    made = edited(world.format(m="m", l="l"), f"rename{{names=[{names}]}}")
+    assert made.document == twinform.loads(world.format(**{"m": "m", "l": "l", **new}))
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [("l", "new"), ("m::l", "m::new"), ("m::x", "m::x"), ("x::l", "x::l"), ("m::inner::k", "m::inner::k")],
+)
+def test_a_name_may_begin_with_the_model(text: str, expected: str) -> None:
+    model = """<sdf version="1.9"><model name="m"><link name="{}"/><model name="inner"><link name="k"/></model>
+<plugin filename="f" name="p"><link_name>{}</link_name></plugin></model></sdf>"""
+    made = edited(model.format("l", text), "rename{names=[l:new]}")
+    assert made.document == twinform.loads(model.format("new", expected))
+
+
 def test_what_raising_the_version_says_is_said_where_an_expanded_text_was_written() -> None:
     text = sdf(
         "a b",
@@ -168,3 +264,17 @@ def test_what_raising_the_version_says_is_said_where_an_expanded_text_was_writte
     said = [(each.rule.name, each.location.file, each.location.line, each.found) for each in notes.diagnostics]
     assert said == [("raised-version", "x.xacro", 30, "1.6")]
     assert {(each.location.file, each.location.line) for each in notes.entries} == {("x.xacro", 30)}
+
+
+WORLD = """<sdf version="1.9"><world name="w"><gui><plugin name="a" filename="A"/><camera name="c"/>{}</gui>
+<model name="m"><link name="l"/></model></world></sdf>"""
+PLUGIN = '<plugin name="b" filename="B"><plugin name="b"/></plugin>'
+
+
+@pytest.mark.parametrize("word", ["b", "B", "[bB]"])
+def test_what_is_kept_as_it_is_loses_what_is_to_go(word: str) -> None:
+    made = edited(WORLD.format(PLUGIN), f'drop{{plugins="{word}"}}')
+    assert made.document == twinform.loads(WORLD.format(""))
+    kept = edited(WORLD.format(PLUGIN), f'drop{{plugins="{word}" links=l}}')
+    assert kept.document == twinform.loads(WORLD.format(PLUGIN))
+    assert findings(kept) == [("nothing-matched", 1, "/sdf", f"none of the plugins is called {word}", word)]

@@ -4,6 +4,10 @@ import pytest
 
 import twinform
 from tests.unit.passes.told import entries, findings
+from twinform.ir import Axis, Dynamics, Format, Limit
+from twinform.ir.frames import FrameGraph
+from twinform.ir.solids import Solid
+from twinform.passes.structure.bodies import body_of
 
 SDF = "/sdf/model[@name='r']"
 URDF = "/robot[@name='r']"
@@ -155,3 +159,31 @@ def test_what_goes_with_a_link_or_a_joint_is_said_and_counted() -> None:
         ("lumped-away", 4, block, words, None),
     ]
     assert entries(made) == [("lumped-away", 2, link, gone, 1), ("lumped-away", 4, block, words, 6)]
+
+
+WEIGHTS = """<mass value="2"/><inertia ixx="1" ixy="0.1" ixz="0.2" iyy="2" iyz="0.3" izz="2.5"/>"""
+
+
+@pytest.mark.parametrize(
+    ("origin", "centre"),
+    [("", (0, 0, 0)), ('<origin xyz="1 2 3"/>', (1, 2, 3))],
+)
+def test_a_body_is_what_its_link_says(origin: str, centre: tuple[float, float, float]) -> None:
+    model = twinform.loads(
+        f'<robot name="r"><link name="a"><inertial>{origin}{WEIGHTS}</inertial></link></robot>'
+    ).models[0]
+    body = body_of(model.links[0], FrameGraph(model), Format.URDF)
+    assert body == Solid(2, centre, (1, 2, 2.5, 0.1, 0.2, 0.3))
+
+
+KEPT = """<robot name="r"><link name="a"/><link name="b"/>
+<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>
+<gazebo reference="j"><disableFixedJointLumping>true</disableFixedJointLumping></gazebo></robot>"""
+
+
+def test_a_fixed_joint_that_is_not_lumped_turns_by_nothing_as_libsdformat_has_it() -> None:
+    made = lumped(KEPT.encode(), "{compat=libsdformat}").document.models[0].joints
+    limit = Limit(lower=0, upper=0, effort=1e16, velocity=1e16)
+    axis = Axis(xyz=(0, 0, 1), limit=limit, dynamics=Dynamics(damping=0, friction=0))
+    before = twinform.loads(KEPT).models[0].joints[0]
+    assert made == (before.model_copy(update={"type": "revolute", "axis": axis}),)

@@ -55,6 +55,16 @@ from .models import BOX, convert, link, read, said, visual
             ["1 0 0 1", "1 0 0"],
         ),
         (
+            link(visual(BOX + "<material><diffuse>2 -1 0.5 7</diffuse></material>")),
+            "//color/@rgba | //tf:sdf/diffuse/text()",
+            ["1 0 0.5 1", "2 -1 0.5 7"],
+        ),
+        (
+            link(visual(BOX + "<material><ambient>1.5 1 -0.5</ambient></material>")),
+            "//color/@rgba | //tf:sdf/ambient/text()",
+            ["1 1 0 1", "1.5 1 -0.5"],
+        ),
+        (
             link(visual(BOX + "<material><specular>1 0 0 1</specular></material>")),
             "//visual/tf:sdf//specular/text()",
             ["1 0 0 1"],
