@@ -2,7 +2,7 @@
 
 import pytest
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import Fate, Notes
 from twinform.ir import Include, Model, Pose, World
 from twinform.passes.includes.merge import merge_into_model, merge_into_world
 
@@ -23,3 +23,12 @@ def test_an_include_that_was_not_read_stays_where_it_is(holder: Model | World) -
     assert frame.pose
     assert frame.pose.xyz == (1.0, 0.0, 0.0)
     assert include == INNER.model_copy(update={"pose": Pose(xyz=(0.0, 0.0, 1.0), relative_to=frame.name)})
+
+
+def test_what_the_merged_model_says_as_a_whole_is_accounted_for() -> None:
+    notes = Notes()
+    merge_into_model(Model(name="around"), OUTER, Model(name="outer", static=True), notes)
+    words = "static of the merged model 'outer' is left out; that of the model around it counts"
+    assert [(each.fate, each.rule.name, each.message) for each in notes.entries] == [
+        (Fate.DROPPED, "merged-away", words)
+    ]

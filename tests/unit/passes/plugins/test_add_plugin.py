@@ -167,6 +167,8 @@ def test_what_cannot_be_added_is_an_error_and_changes_nothing(text: str, model: 
     document, notes = twinform.loads(model), Notes()
     assert parse_pipeline(text).run(document, notes) is document
     assert [(each.rule.name, each.is_error) for each in notes.diagnostics] == [(rule, True)]
+    if rule == "plugin-reference":
+        assert (notes.diagnostics[0].found, notes.diagnostics[0].help) == ("bas", help_)
     assert help_ in (notes.diagnostics[0].help or "") or help_ in {"did you mean base?", "did you mean a::inner?"}
 
 

@@ -278,3 +278,18 @@ def test_what_is_kept_as_it_is_loses_what_is_to_go(word: str) -> None:
     kept = edited(WORLD.format(PLUGIN), f'drop{{plugins="{word}" links=l}}')
     assert kept.document == twinform.loads(WORLD.format(PLUGIN))
     assert findings(kept) == [("nothing-matched", 1, "/sdf", f"none of the plugins is called {word}", word)]
+
+
+NESTED = """<sdf version="1.9"><model name="m"><link name="l"/>
+<model name="inner" placement_frame="f"><pose>1 0 0 0 0 0</pose><link name="x"/>
+<frame name="f" attached_to="x"/>
+<plugin filename="a" name="a"><thing>x</thing></plugin></model>
+</model></sdf>"""
+
+
+def test_the_frame_that_places_a_nested_model_follows() -> None:
+    model = edited(NESTED, "prefix-names{prefix=p_}").document.models[0]
+    (inner,) = model.models
+    assert (model.links[0].name, inner.name, inner.placement_frame) == ("p_l", "p_inner", "f")
+    inner = edited(NESTED, "rename{names=[f:g] kinds=[frame]}").document.models[0].models[0]
+    assert (inner.placement_frame, [each.name for each in inner.frames]) == ("g", ["g"])

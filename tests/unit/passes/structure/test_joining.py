@@ -90,3 +90,11 @@ def test_what_cannot_be_held_is_said(options: dict[str, object], message: str, f
     made, said = attached(arm, loose, **options)
     assert made == twinform.loads(arm)
     assert said == [("unknown-name", 2, "/sdf/model[@name='hand']", message, found)]
+
+
+def test_one_model_is_attached_and_not_several() -> None:
+    models = "".join(f'<model name="{name}"><link name="l"/></model>' for name in "ab")
+    two = f'<sdf version="1.9"><world name="w">{models}</world></sdf>'
+    made, told = attached(ARM, two)
+    assert [link.name for link in made.models[0].links] == ["tool"]
+    assert told == [("unread-document", 1, "/robot[@name='arm']", "'hand' has 2 models, and one is attached", "hand")]
