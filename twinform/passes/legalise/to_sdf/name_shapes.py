@@ -37,13 +37,13 @@ def _name_link(link: Link, notes: Notes) -> Link:
 
 def name_all(shapes: tuple[Shape, ...], base: str, notes: Notes) -> tuple[Shape, ...]:
     """The shapes with one name each; `base` names those that have none."""
-    taken = {shape.name for shape in shapes if shape.name and shape.name.strip()}
+    taken = {name for name in map(_own_name, shapes) if name}
     if len(taken) == len(shapes):
         return shapes
     seen: set[str] = set()
     named: list[Shape] = []
     for shape in shapes:
-        name = (shape.name or "") if _is_named(shape) else ""
+        name = _own_name(shape)
         if not name or name in seen:
             name = _free(name or base, taken | seen)
             if shape.name:
@@ -54,12 +54,13 @@ def name_all(shapes: tuple[Shape, ...], base: str, notes: Notes) -> tuple[Shape,
     return tuple(named)
 
 
-def _is_named(shape: Visual | Collision) -> bool:
-    return bool(shape.name and shape.name.strip())
+def _own_name(shape: Visual | Collision) -> str:
+    """The name that it has; empty where it has none, or one made of blanks."""
+    return shape.name if shape.name and shape.name.strip() else ""
 
 
 def _why(shape: Visual | Collision) -> str:
-    return "is there twice; the second one" if _is_named(shape) else "is no name; it"
+    return "is there twice; the second one" if _own_name(shape) else "is no name; it"
 
 
 def _free(base: str, taken: set[str]) -> str:
