@@ -1,9 +1,12 @@
 """What is said where there is nothing to add to: all of each finding."""
 
+from collections.abc import Callable
+
 import pytest
 
 import twinform
 from twinform.diagnostics import Notes
+from twinform.ir import Document, Model, World
 from twinform.passes.plugins.targets import find_model, find_world, world_of
 
 ONE = (
@@ -26,46 +29,36 @@ def said(notes: Notes) -> list[Said]:
 
 
 @pytest.mark.parametrize(
-    ("text", "name", "found", "expected"),
+    ("find", "text", "name", "found", "expected"),
     [
-        (ONE, None, "arm", None),
-        (ONE, "arm", "arm", None),
-        (ONE, "arm::hand", "hand", None),
-        (TWO, "leg", "leg", None),
-        (TWO, None, None, ("which model to add to? there are several: arm, arm::hand, leg", None, None)),
-        (WORLDS, None, None, ("which model to add to? there is none", None, None)),
-        (WORLDS, "arm", None, ("there is no model 'arm' to add to", "arm", None)),
-        (TWO, "lag", None, ("there is no model 'lag' to add to", "lag", "did you mean leg?")),
-        (TWO, "xyz", None, ("there is no model 'xyz' to add to", "xyz", "there are arm, arm::hand, leg")),
+        (find_model, ONE, None, "arm", None),
+        (find_model, ONE, "arm", "arm", None),
+        (find_model, ONE, "arm::hand", "hand", None),
+        (find_model, TWO, "leg", "leg", None),
+        (find_model, TWO, None, None, ("which model to add to? there are several: arm, arm::hand, leg", None, None)),
+        (find_model, WORLDS, None, None, ("which model to add to? there is none", None, None)),
+        (find_model, WORLDS, "arm", None, ("there is no model 'arm' to add to", "arm", None)),
+        (find_model, TWO, "lag", None, ("there is no model 'lag' to add to", "lag", "did you mean leg?")),
+        (find_model, TWO, "xyz", None, ("there is no model 'xyz' to add to", "xyz", "there are arm, arm::hand, leg")),
+        (find_world, WORLDS, None, "day", None),
+        (find_world, WORLDS, "day", "day", None),
+        (find_world, TWO, "dusk", "dusk", None),
+        (find_world, TWO, None, None, ("which world to add to? there are several: day, dusk", None, None)),
+        (find_world, ONE, None, None, ("which world to add to? there is none", None, None)),
+        (find_world, TWO, "dask", None, ("there is no world 'dask' to add to", "dask", "did you mean dusk?")),
+        (find_world, TWO, "xyz", None, ("there is no world 'xyz' to add to", "xyz", "there are day, dusk")),
     ],
 )
-def test_a_model_is_found_or_why_not_is_said(
-    text: str, name: str | None, found: str | None, expected: Said | None
+def test_a_model_or_world_is_found_or_why_not_is_said(
+    find: Callable[[Document, str | None, Notes], Model | World | None],
+    text: str,
+    name: str | None,
+    found: str | None,
+    expected: Said | None,
 ) -> None:
     notes = Notes()
-    model = find_model(twinform.loads(text), name, notes)
-    assert (model.name if model else None) == found
-    assert said(notes) == ([expected] if expected else [])
-
-
-@pytest.mark.parametrize(
-    ("text", "name", "found", "expected"),
-    [
-        (WORLDS, None, "day", None),
-        (WORLDS, "day", "day", None),
-        (TWO, "dusk", "dusk", None),
-        (TWO, None, None, ("which world to add to? there are several: day, dusk", None, None)),
-        (ONE, None, None, ("which world to add to? there is none", None, None)),
-        (TWO, "dask", None, ("there is no world 'dask' to add to", "dask", "did you mean dusk?")),
-        (TWO, "xyz", None, ("there is no world 'xyz' to add to", "xyz", "there are day, dusk")),
-    ],
-)
-def test_a_world_is_found_or_why_not_is_said(
-    text: str, name: str | None, found: str | None, expected: Said | None
-) -> None:
-    notes = Notes()
-    world = find_world(twinform.loads(text), name, notes)
-    assert (world.name if world else None) == found
+    part = find(twinform.loads(text), name, notes)
+    assert (part.name if part else None) == found
     assert said(notes) == ([expected] if expected else [])
 
 
