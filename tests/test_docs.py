@@ -36,11 +36,16 @@ def _commands(text: str) -> list[tuple[str, list[str]]]:
     return found
 
 
+def _stand_in(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let what follows find the examples and tests here, and leave its files here, as in a clone that is new."""
+    shutil.copytree(_ROOT / "examples", folder / "examples")
+    (folder / "tests").symlink_to(_ROOT / "tests")
+    monkeypatch.chdir(folder)
+
+
 @pytest.mark.parametrize("page", [page for page in _PAGES if _blocks(page, "console")], ids=lambda page: page.name)
 def test_commands_print_what_is_shown(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    shutil.copytree(_ROOT / "examples", tmp_path / "examples")
-    (tmp_path / "tests").symlink_to(_ROOT / "tests")
-    monkeypatch.chdir(tmp_path)
+    _stand_in(tmp_path, monkeypatch)
     for block in _blocks(page, "console"):
         for command, shown in _commands(block):
             program, *arguments = shlex.split(command)
@@ -56,6 +61,6 @@ def test_commands_print_what_is_shown(page: Path, tmp_path: Path, monkeypatch: p
 
 
 @pytest.mark.parametrize("page", [page for page in _PAGES if _blocks(page, "python")], ids=lambda page: page.name)
-def test_python_runs(page: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(_ROOT)
+def test_python_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    _stand_in(tmp_path, monkeypatch)
     exec("\n".join(_blocks(page, "python")), {"__name__": page.stem})

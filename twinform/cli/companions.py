@@ -62,7 +62,6 @@ def _write(path: Path, text: str, found: Notes) -> None:
     if found.has_errors:
         return
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
         write_atomically(path, text)
     except OSError as error:
         raise Unusable(f"cannot write {error.filename or path}: {error.strerror}") from error

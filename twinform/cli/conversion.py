@@ -82,8 +82,6 @@ def _write(conversion: Conversion, path: Path | None, ledger: Path | None) -> No
     if ledger is not None:
         texts[ledger] = conversion.ledger.to_json()
     try:
-        if path is not None:
-            path.parent.mkdir(parents=True, exist_ok=True)
         write_all_atomically(texts)
         if path is None:
             click.echo(conversion.text.encode(), nl=False)  # the XML declaration says UTF-8, whatever the terminal's is

@@ -38,7 +38,6 @@ def _write(result: Split, folder: Path, ledger: Path | None) -> None:
     if ledger is not None:
         texts[ledger] = result.ledger.to_json()
     try:
-        folder.mkdir(parents=True, exist_ok=True)
         write_all_atomically(texts)
     except OSError as error:
         raise Unusable(f"cannot write {error.filename or folder}: {error.strerror}") from error

@@ -15,7 +15,8 @@ _PREFIX = 64
 def write_atomically(path: Path, text: str) -> None:
     """Put the text where `path` is, all of it or nothing: it is written beside it and then moved over it.
 
-    The permissions of a file that is replaced stay. A symbolic link is followed. A pipe or device is written into.
+    Folders that are missing are made. The permissions of a file that is replaced stay. A symbolic link is followed. A
+    pipe or device is written into.
 
     Raises:
         OSError: the text could not be written; the old file is untouched.
@@ -24,7 +25,7 @@ def write_atomically(path: Path, text: str) -> None:
 
 
 def write_all_atomically(texts: Mapping[Path, str]) -> None:
-    """Put every text in its place once all of them are written beside it.
+    """Put every text in its place once all of them are written beside it; folders that are missing are made.
 
     Raises:
         OSError: one of them could not be written; the old files are untouched.
@@ -78,6 +79,7 @@ def _staged(path: Path, text: str) -> Path:
         raise IsADirectoryError(errno.EISDIR, "it is a directory", str(path))
     mode = path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~_umask()
     with _named_after(path):
+        path.parent.mkdir(parents=True, exist_ok=True)
         descriptor, name = tempfile.mkstemp(prefix=f".{path.name[:_PREFIX]}.", dir=path.parent)
     temporary = Path(name)
     try:

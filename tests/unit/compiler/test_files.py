@@ -76,6 +76,13 @@ def test_permissions_stay_and_links_are_followed(tmp_path: Path) -> None:
     assert link.is_symlink()
 
 
-def test_a_missing_folder_is_an_error_that_names_it(tmp_path: Path) -> None:
-    with pytest.raises(OSError, match="nowhere"):
-        write_atomically(tmp_path / "nowhere" / "robot.sdf", "new")
+def test_a_missing_folder_is_made(tmp_path: Path) -> None:
+    file = tmp_path / "models" / "arm" / "robot.sdf"
+    write_atomically(file, "new")
+    assert file.read_text() == "new"
+
+
+def test_a_file_in_the_way_of_a_folder_is_an_error_that_names_what_is_written(tmp_path: Path) -> None:
+    (tmp_path / "models").write_text("a file")
+    with pytest.raises(OSError, match=r"robot\.sdf"):
+        write_atomically(tmp_path / "models" / "robot.sdf", "new")

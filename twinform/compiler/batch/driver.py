@@ -161,7 +161,6 @@ def _recorded(job: _Job, done: Done, asked: Batch) -> Record:
     path = asked.dest / record.output
     texts = {path: done.text, **({path.with_name(path.name + LEDGER): done.entries} if asked.ledgers else {})}
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
         write_all_atomically(texts)
     except OSError as error:
         return replace(record, outcome=Outcome.UNWRITTEN, message=f"it cannot be written: {error.strerror}")
