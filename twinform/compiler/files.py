@@ -79,7 +79,7 @@ def _staged(path: Path, text: str) -> Path:
         raise IsADirectoryError(errno.EISDIR, "it is a directory", str(path))
     mode = path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~_umask()
     with _named_after(path):
-        path.parent.mkdir(parents=True, exist_ok=True)
+        _make(path.parent)
         descriptor, name = tempfile.mkstemp(prefix=f".{path.name[:_PREFIX]}.", dir=path.parent)
     temporary = Path(name)
     try:
@@ -93,6 +93,13 @@ def _staged(path: Path, text: str) -> Path:
             temporary.unlink()
         raise
     return temporary
+
+
+def _make(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except FileExistsError as error:  # which would sound as if the file that is written were there
+        raise NotADirectoryError(errno.ENOTDIR, "a file stands where its folder would be", str(folder)) from error
 
 
 def _umask() -> int:

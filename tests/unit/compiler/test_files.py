@@ -84,5 +84,5 @@ def test_a_missing_folder_is_made(tmp_path: Path) -> None:
 
 def test_a_file_in_the_way_of_a_folder_is_an_error_that_names_what_is_written(tmp_path: Path) -> None:
     (tmp_path / "models").write_text("a file")
-    with pytest.raises(OSError, match=r"robot\.sdf"):
+    with pytest.raises(OSError, match=r"a file stands where its folder would be.*robot\.sdf"):
         write_atomically(tmp_path / "models" / "robot.sdf", "new")
