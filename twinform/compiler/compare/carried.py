@@ -10,7 +10,6 @@ from twinform.passes.legalise.carrier import NAMESPACE
 from twinform.schemas import Fact, XmlElement, table
 
 _CARRIER = {name: f"{{{NAMESPACE}}}{name}" for name in ("sdf", "urdf", "version")}
-_COLOURS = ("ambient", "diffuse")
 _SCRIPT = "script"
 _OF_THE_FILE = frozenset({"pose", "version"})
 """What says how the other file wrote it, and not what it says."""
@@ -18,7 +17,6 @@ _OF_THE_FILE = frozenset({"pose", "version"})
 
 def unpack_sdf(element: XmlElement, fact: Fact) -> None:
     """Put what carriers of SDF hold into their places in the tree, where nothing is said instead; it is marked."""
-    colours: dict[XmlElement, list[XmlElement]] = {}
     for carrier in list(element.iter(_CARRIER["sdf"], _CARRIER["version"])):
         parent = carrier.getparent()
         if parent is None or _is_in_carrier(carrier) or carrier.get("instead") or carrier.get("without"):
@@ -32,12 +30,7 @@ def unpack_sdf(element: XmlElement, fact: Fact) -> None:
             holder = _holder(parent, at)
             holder.set(name, holder.get(name, value or ""))
         for child in carrier:
-            if at == "material" and child.tag in _COLOURS:
-                colours.setdefault(parent, []).append(child)
-            else:
-                _graft(child, parent, at, fact if parent is element else None)
-    for visual, carried in colours.items():
-        _unpack_colours(visual, carried)
+            _graft(child, parent, at, fact if parent is element else None)
 
 
 def _is_in_carrier(carrier: XmlElement) -> bool:
@@ -60,24 +53,6 @@ def _graft(child: XmlElement, parent: XmlElement, at: str, fact: Fact | None) ->
         return
     for inner in child:
         _graft(inner, said, "", None)
-
-
-def _unpack_colours(visual: XmlElement, colours: list[XmlElement]) -> None:
-    """The two colours that URDF has one for, unless that one was changed since."""
-    material = _holder(visual, "material")
-    said = material.find("diffuse")
-    main = next((each for each in colours if each.tag == "diffuse"), colours[0])
-    if said is not None and _color(said) != _color(main):
-        return
-    for old in [child for name in _COLOURS for child in material.findall(name)]:
-        material.remove(old)
-    material.extend(deepcopy(each) for each in colours)
-
-
-def _color(element: XmlElement) -> tuple[float, ...]:
-    """As URDF has it: within 0 and 1, and with alpha."""
-    numbers = [min(1.0, max(0.0, float(word))) for word in (element.text or "").split()]
-    return (*numbers, *([1.0] if len(numbers) == 3 else []))  # red, green and blue
 
 
 def _holder(element: XmlElement, path: str) -> XmlElement:

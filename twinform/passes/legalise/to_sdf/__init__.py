@@ -16,6 +16,7 @@ from twinform.passes.legalise.to_sdf.name_shapes import NameShapes
 from twinform.passes.legalise.to_sdf.retarget import RetargetSdf
 from twinform.passes.legalise.to_sdf.shared_materials import SharedMaterials
 from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
+from twinform.passes.legalise.to_sdf.unpack_sdf import UnpackSdf
 from twinform.passes.legalise.to_sdf.world_link import WorldLink
 
 __all__ = ["to_sdf"]
@@ -37,6 +38,7 @@ def to_sdf(version: str, *, carriers: bool) -> tuple[Pass, ...]:
         UrdfBodies(),
         UrdfJoints(carriers=carriers),
         FoldGearboxes(),
+        UnpackSdf(carriers=carriers),  # when all that URDF says is said
         MeshUris(),
         DeclareQuaternions(),
         *lower_version(None, version, carriers=carriers),

@@ -6,7 +6,7 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf
-from twinform.ir import GazeboExtension, Joint, Model, Node, Opaque, Pose, map_children
+from twinform.ir import Collision, GazeboExtension, Joint, Model, Node, Opaque, Pose, Visual, map_children
 from twinform.passes.legalise.carrier import carry, is_carrier, is_ours, unpack
 from twinform.passes.legalise.joint_chains import is_chain_mark
 from twinform.passes.legalise.model_pass import ModelPass
@@ -54,15 +54,18 @@ class CarryUrdf(ModelPass):
         if not node.opaque and not (pose and pose.opaque):
             return node
         pieces = [part for part in node.opaque if not is_ours(part)]
-        ours = tuple(piece for part in node.opaque if is_ours(part) for piece in _unpacked(part) if self._keeps(piece))
-        update: dict[str, object] = {"opaque": ours}
+        ours = [piece for part in node.opaque if is_ours(part) for piece in _unpacked(part)]
+        update: dict[str, object] = {"opaque": tuple(piece for piece in ours if self._keeps(piece, node))}
         if pose and pose.opaque:
             pieces += [_inside("origin", part) for part in pose.opaque]
             update["pose"] = pose.model_copy(update={"opaque": ()})
         return self._carry(node.model_copy(update=update), pieces, notes) if not isinstance(node, Pose) else node
 
-    def _keeps(self, part: Opaque) -> bool:
-        return self.carriers or not is_ours(part) or is_chain_mark(part)  # which go where the chain is folded
+    def _keeps(self, part: Opaque, node: Node) -> bool:
+        if self.carriers or not is_ours(part):
+            return True
+        later = is_carrier(part, "sdf") and isinstance(node, Visual | Collision)  # `unpack-sdf` looks into them
+        return later or is_chain_mark(part)  # which goes where the chain is folded
 
     def _carry(self, node: AnyNode, pieces: list[Opaque], notes: Notes, message: str = "") -> AnyNode:
         fate = Fate.CARRIED if self.carriers else Fate.DROPPED
