@@ -96,13 +96,15 @@ def parse_bool(text: str) -> bool:
     raise ValueError
 
 
-_INTEGER = re.compile(r"\s*[-+]?(0[xX][0-9a-fA-F]+|[0-9]+)\s*", re.ASCII)
+_INTEGER = re.compile(r"\s*(?P<hex>[-+]?0[xX][0-9a-fA-F]+)\s*|\s*(?P<decimal>[-+]?[0-9]+)(\.0*)?\s*", re.ASCII)
 
 
 def _int(text: str) -> int:
-    if not _INTEGER.fullmatch(text):
+    """`640`, `0x280` or `640.0`, as many files have it; a fraction of zero is none."""
+    found = _INTEGER.fullmatch(text)
+    if not found:
         raise ValueError
-    return int(text, 16 if "x" in text.lower() else 10)
+    return int(found["hex"], 16) if found["hex"] else int(found["decimal"])
 
 
 def _uint(text: str) -> int:

@@ -10,6 +10,7 @@ from twinform.schemas.facts import Fact, Table
 
 _DEEPEST = 7
 _MOST_OPTIONAL = 3
+_WHOLE = ("0", "1", "2", "7", "7.0")
 _NUMBERS = ("0", "1", "-0.5", "0.25", "1e-3", "2", "100", "3.25e2")
 _WORDS = ("a", "b", "link_0", "model://a/b.dae", "a b", "\u00e9")
 _SIZES = {
@@ -82,7 +83,7 @@ class _Document:
     def _number(self, row: Fact, *, whole: bool) -> str:
         least = row.min if row.min is not None else 0 if row.type in {"uint", "color", "color4"} else float("-inf")
         most = row.max if row.max is not None else 1 if row.type in {"color", "color4"} else float("inf")
-        fitting = [text for text in (("0", "1", "2", "7") if whole else _NUMBERS) if least <= float(text) <= most]
+        fitting = [text for text in (_WHOLE if whole else _NUMBERS) if least <= float(text) <= most]
         return self.random.choice(fitting or [f"{least if least > float('-inf') else most:g}"])
 
     def _chosen(self, rows: Sequence[Fact], depth: int) -> list[Fact]:
