@@ -11,6 +11,7 @@ from tests.corpus.files import CorpusFile, Kind, chunks
 from tests.oracles import known
 from twinform.testing.oracles import libsdformat
 
+CASES = Path(__file__).parents[1] / "cases" / "convert"
 URDF, SDF = chunks(Kind.URDF), chunks(Kind.SDF)
 
 
@@ -76,3 +77,13 @@ def test_a_file_that_the_library_does_not_survive_spoils_no_other(tmp_path: Path
     verdicts = libsdformat.judge([crash, good])
     assert not verdicts[crash].ok
     assert verdicts[good].ok
+
+
+@pytest.mark.parametrize("name", ["frame_link", "gazebo_joint", "gazebo_tags", "world_link"])
+def test_what_is_remembered_is_passed_over_in_silence(name: str, tmp_path: Path):
+    """An empty attribute in `<tf:source>` once made Gazebo print an error."""
+    made = twinform.convert(CASES / f"{name}.urdf", to="sdf", sdf_version=SDF_VERSION).text
+    path = tmp_path.resolve() / "made.sdf"
+    path.write_text(made)
+    assert "tf:add" in made
+    assert libsdformat.judge([path])[path].console == ""

@@ -2,11 +2,13 @@
 
 <tf:in part="link[arm]">                    go into a child
 <tf:attribute name="k" was="1" value="2"/>  it said 1 and has to say 2; without `was` or `value` it was or is not there
-<tf:text was="a">b</tf:text>                likewise for text
+<tf:text was="a">b</tf:text>                likewise for text; without `was` there is none
 <tf:without part="inertial" was="..."/>     leave out a child that has this digest
 <tf:instead part="origin" was="...">        put what is inside in its place
-<tf:add part="link[b]" after="link[a]">     put what is inside behind this child, or in front of all
+<tf:add part="link[b]" after="link[a]">     put what is inside behind this child; in front of all without `after`
 <tf:move part="joint[j]" after="link[a]"/>  it stands elsewhere
+
+Nothing is written as an empty attribute that can be left out: libsdformat prints an error for each that it reads.
 """
 
 from bisect import bisect_left
@@ -33,7 +35,7 @@ def changes(wanted: XmlElement, made: XmlElement) -> list[XmlElement]:
     found = [*_attributes(wanted, made), *_text(wanted, made)]
     found += [_edit(WITHOUT, part=key, was=digest(child)) for key, child in there.items() if key not in here]
     stay = _in_order([key for key in there if key in here], list(here))
-    before = ""
+    before: str | None = None
     for key, child in here.items():
         if key not in there:
             found.append(_edit(ADD, child, part=key, after=before))
@@ -68,7 +70,7 @@ def _attributes(wanted: XmlElement, made: XmlElement) -> Iterator[XmlElement]:
 
 def _text(wanted: XmlElement, made: XmlElement) -> Iterator[XmlElement]:
     if stripped(wanted.text) != stripped(made.text):
-        edit = _edit(TEXT, was=stripped(made.text))
+        edit = _edit(TEXT, was=stripped(made.text) or None)
         edit.text = stripped(wanted.text)
         yield edit
 
@@ -159,7 +161,7 @@ def _set(edit: XmlElement, made: XmlElement, path: str) -> list[str]:
 
 
 def _write(edit: XmlElement, made: XmlElement, path: str) -> list[str]:
-    if stripped(made.text) != edit.get("was"):
+    if stripped(made.text) != (edit.get("was") or ""):
         return [f"{path}/text()"]
     made.text = edit.text
     return []

@@ -4,7 +4,7 @@ A carrier is an element of our namespace, named after the format that its piece 
 piece belongs to:
 
     <tf:urdf at="limit"><foo/></tf:urdf>                  an element, inside the piece's own `limit`
-    <tf:urdf attribute="k" value="1"/>                    an attribute
+    <tf:urdf attribute="k" value="1"/>                    an attribute; an empty one without `value`
     <tf:urdf text="free"/>                                text
 """
 
@@ -83,7 +83,8 @@ def from_xml(xml: XmlElement) -> Element:
 def _carrier(piece: Opaque, dialect: str, about: Attributes) -> Element:
     attributes = [*about, ("at", piece.at)] if piece.at else [*about]
     if piece.attribute is not None:
-        attributes += [("attribute", piece.attribute[0]), ("value", piece.attribute[1])]
+        name, value = piece.attribute
+        attributes += [("attribute", name), *([("value", value)] if value else [])]
     if piece.text is not None:
         attributes.append(("text", piece.text))
     children = (piece.element,) if piece.element is not None else ()
