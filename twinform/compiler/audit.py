@@ -130,7 +130,7 @@ def _parts(root: XmlElement, fates: dict[_Place, Fate]) -> Iterator[_Piece]:
         fate = above or _fate_at(path, lines, fates)
         opposite = _SAID_BY_NOT.get(_local(str(element.tag)), {})
         words = frozenset(opposite.get(word, word) for word in _words(element.text or ""))
-        yield _Piece(element, None, words, fate)
+        yield _Piece(element, None, words, fate or (_fate_at(f"{path}/text()", lines, fates) if words else None))
         for name, value in element.items():
             own = _fate_at(f"{path}/@{_local(str(name))}", lines, fates)
             yield _Piece(element, str(name), frozenset(_words(str(value))), fate or own)

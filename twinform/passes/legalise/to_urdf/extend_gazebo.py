@@ -8,6 +8,7 @@ from twinform.ir import Dynamics, Element, GazeboExtension, Joint, Link, Model, 
 from twinform.ir.frames import WORLD
 from twinform.passes.legalise.carrier import is_carrier, to_element, unpack
 from twinform.passes.legalise.marks import made_fields
+from twinform.passes.legalise.to_sdf.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.schemas import format_value, table
@@ -23,8 +24,9 @@ _PHYSICS_TAGS = {
     "provide_feedback": "provideFeedback",
 }
 _KEPT_APART = frozenset({"preserveFixedJoint", "disableFixedJointLumping"})
-_NOT_VERBATIM = frozenset({"physics", "frame"})
-"""A second `<physics>` would be a second one in Gazebo too; `<frame>` in links and joints went with SDF 1.7."""
+_NOT_VERBATIM = frozenset({"physics", "frame", *LINK_TAGS, *JOINT_TAGS, *MODEL_TAGS})
+"""A second `<physics>` would be a second one in Gazebo too; `<frame>` in links and joints went with SDF 1.7. What is
+called like a tag would mean what the tag means."""
 
 
 class ExtendGazebo(ToUrdfPass):

@@ -81,7 +81,8 @@ def take_remainder(node: AnyNode, tag: str, words: Words) -> tuple[AnyNode, list
         return node, [], split.endless
     kept = node.model_copy(update=split.kept)
     left = _only(node, split.left)
-    return kept, list(_pieces(to_element(left, tag, "sdf"), "", frozenset(split.paths))), split.endless
+    pieces = _pieces(to_element(left, tag, "sdf"), "", frozenset(split.paths), _IDENTITY & node.__dict__.keys())
+    return kept, list(pieces), split.endless
 
 
 def _split(node: Node, words: Words, path: str, *, own_element: bool) -> Split:
@@ -163,9 +164,12 @@ def _blank(node: Node, name: str) -> object:
     return type(node).model_fields[name].default
 
 
-def _pieces(element: Element, at: str, paths: frozenset[str]) -> Iterator[Opaque]:
+def _pieces(
+    element: Element, at: str, paths: frozenset[str], identity: frozenset[str] = frozenset()
+) -> Iterator[Opaque]:
+    """What an element holds but for the attributes of its identity, which both halves of the node have."""
     for name, value in element.attributes:
-        if at or name not in _IDENTITY:
+        if name not in identity:
             yield Opaque(at=at, attribute=(name, value))
     if element.text:
         yield Opaque(at=at, text=element.text)
