@@ -1,6 +1,9 @@
 """What the verifier says where it says several things, or has to keep quiet."""
 
 from twinform.compiler import check
+from twinform.diagnostics import Notes
+from twinform.ir import Pose
+from twinform.ir.verify import verify
 
 
 def _said(text: str, kind: str = "sdf") -> list[tuple[str, int]]:
@@ -33,3 +36,16 @@ def test_a_circle_of_frames_is_found_in_a_model_after_one_with_an_error() -> Non
 def test_ends_of_joints_are_looked_at_once_the_frames_lead_somewhere() -> None:
     assert _said(f'<sdf version="1.9"><model name="m">{_ON_ONE_LINK}</model></sdf>') == [("self-joint", 2)]
     assert _said(f'<sdf version="1.9"><model name="m">{_ON_ONE_LINK}{_CIRCLE}</model></sdf>') == [("frame-cycle", 3)]
+
+
+def test_a_pose_that_a_pass_made_is_where_its_link_is() -> None:
+    document = check(b'<sdf version="1.9"><model name="m">\n<link name="a"/></model></sdf>').document
+    assert document is not None
+    (link,) = document.models[0].links
+    link = link.model_copy(update={"pose": Pose(relative_to="nowhere")})
+    model = document.models[0].model_copy(update={"links": (link,)})
+    notes = Notes()
+    verify(document.model_copy(update={"models": (model,)}), notes)
+    (found,) = notes.diagnostics
+    assert found.location.line == 2
+    assert found.location.path == "/sdf/model[@name='m']/link[@name='a']/pose/@relative_to"

@@ -5,14 +5,19 @@ from collections.abc import Iterable
 from twinform.diagnostics import Notes, Rule, Severity
 from twinform.diagnostics.rules import frames as rules
 from twinform.diagnostics.rules import model as joints
+from twinform.ir.frame import Frame
 from twinform.ir.joint import Joint
 from twinform.ir.light import Light
 from twinform.ir.link import Link
-from twinform.ir.model import Model
+from twinform.ir.model import Include, Model
 from twinform.ir.pose import Pose
+from twinform.ir.sensor import Sensor
 from twinform.ir.sourced import Sourced
 from twinform.ir.verify.scope import Scope
+from twinform.ir.visual import Collision, Visual
 from twinform.ir.world import World
+
+_Placed = Collision | Frame | Include | Joint | Light | Link | Model | Sensor | Visual
 
 _NONE: frozenset[str] = frozenset()
 MODEL = "__model__"
@@ -44,9 +49,9 @@ class References:
             self._joint(joint)
         for frame in holder.frames:
             self._frame(frame.attached_to, frame, "@attached_to")
-            self._pose(frame.pose)
+            self._pose(frame)
         for inner in (*holder.models, *holder.includes):
-            self._pose(inner.pose)
+            self._pose(inner)
 
     def is_link(self, name: str) -> bool:
         """Whether a name stands for a link, or for something in an include that was not read."""
@@ -62,24 +67,24 @@ class References:
         self._frame(model.placement_frame, model, "@placement_frame")
 
     def _link(self, link: Link) -> None:
-        self._pose(link.pose)
+        self._pose(link)
         if not self.one_scope:
             self._inner_frames = _frames_inside(link)
         for visual in link.visuals:
-            self._pose(visual.pose)
+            self._pose(visual)
         for collision in link.collisions:
-            self._pose(collision.pose)
+            self._pose(collision)
         for sensor in link.sensors:
-            self._pose(sensor.pose)
+            self._pose(sensor)
         self._lights(link.lights)
         self._inner_frames = _NONE
 
     def _lights(self, lights: Iterable[Light]) -> None:
         for light in lights:
-            self._pose(light.pose)
+            self._pose(light)
 
     def _joint(self, joint: Joint) -> None:
-        self._pose(joint.pose)
+        self._pose(joint)
         for end, name in (("parent", joint.parent), ("child", joint.child)):
             if name is not None and (name != WORLD or self.own == WORLD):
                 self._end(joint, end, name)
@@ -100,19 +105,17 @@ class References:
             what = f"joint {joint.name!r} has the {end} {name!r}, which is no link or frame of the "
             self._look_up(joints.DANGLING_LINK, what + ("model" if self.own == MODEL else "world"), (joint, end), name)
 
-    def _pose(self, pose: Pose | None) -> None:
+    def _pose(self, placed: _Placed) -> None:
+        pose = placed.pose
         if pose is None:
             return
+        where, step = (placed, "pose/") if pose.source is None else (pose, "")  # a pass may have made it
         if pose.relative_to:
-            self._frame(pose.relative_to, pose, "@relative_to")
+            self._frame(pose.relative_to, where, f"{step}@relative_to")
         elif pose.opaque and not self.one_scope:
-            self._old_frame(pose)
-
-    def _old_frame(self, pose: Pose) -> None:
-        """The frame of a pose before 1.7, which means what `relative_to` means since."""
-        name = next((part.attribute[1] for part in pose.opaque if part.attribute and part.attribute[0] == "frame"), "")
-        if name not in self._inner_frames:
-            self._frame(name, pose, "@frame")
+            name = _old_frame(pose)
+            if name not in self._inner_frames:
+                self._frame(name, where, f"{step}@frame")
 
     def _frame(self, name: str | None, node: Sourced, step: str) -> None:
         if name and name != self.own:
@@ -130,6 +133,11 @@ class References:
         else:
             message = f"{name!r} is the name of two things, and this may mean either"
             self.notes.report(rules.AMBIGUOUS_FRAME, message, where, found=name)
+
+
+def _old_frame(pose: Pose) -> str:
+    """The frame of a pose before 1.7, which means what `relative_to` means since."""
+    return next((part.attribute[1] for part in pose.opaque if part.attribute and part.attribute[0] == "frame"), "")
 
 
 def _frames_inside(link: Link) -> frozenset[str]:
