@@ -43,10 +43,10 @@ def test_every_part_around_the_model_is_accounted_for_where_it_stands(name: str)
         (line, path, f"{part} is not part of the robot", weight)
         for line, path, part, weight in [
             (6, f"{W}/model[@name='m']/pose", pose, 1),
-            (1, "/sdf/mine", "<mine> 'x'", 2),
+            (14, "/sdf/mine", "<mine> 'x'", 2),
             (13, "/sdf/light[@name='moon']", "light 'moon'", 3),
             (2, f"{W}/@name", "world 'w' around the model", 2),
-            (2, f"{W}/mine", "<mine>", 2),
+            (10, f"{W}/mine", "<mine>", 2),
             (2, f"{W}/gravity", "<gravity> of the world", 1),
             (4, f"{W}/model[@name='n']", "model 'n'", 4),
             (8, f"{W}/light[@name='sun']", "light 'sun'", 3),

@@ -123,15 +123,9 @@ def _node_parts(nodes: tuple[Node, ...], field: str, chosen: Model) -> Iterator[
 
 def _opaque_parts(node: Node) -> Iterator[_Part]:
     for part in node.opaque:
-        yield _Part(_called(part), node.location.at(_step(part)), part.weight)
+        yield _Part(_called(part), part.location_in(node), part.weight)
 
 
 def _called(part: Opaque) -> str:
     name = part.element.get("name") if part.element else None
     return f"{part.name} {name!r}" if name else part.name
-
-
-def _step(part: Opaque) -> str:
-    if part.element:
-        return part.element.name
-    return f"@{part.attribute[0]}" if part.attribute else "text()"
