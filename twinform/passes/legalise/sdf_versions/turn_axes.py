@@ -72,8 +72,7 @@ class _Turner:
             axis.expressed_in or joint.name, base, kind="joint", base="model" if to_model else "joint"
         )
         x, y, z = turn.rotate(axis.xyz or _DEFAULT)
-        same = turn.is_identity and axis.xyz is None
-        xyz = None if same else (x + 0.0, y + 0.0, z + 0.0)
+        xyz = None if axis.xyz is None and (x, y, z) == _DEFAULT else (x + 0.0, y + 0.0, z + 0.0)
         plain = axis.model_copy(update={"xyz": xyz, "expressed_in": None})
         turned = joint.model_copy(update={field: plain})
         message = f"the axis of joint {joint.name!r} is expressed in {axis.expressed_in or 'its own frame'}"
