@@ -10,7 +10,6 @@ from twinform.passes.legalise.carrier import NAMESPACE
 from twinform.schemas import Fact, XmlElement, table
 
 _CARRIER = {name: f"{{{NAMESPACE}}}{name}" for name in ("sdf", "urdf", "version")}
-_SCRIPT = "script"
 _OF_THE_FILE = frozenset({"pose", "version"})
 """What says how the other file wrote it, and not what it says."""
 
@@ -47,9 +46,6 @@ def _graft(child: XmlElement, parent: XmlElement, at: str, fact: Fact | None) ->
         made = deepcopy(child)
         made.set(CARRIED, "1")
         holder.append(made)
-        return
-    if child.tag == _SCRIPT and said.findtext("name") == child.findtext("name"):  # a tag of URDF has no URI for it
-        holder.replace(said, deepcopy(child))
         return
     for inner in child:
         _graft(inner, said, "", None)

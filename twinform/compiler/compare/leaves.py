@@ -10,7 +10,7 @@ from twinform.ir import Pose
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import NAMESPACE, from_xml
 from twinform.passes.legalise.element_poses import read_pose
-from twinform.passes.legalise.to_sdf.gazebo_tags import SCRIPT_URI
+from twinform.passes.legalise.gazebo_tags import SCRIPT_URI
 from twinform.schemas import Fact, XmlElement, parse_value, table
 
 CARRIED = f"{{{NAMESPACE}}}carried"

@@ -6,8 +6,8 @@ from twinform.ir import Element, GazeboExtension
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import to_element
 from twinform.passes.legalise.element_poses import read_pose
+from twinform.passes.legalise.gazebo_tags import JOINT_TAGS, LINK_TAGS, TRUE, value_text
 from twinform.passes.legalise.nodes import unique_name
-from twinform.passes.legalise.to_sdf.gazebo_tags import JOINT_TAGS, LINK_TAGS, TRUE, value_text
 
 Blocks = Mapping[str, list[GazeboExtension]]
 

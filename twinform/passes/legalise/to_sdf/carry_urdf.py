@@ -6,10 +6,11 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf
-from twinform.ir import Collision, GazeboExtension, Joint, Model, Node, Opaque, Pose, Visual, map_children
+from twinform.ir import GazeboExtension, Joint, Model, Node, Opaque, Pose, map_children
 from twinform.passes.legalise.carrier import carry, is_carrier, is_ours, unpack
 from twinform.passes.legalise.joint_chains import is_chain_mark
 from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.legalise.to_sdf.unpack_sdf import is_looked_into
 from twinform.schemas import Fact, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -64,7 +65,7 @@ class CarryUrdf(ModelPass):
     def _keeps(self, part: Opaque, node: Node) -> bool:
         if self.carriers or not is_ours(part):
             return True
-        later = is_carrier(part, "sdf") and isinstance(node, Visual | Collision)  # `unpack-sdf` looks into them
+        later = is_carrier(part, "sdf") and is_looked_into(node)  # by `unpack-sdf`
         return later or is_chain_mark(part)  # which goes where the chain is folded
 
     def _carry(self, node: AnyNode, pieces: list[Opaque], notes: Notes, message: str = "") -> AnyNode:

@@ -9,6 +9,7 @@ from twinform.diagnostics import Fate, Location, Notes, Rule, Severity
 from twinform.diagnostics.rules import structure, to_sdf
 from twinform.ir import Element, GazeboExtension, Joint, Link, Model, Node, Opaque
 from twinform.passes.legalise.carrier import carry
+from twinform.passes.legalise.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.to_sdf.gazebo_content import read_content
 from twinform.passes.legalise.to_sdf.gazebo_fields import (
@@ -21,7 +22,6 @@ from twinform.passes.legalise.to_sdf.gazebo_fields import (
 from twinform.passes.legalise.to_sdf.gazebo_merging import merge
 from twinform.passes.legalise.to_sdf.gazebo_parts import with_axis, with_mass
 from twinform.passes.legalise.to_sdf.gazebo_sorting import Blob, Sorter, is_part_of_axis, lacks_shapes, place_of
-from twinform.passes.legalise.to_sdf.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 

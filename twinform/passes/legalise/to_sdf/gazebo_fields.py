@@ -20,7 +20,7 @@ from twinform.ir import (
     Visual,
 )
 from twinform.passes.legalise.carrier import from_xml
-from twinform.passes.legalise.to_sdf.gazebo_tags import SCRIPT_URI, Tag
+from twinform.passes.legalise.gazebo_tags import SCRIPT_URI, Tag
 from twinform.schemas import format_value
 
 Values = Iterable[tuple[Tag, Any]]

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 from twinform.diagnostics import Fate, Location, Notes, Severity
 from twinform.diagnostics.rules import structure, to_sdf
 from twinform.ir import Element, GazeboExtension, Link
-from twinform.passes.legalise.to_sdf.gazebo_tags import FALSE, LINK_TAGS, TRUE, TRUTHS, Tag, value_text
+from twinform.passes.legalise.gazebo_tags import FALSE, LINK_TAGS, TRUE, TRUTHS, Tag, value_text
 
 _TOUCHED = frozenset({"surface", "collision"})
 _OF_AXES = frozenset({"axis", "axis2", "springReference", "springStiffness"})

@@ -1,4 +1,4 @@
-"""What SDF says of shapes and URDF does not stands where it stood."""
+"""What SDF says of shapes and fixed joints, and URDF does not, stands where it stood."""
 
 from collections.abc import Iterable
 from typing import ClassVar, TypeVar, cast
@@ -9,6 +9,7 @@ from twinform.passes.legalise.carrier import is_carrier, unpack
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb
 from twinform.passes.legalise.sdf_versions.carriers import Terms
+from twinform.passes.legalise.urdf_color import urdf_color
 from twinform.schemas import parse_version, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -39,15 +40,13 @@ class UnpackSdf(ModelPass):
     def _unpacked(self, node: Node) -> Node:
         if isinstance(node, Link):
             return map_children(node, self._unpacked)
-        if isinstance(node, Visual | Collision) or (isinstance(node, Joint) and node.type == "fixed"):
-            return self._without_carriers(node)
-        return node
+        return self._without_carriers(node) if is_looked_into(node) else node
 
     def _without_carriers(self, node: Node) -> Node:
         carriers = [part for part in node.opaque if is_carrier(part, "sdf")]
         if not carriers:
             return node
-        node = node.model_copy(update={"opaque": tuple(part for part in node.opaque if part not in carriers)})
+        node = node.model_copy(update={"opaque": tuple(part for part in node.opaque if not is_carrier(part, "sdf"))})
         if isinstance(node, Visual):
             node, carriers = _with_colours(node, carriers)
         for carrier in carriers:
@@ -56,6 +55,11 @@ class UnpackSdf(ModelPass):
                 more = node.model_copy(update={"opaque": (*node.opaque, carrier)})
             node = more or node
         return node
+
+
+def is_looked_into(node: Node) -> bool:
+    """Whether its carriers of SDF may come out once all that URDF says is said."""
+    return isinstance(node, Visual | Collision) or (isinstance(node, Joint) and node.type == "fixed")
 
 
 def _with_colours(visual: Visual, carriers: list[Opaque]) -> tuple[Visual, list[Opaque]]:
@@ -80,13 +84,8 @@ def _is_colour(carrier: Opaque) -> bool:
 
 
 def _are_same(said: Color | None, here: Color | None) -> bool:
-    """Whether two colours are one in URDF, which has them within 0 and 1 and with alpha."""
-    return said is not None and here is not None and _in_urdf(said) == _in_urdf(here)
-
-
-def _in_urdf(color: Color) -> Color:
-    red, green, blue, alpha = (*color, 1.0)[:4]
-    return tuple(min(1.0, max(0.0, part)) for part in (red, green, blue, alpha))
+    """Whether two colours are one in URDF."""
+    return said is not None and here is not None and urdf_color(said) == urdf_color(here)
 
 
 def _absorbed(node: AnyNode, carriers: Iterable[Opaque]) -> AnyNode:

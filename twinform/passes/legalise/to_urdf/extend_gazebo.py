@@ -7,8 +7,8 @@ from typing import ClassVar
 from twinform.ir import Dynamics, Element, GazeboExtension, Joint, Link, Model, Opaque
 from twinform.ir.frames import WORLD
 from twinform.passes.legalise.carrier import is_carrier, to_element, unpack
+from twinform.passes.legalise.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
 from twinform.passes.legalise.marks import made_fields
-from twinform.passes.legalise.to_sdf.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.schemas import format_value, table

@@ -3,15 +3,15 @@
 from typing import ClassVar
 
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Color, Element, GazeboExtension, Link, Material, Model, Visual
+from twinform.ir import Element, GazeboExtension, Link, Material, Model, Visual
 from twinform.passes.legalise.marks import mark_made
 from twinform.passes.legalise.nodes import text_piece, unique_name
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.passes.legalise.to_urdf.map_geometry import package_uri
+from twinform.passes.legalise.urdf_color import urdf_color
 from twinform.schemas import format_value
 
-_OPAQUE_COLOR = 4
 """Red, green, blue and alpha."""
 
 
@@ -49,7 +49,7 @@ def _map_visual(visual: Visual, link: Link, names: set[str], keeper: Keeper) -> 
     update: dict[str, object] = {}
     color = material.diffuse or material.ambient
     if color is not None:
-        update |= {"color": _urdf_color(color), "diffuse": None, "ambient": None}
+        update |= {"color": urdf_color(color), "diffuse": None, "ambient": None}
         visual = _keep_colours(visual, material, keeper)
     if material.albedo_map is not None:
         uri, lost = package_uri(material.albedo_map)
@@ -66,16 +66,9 @@ def _map_visual(visual: Visual, link: Link, names: set[str], keeper: Keeper) -> 
     return visual.model_copy(update={"material": made})
 
 
-def _urdf_color(color: Color) -> Color:
-    """With alpha, and each part from 0 to 1, outside of which urdfdom refuses it."""
-    clamped = tuple(min(1.0, max(0.0, part)) for part in color)
-    within = color if clamped == color else clamped
-    return within if len(color) == _OPAQUE_COLOR else (*within, 1.0)
-
-
 def _keep_colours(visual: Visual, material: Material, keeper: Keeper) -> Visual:
     """Carry the colours where they say more than one colour does."""
-    if material.diffuse == material.ambient and material.diffuse == _urdf_color(material.diffuse or ()):
+    if material.diffuse == material.ambient and material.diffuse == urdf_color(material.diffuse or ()):
         return visual
     written = (("ambient", material.ambient), ("diffuse", material.diffuse))
     pieces = [text_piece(name, format_value(color), "material") for name, color in written if color is not None]
