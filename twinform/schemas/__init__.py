@@ -1,6 +1,6 @@
 """Facts tables of both formats, and what is made from them: readers, writers, XSDs and validators."""
 
-from twinform.schemas.facts import Fact, Table, Version, parse_version, print_version, table
+from twinform.schemas.facts import Fact, Table, Version, parse_version, print_version, rows_by_name, table
 from twinform.schemas.keeping import element_data
 from twinform.schemas.messages import Context
 from twinform.schemas.packaged import schema_text
@@ -8,7 +8,7 @@ from twinform.schemas.reader import Reader, reader
 from twinform.schemas.validator import Engine, SchemaError, gate, libxml2_errors, refusals, xmlschema_errors
 from twinform.schemas.values import format_value, parse_value
 from twinform.schemas.writer import LAST_LINE, Writer, element_xml, writer
-from twinform.schemas.xml import XmlElement, path_of, undeclared_namespace, undeclared_prefix
+from twinform.schemas.xml import XmlElement, declared_namespaces, path_of, undeclared_namespace, undeclared_prefix
 
 __all__ = [
     "LAST_LINE",
@@ -21,6 +21,7 @@ __all__ = [
     "Version",
     "Writer",
     "XmlElement",
+    "declared_namespaces",
     "element_data",
     "element_xml",
     "format_value",
@@ -32,6 +33,7 @@ __all__ = [
     "print_version",
     "reader",
     "refusals",
+    "rows_by_name",
     "schema_text",
     "table",
     "undeclared_namespace",

@@ -245,3 +245,12 @@ def _note_other_words(fact: Fact) -> None:
 def in_version(fact: Fact, version: Version) -> Fact:
     """A copy of the fact with only the rows that a version has, all the way down."""
     return replace(fact, rows=[in_version(row, version) for row in fact.rows if row.exists_in(version)])
+
+
+def rows_by_name(rows: Iterable[Fact], version: Version) -> dict[str, Fact]:
+    """One row for each name: the one of this version, or else the last of another."""
+    best: dict[str, Fact] = {}
+    for row in rows:
+        if row.name not in best or not best[row.name].exists_in(version):
+            best[row.name] = row
+    return best

@@ -14,7 +14,6 @@ locate: Callable[[type[Source], tuple[object, ...]], Source] = tuple.__new__  # 
 def element_data(element: XmlElement, context: Context, above: Source | None = None) -> Data:
     """The subtree as data for the IR's `Element`, with sources below the one that is given."""
     tag = str(element.tag)
-    note_namespaces(element, context)
     data: Data = {"name": tag}
     if above is not None:
         line, key = element.sourceline or 0, element.get("name")
@@ -28,12 +27,6 @@ def element_data(element: XmlElement, context: Context, above: Source | None = N
     if len(element):
         data["children"] = tuple([element_data(child, context, above) for child in element])
     return data
-
-
-def note_namespaces(element: XmlElement, context: Context) -> None:
-    """Remember the prefixes that an element declares, so that they can be written again."""
-    if element.nsmap:
-        context.namespaces.update((prefix, uri) for prefix, uri in element.nsmap.items() if prefix)
 
 
 def keep_part(element: XmlElement, node: Data, context: Context, part: Data) -> None:

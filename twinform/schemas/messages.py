@@ -56,7 +56,6 @@ class Context:
     tolerated: list[tuple[XmlElement, str | None]] = field(default_factory=list[tuple[XmlElement, str | None]])
     replaced: list[tuple[XmlElement, str, str]] = field(default_factory=list[tuple[XmlElement, str, str]])
     structural: int = 0
-    namespaces: set[tuple[str, str]] = field(default_factory=set[tuple[str, str]])
     clean: bool = False
     simple: bool = False
     aside: bool = False

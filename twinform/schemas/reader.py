@@ -10,8 +10,8 @@ from typing import TypeVar
 
 from twinform.diagnostics import Source
 from twinform.schemas import messages
-from twinform.schemas.facts import Fact, Table, Version, table
-from twinform.schemas.keeping import element_data, keep_element, keep_part, locate, note_namespaces
+from twinform.schemas.facts import Fact, Table, Version, rows_by_name, table
+from twinform.schemas.keeping import element_data, keep_element, keep_part, locate
 from twinform.schemas.messages import Context
 from twinform.schemas.quick import GIVE_UP, quick_attributes, quick_parse, quick_pose
 from twinform.schemas.remarks import ReadChild, remarked
@@ -71,8 +71,8 @@ class Reader:
 
     def _fill(self, fact: Fact, *, keep: bool) -> Fill:  # noqa: C901 - closures over one set of tables
         """The reader of an element's inside. Where `keep` is false it only checks."""
-        attribute_rows = {row.name[1:]: row for row in self._rows(fact.attributes)}
-        child_rows = {row.name: row for row in self._rows(fact.children)}
+        attribute_rows = {name[1:]: row for name, row in rows_by_name(fact.attributes, self.version).items()}
+        child_rows = rows_by_name(fact.children, self.version)
         attributes = _Made(lambda name: attribute_reader(attribute_rows[name], self.types, self.version, keep=keep))
         children = _Made(lambda name: self._child(child_rows[name], keep=keep))
         parses = [(row, quick_parse(row, self.types, self.version)) for row in fact.attributes if keep]
@@ -149,7 +149,6 @@ class Reader:
 
         def other_attribute(element: XmlElement, name: str, text: str, node: Data, at: str, context: Context) -> None:
             if name[0] == "{":
-                note_namespaces(element, context)
                 messages.prefixed_attribute(context, element, name)
             if name in _OF_SCHEMAS or (name[0] != "{" and not free):
                 messages.unknown_attribute(context, element, name, attribute_rows)
@@ -157,14 +156,6 @@ class Reader:
                 keep_part(element, node, context, {"at": at, "attribute": (name, text)})
 
         return fill
-
-    def _rows(self, rows: list[Fact]) -> list[Fact]:
-        """One row for each name: the one of this version, or else the last of another."""
-        best: dict[str, Fact] = {}
-        for row in rows:
-            if row.name not in best or not best[row.name].exists_in(self.version):
-                best[row.name] = row
-        return list(best.values())
 
     def _child(self, row: Fact, *, keep: bool) -> ReadChild:
         if not keep:

@@ -1,12 +1,15 @@
 """The one place that names lxml's element type, which the library keeps under a private name."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from typing import cast
 
+from lxml import etree
 from lxml.etree import _Element as XmlElement  # pyright: ignore[reportPrivateUsage] - lxml has no public name for it
 
 __all__ = [
     "XmlElement",
     "children",
+    "declared_namespaces",
     "is_blank",
     "path_of",
     "prefix_of",
@@ -19,6 +22,8 @@ Places = dict[XmlElement, int]
 """The places of elements among their like."""
 _UNDECLARED = "urn:twinform:undeclared:"
 """The beginning of the namespace that an undeclared prefix is given; the prefix is the end."""
+_ATTRIBUTE = etree.XPath("name(@*[local-name() = $local and namespace-uri() = $namespace])")
+"""The name of an attribute as it was written."""
 
 
 def children(element: XmlElement) -> Iterator[XmlElement]:
@@ -78,4 +83,17 @@ def prefix_of(element: XmlElement, name: str) -> str | None:
         return None
     namespace = name[1:].partition("}")[0]
     given = undeclared_prefix(namespace)
-    return given or next((prefix for prefix, uri in element.nsmap.items() if prefix and uri == namespace), None)
+    if given or name == element.tag:
+        return given or element.prefix
+    local = name.rpartition("}")[2]
+    written = cast("str", _ATTRIBUTE(element, local=local, namespace=namespace))
+    return written.rpartition(":")[0] or None
+
+
+def declared_namespaces(root: XmlElement) -> set[tuple[str, str]]:
+    """Every prefix that is declared in a tree, or that nobody declares, with its namespace; each once.
+
+    To ask each element for its `nsmap` would go up to the root, and through all that is declared there, each time.
+    """
+    found = cast("Iterable[tuple[str, tuple[str, str]]]", etree.iterwalk(root, events=("start-ns",)))
+    return {(undeclared_prefix(uri) or prefix, uri) for _, (prefix, uri) in found if prefix}

@@ -14,7 +14,7 @@ from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import is_carrier, unpack
 from twinform.passes.legalise.flattening import flatten
-from twinform.passes.legalise.marks import made_fields
+from twinform.passes.legalise.marks import is_made
 from twinform.schemas import element_xml
 
 _Z = (0.0, 0.0, 1.0)
@@ -37,7 +37,7 @@ def _noted(shells: list[tuple[Frame, Model]], frame: Frame, shell: Model) -> Fra
 def _without_made_root(model: Model) -> Model:
     """The model without the link that was made because URDF needs one."""
     link = model.links[0] if len(model.links) == 1 else None
-    if link is None or "." not in made_fields(link) or (link.inertial and link.inertial.mass):
+    if link is None or not is_made(link) or (link.inertial and link.inertial.mass):
         return model
     name = link.name
     frames = (
@@ -166,7 +166,7 @@ def _carried(node: Node) -> Iterator[Element]:
 
 def _is_made_for_static(joint: Joint, model: Model) -> bool:
     """Whether it holds a link of a static model, which stands still anyway."""
-    return bool(model.static) and joint.type == "fixed" and "." in made_fields(joint)
+    return bool(model.static) and joint.type == "fixed" and is_made(joint)
 
 
 def _or(value: float | None, default: float) -> float:

@@ -4,14 +4,15 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 from twinform.compiler.compare.robot import Leaf
-from twinform.compiler.compare.values import Flag, Numbers, Place, Value, Words
+from twinform.compiler.compare.typed import typed_value
+from twinform.compiler.compare.values import Numbers, Place, Value, Words
 from twinform.diagnostics import Location
 from twinform.ir import Pose
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import NAMESPACE, from_xml
 from twinform.passes.legalise.element_poses import read_pose
 from twinform.passes.legalise.gazebo_tags import SCRIPT_URI
-from twinform.schemas import Fact, XmlElement, parse_value, table
+from twinform.schemas import Fact, XmlElement, table
 
 CARRIED = f"{{{NAMESPACE}}}carried"
 """The attribute of elements that came out of a carrier."""
@@ -20,10 +21,7 @@ _SAYS_BY_BEING_THERE = frozenset({"geometry", "material", "mimic"})
 """Containers that mean something without a word in them; which shape is in a geometry is a value of it."""
 _WITHOUT_MEANING = frozenset({"frame"})
 """Elements of older versions that no reader looks at."""
-_ANY_NUMBER = frozenset({"double", "int", "uint", "vector3", "vector2d", "vector2i", "quaternion", "time"})
-_COLORS = frozenset({"color", "color4"})
 _POSES = frozenset({"pose", "inertial_pose"})
-_WITH_ALPHA = 4
 THERE = Words("there")
 """What says that a thing is there at all."""
 
@@ -155,20 +153,7 @@ def numbered(key: str, seen: dict[str, int]) -> str:
 def _value(text: str, row: Fact | None) -> Value:
     if row is None or row.type is None:
         return _guess(text)
-    try:
-        parsed = parse_value(row.type, text)
-    except ValueError:
-        return Words(text)
-    if isinstance(parsed, bool):
-        return Flag(parsed)
-    if row.type in _COLORS or row.type in _ANY_NUMBER:
-        numbers = tuple(map(float, text.split())) if isinstance(parsed, tuple) else (float(str(parsed)),)
-        return Numbers(_with_alpha(numbers) if row.type in _COLORS else numbers, row.unit or "")
-    return words(text)
-
-
-def _with_alpha(color: tuple[float, ...]) -> tuple[float, ...]:
-    return color if len(color) == _WITH_ALPHA else (*color, 1.0)
+    return typed_value(row.type, text, unit=row.unit or "") or words(text)
 
 
 def _default(row: Fact | None) -> Value | None:

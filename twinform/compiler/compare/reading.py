@@ -10,10 +10,13 @@ from twinform.compiler.compare.leaves import CARRIED, Resolve, Walk, numbered
 from twinform.compiler.compare.robot import Leaf, Leaves, Part
 from twinform.compiler.compare.values import Words
 from twinform.diagnostics import NOWHERE, Location, Origins
-from twinform.ir import Format, Joint, Link, Model, Node, node_fields
+from twinform.ir import Element, Format, Frame, Joint, Link, Model, Node, node_fields
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.carrier import NAMESPACE
-from twinform.passes.legalise.marks import MADE
+from twinform.passes.legalise.carrier import NAMESPACE, from_xml
+from twinform.passes.legalise.marks import find_mark
+from twinform.passes.legalise.names import NAME
+from twinform.passes.legalise.to_sdf.joints import FLOATING
+from twinform.passes.legalise.urdf_pieces import joints_of
 from twinform.schemas import XmlElement, table, writer
 
 _PARTS: Mapping[type[Node], Mapping[str, str]] = {
@@ -34,6 +37,9 @@ _RESOLVED: Mapping[type[Node], frozenset[str]] = {
     ),
 }
 """What is compared in other terms than those in which it is written."""
+_NOTHING = Element(name="nothing")
+_FLOATING = f"{{{NAMESPACE}}}{FLOATING}"
+"""A joint of URDF that is none in SDF."""
 _NOT_OF_THE_ROBOT = frozenset({"material", "gazebo", "link", "inertial", "mass", "origin", "name", "type"})
 """What URDF's carriers hold that says how the file is written, or that the model says in words of SDF."""
 _OF_AN_AXIS = frozenset({"axis", "limit", "dynamics", "mimic"})
@@ -131,18 +137,21 @@ class Reading:
                 if name not in _NOT_OF_THE_ROBOT and path not in _IGNORED_LIMITS:
                     walk.enter_free(_text_element(piece.get("value") or ""), path)
                 leaves |= walk.found
-            elif piece.tag == "joint":  # a floating one, which is none in SDF
-                if piece.get(MADE) is None:
-                    leaves["joint"] = Leaf(Words(piece.get("name") or ""), None, where)
             elif str(piece.tag) not in _NOT_OF_THE_ROBOT and not (isinstance(node, Joint) and _is_idle(piece, node)):
                 walk = Walk(self.resolve, lambda _: where)
                 named = isinstance(node, Model) and not _is_foreign(piece)
+                if isinstance(node, Model) and _is_about_nothing(piece, node):
+                    continue
                 walk.enter_free(piece, "" if named else numbered(str(piece.tag), seen))
                 if named:
                     walk.found.pop("@name", None)
                     parts.append(Part(str(piece.tag), piece.get("name") or "", walk.found, where, only=Format.URDF))
                 else:
                     leaves |= walk.found
+        for mark in xml.findall(_FLOATING):
+            if not (mark.get("joint") and mark.get("parent")):  # which makes no joint
+                continue
+            leaves["joint"] = Leaf(Words(mark.get("joint") or ""), None, where)
         return {path: _only_urdf(leaf) for path, leaf in leaves.items()}, parts
 
     def _places(self, node: Node) -> Callable[[str], Location]:
@@ -166,9 +175,24 @@ def _only_urdf(leaf: Leaf) -> Leaf:
     return Leaf(leaf.value, leaf.default, leaf.where, Format.URDF)
 
 
+def _is_about_nothing(piece: XmlElement, model: Model) -> bool:
+    """Whether it names a joint that is gone: then it does not go back to URDF either."""
+    carrier = piece.getparent()
+    if carrier is not None and carrier.get("dangling"):
+        return False
+    names = {name for joint in model.joints for name in (joint.name, _old_name(joint))}
+    names |= {name for frame in model.frames for name in (frame.name, _old_name(frame))}
+    names |= {(find_mark(link, FLOATING) or _NOTHING).get("joint") for link in model.links}
+    return any(name not in names for name in joints_of(from_xml(piece)))
+
+
+def _old_name(node: Joint | Frame) -> str | None:
+    return (find_mark(node, NAME) or _NOTHING).text
+
+
 def _is_idle(piece: XmlElement, joint: Joint) -> bool:
     """Whether it is about an axis that the joint does not have."""
-    return piece.tag in _OF_AN_AXIS and joint.axis is None
+    return piece.tag in _OF_AN_AXIS and (joint.axis is None or joint.type == "fixed")
 
 
 def _inner(node: Node, path: str) -> Iterator[tuple[str, Node]]:

@@ -1,0 +1,30 @@
+"""The normal form of a file: what is left of its XML when everything that may be spelled otherwise is out of the way.
+
+Two files with equal normal forms say the same in the same words. *There and back*, from one format to the other and
+home again, means that the robot is the same (`twinform.diff`), and that the normal form is: every name, attribute and
+text of the source that is not the spelling of a default is back, and nothing else has come along.
+
+    form = twinform.normal_form("robot.urdf")
+    form.compare(twinform.normal_form("robot_that_came_back.urdf"))
+
+What counts, and what does not:
+
+* An element is known by its tag and its name, in URDF's `<gazebo>` by its reference; else by its place among its like.
+  The order of siblings does not count, as readers find them by their names; those without one are told by it. Several
+  `<gazebo>` of one reference are one.
+* Values are of the types of the facts tables. Numbers are equal to a share of 1e-9, truths whatever way they are
+  spelled; a limit of 1e16 and beyond is none. A pose is a rigid transform. URIs, names and other texts are taken
+  literally.
+* The notation of a rotation (`degrees`, `rotation_format`, `quat_xyzw`) counts where something is turned. What is not
+  turned is so in every notation, and the file says no more by naming one.
+* A value equal to its default in the facts table of the file's own version says nothing. Neither does an element in
+  which nothing is left, unless it means something by being there: required ones, those that may be repeated, shapes,
+  materials, and what the compiler does not look into, which has to come back as it was.
+* Text and attributes of what no table knows count literally, with white space folded; so does all order in there.
+* Comments, processing instructions and the prefixes of namespaces do not count.
+"""
+
+from twinform.compiler.normal_form.comparing import Discrepancy, Kind
+from twinform.compiler.normal_form.form import NormalForm, normal_form
+
+__all__ = ["Discrepancy", "Kind", "NormalForm", "normal_form"]

@@ -1,0 +1,209 @@
+"""XML trees as parts of a normal form, by the facts table of a format in a version."""
+
+from functools import cache
+
+from twinform.compiler.compare.values import Numbers, Place, Value, Words
+from twinform.compiler.normal_form.gazebo import extension_rows, tag_value
+from twinform.compiler.normal_form.part import TEXT, Part, text_of
+from twinform.compiler.normal_form.values import (
+    NOWHERE_ELSE,
+    literally,
+    same,
+    sdf_pose,
+    urdf_pose,
+    value_of,
+)
+from twinform.ir.transform import Transform
+from twinform.schemas import Fact, Version, XmlElement, rows_by_name, table
+
+_SAYS_BY_BEING_THERE = {
+    "urdf": frozenset({"limit", "material"}),
+    "sdf": frozenset({"geometry", "material", "pbr", "metal"}),
+}
+"""Containers that are optional, and mean something without a word in them."""
+_HAS_TO_BE_THERE = frozenset({("material", "name")})
+"""Attributes that may be empty but not left out: urdfdom refuses a material without a name."""
+_ENDLESS = 1e16
+_MODEL = "model"
+_CANONICAL = "@canonical_link"
+"""The link that the frame of a model in SDF is attached to: without a word, the first one."""
+_EXTENSION = "gazebo"
+_ORIGIN = "origin"
+_POSE = "pose"
+_TURNS = frozenset({"@xyz", "@rpy", "@quat_xyzw"})
+_NOTATIONS = frozenset({"@degrees", "@rotation_format"})
+
+Rows = dict[str, Fact]
+
+
+class Builder:
+    """Makes parts of the elements of one format in one version."""
+
+    def __init__(self, format: str, version: Version) -> None:
+        self.format = format
+        self.version = version
+        self.table = table(format)
+        # by the identity of rows, which live as long as the program
+        self._rows: dict[int, Rows] = {}
+        self._defaults: dict[int, Value] = {}
+
+    def root(self, element: XmlElement) -> Part:
+        """The whole file."""
+        return self.part(element, self.table.definitions[self.table.root])
+
+    def part(self, element: XmlElement, row: Fact | None) -> Part:
+        """An element; without a row it is one that the format does not know."""
+        fact = self.table.resolve(row) if row else None
+        made = Part(element)
+        if fact is None or (fact.any and fact.name != _EXTENSION):
+            _fill_freely(made, element)
+        elif fact.name == _EXTENSION:
+            self._extend(made, element)
+        else:
+            self._fill(made, element, fact)
+        return made
+
+    def _fill(self, made: Part, element: XmlElement, fact: Fact) -> None:
+        rows = self._rows_of(fact)
+        self._attributes(made, element, rows)
+        if fact.name == _MODEL and (first := element.find("link")) is not None:
+            made.values.setdefault(_CANONICAL, Words(first.get("name") or ""))
+        if fact.name == _ORIGIN and self.format == "urdf":
+            _place(made, urdf_pose(element))
+        elif fact.type == _POSE:
+            _place(made, sdf_pose(element))
+        else:
+            self._text(made, element, fact)
+        for child in element:
+            self.child(made, child, rows.get(str(child.tag)))
+
+    def _rows_of(self, fact: Fact) -> Rows:
+        found = self._rows.get(id(fact))
+        if found is None:
+            found = self._rows[id(fact)] = rows_by_name(fact.rows, self.version)
+        return found
+
+    def _attributes(self, made: Part, element: XmlElement, rows: Rows) -> None:
+        for name, text in element.items():
+            row = None if (element.tag, name) in _HAS_TO_BE_THERE else rows.get(f"@{name}")
+            value = self._value(str(text), row) if row else literally(str(text))
+            if value is not None:
+                made.values[f"@{name}"] = value
+
+    def _text(self, made: Part, element: XmlElement, fact: Fact) -> None:
+        text = text_of(element)
+        value = self._value(text, fact) if fact.type else literally(text)
+        if text and value is not None:
+            made.values[TEXT] = value
+
+    def _value(self, text: str, row: Fact) -> Value | None:
+        """What a text says, if that is no default; where there may be no text, the empty one is as good as none."""
+        value = value_of(text, row, self.format)
+        default = self._default_of(row)
+        if default is not None:
+            return None if same(value, default) or _is_endless(value, default) else value
+        return value if text or row.required else None
+
+    def _default_of(self, row: Fact) -> Value | None:
+        if row.default is None:
+            return None
+        found = self._defaults.get(id(row))
+        if found is None:
+            found = self._defaults[id(row)] = value_of(row.default, row, self.format)
+        return found
+
+    def child(self, made: Part, child: XmlElement, row: Fact | None) -> None:
+        """Take in a child; without a row it is one that the format does not know."""
+        tag = str(child.tag)
+        if row is not None and self.table.resolve(row).name == _EXTENSION:
+            self._pool(made, child, row)
+            return
+        named = row is None or row.repeats
+        key = made.next_key(tag, (child.get("name") if named else None) or "")
+        part = self.part(child, row)
+        if row is None or not (part.says_nothing and self._may_be_left_out(row)):
+            made.children[key] = part
+
+    def _may_be_left_out(self, row: Fact) -> bool:
+        """Whether an element in which only defaults were says the same as none."""
+        fact = self.table.resolve(row)
+        if row.count != "?" or row.kind:
+            return False
+        if fact.type is not None:
+            return fact.type == "string" or fact.default is not None
+        read = row.place is not None or row.reference == _ORIGIN
+        return read and row.name not in _SAYS_BY_BEING_THERE[self.format]
+
+    def _pool(self, made: Part, child: XmlElement, row: Fact) -> None:
+        """Take in an extension of URDF; those of one reference are read as one, and one without content as none."""
+        reference = child.get("reference") or ""
+        key = made.next_key(_EXTENSION, reference)._replace(number=1)
+        before = made.children.get(key)
+        part = before or self.part(child, row)
+        if before is not None:
+            self._extend(before, child)
+        elif not part.children and not (part.values.keys() - {"@reference"}):
+            return
+        made.children[key] = part
+
+    def _extend(self, made: Part, element: XmlElement) -> None:
+        """Take in the content of an extension, which is SDF but for some tags of its own."""
+        for name, text in element.items():
+            if text:
+                made.values[f"@{name}"] = literally(str(text))
+        if text := text_of(element):
+            made.values[TEXT] = literally(text)
+        sdf = builder("sdf", table("sdf").newest)
+        for child in element:
+            found = tag_value(child)
+            if found is not None:
+                name, value = found
+                part = Part(child, values={f"@{name}": literally(str(text)) for name, text in child.items()})
+                part.values.pop("@value", None)
+                part.values[TEXT] = value
+                made.children[made.next_key(name, "")] = part
+            else:
+                sdf.child(made, child, extension_rows().get(str(child.tag)))
+
+
+@cache
+def builder(format: str, version: Version) -> Builder:
+    """The builder of a format in a version."""
+    return Builder(format, version)
+
+
+def _fill_freely(made: Part, element: XmlElement) -> None:
+    """Take in what only other programs know: all of it, in its order."""
+    made.ordered = True
+    for name, text in element.items():
+        made.values[f"@{name}"] = literally(str(text))
+    if text := text_of(element):
+        made.values[TEXT] = literally(text)
+    for child in element:
+        part = Part(child)
+        _fill_freely(part, child)
+        made.children[made.next_key(str(child.tag), child.get("name") or "")] = part
+
+
+def _is_endless(value: Value, like: Value) -> bool:
+    """Whether two numbers stand for no limit at all, on one side: 1e16 and beyond, as in SDF before 1.10."""
+    if not (isinstance(value, Numbers) and isinstance(like, Numbers)):
+        return False
+    (one, *more), (other, *_) = value.values, like.values
+    return not more and min(abs(one), abs(other)) >= _ENDLESS and (one > 0) == (other > 0)
+
+
+def _place(made: Part, where: Transform | None) -> None:
+    """Take in a pose as the place that it says; what is none stays as it is written."""
+    if where is None:
+        return
+    values = made.values
+    for name in _TURNS & values.keys():
+        del values[name]
+    if same(Place(Transform(rotation=where.rotation)), NOWHERE_ELSE):
+        for name in _NOTATIONS & values.keys():
+            del values[name]
+    elif made.element.get("quat_xyzw"):
+        values["@quat_xyzw"] = Words("a quaternion")
+    if not same(Place(where), NOWHERE_ELSE):
+        values[_POSE] = Place(where)

@@ -1,0 +1,54 @@
+"""The normal form of a file."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from twinform.compiler.errors import CompileError
+from twinform.compiler.loading import check, declared_version, read_tree
+from twinform.compiler.normal_form.building import builder
+from twinform.compiler.normal_form.comparing import Comparing, Discrepancy
+from twinform.compiler.normal_form.part import Part
+from twinform.compiler.parsing import UnreadableError
+from twinform.diagnostics import Notes
+from twinform.schemas import XmlElement
+
+_FORMATS = {"robot": "urdf", "sdf": "sdf"}
+
+
+@dataclass(frozen=True, slots=True)
+class NormalForm:
+    """What a file says, as a tree of parts. `file` is its name, for those who want to look."""
+
+    root: Part
+    file: str = ""
+
+    @classmethod
+    def of(cls, tree: XmlElement, file: str = "") -> "NormalForm":
+        """That of a tree which `check` or `convert` has read."""
+        format = _FORMATS[str(tree.tag)]
+        return cls(builder(format, declared_version(tree, format, Notes())).root(tree), file)
+
+    def compare(self, back: "NormalForm") -> tuple[Discrepancy, ...]:
+        """In what a file that came back differs from this one, in the order of this one."""
+        return tuple(Comparing(self.file, back.file).files(self.root, back.root))
+
+
+def normal_form(source: str | Path | bytes, *, name: str = "") -> NormalForm:
+    """The normal form of a file, or of the bytes of one; a xacro file is expanded.
+
+    The file need not be without errors, but has to be XML of one of the formats.
+
+    Raises:
+        CompileError: it is not.
+    """
+    if not isinstance(source, bytes):
+        checked = check(source, name=name)
+        if checked.tree is None:
+            raise CompileError(checked.diagnostics, unreadable=True)
+        return NormalForm.of(checked.tree, checked.path)
+    notes = Notes(file=name or "<bytes>")
+    try:
+        tree, _ = read_tree(source, notes)
+    except UnreadableError as error:
+        raise CompileError(tuple(notes.diagnostics), unreadable=True) from error
+    return NormalForm.of(tree, notes.file)

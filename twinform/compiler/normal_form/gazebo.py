@@ -1,0 +1,49 @@
+"""The content of URDF's `<gazebo>`: tags of its own, and beside them what SDF has in links, joints and models."""
+
+from functools import cache
+
+from twinform.compiler.compare.values import Value, Words
+from twinform.compiler.normal_form.values import parsed_value
+from twinform.passes.legalise.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
+from twinform.schemas import Fact, XmlElement, parse_value, rows_by_name, table
+
+_TAGS = MODEL_TAGS | JOINT_TAGS | LINK_TAGS
+_HOLDERS = ("model", "joint", "link")
+"""What a reference leads to. Where two of them have a child of one tag, it is of the same kind."""
+_FIELDS = frozenset({"gravity", "self_collide"})
+"""Truths of a link in SDF that tags say too."""
+_MATERIAL = "material"
+
+
+def tag_value(element: XmlElement) -> tuple[str, Value] | None:
+    """What one of the extension's own tags says, as a text or an attribute, and the name of the field that it sets.
+
+    None where it is none of them. A field of SDF that has a tag of its own is as good as that tag.
+    """
+    name = str(element.tag)
+    tag, text = _TAGS.get(name), (element.get("value") or element.text or "").strip()
+    if len(element):
+        return None
+    if tag is None:
+        return (name, _read("bool", text)) if name in _FIELDS and not element.attrib else None
+    try:
+        return tag.field or name, parsed_value(tag.read(text))
+    except ValueError:
+        return tag.field or name, Words(text)
+
+
+def _read(type_: str, text: str) -> Value:
+    try:
+        return parsed_value(parse_value(type_, text))
+    except ValueError:
+        return Words(text)
+
+
+@cache
+def extension_rows() -> dict[str, Fact]:
+    """The rows of what is SDF in an extension, by tag."""
+    sdf = table("sdf")
+    rows = {
+        name: row for each in _HOLDERS for name, row in rows_by_name(sdf.definitions[each].rows, sdf.newest).items()
+    }
+    return {**rows, _MATERIAL: Fact(_MATERIAL, count="*", reference=_MATERIAL)}

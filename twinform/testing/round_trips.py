@@ -1,0 +1,95 @@
+"""There and back: what of a robot goes to the other format, how it comes home, and what is not as it was."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple, Self
+
+from twinform.compiler import URDF_VERSIONS, UrdfVersion, check, convert
+from twinform.compiler.compare import diff
+from twinform.compiler.emitting import emit
+from twinform.compiler.normal_form import normal_form
+from twinform.diagnostics import Notes
+from twinform.ir import Document, Format
+from twinform.passes.includes import has_includes
+from twinform.passes.legalise.candidates import name_once_expanded
+from twinform.passes.legalise.to_urdf.select_model import SelectModel
+from twinform.schemas import table
+
+ANOTHER_ROBOT = "another robot"
+
+
+class Astray(NamedTuple):
+    """One thing that is not as it was. `kind` is that of a discrepancy of normal forms, or says that the robot differs.
+
+    `path` is its XPath in the source, or where that has nothing of the kind in what came back.
+    """
+
+    kind: str
+    path: str
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class RoundTrip:
+    """A robot that is taken to the other format and home again: `text` is what has to come back."""
+
+    text: bytes
+    format: Format
+    version: str | None
+
+    @classmethod
+    def of(
+        cls, source: Path | bytes, document: Document, *, model: str | None = None, paths: Iterable[str | Path] = ()
+    ) -> Self:
+        """That of a file or text which says `document`; of several models in it, of the one of this name.
+
+        What has to come back is all of it. Where there is more than one model in it, that is the model alone, and the
+        model has what it includes in it, since URDF has neither worlds nor includes.
+        """
+        if _is_robot(document):
+            text = source.read_bytes() if isinstance(source, Path) else source
+        else:
+            text = emit(_alone(source, document, model, paths), Notes()).encode()
+        return cls(text, document.format, document.version)
+
+    def back(self, there: str) -> str:
+        """What comes home of a text in the other format, in the version that the robot went in.
+
+        Raises:
+            CompileError: it is refused.
+        """
+        if self.format is Format.URDF:
+            return convert(there.encode(), to="urdf", urdf_version=_urdf_version(self.version)).text
+        known = self.version if self.version in table("sdf").versions else None
+        return convert(there.encode(), to="sdf", sdf_version=known).text
+
+    def astray(self, back: str) -> Iterator[Astray]:
+        """What is not as it was: the robot, its first difference, or words of the file."""
+        found = diff(self.text, back.encode()).differences
+        if found:
+            yield Astray(ANOTHER_ROBOT, found[0].a.location.path or found[0].b.location.path, found[0].message)
+        source, again = normal_form(self.text, name="source"), normal_form(back.encode(), name="back")
+        for one in source.compare(again):
+            yield Astray(one.kind, one.location.path, one.message)
+
+
+def _is_robot(document: Document) -> bool:
+    """Whether there is nothing in it but one model."""
+    if document.format is Format.URDF:
+        return True
+    around = (*document.worlds, *document.lights, *document.includes, *document.opaque)
+    return len(document.models) == 1 and not around and not has_includes(document)
+
+
+def _alone(source: Path | bytes, document: Document, model: str | None, paths: Iterable[str | Path]) -> Document:
+    notes = Notes()
+    alone = SelectModel(model=model).run(document, notes)
+    if not notes.has_errors and not has_includes(alone):
+        return alone
+    whole = check(source, expand_includes=True, paths=paths).document or document
+    return SelectModel(model=name_once_expanded(document, whole, model)).run(whole, Notes())
+
+
+def _urdf_version(version: str | None) -> UrdfVersion | None:
+    return next((known for known in URDF_VERSIONS if known == version), None)
