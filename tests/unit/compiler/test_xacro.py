@@ -129,19 +129,44 @@ def test_what_the_file_says_is_reported_where_it_says_it(tmp_path: Path) -> None
 
 
 def test_printing_and_reading_do_not_disturb_the_conversation(tmp_path: Path) -> None:
-    path = _write(tmp_path, '<xacro:if value="${xacro.load_yaml(\'/dev/stdin\') is None}"><link name="a"/></xacro:if>')
-    assert twinform.check(path).document is not None
+    path = _write(tmp_path, "${xacro.message('[1]')}${xacro.load_yaml('/dev/stdin')}")
+    message, error = twinform.check(path).diagnostics
+    assert (message.message, error.rule.name) == ("[1]", "xacro-error")
+    assert "outside of the folders" in error.message
 
 
-def test_an_expression_without_an_end_is_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(importlib.import_module("twinform.compiler.xacro.expansion"), "_SECONDS", 0.5)
-    path = _write(tmp_path, '<xacro:if value="${10**10**9}"><link name="a"/></xacro:if>')
+def test_an_expansion_without_an_end_is_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(importlib.import_module("twinform.compiler.xacro.conversation"), "_SECONDS", 0.5)
+    path = _write(tmp_path, f"<xacro:macro name='m' params='a:={'b' * 60}\"'/>")
     assert "did not end" in twinform.check(path).diagnostics[0].message
 
 
-def test_an_expression_that_wants_all_memory_is_stopped(tmp_path: Path) -> None:
-    path = _write(tmp_path, "<xacro:if value=\"${len('x' * 10**13)}\"/>")
+def test_what_wants_all_memory_is_stopped(tmp_path: Path) -> None:
+    path = _write(tmp_path, f"<xacro:macro name='m'><a>{'x' * 2**24}</a></xacro:macro>{'<xacro:m/>' * 60}")
     assert "memory" in twinform.check(path).diagnostics[0].message
+
+
+def test_the_process_has_no_variables_of_the_environment(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = _write(tmp_path, '<link name="$(optenv SIDE left)"/>')
+    monkeypatch.setenv("SIDE", "right")
+    document = twinform.check(path).document
+    assert document
+    assert document.models[0].links[0].name == "right"
+    passed_on = importlib.import_module("twinform.compiler.xacro.conversation").environment()
+    assert "SIDE" not in passed_on
+
+
+def test_a_set_is_written_in_the_same_order_each_time(tmp_path: Path) -> None:
+    path = _write(tmp_path, "${xacro.message(python.set('right front left rear'.split()))}")
+    assert len({twinform.check(path).diagnostics for _ in range(3)}) == 1
+
+
+@pytest.mark.parametrize("said", ["no json", "", '{"read": 1', "[]"])
+def test_a_process_that_talks_nonsense_is_an_error(said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    worker = tmp_path / "worker.py"
+    worker.write_text(f"print({said!r})")
+    monkeypatch.setattr(importlib.import_module("twinform.compiler.xacro.conversation"), "_WORKER", worker)
+    assert "the expansion died" in twinform.check(_write(tmp_path, "")).diagnostics[0].message
 
 
 def test_bytes_are_never_expanded() -> None:

@@ -1,58 +1,67 @@
 """The expander of xacro by itself: what it asks the compiler, and what it answers."""
 
-import resource
 import sys
 from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from twinform.compiler.xacro import guard, worker
+from twinform.compiler.xacro.worker import places
+from twinform.compiler.xacro.worker.channel import MissingFileError, NotFoundError
+from twinform.compiler.xacro.worker.process import run
 
 _HEAD = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="r">'
+_VARIABLES = {"SIDE": "left"}
 
 
-class Channel:
-    """The compiler as the worker sees it: one task, and answers for the URIs that it asks for."""
+class Compiler:
+    """The compiler as the worker sees it: one task, all files of a folder, and answers for the URIs that it knows."""
 
     def __init__(self, file: Path, arguments: dict[str, str], known: dict[str, Path]) -> None:
-        self.task = {"file": str(file), "arguments": arguments, "folders": [str(file.parent)], "trusted": []}
+        self.file = file
+        self.task = {"file": str(file), "arguments": arguments}
         self.known = known
-        self.asked: list[tuple[str, str]] = []
 
     def receive(self) -> dict[str, Any]:
         return self.task
 
     def find(self, uri: str, beside: str) -> str:
-        self.asked.append((uri, Path(beside).name))
+        assert Path(beside).is_relative_to(self.file.parent)
         if uri not in self.known:
-            raise worker.NotFoundError(f"there is no {uri}", "install it")
+            raise NotFoundError(f"there is no {uri}", "install it")
         return str(self.known[uri])
+
+    def read(self, path: str) -> bytes:
+        if not Path(path).exists():
+            raise MissingFileError(f"cannot read {path!r}: No such file or directory")
+        return Path(path).read_bytes()
+
+    def match(self, pattern: str) -> list[str]:
+        return sorted(map(str, Path(pattern).parent.glob(Path(pattern).name)))
+
+    def environment(self, name: str) -> str | None:
+        return _VARIABLES.get(name)
 
 
 Expand = Callable[..., dict[str, Any]]
 
 
-def _unwatched(*_: object) -> None:
-    """What nothing takes away again would watch the other tests too."""
-
-
 @pytest.fixture
 def expand(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Expand:
-    """Expand a body in a fresh xacro, in this process."""
+    """Expand a body in a fresh xacro, in this process, which is confined to nothing."""
     for name in [name for name in sys.modules if name.split(".")[0] == "xacro"]:
         monkeypatch.delitem(sys.modules, name)
-    monkeypatch.setattr(worker.GUARD, "watch", _unwatched)
     monkeypatch.setattr(sys, "stdout", sys.stdout)
     monkeypatch.setattr(sys, "stderr", sys.stderr)
 
-    def run(body: str, known: dict[str, Path] | None = None, **arguments: str) -> dict[str, Any]:
+    def expand(body: str, known: dict[str, Path] | None = None, **arguments: str) -> dict[str, Any]:
         path = tmp_path / "r.xacro"
-        path.write_text(f"{_HEAD}\n{body}\n</robot>")
-        return worker.run(Channel(path, arguments, known or {}))
+        path.write_text(f"{_HEAD}\n{body}\n</robot>", encoding="utf-8")
+        return run(Compiler(path, arguments, known or {}), confine=list)
 
-    return run
+    return expand
 
 
 def _places(outcome: dict[str, Any]) -> list[tuple[str, int]]:
@@ -101,8 +110,15 @@ FAILURES = {
     ),
     "a hidden name": ('<link name="${().__class__}"/>', "an expression must not use '__class__'", 2),
     "a hidden name in eval": ('<link name="$(eval [].mro)"/>', "an expression must not use 'mro'", 2),
+    "a number too large": ('\n<link name="${9**9**9}"/>', "beyond the largest floating point number", 3),
+    "half a character": ("<link name=\"${'\\ud800'}\"/>", "surrogates not allowed", 2),
+    "a variable that is not set": ('<link name="$(env NONE)"/>', "environment variable 'NONE' is not set", 2),
+    "too many remarks": (
+        '<link name="${[xacro.message(i) for i in range(2000)]}"/>',
+        "the file says more than 1,000 things",
+        2,
+    ),
     "a file that is not there": ('<xacro:include filename="none.xacro"/>', "No such file or directory", 2),
-    "a folder": ('<xacro:include filename="."/>', "this is no file", 1),
     "a package that is not there": (
         '<xacro:include filename="$(find none)/a.xacro"/>',
         "there is no package://none",
@@ -124,12 +140,9 @@ def test_a_failure_has_words_and_a_place(name: str, expand: Expand, tmp_path: Pa
     assert outcome.get("help") == ("install it" if "package" in name else None)
 
 
-@pytest.mark.parametrize(("limit", "words"), [("_LARGEST", "larger than 9 bytes"), ("_MOST_TAGS", "more than 9 tags")])
-def test_a_file_that_is_too_large_is_not_read(
-    limit: str, words: str, expand: Expand, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(worker, limit, 9)
-    assert words in expand("<link/>" * 20)["error"]
+def test_a_file_with_too_many_tags_is_not_parsed(expand: Expand, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(places, "_MOST_TAGS", 9)
+    assert "more than 9 tags" in expand("<link/>" * 20)["error"]
 
 
 def test_xacro_that_is_not_installed_is_missing(expand: Expand, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -137,86 +150,88 @@ def test_xacro_that_is_not_installed_is_missing(expand: Expand, monkeypatch: pyt
     assert "xacro" in expand("")["missing"]
 
 
-def test_the_process_has_limits(monkeypatch: pytest.MonkeyPatch) -> None:
-    asked: dict[int, int] = {}
-
-    def hard(kind: int) -> tuple[int, int]:
-        return 0, 5 if kind == resource.RLIMIT_CPU else resource.RLIM_INFINITY
-
-    def ask(kind: int, limits: tuple[int, int]) -> None:
-        asked[kind] = limits[0]
-
-    def recurse(deepest: int) -> None:
-        assert deepest > 1000
-
-    monkeypatch.setattr(resource, "getrlimit", hard)
-    monkeypatch.setattr(resource, "setrlimit", ask)
-    monkeypatch.setattr(sys, "setrecursionlimit", recurse)
-    worker.limit()
-    assert asked == {resource.RLIMIT_AS: 2**29, resource.RLIMIT_CPU: 5, resource.RLIMIT_FSIZE: 0}
+def test_a_xacro_whose_functions_are_not_known_is_missing(expand: Expand, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delattr(import_module("xacro"), "eval_text")
+    assert expand("")["missing"] == "this version of xacro is not known: xacro has no eval_text"
 
 
-@pytest.mark.parametrize("expression", ["a.b + 1", "[x for x in range(3)]", " cos(0) ", "'__'"])
-def test_expressions_of_robots_are_let_through(expression: str) -> None:
-    assert guard.checked(expression) == expression
+@pytest.mark.parametrize("name", ["compile", "eval", "exec", "open"])
+@pytest.mark.parametrize("module", ["xacro", "xacro.substitution_args"])
+def test_no_part_of_xacro_can_evaluate_or_open(module: str, name: str, expand: Expand) -> None:
+    expand("")
+    with pytest.raises(Exception, match="xacro must not evaluate or open anything by itself"):
+        vars(import_module(module))[name]("1")
 
 
-@pytest.mark.parametrize(
-    "expression", ["a.__b", "__import__('os')", "a.mro", "(x for x in a).gi_frame", "f.func_globals"]
-)
-def test_what_is_hidden_is_not(expression: str) -> None:
-    with pytest.raises(guard.ForbiddenError, match="an expression must not use"):
-        guard.checked(expression)
+def _called(expression: str) -> str:
+    return f'<xacro:property name="p" value="{expression}"/><link name="$(eval ${{p}})"/>'
 
 
-def test_eval_has_the_builtins_that_it_is_given() -> None:
-    evaluate = guard.guarded_eval({"len": len})
-    assert evaluate("len(x) + 1", {}, {"x": "ab"}) == 3
-    with pytest.raises(NameError):
-        evaluate("open('x')", {}, {})
-
-
-@pytest.fixture
-def hook(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
-    """What the guard would have Python call, for a file in `own`, with the folder `trusted` besides."""
-    for name in ("own", "trusted", "secret"):
-        (tmp_path / name).mkdir()
-        (tmp_path / name / "file").touch()
-    (tmp_path / "trusted" / "link").symlink_to(tmp_path / "secret" / "file")
-    (tmp_path / "own" / "link").symlink_to(tmp_path / "secret" / "file")
-    found: list[Callable[..., None]] = []
-    monkeypatch.setattr(sys, "addaudithook", found.append)
-    monkeypatch.setattr(sys, "dont_write_bytecode", sys.dont_write_bytecode)
-    monkeypatch.setattr(sys, "path", [])
-    own, trusted = str(tmp_path / "own"), str(tmp_path / "trusted")
-    guard.watch([f"{own}/file"], [own], [trusted])
-    return found[0]
-
-
-@pytest.mark.parametrize("path", ["own/file", "trusted/file", "trusted/link", "own/none"])
-def test_files_of_its_folders_may_be_read(path: str, hook: Callable[..., None], tmp_path: Path) -> None:
-    hook("open", (str(tmp_path / path), "r", 0))
-    hook("open", (3, "r", 0))
-    hook("compile", ("1", "x"))
-
-
-OPENED = {
-    "another folder": ("secret/file", "r", 0, "outside"),
-    "a link that leads out": ("own/link", "r", 0, "outside"),
-    "a folder": ("own", "r", 0, "it is no file"),
-    "writing": ("own/file", "w", 0, "nothing may be written"),
-    "writing by flags": ("own/file", None, 1, "nothing may be written"),
+EXPANDED = {
+    "an optional include": ('<xacro:include filename="none.xacro" optional="true"/>', ""),
+    "a pattern": ('<xacro:include filename="part_*.xacro"/>', '<link name="p"/>'),
+    "a variable": ('<link name="$(env SIDE)"/>', '<link name="left"/>'),
+    "a variable or not": ('<link name="$(optenv NONE a b)"/>', '<link name="a b"/>'),
+    "an argument in an expression": ("<link name=\"${xacro.arg('a')}\"/>", '<link name="1.5"/>'),
+    "an argument in eval": ('<link name="$(eval a * 2)"/>', '<link name="3.0"/>'),
+    # the first parenthesis ends a substitution, so that calls come out of properties
+    "a function in eval": (_called("str(int(sqrt(16))) + env('SIDE') + optenv('N', 'o')"), '<link name="4lefto"/>'),
+    "an argument asked for in eval": (_called("arg('a') + 1"), '<link name="2.5"/>'),
+    "a package in eval": (_called("find('parts')"), '<link name="/parts"/>'),
+    "a list that grows": (
+        '<xacro:property name="l" value="${[]}"/>${l.append(1)}${l.append(2)}<link name="${l}"/>',
+        '<link name="[1, 2]"/>',
+    ),
+    "data": (
+        """<xacro:property name="d" value="${xacro.load_yaml('data.yaml')}"/>
+        <link name="${d.arm.joints[1].limit} ${d['arm']['n']} ${d.angle}"/>""",
+        '<link name="0.5 2 3.141592653589793"/>',
+    ),
+    "dots": ('<xacro:property name="d" value="${xacro.dotify(dict(a=1))}"/><link name="${d.a}"/>', '<link name="1"/>'),
+    "words": ("<link name=\"${xacro.tokenize('a, b;c')}\"/>", "['a', 'b', 'c']"),
+    "a path": ("<link name=\"${xacro.abs_filename('a.dae')}\"/>", "/a.dae"),
+    "an element that is named": ('<xacro:element xacro:name="${1 and \'link\'}" name="n"/>', '<link name="n"/>'),
+    "an attribute that is named": ('<link><xacro:attribute name="name" value="${str(7)}"/></link>', '<link name="7"/>'),
+    "a macro that is named": (
+        '<xacro:macro name="m"><link name="m"/></xacro:macro><xacro:call macro="${\'m\'}"/>',
+        '<link name="m"/>',
+    ),
+    "names of an included file": (
+        '<xacro:include filename="part_1.xacro" ns="p"/><link name="${p.width} ${p.half}"/>',
+        '<link name="4 2.0"/>',
+    ),
+    "an old name": ("<link name=\"${load_yaml('data.yaml').arm.n}\"/>", '<link name="2"/>'),
+    "dollars": ('<link name="$${a} $$(b) c$d"/>', '<link name="${a} $(b) c$d"/>'),
+    "an expression in a substitution": ("<link name=\"$(arg ${'a'})\"/>", '<link name="1.5"/>'),
+    "a substitution in an expression": ('<link name="${$(arg a) * 2}"/>', '<link name="3.0"/>'),
+    "a comment": ("<!-- xacro:eval-comments --><!-- ${1 + 1} -->", "<!-- 2 -->"),
+    "another alphabet": ("<link name=\"${'Räder'.upper()}\"/>", '<link name="RÄDER"/>'),
 }
 
 
-@pytest.mark.parametrize("name", OPENED)
-def test_no_other_file_is_opened(name: str, hook: Callable[..., None], tmp_path: Path) -> None:
-    path, mode, flags, words = OPENED[name]
-    with pytest.raises(PermissionError, match=words):
-        hook("open", (str(tmp_path / path), mode, flags))
+@pytest.mark.parametrize("name", EXPANDED)
+def test_the_language_is_that_of_xacro(name: str, expand: Expand, tmp_path: Path) -> None:
+    properties = '<xacro:property name="width" value="4"/><xacro:property name="half" value="${width / 2}"/>'
+    (tmp_path / "part_1.xacro").write_text(f'{_HEAD}{properties}<link name="p"/></robot>')
+    (tmp_path / "data.yaml").write_text("arm: {n: 2, joints: [{}, {limit: 0.5}]}\nangle: !degrees 2*90")
+    body, written = EXPANDED[name]
+    outcome = expand(f'<xacro:arg name="a" default="1.5"/>{body}', {"package://parts": Path("/parts")})
+    assert written in outcome.get("text", outcome)
 
 
-@pytest.mark.parametrize("event", ["os.system", "subprocess.Popen", "socket.connect", "shutil.rmtree"])
-def test_nothing_is_started(event: str, hook: Callable[..., None]) -> None:
-    with pytest.raises(guard.ForbiddenError, match=event):
-        hook(event, ())
+def test_a_name_that_is_deprecated_is_a_warning(expand: Expand) -> None:
+    (text, _, line), *_ = expand('\n<link name="${sorted([2, 1])}"/>')["remarks"]
+    assert (text, line) == ("warning: Using sorted() directly is deprecated. Use python.sorted() instead.", 3)
+
+
+def test_where_the_expansion_is_can_be_asked(expand: Expand) -> None:
+    body = '<xacro:macro name="m">${xacro.print_location()}</xacro:macro>\n<xacro:m/>'
+    first, second = (text for text, *_ in expand(body)["remarks"])
+    assert first.startswith("when instantiating macro: m (")
+    assert second.startswith("in file: ")
+
+
+def test_the_default_of_a_property_does_not_hide_a_function(expand: Expand) -> None:
+    # `comb` is not offered, and still a name of xacro
+    body = '<xacro:property name="comb" default="3"/><link name="${comb(3, 2)}"/>'
+    assert "must not use 'comb'" in expand(body)["error"]

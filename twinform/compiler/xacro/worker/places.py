@@ -1,0 +1,82 @@
+"""XML trees of `minidom` whose elements know the file and line in which they were written."""
+
+from collections.abc import Iterator
+from typing import Any
+from xml.dom import expatbuilder, minidom
+from xml.parsers.expat import ExpatError
+
+_MOST_TAGS = 1_000_000
+_KEY = "source"
+
+Place = tuple[str, int]
+
+
+class BadFileError(Exception):
+    """A file that cannot be expanded whatever is in its macros."""
+
+    def __init__(self, message: str, place: Place) -> None:
+        super().__init__(message)
+        self.place = place
+
+
+class _Keeper:
+    """Lets clones of an element know where the element was written."""
+
+    def handle(self, operation: int, key: str, data: Any, src: Any, dst: Any) -> None:
+        del operation, src
+        if dst is not None:
+            dst.setUserData(key, data, self)
+
+
+_KEEPER = _Keeper()
+
+
+class _Builder(expatbuilder.ExpatBuilderNS):
+    """Builds a tree whose elements know their place."""
+
+    def __init__(self, file: str) -> None:
+        super().__init__()
+        self.file = file
+
+    def start_element_handler(self, name: str, attributes: Any) -> None:
+        super().start_element_handler(name, attributes)
+        element: Any = self.curNode
+        element.setUserData(_KEY, (self.file, self.getParser().CurrentLineNumber), _KEEPER)
+
+    def start_doctype_decl_handler(self, *args: Any, **more: Any) -> None:
+        raise BadFileError(
+            "the document has a DOCTYPE; none is allowed", (self.file, self.getParser().CurrentLineNumber)
+        )
+
+
+def parse(data: bytes, file: str) -> minidom.Document:
+    """The tree of a file.
+
+    Raises:
+        BadFileError: it is not well-formed, or has what no robot needs.
+    """
+    if data.count(b"<") > _MOST_TAGS:
+        raise BadFileError(f"the file has more than {_MOST_TAGS:,} tags", (file, 1))
+    try:
+        return _Builder(file).parseString(data)
+    except ExpatError as error:
+        raise BadFileError(f"not well-formed XML: {error}", (file, error.lineno)) from error
+
+
+def place_of(node: Any) -> Place | None:
+    """Where a node, or the nearest one around it, was written."""
+    while node is not None:
+        source = node.getUserData(_KEY)
+        if source:
+            return source
+        node = node.parentNode
+    return None
+
+
+def places_below(root: Any) -> Iterator[Place | None]:
+    """The places of all elements in the order of the document; no recursion, since the document may be deep."""
+    stack = [root]
+    while stack:
+        element = stack.pop()
+        yield element.getUserData(_KEY)
+        stack.extend(node for node in reversed(element.childNodes) if node.nodeType == node.ELEMENT_NODE)
