@@ -24,8 +24,8 @@ def _entities(declared: bytes, name: bytes = b"&x;") -> Callable[[], bytes]:
     return lambda: b"<!DOCTYPE robot [" + declared + b']>\n<robot name="' + name + b'">' + _LINK + b"</robot>"
 
 
-def _many(count: int, each: bytes) -> bytes:
-    return b"".join(each % number for number in range(count))
+def _many(count: int, each: bytes, times: int = 1) -> bytes:
+    return b"".join(each % ((number,) * times) for number in range(count))
 
 
 def _laughs() -> bytes:
@@ -67,6 +67,14 @@ DOCUMENTS: Mapping[str, Hostile] = {
     "100,000 attributes of an undeclared prefix": Hostile(
         lambda: _robot(b"<x " + _many(100_000, b'p:a%d="" ') + b"/>"), "oversized-file"
     ),
+    "100,000 namespaces": Hostile(
+        lambda: _robot(_many(100_000, b'<p%d:x xmlns:p%d="urn:%d"/>', 3)), "oversized-file", 0
+    ),
+    "20,000 namespaces of the root": Hostile(
+        lambda: b"<robot " + _many(20_000, b'xmlns:p%d="urn:%d" ', 2) + b'name="r"><link name="a"/></robot>',
+        "oversized-file",
+        0,
+    ),
     "an attribute 100,000 times": Hostile(lambda: _robot(b"<x " + b'a="" ' * 100_000 + b"/>"), "not-well-formed"),
     "UTF-7": Hostile(lambda: _robot(b"", b'<?xml version="1.0" encoding="UTF-7"?>'), "not-well-formed"),
     "EBCDIC": Hostile(
@@ -90,6 +98,11 @@ DOCUMENTS: Mapping[str, Hostile] = {
     "JSON of 100,000 levels": Hostile(lambda: b'{"format":"urdf","models":' + b"[" * 100_000, "invalid-value", 0),
     "JSON of four million models": Hostile(
         lambda: b'{"format":"urdf","models":[' + b'{"name":"r"},' * 4_000_000 + b"{}]}", "oversized-file", 0
+    ),
+    "JSON of 100,000 namespaces": Hostile(
+        lambda: b'{"format":"urdf","namespaces":[' + _many(100_000, b'["p%d","urn:%d"],', 2) + b'["x","y"]]}',
+        "oversized-file",
+        0,
     ),
     "JSON with a number of a million digits": Hostile(
         lambda: b'{"format":"urdf","version":' + b"1" * 1_000_000 + b"}", "invalid-value", 0

@@ -1,5 +1,6 @@
 """A single hostile file ends with one clear error, within 2 s and 512 MB, and nothing else is read or written."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -68,3 +69,59 @@ def test_what_takes_long_to_describe_is_described_in_linear_time(tmp_path: Path)
     unknown = "<x/>" * 10_000
     (tmp_path / "r.urdf").write_text(f'<robot name="r"><link name="a"/>{unknown}<gazebo>{unknown}</gazebo></robot>')
     assert twinform("check", "r.urdf", folder=tmp_path).code == 0
+
+
+def _declared(count: int) -> str:
+    return " ".join(f'xmlns:p{n}="urn:{n}"' for n in range(count))
+
+
+def _used(count: int, each: str) -> str:
+    return "".join(each.replace("%", str(n)) for n in range(count))
+
+
+_JOINT = '<link name="l%"/><joint name="j%" type="fixed"><parent link="a"/><child link="l%"/></joint>'
+_MANY: dict[str, tuple[str, int]] = {
+    "unknown attributes": (_JOINT.replace("/>", ' foo="1"/>'), 0),
+    "wrong values": ('<joint name="j%" type="bad"><parent link="a"/><child link="a"/></joint>', 1),
+    "settings of joints": (_JOINT + '<gazebo reference="j%"><mu1>1</mu1></gazebo>', 0),
+}
+
+
+@pytest.mark.parametrize("name", _MANY)
+def test_what_the_schema_refuses_often_is_refused_in_linear_time(name: str, tmp_path: Path) -> None:
+    """Each error of an element once counted all of its siblings."""
+    each, code = _MANY[name]
+    (tmp_path / "many.urdf").write_text(f'<robot name="r"><link name="a"/>{_used(12_000, each)}</robot>')
+    assert twinform("check", "many.urdf", folder=tmp_path, seconds=8).code == code
+
+
+_NAMESPACES: dict[str, Callable[[int], tuple[str, str]]] = {
+    "at the root": lambda count: ("", _declared(count)),
+    "at the root, and used": lambda count: (_used(count, '<p%:x p%:y="1"/>'), _declared(count)),
+    "inside": lambda count: (_used(count, '<p%:x xmlns:p%="urn:%"/>'), ""),
+    "inside, of one prefix": lambda count: (_used(count, '<p:x xmlns:p="urn:%"/>'), ""),
+    "undeclared": lambda count: (_used(count, '<p%:x/><q p%:y=""/>'), ""),
+}
+
+
+def _model(language: str, inside: str, root: str) -> str:
+    if language == "urdf":
+        return f'<robot name="r" {root}><link name="a"/><gazebo>{inside}</gazebo></robot>'
+    return f'<sdf version="1.11" {root}><model name="m"><link name="a">{inside}</link></model></sdf>'
+
+
+@pytest.mark.parametrize("language", ["urdf", "sdf"])
+@pytest.mark.parametrize("where", _NAMESPACES)
+def test_8000_namespaces_are_read_in_linear_time(where: str, language: str, tmp_path: Path) -> None:
+    """It once took 88 seconds."""
+    name = f"many.{language}"
+    (tmp_path / name).write_text(_model(language, *_NAMESPACES[where](8000)))
+    outcome = twinform("check", name, folder=tmp_path)
+    assert outcome.code == 0, outcome.said[-2000:]
+
+
+@pytest.mark.parametrize("where", _NAMESPACES)
+def test_many_namespaces_are_written_too(where: str, tmp_path: Path) -> None:
+    (tmp_path / "many.urdf").write_text(_model("urdf", *_NAMESPACES[where](1500)))
+    outcome = twinform("convert", "many.urdf", "--to", "urdf", folder=tmp_path)
+    assert outcome.code == 0, outcome.said[-2000:]

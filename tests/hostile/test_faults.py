@@ -102,12 +102,14 @@ def test_a_folder_that_takes_no_files_is_an_error(source: Path) -> None:
     assert (done.returncode, "cannot write" in done.stderr) == (2, True)
 
 
-def test_the_output_may_be_the_input_and_survives_a_full_disk(source: Path) -> None:
+def test_an_input_is_replaced_only_in_place_and_survives_a_full_disk(source: Path) -> None:
     before = source.read_text()
-    assert _run(source, "--to", "urdf", "-o", source, limit=_full).returncode == 2
+    assert _run(source, "--to", "urdf", "-o", source).returncode == 2
+    assert _run(source, "--in-place", limit=_full).returncode == 2
     assert source.read_text() == before
-    assert _run(source, "--to", "urdf", "-o", source).returncode == 0
+    assert _run(source, "--in-place").returncode == 0
     assert etree.fromstring(source.read_bytes()).tag == "robot"
+    assert _names(source.parent) == {"robot.urdf"}
 
 
 def test_two_writers_leave_one_complete_file(source: Path) -> None:
@@ -131,13 +133,24 @@ def test_a_signal_at_the_worst_moment_leaves_the_old_file(name: str, call: str, 
     assert left == set() or name == "SIGKILL"  # nobody can clean up after that
 
 
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
+def test_a_signal_between_two_moves_takes_the_first_back(name: str, source: Path) -> None:
+    out, ledger = source.with_suffix(".sdf"), source.with_suffix(".json")
+    out.write_text(_OLD)
+    later = _SIGNALLED.replace("    os.kill", "    if str(args[1]).endswith('.json'): os.kill")
+    done = _run(source, "-o", out, "--ledger", ledger, program=later.format(name=name, call="replace"))
+    assert done.returncode not in {0, 2}
+    assert out.read_text() == _OLD
+    assert _names(source.parent) == {"robot.urdf", "robot.sdf"}
+
+
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGKILL"])
 def test_a_split_that_is_stopped_leaves_whole_files(name: str, tmp_path: Path) -> None:
     (tmp_path / "w.sdf").write_text(_WORLD)
     out = tmp_path / "out"
     done = _run(tmp_path / "w.sdf", "--split", "-o", out, program=_SIGNALLED.format(name=name, call="fsync"))
     assert done.returncode not in {0, 2}
-    assert [each for each in _names(out) if not each.startswith(".")] == []
+    assert not out.exists() or [each for each in _names(out) if not each.startswith(".")] == []
 
 
 @pytest.mark.deep

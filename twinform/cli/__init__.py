@@ -9,6 +9,7 @@ from typing import Any, NoReturn
 import click
 
 from twinform import __version__
+from twinform.cli.streams import end_unread, end_unwritable, hold_standard_streams
 
 COMMANDS: Mapping[str, str] = {
     "convert": "Compile robot models from one format into the other.",
@@ -38,7 +39,11 @@ class _Commands(click.Group):
         """Run; a process that is told to end cleans up first, as one that is interrupted does."""
         if threading.current_thread() is threading.main_thread():
             signal.signal(signal.SIGTERM, _end)
-        return super().main(*args, **extra)
+        hold_standard_streams()
+        try:
+            return super().main(*args, **extra)
+        except OSError as error:
+            end_unwritable(error)
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(COMMANDS)
@@ -52,6 +57,8 @@ class _Commands(click.Group):
         """Run the command; a fault of a pass that it does not expect ends it with a message."""
         try:
             return super().invoke(ctx)
+        except BrokenPipeError:
+            end_unread()
         except (click.ClickException, click.exceptions.Exit, click.Abort, OSError):
             raise
         except Exception as error:

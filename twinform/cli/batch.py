@@ -78,6 +78,7 @@ def command(
         seconds=timeout,
         fresh=fresh,
         ledgers=ledgers,
+        report=report_file,
     )
     try:
         found = list(_shown(batch(whole)))

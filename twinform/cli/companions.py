@@ -1,15 +1,15 @@
 """What `twinform convert` writes beside the model: a world around it, and the configuration of ros_gz_bridge."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar, get_args
 
 import click
 
-from twinform.cli.failure import Unusable
 from twinform.cli.findings import show
-from twinform.compiler import Conversion, write_atomically
+from twinform.cli.outputs import Output, Outputs
+from twinform.compiler import Conversion
 from twinform.diagnostics import Notes
 from twinform.diagnostics.reporters import Findings
 from twinform.passes.plugins.parts import ReleaseName
@@ -43,25 +43,23 @@ class Companions:
     def __bool__(self) -> bool:
         return self.bridge is not None or self.world is not None
 
-    def write(self, conversion: Conversion, name: str, *, notes: bool) -> bool:
-        """Write what was asked for beside the model; whether it could be made."""
+    def places(self) -> Iterator[Output]:
+        """Where they are to be written."""
+        for by, path in (("--world", self.world), ("--bridge", self.bridge)):
+            if path is not None:
+                yield Output(by, path)
+
+    def make(self, conversion: Conversion, name: str, outputs: Outputs, *, notes: bool) -> bool:
+        """Add what was asked for to what is written; whether it could be made."""
         if not self:
             return True
         from twinform.compiler.companions import bridge_text, world_text  # noqa: PLC0415 - few conversions need it
 
         document, found = conversion.document, Notes(file=name)
         if self.world is not None:
-            _write(self.world, world_text(document, self.gazebo, found, _WORLD), found)
+            outputs.add("--world", self.world, world_text(document, self.gazebo, found, _WORLD))
         if self.bridge is not None:
-            _write(self.bridge, bridge_text(document, self.gazebo, found, _WORLD if self.world else None), found)
+            world = _WORLD if self.world else None
+            outputs.add("--bridge", self.bridge, bridge_text(document, self.gazebo, found, world))
         show(Findings(name, tuple(found.diagnostics)), notes=notes, on_stderr=True)
         return not found.has_errors
-
-
-def _write(path: Path, text: str, found: Notes) -> None:
-    if found.has_errors:
-        return
-    try:
-        write_atomically(path, text)
-    except OSError as error:
-        raise Unusable(f"cannot write {error.filename or path}: {error.strerror}") from error

@@ -1,20 +1,22 @@
 """One conversion, as the command line asks for it."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import click
 
 from twinform.cli.companions import Companions
-from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
+from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
+from twinform.cli.outputs import Output, Outputs, beside
 from twinform.cli.targets import Job
 from twinform.cli.watching import Watching
-from twinform.compiler import CompileError, Conversion, Order, Reading, fulfil, read, write_all_atomically
+from twinform.compiler import CompileError, Conversion, Order, Reading, fulfil, read
 from twinform.compiler.audit import audit
 from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
 from twinform.diagnostics.reporters import Findings
-from twinform.passes import PassError
+from twinform.passes import CompanionPass, PassError
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -34,6 +36,24 @@ class Options:
         """What one input is to become."""
         return replace(self.order, to=job.target, sdf_version=self.order.sdf_version if job.target == "sdf" else None)
 
+    @property
+    def beside(self) -> list[str]:
+        """The files that the user's passes make, by their paths below the folder of the result."""
+        return [step.file for step in self.order.passes if isinstance(step, CompanionPass)]
+
+    def places(self, job: Job, outputs: Outputs) -> Iterator[Output]:
+        """All that one conversion writes.
+
+        Raises:
+            click.UsageError: a pass makes a file, and there is no folder for it.
+        """
+        if job.path:
+            yield Output(outputs.by, job.path)
+        if self.ledger:
+            yield Output("--ledger", self.ledger)
+        yield from self.companions.places()
+        yield from beside(job.path, self.beside)
+
     def show(self, name: str, diagnostics: tuple[Diagnostic, ...]) -> bool:
         """Print the findings as the project wants to see them; whether none of them is an error."""
         seen = self.policy.apply(diagnostics)
@@ -41,8 +61,8 @@ class Options:
         return not any(each.is_error for each in seen)
 
 
-def run_conversion(job: Job, options: Options, label: str) -> int:
-    """Run one conversion; gives its exit code."""
+def run_conversion(job: Job, options: Options, label: str, outputs: Outputs) -> int:
+    """Run one conversion, and add what it makes to what is written; gives its exit code."""
     source, watched = job.source, options.watching.begin(job.source.name)
     try:
         order = options.order_for(job)
@@ -57,14 +77,14 @@ def run_conversion(job: Job, options: Options, label: str) -> int:
     watched.end()
     if not options.show(job.source.name, conversion.diagnostics):
         return FINDINGS
-    _write(conversion, job.path, options.ledger)
-    if not options.companions.write(conversion, job.source.name, notes=options.notes):
+    _add(conversion, job.path, options.ledger, outputs)
+    if not options.companions.make(conversion, job.source.name, outputs, notes=options.notes):
         return FINDINGS
-    click.echo(f"{label}{': ' if label else ''}{summary(conversion.ledger)}", err=True)
-    return _audit(conversion, job.source.name) if options.audit else 0
+    outputs.news.append(f"{label}{': ' if label else ''}{summary(conversion.ledger)}")
+    return _audit(conversion, job.source.name, outputs) if options.audit else 0
 
 
-def _audit(conversion: Conversion, name: str) -> int:
+def _audit(conversion: Conversion, name: str, outputs: Outputs) -> int:
     """Count what became of every part, by an instrument that knows nothing of the conversion; 1 if any is missing."""
     if conversion.source is None or not conversion.text.startswith("<"):
         raise click.UsageError("--audit counts elements of XML, and this is JSON")
@@ -73,22 +93,22 @@ def _audit(conversion: Conversion, name: str) -> int:
         click.echo(
             f"{name}:{part.location.line}: nothing accounts for {part.says}\n    at {part.location.path}", err=True
         )
-    click.echo(f"audit: {found.total} parts, {len(found.unaccounted)} unaccounted", err=True)
-    return FINDINGS if found.unaccounted else 0
+    total = f"audit: {found.total} parts, {len(found.unaccounted)} unaccounted"
+    if not found.unaccounted:
+        outputs.news.append(total)
+        return 0
+    click.echo(total, err=True)
+    return FINDINGS
 
 
-def _write(conversion: Conversion, path: Path | None, ledger: Path | None) -> None:
-    texts = {} if path is None else {path: conversion.text}
+def _add(conversion: Conversion, path: Path | None, ledger: Path | None, outputs: Outputs) -> None:
+    if path is None:
+        outputs.stdout = conversion.text
+    else:
+        outputs.add(outputs.by, path, conversion.text)
     if ledger is not None:
-        texts[ledger] = conversion.ledger.to_json()
-    try:
-        write_all_atomically(texts)
-        if path is None:
-            click.echo(conversion.text.encode(), nl=False)  # the XML declaration says UTF-8, whatever the terminal's is
-    except BrokenPipeError:
-        raise  # click ends quietly
-    except OSError as error:
-        raise Unusable(f"cannot write {error.filename or path}: {error.strerror}") from error
+        outputs.add("--ledger", ledger, conversion.ledger.to_json())
+    outputs.add_beside(path, conversion.companions)
 
 
 def summary(ledger: Ledger) -> str:

@@ -1,5 +1,6 @@
 """`twinform convert`."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Unpack
 
@@ -7,20 +8,24 @@ import click
 from click.core import ParameterSource
 
 from twinform.cli.companions import Companions, companion_options
+from twinform.cli.config import settings_of
 from twinform.cli.conversion import Options, print_plan, run_conversion
 from twinform.cli.findings import notes_option
 from twinform.cli.inputs import how_to_read, inputs, reading_options
 from twinform.cli.ordering import Asked, order_of, ordering_options
+from twinform.cli.outputs import Outputs
 from twinform.cli.policy import policy_of, policy_options
 from twinform.cli.source import Source
 from twinform.cli.splitting import run_split
-from twinform.cli.targets import TARGETS, Target, jobs
+from twinform.cli.targets import TARGETS, Job, Target, jobs, jobs_in_place
 from twinform.cli.watching import Watching, watching_options
+from twinform.compiler import Reading
 
 
 @click.command("convert")
 @click.argument("words", metavar="IN... [NAME:=VALUE...]", nargs=-1, required=True)
 @click.option("-o", "--output", "out", metavar="OUT", help="The file to write, or the directory for several inputs.")
+@click.option("--in-place", is_flag=True, help="Write each result over its input, in the format that it has.")
 @click.option("--to", "target", type=click.Choice(TARGETS), help="The format; else OUT's suffix or the other format.")
 @ordering_options
 @click.option(
@@ -59,6 +64,7 @@ def command(
     times: bool,
     statistics: bool,
     reproducers: Path | None,
+    in_place: bool,
     notes: bool,
     allow: tuple[str, ...],
     deny: tuple[str, ...],
@@ -66,15 +72,13 @@ def command(
 ) -> None:
     """Compile robot models from one format into the other.
 
-    IN are URDF, SDF, xacro or JSON files; - is standard input. Arguments of xacro are written NAME:=VALUE. Nothing is
-    written for an input that has an error. Exit code: 0 without errors, 1 with errors, 2 where a file could not be read
-    or written.
+    IN are URDF, SDF, xacro or JSON files; - is standard input. Arguments of xacro are written NAME:=VALUE. All that is
+    asked for is written at once, or, where an input has an error, nothing. No file is written over one that is read.
+    Exit code: 0 without errors, 1 with errors, 2 where a file could not be read or written.
     """
     sources, arguments = inputs(words)
     if ledger is not None and len(sources) > 1:
         raise click.UsageError("--ledger takes one input")
-    if ledger is not None and out is not None and Path(out).resolve() == ledger.resolve():
-        raise click.UsageError("--ledger and -o name the same file")
     policy, reading = policy_of(ctx, allow, deny), how_to_read(arguments, asked)
     watching = Watching(dumps=dumps, changes=changes, times=times, statistics=statistics, reproducers=reproducers)
     options = Options(
@@ -89,14 +93,37 @@ def command(
     )
     if options.companions and (split or len(sources) > 1):
         raise click.UsageError("--bridge and --world take one input, and no --split")
+    if options.beside and len(sources) > 1:
+        raise click.UsageError(f"a pass writes {options.beside[0]} beside the result; that takes one input")
+    read = [source.path for source in sources] + [path for path in [settings_of(ctx).path] if path]
     if split:
-        ctx.exit(run_split(_only(sources), options, _folder(out, target, model)))
-    todo = jobs(sources, out, target)
+        whole = Outputs(read)
+        code = run_split(_only(sources), options, _folder(out, target, model, in_place=in_place), whole)
+        ctx.exit(_end(whole, [code], reading))
+    todo = jobs_in_place(sources, out, target) if in_place else jobs(sources, out, target)
     versioned = ctx.get_parameter_source("sdf_version") is ParameterSource.COMMANDLINE
     if versioned and all(job.target != "sdf" for job in todo):
         raise click.UsageError("--sdf-version is for --to sdf")
-    run = print_plan if print_pipeline else run_conversion
-    ctx.exit(max(run(job, options, label=job.source.name if len(todo) > 1 else "") for job in todo))
+    if print_pipeline:
+        ctx.exit(max(print_plan(job, options, label=_label(job, todo)) for job in todo))
+    outputs = Outputs(read, [job.path for job in todo if in_place and job.path])
+    outputs.require_apart([place for job in todo for place in options.places(job, outputs)])
+    ctx.exit(_end(outputs, [run_conversion(job, options, _label(job, todo), outputs) for job in todo], reading))
+
+
+def _label(job: Job, todo: Sequence[Job]) -> str:
+    """What is said before the news of a job, where there are several."""
+    return job.source.name if len(todo) > 1 else ""
+
+
+def _end(outputs: Outputs, codes: Sequence[int], reading: Reading) -> int:
+    """Write everything if nothing is wrong; gives the exit code."""
+    if not max(codes):
+        outputs.write(reading.search.seen)
+    elif len(codes) > 1:
+        wrong = sum(map(bool, codes))
+        click.echo(f"nothing is written: {wrong} of {len(codes)} inputs could not be converted", err=True)
+    return max(codes)
 
 
 def _only(sources: list[Source]) -> Source:
@@ -105,9 +132,9 @@ def _only(sources: list[Source]) -> Source:
     return sources[0]
 
 
-def _folder(out: str | None, target: Target | None, model: str | None) -> Path:
+def _folder(out: str | None, target: Target | None, model: str | None, *, in_place: bool) -> Path:
     """The directory that a world is split into."""
-    if out is None or out == "-" or (Path(out).exists() and not Path(out).is_dir()):
+    if in_place or out is None or out == "-" or (Path(out).exists() and not Path(out).is_dir()):
         raise click.UsageError("--split needs -o DIRECTORY")
     if target not in {None, "urdf"} or model is not None:
         raise click.UsageError("--split makes URDF of every model; leave --to and --model out")

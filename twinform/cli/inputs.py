@@ -65,7 +65,7 @@ class HowToRead(TypedDict):
 
 def how_to_read(arguments: Mapping[str, str], how: HowToRead) -> Reading:
     """The options as the compiler takes them; the folders of the project come after those of the command line."""
-    paths = (*how["paths"], *settings_of(click.get_current_context()).settings.paths)
+    paths = (*how["paths"], *settings_of(click.get_current_context()).folders)
     return Reading(how["strict"], how["engine"], SearchPath.of(paths), arguments, how["xacro"])
 
 

@@ -25,10 +25,12 @@ def _known_version(_ctx: click.Context, _option: click.Parameter, value: str | N
 
 def _pipeline(ctx: click.Context, option: click.Parameter, value: str | None) -> Pipeline:
     project = settings_of(ctx)
+    configured = ctx.get_parameter_source(option.name or "") is ParameterSource.DEFAULT_MAP
     try:
-        return parse_pipeline(value or "", names=project.names)
+        pipeline = parse_pipeline(value or "", names=project.named)
+        return project.confined(pipeline, "passes") if configured else pipeline
     except PipelineError as error:
-        if project.path and ctx.get_parameter_source(option.name or "") is ParameterSource.DEFAULT_MAP:
+        if project.path and configured:
             raise ConfigError(project.path, str(error), key="passes") from error
         raise click.BadParameter(str(error)) from error
     except RegistryError as error:
@@ -37,7 +39,7 @@ def _pipeline(ctx: click.Context, option: click.Parameter, value: str | None) ->
 
 _OPTIONS = (
     click.option("--sdf-version", metavar="V", callback=_known_version, help="The version of SDF to write."),
-    click.option("--urdf-version", type=click.Choice(URDF_VERSIONS), default="1.0", help="Likewise of URDF."),
+    click.option("--urdf-version", type=click.Choice(URDF_VERSIONS), help="The version of URDF to write."),
     click.option(
         "--passes",
         metavar="PIPELINE",
@@ -61,7 +63,7 @@ class Asked(HowToRead):
     """What these options, and those for reading, give a command."""
 
     sdf_version: str | None
-    urdf_version: UrdfVersion
+    urdf_version: UrdfVersion | None
     passes: Pipeline
     carriers: bool
     expand_includes: bool

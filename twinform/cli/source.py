@@ -15,6 +15,8 @@ _SUFFIXES = {".urdf": "urdf", ".sdf": "sdf", ".world": "sdf", ".json": "json"}
 _SKIPPED = ((b"<!--", b"-->"), (b"<?", b"?>"), (b"<!", b">"))
 """What may stand before the root element: beginnings and ends."""
 
+_STDIN = "<stdin>"
+
 _NAME_END = b" \t\r\n/>"
 
 
@@ -23,6 +25,11 @@ class Source(NamedTuple):
 
     content: str | bytes
     name: str
+
+    @property
+    def path(self) -> Path:
+        """The file; that of standard input may be one too, where the shell has opened it."""
+        return Path("/dev/stdin" if self.name == _STDIN else self.name)
 
     @property
     def format(self) -> str | None:
@@ -36,7 +43,7 @@ class Source(NamedTuple):
 def open_source(argument: str) -> Source:
     """The source that an argument names; standard input and pipes are read here."""
     if argument == "-":
-        return Source(sys.stdin.buffer.read(LARGEST + 1), "<stdin>")
+        return Source(sys.stdin.buffer.read(LARGEST + 1), _STDIN)
     if _can_be_read_once(Path(argument)):
         with Path(argument).open("rb") as pipe:
             return Source(pipe.read(LARGEST + 1), argument)

@@ -3,17 +3,16 @@
 from dataclasses import replace
 from pathlib import Path
 
-import click
-
 from twinform.cli.conversion import Options, summary
-from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
+from twinform.cli.failure import FINDINGS, UNUSABLE
+from twinform.cli.outputs import Outputs
 from twinform.cli.source import Source
-from twinform.compiler import CompileError, Split, split, write_all_atomically
+from twinform.compiler import CompileError, Split, split
 from twinform.passes import PassError
 
 
-def run_split(source: Source, options: Options, folder: Path) -> int:
-    """Split one world into a folder; gives the exit code. Nothing is written where one of the files has an error."""
+def run_split(source: Source, options: Options, folder: Path, outputs: Outputs) -> int:
+    """Split one world into a folder; gives the exit code. Nothing is made where one of the files has an error."""
     watched = options.watching.begin(source.name)
     try:
         order = replace(options.order, to="urdf", model=None)
@@ -28,16 +27,14 @@ def run_split(source: Source, options: Options, folder: Path) -> int:
     watched.end()
     if not options.show(source.name, result.diagnostics):
         return FINDINGS
-    _write(result, folder, options.ledger)
-    click.echo(f"{len(result.files)} files: {summary(result.ledger)}", err=True)
+    _add(result, folder, options.ledger, outputs)
+    outputs.news.append(f"{len(result.files)} files: {summary(result.ledger)}")
     return 0
 
 
-def _write(result: Split, folder: Path, ledger: Path | None) -> None:
-    texts = {folder / name: text for name, text in result.files.items()}
+def _add(result: Split, folder: Path, ledger: Path | None, outputs: Outputs) -> None:
+    for name, text in result.files.items():
+        outputs.add("--split", folder / name, text)
     if ledger is not None:
-        texts[ledger] = result.ledger.to_json()
-    try:
-        write_all_atomically(texts)
-    except OSError as error:
-        raise Unusable(f"cannot write {error.filename or folder}: {error.strerror}") from error
+        outputs.add("--ledger", ledger, result.ledger.to_json())
+    outputs.add_beside(folder / next(iter(result.files)), result.companions)

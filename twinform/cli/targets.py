@@ -9,6 +9,7 @@ from typing import Literal, NamedTuple, get_args
 import click
 
 from twinform.cli.source import Source, format_of_suffix
+from twinform.compiler.same_files import folded
 
 Target = Literal["sdf", "urdf", "json"]
 TARGETS: tuple[Target, ...] = get_args(Target)
@@ -45,13 +46,38 @@ def jobs(sources: Sequence[Source], out: str | None, target: Target | None) -> l
     return found
 
 
+def jobs_in_place(sources: Sequence[Source], out: str | None, target: Target | None) -> list[Job]:
+    """The conversions of `--in-place`: each input becomes what it is, after the passes.
+
+    Raises:
+        click.UsageError: there is no such place, or something else is to stand there.
+    """
+    if out is not None:
+        raise click.UsageError("--in-place and -o contradict each other")
+    return [_in_place(source, target) for source in sources]
+
+
+def _in_place(source: Source, target: Target | None) -> Job:
+    if isinstance(source.content, bytes):
+        raise click.UsageError(f"{source.name} is no file that could be written in place")
+    if source.name.lower().endswith(".xacro"):
+        raise click.UsageError(f"{source.name} would be replaced by what it expands to; name another file with -o")
+    found = _target(source.format)
+    if found is None or target not in {None, found}:
+        raise click.UsageError(f"{source.name} stays {found or 'what it is'} in its place; leave --to out")
+    return Job(source, found, Path(source.content))
+
+
 def _is_folder(out: str, count: int) -> bool:
     return count > 1 or Path(out).is_dir() or out.endswith(("/", os.sep))
 
 
 def _of_suffix(path: Path) -> Target | None:
-    suffix = format_of_suffix(path.name)
-    return next((target for target in TARGETS if target == suffix), None)
+    return _target(format_of_suffix(path.name))
+
+
+def _target(word: str | None) -> Target | None:
+    return next((target for target in TARGETS if target == word), None)
 
 
 def _other_format(source: Source) -> Target:
@@ -69,8 +95,9 @@ def _into(folder: Path, source: Source, target: Target) -> Job:
 
 
 def _require_distinct(found: Sequence[Job]) -> None:
-    counts = Counter(job.path for job in found)
+    counts = Counter(folded(job.path) for job in found if job.path)
     for path, count in counts.items():
         if count > 1:
-            names = ", ".join(job.source.name for job in found if job.path == path)
-            raise click.UsageError(f"{names} would all be written to {path}")
+            alike = [job for job in found if job.path and folded(job.path) == path]
+            names = ", ".join(job.source.name for job in alike)
+            raise click.UsageError(f"{names} would all be written to {alike[0].path}")

@@ -77,10 +77,17 @@ def test_warnings_are_on_stderr_and_errors_when_strict(run: Run, folder: Path) -
 
 def test_several_inputs_go_into_a_directory(run: Run, folder: Path) -> None:
     out = folder / "new" / "models"
-    done = run("convert", folder / "good.urdf", folder / "wrong.urdf", folder / "warned.urdf", "-o", out)
-    assert done.exit_code == 1
+    done = run("convert", folder / "good.urdf", folder / "warned.urdf", "-o", out)
+    assert done.exit_code == 0
     assert sorted(file.name for file in out.iterdir()) == ["good.sdf", "warned.sdf"]
     assert f"{folder / 'good.urdf'}: expressed " in done.stderr
+
+
+def test_all_of_several_inputs_are_written_or_none(run: Run, folder: Path) -> None:
+    done = run("convert", folder / "good.urdf", folder / "wrong.urdf", folder / "warned.urdf", "-o", folder / "out")
+    assert (done.exit_code, (folder / "out").exists()) == (1, False)
+    assert "nothing is written: 1 of 3 inputs could not be converted" in done.stderr
+    assert "expressed" not in done.stderr
 
 
 def test_one_input_goes_into_a_directory_that_is_there(run: Run, folder: Path) -> None:

@@ -82,7 +82,7 @@ def test_each_pass_has_a_line_in_the_table(run: Run, here: Path) -> None:
 def test_statistics_without_times_are_the_same_each_time(run: Run, here: Path) -> None:
     lines = [run("convert", "good.urdf", "--pass-statistics", "-o", f"{name}.sdf").stderr for name in "ab"]
     assert lines[0] == lines[1]
-    assert "\n      1      0        0         0       0  retarget-sdf\n" in lines[0]
+    assert "\n      2      0        0         0       0  retarget-sdf\n" in lines[0]
 
 
 def test_changes_are_printed_and_nothing_for_what_did_not_change(run: Run, here: Path) -> None:

@@ -1,11 +1,13 @@
 """Finding a configuration, and reading its file."""
 
+import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import cast
 
 from twinform.cli.config.errors import ConfigError
+from twinform.compiler.surroundings import TOPS
 
 OWN = "twinform.toml"
 _SHARED = "pyproject.toml"
@@ -17,16 +19,27 @@ Table = Mapping[str, object]
 def find(start: Path) -> tuple[Path, Table] | None:
     """The nearest configuration in a folder and those above it; `twinform.toml` goes before `pyproject.toml`.
 
+    What lies above the top of the repository, or above the home of the user, is not looked at.
+
     Raises:
         ConfigError: there is one, and it cannot be read.
     """
-    for folder in (start, *start.parents):
+    for folder in _project(start):
         for name in (OWN, _SHARED):
             path = folder / name
             found = _look(path) if path.is_file() else None
             if found is not None:
                 return path, found
     return None
+
+
+def _project(start: Path) -> Iterator[Path]:
+    """The folders of the project that a folder belongs to."""
+    home = os.path.realpath(Path("~").expanduser())
+    for folder in (start, *start.parents):
+        yield folder
+        if any((folder / mark).exists() for mark in TOPS) or str(folder) == home:
+            return
 
 
 def _look(path: Path) -> Table | None:

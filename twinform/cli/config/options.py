@@ -1,7 +1,7 @@
 """`--config`: the settings of a project become the defaults of options."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -11,25 +11,69 @@ from twinform.cli.config.errors import ConfigError
 from twinform.cli.config.files import Table, find, section
 from twinform.cli.config.pipelines import NamedPipelines
 from twinform.cli.config.settings import Settings, parse_settings
+from twinform.cli.config.trust import confined, require_inside
+from twinform.passes import Pipeline
 from twinform.passes.named import Names, no_names
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 _KEY = f"{__name__}.project"
+_TRUSTED = f"{__name__}.trusted"
 _DEFAULTS = ("sdf_version", "urdf_version", "strict", "carriers", "passes")
 """Settings that are what an option is where the command line says nothing."""
 
 
 @dataclass(frozen=True, slots=True)
 class Project:
-    """The settings that are in force, the file that they come from, and the pipelines that it names."""
+    """The settings that are in force, the file that they come from, and the pipelines that it names.
+
+    What is not `trusted` must not lead out of the folder of the file.
+    """
 
     settings: Settings
     path: Path | None = None
     names: Names = no_names
+    trusted: bool = False
+
+    @property
+    def folders(self) -> list[str]:
+        """The folders to look in.
+
+        Raises:
+            ConfigError: one leads out of that of the file.
+        """
+        for folder in self.settings.paths:
+            if self.path and not self.trusted:
+                require_inside(self.path, Path(folder), "paths")
+        return self.settings.paths
+
+    def named(self, name: str) -> Pipeline:
+        """The pipeline of a name, to be run.
+
+        Raises:
+            UnknownPipelineError: there is none.
+            ConfigError: what the file says is no pipeline, or none that may come from it.
+        """
+        return self.confined(self.names(name), f"pipelines.{name}")
+
+    def confined(self, pipeline: Pipeline, key: str) -> Pipeline:
+        """A pipeline that the file has under a key, to be run.
+
+        Raises:
+            ConfigError: it must not come from this file.
+        """
+        return confined(self.path, pipeline, key) if self.path and not self.trusted else pipeline
 
 
 def config_options(command: Command) -> Command:
-    """Give a command `--config FILE` and `--no-config`."""
+    """Give a command `--config FILE`, `--no-config` and `--trust-config`."""
+    command = click.option(
+        "--trust-config",
+        is_flag=True,
+        is_eager=True,
+        expose_value=False,
+        callback=_trust,
+        help="Let the configuration name folders outside of its own, and passes that write files.",
+    )(command)
     command = click.option(
         "--no-config", is_flag=True, is_eager=True, expose_value=False, callback=_none, help="Use no configuration."
     )(command)
@@ -46,7 +90,8 @@ def config_options(command: Command) -> Command:
 def settings_of(ctx: click.Context) -> Project:
     """The project of a command that has these options."""
     found = ctx.meta.get(_KEY)
-    return found if isinstance(found, Project) else Project(Settings())
+    project = found if isinstance(found, Project) else Project(Settings())
+    return replace(project, trusted=bool(ctx.meta.get(_TRUSTED)))
 
 
 def _section(path: Path) -> Table:
@@ -67,6 +112,10 @@ def _none(ctx: click.Context, _option: click.Parameter, value: bool) -> None:
     if value:
         ctx.meta[_KEY] = Project(Settings())
         ctx.default_map = {}
+
+
+def _trust(ctx: click.Context, _option: click.Parameter, value: bool) -> None:
+    ctx.meta[_TRUSTED] = value
 
 
 def _load(ctx: click.Context, _option: click.Parameter, value: Path | None) -> None:

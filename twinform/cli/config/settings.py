@@ -1,5 +1,6 @@
 """What can be set."""
 
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Literal
@@ -52,7 +53,7 @@ def parse_settings(path: Path, found: Table) -> Settings:
         raise _readable(path, error) from error
     folders = [str(path.parent / each) for each in settings.paths]
     for folder, each in zip(folders, settings.paths, strict=True):
-        if not Path(folder).is_dir():
+        if not os.path.isdir(folder):  # noqa: PTH112 - Path.is_dir raises where a name is too long
             raise ConfigError(path, f"{each!r} is no folder", key="paths")
     return settings.model_copy(update={"paths": folders})
 

@@ -1,26 +1,25 @@
-"""The run over all models of a folder."""
+"""The run over all models of a folder. No model is opened here: that is done in the processes that may die."""
 
 import json
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from importlib.metadata import version
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
-from twinform.compiler.batch.files import PATTERNS, alone, models, outputs, require_apart
-from twinform.compiler.batch.manifest import Manifest, digest
+from twinform.compiler.batch.files import PATTERNS, FolderError, models, outputs, require_apart
+from twinform.compiler.batch.manifest import Manifest, digest, is_unchanged
+from twinform.compiler.batch.places import Places, ledger_of, texts_of
 from twinform.compiler.batch.record import Outcome, Record
 from twinform.compiler.batch.task import Done, Task, work
 from twinform.compiler.files import write_all_atomically
 from twinform.compiler.loading import Reading
 from twinform.compiler.orders import Order
+from twinform.compiler.same_files import is_below
 from twinform.compiler.workers import Failure, run
 from twinform.diagnostics import Policy
-from twinform.passes import AssetPass, registered_passes
+from twinform.passes import AssetPass, CompanionPass, registered_passes
 from twinform.passes.other_documents import DocumentPass
-
-LEDGER = ".ledger.json"
-"""What the name of a result has more where it is that of its ledger."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,7 +27,7 @@ class Batch:
     """What a run is asked for.
 
     A model may take so many `seconds`; `fresh` works on all of them again; `ledgers` puts beside each result the ledger
-    of what was not expressed.
+    of what was not expressed; `report` is where somebody will write the report.
     """
 
     source: Path
@@ -41,6 +40,7 @@ class Batch:
     seconds: float = 60.0
     fresh: bool = False
     ledgers: bool = False
+    report: Path | None = None
 
     @property
     def digest(self) -> str:
@@ -52,9 +52,9 @@ class Batch:
         return digest(json.dumps(asked).encode())
 
     @property
-    def opens_files(self) -> bool:
-        """Whether a pass may read more than the model."""
-        return any(isinstance(step, AssetPass | DocumentPass) for step in self.order.passes)
+    def repeats(self) -> bool:
+        """Whether all is done again: because that is asked for, or because a pass may read more than the model."""
+        return self.fresh or any(isinstance(step, AssetPass | DocumentPass) for step in self.order.passes)
 
     def _packages(self) -> Iterator[str]:
         """The packages that bring the passes, in their versions."""
@@ -68,6 +68,7 @@ class Batch:
 class _Job:
     """A model before the work on it; `known` is what earlier runs say of it."""
 
+    name: PurePosixPath
     blank: Record
     known: Record | None
 
@@ -76,65 +77,58 @@ def batch(asked: Batch) -> Iterator[tuple[Record, bool]]:
     """Work on every model; yield what came of each, and whether that was known before.
 
     Raises:
-        FolderError: there is no such folder, or the results would be among the sources.
+        FolderError: there is no such folder, the results would be among the sources, or a pass makes further files.
         OSError: the manifest cannot be written.
     """
     require_apart(asked.source, asked.dest)
+    _require_one_file(asked.order)
+    names = outputs(models(asked.source, asked.dest, asked.patterns), asked.order.to)
+    places = Places(asked.source, asked.dest, names, ledgers=asked.ledgers)
+    if asked.report:
+        places.require_free(asked.report)
     manifest = Manifest(asked.dest)
     manifest.begin()
-    todo: dict[Path, _Job] = {}
-    order = asked.digest
-    for name, output in outputs(models(asked.source, asked.dest, asked.patterns), asked.order.to).items():
-        job = _look(asked.source / name, str(name), str(output), order, manifest)
-        if isinstance(job, Record):
-            manifest.add(job)
-            yield job, False
-        elif job.known and _holds(job.blank, job.known, asked):
-            yield job.known, True
-        else:
-            todo[asked.source / name] = job
-    for record in _worked(todo, asked, manifest.folder / "faults"):
-        manifest.add(record)
-        yield record, False
+    blanks = _blanks(names, asked.digest)
+    todo = {asked.source / name: _Job(name, blank, manifest.records.get(blank.source)) for name, blank in blanks}
+    for record, known in _worked(todo, asked, places, manifest.folder / "faults"):
+        if not known:
+            manifest.add(record)
+        yield record, known
 
 
-def _worked(todo: Mapping[Path, _Job], asked: Batch, faults: Path) -> Iterator[Record]:
-    """What comes of the models that need work, in the order of the ends."""
-    tasks = [Task(path, asked.order, asked.reading, asked.policy, faults) for path in todo]
+def _require_one_file(order: Order) -> None:
+    for step in order.passes:
+        if isinstance(step, CompanionPass):
+            raise FolderError(f"{step.name} makes a file beside a result, and a batch has many: use twinform convert")
+
+
+def _blanks(names: Mapping[PurePosixPath, PurePosixPath], order: str) -> Iterator[tuple[PurePosixPath, Record]]:
+    """Each model with its record before anything is known of it."""
+    for name, output in names.items():
+        yield name, Record(source=str(name), digest="", order=order, output=str(output), outcome=Outcome.UNREADABLE)
+
+
+def _worked(todo: Mapping[Path, _Job], asked: Batch, places: Places, faults: Path) -> Iterator[tuple[Record, bool]]:
+    """What comes of the models in the order of the ends, and whether that was known."""
+    tasks = [_task(path, job, asked, faults) for path, job in todo.items()]
     for task, result in run(work, tasks, seconds=asked.seconds, processes=asked.jobs):
         job, done = todo[task.path], _done(result)
-        record = _recorded(job, done, asked)
-        if job.known and (record.outcome is not Outcome.CONVERTED or record.output != job.known.output):
-            _remove(asked.dest, job.known)
-        yield record
+        if done.known and job.known:
+            record = job.known
+        else:
+            record = _recorded(job, done, asked, places)
+            if job.known and (record.outcome is not Outcome.CONVERTED or record.output != job.known.output):
+                _remove(asked.dest, job.known)
+        if record.outcome is Outcome.CONVERTED:
+            places.take(job.name)
+        yield record, record is job.known
 
 
-def _look(path: Path, name: str, output: str, order: str, manifest: Manifest) -> _Job | Record:
-    """A model before the work on it; one that cannot be read has its record already."""
-    blank = Record(source=name, digest="", order=order, output=output, outcome=Outcome.UNREADABLE)
-    try:
-        content = path.read_bytes()
-    except OSError as error:
-        return replace(blank, message=f"it cannot be read: {error.strerror}")
-    blank = replace(blank, digest=digest(content), alone=alone(path, content))
-    return _Job(blank, manifest.records.get(blank.source))
-
-
-def _holds(blank: Record, known: Record, asked: Batch) -> bool:
-    """Whether what is known of a model is still so, and its result still there."""
-    if asked.fresh or asked.opens_files or not (blank.alone and known.outcome.is_final):
-        return False
-    if (known.digest, known.order, known.output) != (blank.digest, blank.order, blank.output):
-        return False
-    return known.outcome is not Outcome.CONVERTED or _is_there(asked.dest, known)
-
-
-def _is_there(dest: Path, record: Record) -> bool:
-    """Whether a result is as it was written."""
-    try:
-        return digest((dest / record.output).read_bytes()) == record.made
-    except OSError:
-        return False
+def _task(path: Path, job: _Job, asked: Batch, faults: Path) -> Task:
+    known = job.known
+    same = known and (known.order, known.output) == (job.blank.order, job.blank.output) and known.outcome.is_final
+    known = known if same and not asked.repeats else None
+    return Task(path, asked.order, asked.reading, asked.policy, faults, known, asked.dest)
 
 
 def _done(result: Done | Failure) -> Done:
@@ -145,23 +139,36 @@ def _done(result: Done | Failure) -> Done:
 
 def _remove(dest: Path, known: Record) -> None:
     """Take away the result of an earlier run that no model stands for any more, unless somebody has changed it."""
-    if known.made and _is_there(dest, known):
-        for name in (known.output, known.output + LEDGER):
+    path = dest / known.output
+    if known.made and is_below(path.parent, dest) and is_unchanged(path, known.made):
+        for each in (path, ledger_of(path)):
             with suppress(OSError):
-                (dest / name).unlink()
+                each.unlink()
 
 
-def _recorded(job: _Job, done: Done, asked: Batch) -> Record:
+def _recorded(job: _Job, done: Done, asked: Batch, places: Places) -> Record:
     """Put the result, if there is one, in its place."""
     record = replace(
-        job.blank, outcome=done.outcome, message=done.message, diagnostics=done.diagnostics, ledger=done.ledger
+        job.blank,
+        digest=done.digest,
+        alone=done.alone,
+        outcome=done.outcome,
+        message=done.message,
+        diagnostics=done.diagnostics,
+        ledger=done.ledger,
     )
     if done.outcome is not Outcome.CONVERTED:
         return record
-    path = asked.dest / record.output
-    texts = {path: done.text, **({path.with_name(path.name + LEDGER): done.entries} if asked.ledgers else {})}
-    try:
-        write_all_atomically(texts)
-    except OSError as error:
-        return replace(record, outcome=Outcome.UNWRITTEN, message=f"it cannot be written: {error.strerror}")
+    problem = places.problem(job.name) or _written(asked.dest / record.output, done, ledger=asked.ledgers)
+    if problem is not None:
+        return replace(record, outcome=Outcome.UNWRITTEN, message=f"it cannot be written: {problem}")
     return replace(record, made=digest(done.text.encode()))
+
+
+def _written(path: Path, done: Done, *, ledger: bool) -> str | None:
+    """Write a result, and its ledger; gives the reason where that cannot be done."""
+    try:
+        write_all_atomically(texts_of(path, done.text, done.entries if ledger else None))
+    except OSError as error:
+        return error.strerror or str(error)
+    return None

@@ -1,5 +1,6 @@
 """What is known of earlier runs: a line of JSON for each model that was worked on, the last one counts."""
 
+import errno
 import hashlib
 import json
 from dataclasses import asdict
@@ -8,6 +9,9 @@ from pathlib import Path
 from pydantic import TypeAdapter, ValidationError
 
 from twinform.compiler.batch.record import Record
+from twinform.compiler.files import write_atomically
+from twinform.compiler.regular_files import read_regular
+from twinform.compiler.same_files import is_stream
 
 _FOLDER = ".twinform-batch"
 _FILE = "manifest.jsonl"
@@ -17,6 +21,14 @@ _RECORD = TypeAdapter(Record)
 def digest(content: bytes) -> str:
     """What tells contents apart."""
     return hashlib.sha256(content).hexdigest()
+
+
+def is_unchanged(path: Path, made: str) -> bool:
+    """Whether a file is as it was written, by the digest of that."""
+    try:
+        return digest(read_regular(path)) == made
+    except OSError:
+        return False
 
 
 class Manifest:
@@ -43,10 +55,9 @@ class Manifest:
         Raises:
             OSError: it cannot be written.
         """
-        self.folder.mkdir(parents=True, exist_ok=True)
-        draft = self._path.with_suffix(".draft")
-        draft.write_text("".join(map(_line, self.records.values())), encoding="ascii", newline="\n")
-        draft.replace(self._path)
+        if is_stream(self._path):
+            raise FileExistsError(errno.EEXIST, "a pipe or device is in its place", str(self._path))
+        write_atomically(self._path, "".join(map(_line, self.records.values())))
 
 
 def _line(record: Record) -> str:
@@ -56,7 +67,7 @@ def _line(record: Record) -> str:
 def _read(path: Path) -> dict[str, Record]:
     """The records of a file; lines that are none, such as one that was cut off, are left out."""
     try:
-        lines = path.read_bytes().splitlines()
+        lines = read_regular(path).splitlines()
     except OSError:
         return {}
     found = (_record(line) for line in lines)

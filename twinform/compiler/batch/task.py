@@ -1,13 +1,17 @@
-"""The work on one model, in a process of its own."""
+"""The work on one model, in a process of its own: only there the model is opened."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from twinform.compiler.batch.record import Outcome, Row
+from twinform.compiler.batch.files import alone
+from twinform.compiler.batch.manifest import digest, is_unchanged
+from twinform.compiler.batch.record import Outcome, Record, Row
 from twinform.compiler.driver import fulfil
 from twinform.compiler.errors import CompileError
-from twinform.compiler.loading import Reading
+from twinform.compiler.limits import LARGEST
+from twinform.compiler.loading import XACRO, Reading
 from twinform.compiler.orders import Order
+from twinform.compiler.regular_files import read_regular
 from twinform.compiler.reproducing import write_reproducer
 from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy, Severity
 from twinform.diagnostics.reporters.json import row
@@ -24,11 +28,18 @@ class Task:
     policy: Policy
     faults: Path
     """The folder for what makes the faults of passes come again."""
+    known: Record | None = None
+    """What came of it in an earlier run, if that counts as long as neither model nor result have changed."""
+    dest: Path = Path()
+    """The folder of the results."""
 
 
 @dataclass(frozen=True, slots=True)
 class Done:
-    """What came of it."""
+    """What came of it; `known` says that it is what was known, and nothing was done.
+
+    `digest` is that of the model, and `alone` says whether the model is one file.
+    """
 
     outcome: Outcome
     text: str = ""
@@ -37,22 +48,44 @@ class Done:
     ledger: dict[str, int] = field(default_factory=dict[str, int])
     entries: str = ""
     """The whole ledger as `--ledger` writes it."""
+    digest: str = ""
+    alone: bool = True
+    known: bool = False
 
 
 def work(task: Task) -> Done:
     """Convert a model; no fault of it, of a pass or of ours gets out."""
     try:
-        return _converted(task)
+        content = read_regular(task.path, LARGEST + 1)
+    except OSError as error:
+        return Done(Outcome.UNREADABLE, message=f"it cannot be read: {error.strerror}")
+    made, single = digest(content), alone(task.path, content)
+    if task.known and single and _holds(task.known, made, task.dest):
+        return Done(task.known.outcome, known=True)
+    return replace(_worked(task, content), digest=made, alone=single)
+
+
+def _holds(known: Record, made: str, dest: Path) -> bool:
+    """Whether what is known of a model is still so, and its result still there."""
+    if known.digest != made:
+        return False
+    return known.outcome is not Outcome.CONVERTED or is_unchanged(dest / known.output, known.made)
+
+
+def _worked(task: Task, content: bytes) -> Done:
+    try:
+        return _converted(task, content)
     except PassError as error:
         return Done(Outcome.FAILED, message=f"{error}; {_reproducer(error, task)}")
     except Exception as error:  # noqa: BLE001 - one bad model never stops the rest
         return Done(Outcome.FAILED, message=f"a fault of twinform: {type(error).__name__}: {error}")
 
 
-def _converted(task: Task) -> Done:
+def _converted(task: Task, content: bytes) -> Done:
     name = str(task.path)
+    source = task.path if task.path.suffix.lower() == XACRO else content  # expanding it needs the path
     try:
-        made = fulfil(task.order, task.path, task.reading, name=name)
+        made = fulfil(task.order, source, task.reading, name=name)
     except CompileError as error:
         outcome = Outcome.UNREADABLE if error.unreadable else Outcome.REFUSED
         return Done(outcome, message=str(error), diagnostics=_rows(task.policy.apply(error.diagnostics), name))

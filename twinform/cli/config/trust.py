@@ -1,0 +1,76 @@
+"""How far a configuration is trusted: what it may read and write where nobody has said `--trust-config`.
+
+Whoever calls the command may not have written the configuration that is found: it may have come with a download, or lie
+in a folder that others write into. So it names no folder or file outside of its own folder, and a pass that makes a
+file may come from it only if the configuration is the caller's own.
+"""
+
+import os
+import stat
+from dataclasses import dataclass
+from pathlib import Path
+
+from twinform.cli.config.errors import ConfigError
+from twinform.compiler.same_files import is_below
+from twinform.passes import CompanionPass, DocumentPass, Pass, Pipeline
+
+_ADMINISTRATOR = 0
+_ADVICE = "give --trust-config if this is meant"
+
+
+def require_inside(config: Path, path: Path, key: str) -> None:
+    """Raise where a path that a configuration names leads out of its folder.
+
+    Raises:
+        ConfigError: it does.
+    """
+    if not is_below(path, config.parent):
+        raise ConfigError(config, f"{str(path)!r} leads out of the folder of the configuration; {_ADVICE}", key=key)
+
+
+def confined(config: Path, pipeline: Pipeline, key: str) -> Pipeline:
+    """The passes of a configuration, kept from files that are not its business.
+
+    Raises:
+        ConfigError: one of them makes a file, and the configuration is somebody else's.
+    """
+    return Pipeline(tuple(_confined(config, step, key) for step in pipeline))
+
+
+def _confined(config: Path, step: Pass, key: str) -> Pass:
+    if isinstance(step, CompanionPass) and not is_own(config):
+        typed = f"type --passes '{Pipeline((step,))}' yourself"
+        problem = f"{step.name} writes a file, and the configuration is somebody else's: {typed}, or {_ADVICE}"
+        raise ConfigError(config, problem, key=key)
+    return step.with_refusal(_Outside(config.parent)) if isinstance(step, DocumentPass) else step
+
+
+@dataclass(frozen=True, slots=True)
+class _Outside:
+    """Refuses paths that lead out of a folder. URIs lead into folders of models and packages only, as everywhere."""
+
+    folder: Path
+
+    def __call__(self, path: str) -> str | None:
+        if "://" in path or is_below(Path(path), self.folder):
+            return None
+        return f"{path!r} leads out of the folder of the configuration that names it; {_ADVICE}"
+
+
+def is_own(path: Path) -> bool:
+    """Whether a file is the caller's, and nobody else can have put it there.
+
+    It and the folder that it really lies in belong to the caller, or to the administrator, and not everybody may write
+    to them. Where the system has no such owners, nobody knows, and it is not.
+    """
+    real = Path(os.path.realpath(path))
+    return hasattr(os, "geteuid") and _belongs_to_caller(real) and _belongs_to_caller(real.parent)
+
+
+def _belongs_to_caller(path: Path) -> bool:
+    try:
+        status = path.stat()
+    except OSError:
+        return False
+    sticky = stat.S_ISDIR(status.st_mode) and status.st_mode & stat.S_ISVTX  # others cannot replace what is in it
+    return status.st_uid in {os.geteuid(), _ADMINISTRATOR} and (bool(sticky) or not status.st_mode & stat.S_IWOTH)

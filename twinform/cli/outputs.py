@@ -1,0 +1,125 @@
+"""What one call writes: nothing over an input or another output, and all of it or nothing."""
+
+from collections.abc import Hashable, Iterable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import NamedTuple
+
+import click
+
+from twinform.cli.failure import Unusable
+from twinform.compiler import write_all_atomically
+from twinform.compiler.same_files import folded, identities, is_below, is_nothing, is_stream
+from twinform.diagnostics import Companion
+
+_LONGEST_LINE = 2**12
+
+
+class Output(NamedTuple):
+    """A file that is to be written, and the option, or the pass, that names it."""
+
+    by: str
+    path: Path
+
+
+def beside(result: Path | None, companions: Iterable[str]) -> list[Output]:
+    """The files that passes make, at their paths below the folder of the result.
+
+    Raises:
+        click.UsageError: the result goes to no file, or such a path leads elsewhere, through a symbolic link.
+    """
+    found: list[Output] = []
+    for name in companions:
+        if result is None or is_stream(result):
+            raise click.UsageError(f"{name} is to be written beside the result: name a file with -o")
+        path = result.parent / name
+        if not is_below(path, result.parent) or is_stream(path):
+            raise click.UsageError(f"{name} leads out of {result.parent}, or to what is no file")
+        found.append(Output(f"the file {name} of a pass", path))
+    return found
+
+
+@dataclass(slots=True)
+class Outputs:
+    """The files of a call while they are made, the text for standard output, and what is said once all is there.
+
+    `inputs` are the files that the call reads, of which those `spared` may be written over.
+    """
+
+    inputs: Sequence[Path] = ()
+    spared: Sequence[Path] = ()
+    texts: list[tuple[Output, str]] = field(default_factory=list[tuple[Output, str]])
+    stdout: str | None = None
+    news: list[str] = field(default_factory=list[str])
+
+    @property
+    def by(self) -> str:
+        """The option that names the result."""
+        return "--in-place" if self.spared else "-o"
+
+    def require_apart(self, outputs: Sequence[Output], read: Iterable[Path] = ()) -> None:
+        """Raise where one file would be written over another, or over an input; `read` are more of these.
+
+        Raises:
+            click.UsageError: two of them are one file.
+        """
+        known = {each: path for path in (*read, *self.inputs) for each in identities(path)}
+        for each in (each for path in self.spared for each in identities(path)):
+            known.pop(each, None)
+        written: dict[Hashable, Output] = {}
+        for output in outputs:
+            keys = [*identities(output.path)]
+            over = next((known[key] for key in keys if key in known), None)
+            if over is not None:
+                advice = "name another file, or give --in-place" if output.by == "-o" else "name another file"
+                raise click.UsageError(f"{output.by} would write over {over}, which is read: {advice}")
+            for key in () if is_nothing(output.path) else (*keys, folded(output.path)):
+                other = written.setdefault(key, output)
+                if other is not output:
+                    raise click.UsageError(f"{other.by} and {output.by} name the same file: {output.path}")
+
+    def add(self, by: str, path: Path, text: str) -> None:
+        """A file that an option names."""
+        self.texts.append((Output(by, path), text))
+
+    def add_beside(self, result: Path | None, companions: Sequence[Companion]) -> None:
+        """The files that passes have made.
+
+        Raises:
+            click.UsageError: they have no place, or it is that of a file which was not written by twinform.
+        """
+        places = beside(result, [each.path for each in companions])
+        for place, companion in zip(places, companions, strict=True):
+            _require_ours(place.path, companion)
+            self.texts.append((place, companion.text))
+
+    def write(self, read: Iterable[Path] = ()) -> None:
+        """Write all, and say what is to be said; `read` are files that were read on the way.
+
+        Raises:
+            click.UsageError: one would be written over another, or over one that was read.
+            Unusable: one cannot be written; then none is.
+        """
+        self.require_apart([output for output, _ in self.texts], read)
+        try:
+            write_all_atomically({output.path: text for output, text in self.texts}, self._print)
+        except OSError as error:
+            if not error.filename:
+                raise  # it is about standard output
+            raise Unusable(f"cannot write {error.filename}: {error.strerror}") from error
+        for line in self.news:
+            click.echo(line, err=True)
+
+    def _print(self) -> None:
+        if self.stdout is not None:
+            click.echo(self.stdout.encode(), nl=False)  # the XML declaration says UTF-8, whatever the terminal's is
+
+
+def _require_ours(path: Path, companion: Companion) -> None:
+    """Raise where a file is in the place of a companion that does not begin as it does."""
+    own, _, _ = companion.text.partition("\n")
+    with suppress(OSError), path.open("rb") as file:  # writing it will say what is wrong
+        if file.readline(_LONGEST_LINE).rstrip() != own.encode().rstrip():
+            message = f"{path} is there, and twinform has not written it: remove it, or have another name"
+            raise click.UsageError(message)

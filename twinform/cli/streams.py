@@ -1,0 +1,50 @@
+"""Standard output that cannot be written: full, closed, or with nobody who reads it any more."""
+
+import errno
+import os
+import sys
+from contextlib import suppress
+from pathlib import Path
+from typing import NoReturn
+
+import click
+
+_UNUSABLE = 2
+"""`twinform.cli.failure.UNUSABLE`, which only commands import."""
+_UNREAD = 128 + 13
+"""The exit code of a program that is ended by a broken pipe, as shells give it."""
+_CLOSED = {0: ("stdin", os.O_RDONLY, "r"), 1: ("stdout", os.O_RDONLY, "w"), 2: ("stderr", os.O_WRONLY, "w")}
+"""How the null device takes the place of a closed stream; for standard output so that writing into it is an error."""
+
+
+def hold_standard_streams() -> None:
+    """Let no file that is opened later become a standard stream that the caller has closed."""
+    for number, (name, flags, mode) in _CLOSED.items():
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, flags)  # the lowest number that is free
+            setattr(sys, name, open(number, mode, encoding="utf-8", closefd=False))  # noqa: SIM115 - to stay
+
+
+def end_unwritable(error: OSError) -> NoReturn:
+    """End after an error of the system that no command expects: mostly of a stream, which has no name."""
+    where = error.filename or "standard output"
+    reason = "it is closed" if error.errno == errno.EBADF else error.strerror or error
+    with suppress(OSError):
+        click.echo(f"Error: cannot write {where}: {reason}", err=True)
+    _forget_what_is_left()
+    raise SystemExit(_UNUSABLE)
+
+
+def end_unread() -> NoReturn:
+    """End quietly: who has read enough, as `head` does, closes the pipe."""
+    _forget_what_is_left()
+    raise SystemExit(_UNREAD)
+
+
+def _forget_what_is_left() -> None:
+    """Keep Python from trying to write once more, and complaining, when it ends."""
+    nowhere = Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115 - it lives as long as the process
+    sys.stdout = nowhere
+    sys.stderr = nowhere
