@@ -14,19 +14,20 @@ from typing import NamedTuple
 from lxml import etree
 
 from twinform.diagnostics import Fate, Ledger, Location
-from twinform.passes.legalise.carrier import NAMESPACE, SOURCE
+from twinform.passes.legalise.carrier import NAMESPACE
 from twinform.schemas import XmlElement, path_of
 
 _OURS = f"{{{NAMESPACE}}}"
 _COMPUTED = frozenset({"pose", "origin", "xyz", "rpy", "axis", "inertia", "ixx", "ixy", "ixz", "iyy", "iyz", "izz"})
 """Elements and attributes whose numbers depend on the frame that they are said in."""
 _SHAPE_NAME = re.compile(r"(.+)_(?:visual|collision)(?:_\d+)?")
+_MATERIAL = re.compile(r"(.+)_material(?:_\d+)?")
 _SCHEME = re.compile(r"\b[a-z]+://")
 _SAID_BY = {"frame": "fixed"}
 """Elements of one format whose being there says a word of the other: a frame stands for a fixed joint."""
 _SAID_BY_NOT = {"turnGravityOff": {"0.0": "1.0", "1.0": "0.0"}}
 """Truths of one format that the other says by their opposites."""
-_SAID_AS = {"revolute": "continuous"}
+_SAID_AS = {"revolute": "continuous", "continuous": "revolute"}
 """Words that the other format may say by another one: a joint that turns without an end."""
 _TRUTHS = {"true": "1.0", "yes": "1.0", "false": "0.0", "no": "0.0"}
 _PREDICATE = re.compile(r"\[[^]]*\]|\{[^}]*\}|(?<=[/@])[\w.-]+:")
@@ -124,7 +125,7 @@ def _parts(root: XmlElement, fates: dict[_Place, Fate]) -> Iterator[_Piece]:
     stack: list[tuple[XmlElement, Fate | None, str, tuple[int, ...]]] = [(root, None, "", ())]
     while stack:
         element, above, around, lines = stack.pop()
-        if element.tag == SOURCE:
+        if str(element.tag).startswith(_OURS) and not len(element):  # a mark, which means something to us alone
             continue
         path, lines = f"{around}/{_local(str(element.tag))}", (element.sourceline or 0, *lines)
         fate = above or _fate_at(path, lines, fates)
@@ -185,11 +186,18 @@ def _spelt(word: str) -> str:
 
 
 def _implied(word: str, words: frozenset[str]) -> bool:
-    """Whether another word says it, or it is the name that a shape of a link has where URDF gives it none."""
+    """Whether another word says it, or it is the name that is made for a shape of a link, or for its material."""
     if _SAID_AS.get(word) in words:
         return True
     name = _SHAPE_NAME.fullmatch(word)
-    return name is not None and name[1] in words
+    return (name is not None and name[1] in words) or _is_made_material(word, words)
+
+
+def _is_made_material(word: str, words: frozenset[str]) -> bool:
+    """Whether it is LINK_VISUAL_material of a link and a visual that are there."""
+    made = _MATERIAL.fullmatch(word)
+    pairs = re.finditer("_", made[1]) if made else ()
+    return any({pair.string[: pair.start()], pair.string[pair.end() :]} <= words for pair in pairs)
 
 
 def _is_number(word: str) -> bool:

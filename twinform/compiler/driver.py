@@ -4,18 +4,18 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from twinform.compiler.emitting import emit
+from twinform.compiler.emitting import emit_legal
 from twinform.compiler.errors import CompileError
 from twinform.compiler.includes import expand
 from twinform.compiler.loading import Checked, Reading, garbage_collection_paused, read
 from twinform.compiler.orders import Language, Order, UrdfVersion
 from twinform.compiler.other_documents import OtherDocuments
 from twinform.compiler.uris import LocalAssets, SearchPath
-from twinform.diagnostics import Diagnostic, Fate, Ledger, Notes
+from twinform.diagnostics import Companion, Diagnostic, Ledger, Notes
 from twinform.diagnostics.rules.model import MISSING_LIMIT
-from twinform.diagnostics.rules.structure import MISSING_ATTRIBUTE
-from twinform.ir import Document
-from twinform.ir.verify import verify, verify_again
+from twinform.diagnostics.rules.structure import MISSING_ATTRIBUTE, OUTSIDE_VERSION
+from twinform.ir import Document, Format
+from twinform.ir.verify import verify
 from twinform.passes import Pass, Pipeline, Watch, parse_pipeline
 from twinform.passes.legalise.candidates import name_once_expanded, wanted_includes
 from twinform.schemas import Engine, XmlElement, table
@@ -25,7 +25,8 @@ from twinform.schemas import Engine, XmlElement, table
 class Conversion:
     """What `convert` made: the text, the document that it says, and what was found and lost on the way.
 
-    `source` is the XML that it was made from, for those who count: `twinform.compiler.audit`.
+    `source` is the XML that it was made from, for those who count: `twinform.compiler.audit`. `companions` are files
+    that passes made to lie beside the text.
     """
 
     text: str
@@ -33,6 +34,7 @@ class Conversion:
     diagnostics: tuple[Diagnostic, ...]
     ledger: Ledger
     source: XmlElement | None = field(default=None, repr=False, compare=False)
+    companions: tuple[Companion, ...] = ()
 
 
 def plan(
@@ -118,15 +120,15 @@ def fulfil(
     """
     with garbage_collection_paused():
         checked = read(source, how, name=name)
-        said = checked.document
         order = replace(order, assets=LocalAssets(how.search, Path(checked.path)))
         if checked.accepted and (order.expand_includes or order.to == "urdf"):
             wanted = None if order.expand_includes else wanted_includes(checked.document, order.model)
             before, checked = checked, expand(checked, how, wanted=wanted, carriers=order.carriers)
             order = replace(order, model=name_once_expanded(before.document, checked.document, order.model))
+        order = replace(order, mixed=checked.mixed or any(each.rule is OUTSIDE_VERSION for each in checked.diagnostics))
         if checked.document is None or not (checked.accepted or (order.passes and _may_be_mended(checked))):
             raise CompileError(checked.diagnostics, unreadable=checked.unreadable)
-        return _run(checked, checked.document, said, order, how, watch=watch)
+        return _run(checked, checked.document, order, how, watch=watch)
 
 
 def _known(version: str | None) -> str | None:
@@ -143,61 +145,35 @@ def _pipeline(passes: str | Sequence[Pass] | None) -> Pipeline:
 def _run(
     checked: Checked,
     document: Document,
-    said: Document | None,
     order: Order,
     how: Reading,
     *,
     watch: Watch | None,
 ) -> Conversion:
-    """The rest of the way of a document that was read; `said` is what it was before its includes were expanded."""
+    """The rest of the way of a document that was read."""
     kept = [each for each in checked.diagnostics if not each.is_error]
     notes = Notes(checked.path, how.strict, kept, list(checked.entries), origins=dict(checked.origins))
     passes = order.passes.with_files(order.assets, OtherDocuments(how, checked.path).read)
     changed = passes.run(document, notes, watch=watch, verify=verify if checked.accepted else None)
     if not checked.accepted:
         verify(changed, notes)
-    source = changed if changed is not document or said is None else said
-    if source is said and order.to not in {document.format, "json"} and order.carriers:
-        _remember_includes(notes, len(checked.entries))
     text = ""
     if not notes.has_errors:
-        document, text = _written(changed, source, order, notes, watch, fit=checked.mixed)
+        document, text = _written(changed, order, notes, watch, fit=checked.mixed)
     if notes.has_errors:
         raise CompileError(tuple(notes.diagnostics))
     lost = sum(entry.weight for entry in notes.entries)
     ledger = Ledger(max(0, checked.size - lost), tuple(notes.entries))
-    return Conversion(text, document, tuple(notes.diagnostics), ledger, checked.tree)
+    return Conversion(text, document, tuple(notes.diagnostics), ledger, checked.tree, tuple(notes.companions))
 
 
-def _remember_includes(notes: Notes, count: int) -> None:
-    """What went when includes were expanded, the first entries, travels in the memory of what the file said."""
-    remembered = [replace(each, fate=Fate.CARRIED) for each in notes.entries[:count]]
-    notes.entries[:count] = remembered
-
-
-def _written(
-    document: Document,
-    source: Document,
-    order: Order,
-    notes: Notes,
-    watch: Watch | None,
-    *,
-    fit: bool,
-) -> tuple[Document, str]:
+def _written(document: Document, order: Order, notes: Notes, watch: Watch | None, *, fit: bool) -> tuple[Document, str]:
     """What a document becomes, and its text."""
     if order.to == "json":
         return document, document.model_dump_json(indent=2, exclude_defaults=True) + "\n"
-    if order.to != document.format:
-        from twinform.compiler.crossing import cross  # noqa: PLC0415 - `check` does not need it
-
-        crossing = cross(document, source, order, notes, watch)
-        return crossing.document, crossing.text
     legal = order.legalisation(document)
-    if len(legal):
-        document = legal.run(document, notes, watch=watch)
-        if not notes.has_errors:
-            verify_again(document, notes)
-    return document, "" if notes.has_errors else emit(document, notes, fit=fit or bool(len(legal)))
+    fit = (fit or bool(len(legal))) and not order.target(document, Format(order.to)).mixed
+    return emit_legal(document, legal, notes, watch, fit=fit)
 
 
 def _may_be_mended(checked: Checked) -> bool:

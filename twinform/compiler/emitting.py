@@ -1,14 +1,18 @@
 """From a document to validated text."""
 
+import re
 from collections.abc import Callable
+from dataclasses import replace
 
 from lxml import etree
 
 from twinform.compiler.sdf import back_end as sdf
 from twinform.compiler.urdf import back_end as urdf
-from twinform.diagnostics import Fate, Location, Notes
+from twinform.diagnostics import Diagnostic, Fate, Location, Notes
 from twinform.diagnostics.rules import to_sdf
-from twinform.ir import Document, Format
+from twinform.ir import Document, Format, walk
+from twinform.ir.verify import verify_again
+from twinform.passes import Pipeline, Watch
 from twinform.schemas import (
     Context,
     Version,
@@ -22,6 +26,7 @@ from twinform.schemas import (
     table,
 )
 
+_NAMED = re.compile(r"\[@name='([^']*)'\]")
 _BACK_ENDS: dict[Format, Callable[[Document, Version, dict[str | None, str]], XmlElement]] = {
     Format.URDF: urdf.emit,
     Format.SDF: sdf.emit,
@@ -37,11 +42,40 @@ def emit(document: Document, notes: Notes, *, fit: bool = False) -> str:
     return serialised(valid_tree(document, notes, fit=fit), document)
 
 
+def emit_legal(
+    document: Document, legalisation: Pipeline, notes: Notes, watch: Watch | None = None, *, fit: bool = True
+) -> tuple[Document, str]:
+    """The document after the passes that its target asks for, and its text; empty where the notes have errors.
+
+    `fit` is that of `emit`.
+    """
+    if len(legalisation):
+        document = legalisation.run(document, notes, watch=watch)
+        if not notes.has_errors:
+            verify_again(document, notes)
+    if notes.has_errors:
+        return document, ""
+    text = emit(document, notes, fit=fit)
+    return document, "" if notes.has_errors else text
+
+
 def valid_tree(document: Document, notes: Notes, *, fit: bool = False) -> XmlElement:
     """The XML of a document, validated; `emit` says how."""
     root = document_tree(document)
-    _validate(root, document.format, written_version(document), notes, fit=fit)
+    found = Notes(file=notes.file)
+    _validate(root, document.format, written_version(document), found, fit=fit)
+    notes.entries.extend(found.entries)
+    notes.extend([_located(diagnostic, document) for diagnostic in found.diagnostics])
     return root
+
+
+def _located(diagnostic: Diagnostic, document: Document) -> Diagnostic:
+    """A finding about what is to be written, with the line of the part of the source that it was made of."""
+    if diagnostic.location.line:
+        return diagnostic
+    lines = {name: node.source.line for node in walk(document) if node.source and (name := getattr(node, "name", None))}
+    named = (lines[name] for name in reversed(_NAMED.findall(diagnostic.location.path)) if name in lines)
+    return replace(diagnostic, location=diagnostic.location._replace(line=next(named, 1)))
 
 
 def document_tree(document: Document) -> XmlElement:

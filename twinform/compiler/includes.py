@@ -6,7 +6,7 @@ from pathlib import Path
 from posixpath import dirname
 from typing import NamedTuple
 
-from twinform.compiler.limits import MOST_TAGS
+from twinform.compiler.limits import MOST_TAGS, excess_of_names
 from twinform.compiler.loading import Checked, Reading, read
 from twinform.compiler.model_config import manifest, model_file
 from twinform.compiler.uris import UriError
@@ -50,6 +50,9 @@ def expand(checked: Checked, how: Reading, *, wanted: Wanted | None = None, carr
     notes = Notes(checked.path, how.strict, list(checked.diagnostics), origins=dict(checked.origins))
     reader = _Reader(how, notes, carriers)
     whole = reader.expanded(document, Path(checked.path), (), wanted)
+    excess = excess_of_names(len(whole.document.namespaces), whole.size)
+    if excess is not None:
+        notes.report(includes.TOO_MANY_INCLUDES, excess.message, document.location)
     if not notes.has_errors:
         _verify(whole.document, notes)
     return replace(
@@ -133,6 +136,7 @@ class _Reader:
             return path
         config = manifest(path)
         if config is not None:
+            self.how.search.seen.add(config)
             return model_file(config, _version(document), self.notes)
         usual = path / "model.sdf"
         rule = files.MISSING_MODEL_CONFIG if usual.is_file() else files.BROKEN_MODEL_CONFIG

@@ -4,12 +4,12 @@ What is counted here is counted in the bytes, before there is a tree, since the 
 """
 
 import re
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 from lxml import etree
 
 from twinform.diagnostics import Location
-from twinform.schemas import XmlElement, path_of
+from twinform.schemas import XmlElement, declared_namespaces, path_of
 
 LARGEST = 64 * 2**20
 """The largest file, in bytes. The largest real one that we know has 2 MB; a chain of 10,000 links has 10."""
@@ -17,6 +17,11 @@ MOST_TAGS = 1_000_000
 """The most tags. A chain of 10,000 links has 280,000, the largest real file 40,000."""
 MOST_ATTRIBUTES = 256
 """The most attributes of one element, since libxml2 looks each of them up among all. The most in a real file is 12."""
+MOST_LOOKUPS = 250_000_000
+"""The most namespaces times names in them, since libxml2 looks each of these names up among all that is declared.
+
+That takes five seconds at most, and is reached by 11,000 of both. The most namespaces of a real file are 16.
+"""
 LONGEST_NAME = 1024
 """The longest name, in characters: the path of each finding repeats the names around it."""
 
@@ -25,6 +30,9 @@ _LONG_TAG = re.compile(rb"<[^<]{%d}" % min(MOST_ATTRIBUTES * _SHORTEST_ATTRIBUTE
 """A tag that might hold too much, or one that long text follows; few files have any."""
 _CROWDED = etree.XPath(f"//*[@*[{MOST_ATTRIBUTES + 1}]]")
 _LONG_NAMED = etree.XPath(f"//*[string-length(@name) > {LONGEST_NAME}]")
+_QUALIFIED = etree.XPath("count(//*[namespace-uri()]) + count(//@*[namespace-uri()])")
+_FEW = 64
+"""Namespaces that nobody needs to count: with these, a file has too many tags first."""
 _DECLARED = re.compile(rb"""^[^<]{0,16}<\?xml[^>]{0,200}?encoding\s*=\s*["']([A-Za-z0-9._:-]*)""")
 _COUNTABLE = re.compile(rb"utf-?8|utf-?16.*|utf-?32.*|ucs-?[24].*|us-ascii|ascii|iso[-_]?8859.*|latin.*|windows-125\d|"
                         rb"cp125\d|koi8.*|gb.*|big5.*|euc.*|shift_jis", re.IGNORECASE)  # fmt: skip
@@ -69,6 +77,21 @@ def excess_of_tree(root: XmlElement, text: bytes) -> Excess | None:
             where = Location(line=element.sourceline or 0, path=path)
             return Excess(f"<{element.tag}> has {count:,} {words}", where)
     return None
+
+
+def excess_of_namespaces(root: XmlElement, text: bytes, *, repaired: bool) -> Excess | None:
+    """Why this tree has too many namespaces; `repaired` says whether it has some that the text does not declare."""
+    if not repaired and text.count(b"xmlns") <= _FEW and b"\0" not in text:
+        return None
+    count = len(declared_namespaces(root))
+    return excess_of_names(count, int(cast("float", _QUALIFIED(root)))) if count > _FEW else None
+
+
+def excess_of_names(count: int, names: int) -> Excess | None:
+    """Why so many names in so many namespaces are too much."""
+    if count * (count + names) <= MOST_LOOKUPS:
+        return None
+    return Excess(f"there are {count:,} namespaces, and {names:,} names may be in one of them; that is too much")
 
 
 def excess_of_json(text: bytes) -> Excess | None:

@@ -1,6 +1,7 @@
 """From text to a verified document: parse, read, gate, build the IR."""
 
 import gc
+from collections import defaultdict
 from collections.abc import Callable, Generator, Iterable, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
@@ -11,7 +12,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from twinform.compiler.errors import CompileError
-from twinform.compiler.limits import excess_of_json
+from twinform.compiler.limits import excess_of_json, excess_of_names
 from twinform.compiler.parsing import (
     UnreadableError,
     parse,
@@ -30,12 +31,12 @@ from twinform.diagnostics.rules import model, reading, structure
 from twinform.diagnostics.rules import xacro as xacro_rules
 from twinform.ir import Document, Format, count_parts
 from twinform.ir.verify import verify
-from twinform.passes.legalise.carrier import SOURCE
 from twinform.schemas import (
     Context,
     Engine,
     Version,
     XmlElement,
+    declared_namespaces,
     gate,
     parse_version,
     print_version,
@@ -51,6 +52,8 @@ _ROOTS: dict[str, tuple[str, Callable[[XmlElement, Context], Mapping[str, Any]]]
 _CONSEQUENCES = frozenset(
     {model.MISSING_LIMIT, model.PARTIAL_LIMIT, model.SEVERAL_ROOTS, model.EMPTY_MODEL, model.UNKNOWN_MATERIAL}
 )
+_QUALIFIED = b'"{'
+"""How a name that is in a namespace begins in JSON."""
 XACRO = ".xacro"
 """The ending of the names of files that are expanded before they are read."""
 _OLD_ROOT = "gazebo"
@@ -96,9 +99,9 @@ class Checked:
 
     @property
     def size(self) -> int:
-        """How many elements and attributes the source has, besides what it remembers of a source of its own."""
+        """How many elements and attributes the source has."""
         if self.tree is not None:
-            return self.included + _parts(self.tree) - sum(map(_parts, self.tree.iter(SOURCE)))
+            return self.included + _parts(self.tree)
         return count_parts(self.document) if self.document else 0
 
     @property
@@ -146,6 +149,8 @@ def read(source: str | Path | bytes, how: Reading, *, name: str = "") -> Checked
 
 
 def _check(source: str | Path | bytes, notes: Notes, how: Reading) -> Checked:
+    if not isinstance(source, bytes):
+        how.search.seen.add(Path(source))
     try:
         if not isinstance(source, bytes) and Path(source).suffix.lower() == XACRO:
             return _check_xacro(Path(source), notes, how)
@@ -181,6 +186,7 @@ def _check_xacro(path: Path, notes: Notes, how: Reading) -> Checked:
         notes.report(xacro_rules.XACRO_REFUSED, message, Location(line=1))
         raise UnreadableError
     expansion = expand(path, how.arguments, how.search, notes)
+    how.search.seen.update(map(Path, {place.file for place in expansion.origins.places}))
     name = f"{notes.file} (expanded)"
     notes.origins[name] = expansion.origins
     checked = _check_text(expansion.text, Notes(name, notes.strict), how)
@@ -228,8 +234,33 @@ def read_document(text: bytes, notes: Notes, engine: Engine) -> tuple[Document |
     """
     if text.lstrip()[:1] == b"{":
         return _from_json(text, notes), None
-    root = parse(text, notes)
+    root, namespace = read_tree(text, notes)
     report_split_values(text, notes)
+    if b"<xacro:" in text:
+        _report_macros(root, notes)
+    format_, lower = _ROOTS[str(root.tag)]
+    if format_ == "urdf":
+        report_tabbed_numbers(text, notes)
+    context = Context(notes, notes.file, format_, declared_version(root, format_, notes))
+    errors = refusals(root, context, engine)
+    context.clean = not errors
+    context.simple = context.clean and _is_plain(text, notes)
+    data = lower(root, context)
+    if errors:
+        gate(root, context, engine, errors)
+    data = {**data, "namespaces": _namespaces(root, namespace, inside=_declares_inside(root, text, notes))}
+    if notes.has_errors:
+        return _verify_what_is_there(data, notes), root
+    return Document.model_validate(data), root
+
+
+def read_tree(text: bytes, notes: Notes) -> tuple[XmlElement, str | None]:
+    """The XML tree of a text in one of our formats, its names plain, and the default namespace that it had.
+
+    Raises:
+        UnreadableError: it is not XML, or of another format.
+    """
+    root = parse(text, notes)
     namespace = strip_default_namespace(root)
     if root.tag == _OLD_ROOT and root.get("version") in _OLD_ROOT_VERSIONS:
         message = f"the root of SDF {root.get('version')} is <{_OLD_ROOT}>; read, and written, as <sdf>"
@@ -240,22 +271,7 @@ def read_document(text: bytes, notes: Notes, engine: Engine) -> tuple[Document |
         message = f"the root element is <{root.tag}>; expected <robot> or <sdf>"
         notes.report(reading.UNKNOWN_ROOT, message, where, found=str(root.tag), expected="robot or sdf")
         raise UnreadableError
-    if b"<xacro:" in text:
-        _report_macros(root, notes)
-    format_, lower = _ROOTS[str(root.tag)]
-    if format_ == "urdf":
-        report_tabbed_numbers(text, notes)
-    context = Context(notes, notes.file, format_, _declared_version(root, format_, notes))
-    errors = refusals(root, context, engine)
-    context.clean = not errors
-    context.simple = context.clean and _is_plain(text, notes)
-    data = lower(root, context)
-    if errors:
-        gate(root, context, engine, errors)
-    data = {**data, "namespaces": _namespaces(root, context, namespace)}
-    if notes.has_errors:
-        return _verify_what_is_there(data, notes), root
-    return Document.model_validate(data), root
+    return root, namespace
 
 
 def lower_tree(root: XmlElement, notes: Notes, *, valid: bool = False) -> Document:
@@ -264,13 +280,13 @@ def lower_tree(root: XmlElement, notes: Notes, *, valid: bool = False) -> Docume
     `valid` says that its schema has seen it already.
     """
     format_, lower = _ROOTS[str(root.tag)]
-    context = Context(notes, notes.file, format_, _declared_version(root, format_, notes))
+    context = Context(notes, notes.file, format_, declared_version(root, format_, notes))
     errors = [] if valid else refusals(root, context, "libxml2")
     context.clean = not errors
     data = lower(root, context)
     if errors:
         gate(root, context, "libxml2", errors)
-    return Document.model_validate({**data, "namespaces": _namespaces(root, context, None)})
+    return Document.model_validate({**data, "namespaces": _namespaces(root, None)})
 
 
 def _verify_what_is_there(data: Mapping[str, Any], notes: Notes) -> Document | None:
@@ -297,7 +313,7 @@ def _report_macros(root: XmlElement, notes: Notes) -> None:
         notes.report(xacro_rules.UNEXPANDED_XACRO, message, where, found="xacro")
 
 
-def _declared_version(root: XmlElement, format_: str, notes: Notes) -> Version:
+def declared_version(root: XmlElement, format_: str, notes: Notes) -> Version:
     """The version that the table pass goes by: the declared one where the format has it, else the newest."""
     facts, declared = table(format_), root.get("version")
     if declared is None and format_ in _WITHOUT_VERSION:
@@ -318,26 +334,38 @@ def _is_plain(text: bytes, notes: Notes) -> bool:
     return not repaired and b"xmlns" not in text and b"\0" not in text
 
 
-def _namespaces(root: XmlElement, context: Context, default: str | None) -> tuple[tuple[str, str], ...]:
+def _declares_inside(root: XmlElement, text: bytes, notes: Notes) -> bool:
+    """Whether other elements than the root may declare namespaces, or have had prefixes of theirs repaired."""
+    repaired = any(found.rule is reading.REPAIRED_XML for found in notes.diagnostics)
+    return repaired or text.count(b"xmlns") > len(root.nsmap) or b"\0" in text
+
+
+def _namespaces(root: XmlElement, default: str | None, *, inside: bool = True) -> tuple[tuple[str, str], ...]:
     """The prefixes of a document, those of its root first; one that is another namespace inside gets another name."""
-    found: dict[str, str] = {}
     own = [(prefix, uri) for prefix, uri in root.nsmap.items() if prefix]
-    for prefix, uri in (*own, *sorted(context.namespaces.difference(own))):
+    others = sorted(declared_namespaces(root).difference(own)) if inside else []
+    found: dict[str, str] = {}
+    known: set[str] = set()
+    numbers: defaultdict[str, count[int]] = defaultdict(lambda: count(2))
+    for prefix, uri in (*own, *others):
         wanted = undeclared_prefix(uri) or prefix
-        if found.setdefault(wanted, uri) != uri and uri not in found.values():
-            found[next(name for n in count(2) if (name := f"{wanted}{n}") not in found)] = uri
+        if found.setdefault(wanted, uri) != uri and uri not in known:
+            found[next(name for n in numbers[wanted] if (name := f"{wanted}{n}") not in found)] = uri
+        known.add(uri)
     return (*((("", default),) if default else ()), *sorted(found.items()))
 
 
 def _from_json(text: bytes, notes: Notes) -> Document | None:
     refuse_excess(excess_of_json(text), notes)
     try:
-        return Document.model_validate_json(text)
+        document = Document.model_validate_json(text)
     except ValidationError as error:
         for problem in error.errors(include_url=False)[:20]:
             path = "/".join(map(str, problem["loc"]))
             notes.report(structure.INVALID_VALUE, f"{path or 'the document'}: {problem['msg']}", Location(path=path))
         return None
+    refuse_excess(excess_of_names(len(document.namespaces), text.count(_QUALIFIED)), notes)
+    return document
 
 
 @contextmanager

@@ -1,11 +1,13 @@
 """What a conversion is asked for."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Literal, get_args
 
 from twinform.ir import Document, Format
 from twinform.passes import NO_ASSETS, Assets, Pipeline
 from twinform.passes.legalise import Target, legalisation
+from twinform.passes.legalise.provenance import has_mixed_words, source_version
+from twinform.schemas import table
 
 Language = Literal["sdf", "urdf", "json"]
 UrdfVersion = Literal["1.0", "1.1", "1.2"]
@@ -16,7 +18,10 @@ DEFAULT_SDF_VERSION = "1.11"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Order:
-    """What a conversion is asked for; `passes` are the user's, and `assets` the files beside the source."""
+    """What a conversion is asked for; `passes` are the user's, and `assets` the files beside the source.
+
+    `mixed` says that the source has words that its version does not have.
+    """
 
     to: Language
     sdf_version: str | None = None
@@ -25,27 +30,27 @@ class Order:
     carriers: bool = True
     model: str | None = None
     expand_includes: bool = False
+    mixed: bool = False
     assets: Assets = field(default=NO_ASSETS, compare=False, repr=False)
 
     def plan(self, source: Document) -> Pipeline:
         """Every pass that a conversion of this document runs, in order: the user's, then those of the target."""
         return Pipeline((*self.passes, *self.legalisation(source)))
 
-    def home(self, version: str) -> "Order":
-        """The same for the version that is remembered of the source, as it was tried when that was remembered.
-
-        Of URDF, the version that is asked for goes before it.
-        """
-        if self.to == "sdf":
-            return replace(self, sdf_version=version, carriers=True)
-        known = next((each for each in URDF_VERSIONS if each == version), None)
-        return replace(self, urdf_version=self.urdf_version or known, carriers=True)
-
     def legalisation(self, source: Document) -> Pipeline:
         """The passes that the target asks for."""
         if self.to == "json":
             return Pipeline()
-        own = source.version if source.format is Format.SDF else None
-        version = self.sdf_version or own or DEFAULT_SDF_VERSION
-        target = Target(Format(self.to), version, self.urdf_version or "1.0", self.carriers, self.model)
+        target = self.target(source, Format(self.to))
         return Pipeline(legalisation(source.format, source.version, target)).with_files(self.assets)
+
+    def target(self, source: Document, format_: Format) -> Target:
+        """What a document becomes: of the version that is asked for, or else of the one that it came from."""
+        own = source.version if source.format is Format.SDF else None
+        before = None if source.format is format_ else source_version(source, format_)
+        before = before if before in table(format_).versions else None
+        version = self.sdf_version or own or before or DEFAULT_SDF_VERSION
+        known: dict[str, UrdfVersion] = {each: each for each in URDF_VERSIONS}
+        urdf = self.urdf_version or known.get(before or "", "1.0")
+        back = version == before and has_mixed_words(source)
+        return Target(format_, version, urdf, self.carriers, self.model, back, self.mixed)

@@ -55,14 +55,12 @@ class OtherDocuments:
         return expand(checked, how)
 
     def _in_terms_of(self, around: Document, document: Document, path: Path, notes: Notes) -> Document | None:
-        from twinform.compiler.memory import take_memory  # noqa: PLC0415 - as below
         from twinform.compiler.orders import Order  # noqa: PLC0415 - few conversions need a second file
         from twinform.passes.includes.relocate import relocate  # noqa: PLC0415 - as above
 
         own = Notes(str(path), self.how.strict, origins=notes.origins)
         version = around.version if around.format is Format.SDF else None
         order = Order(to="sdf" if around.format is Format.SDF else "urdf", sdf_version=version)
-        document, _ = take_memory(document)  # what its own source said is of no use here
         document = order.legalisation(document).run(document, own)
         notes.extend_new(own.diagnostics)
         notes.entries.extend(own.entries)

@@ -9,7 +9,14 @@ from typing import cast
 
 from lxml import etree
 
-from twinform.compiler.limits import LARGEST, Excess, excess_of_bytes, excess_of_tree, uncountable_encoding
+from twinform.compiler.limits import (
+    LARGEST,
+    Excess,
+    excess_of_bytes,
+    excess_of_namespaces,
+    excess_of_tree,
+    uncountable_encoding,
+)
 from twinform.compiler.malformed import LIMITS, LOST_BRACKET, first_fatal, repaired, with_bracket
 from twinform.diagnostics import Location, Notes
 from twinform.diagnostics.rules import reading
@@ -52,11 +59,13 @@ def parse(text: bytes, notes: Notes) -> XmlElement:
         hint = "save the file as UTF-8, or name an encoding that it may have, such as UTF-8 or ISO-8859-1"
         notes.report(reading.NOT_WELL_FORMED, message, Location(line=1, path="/"), help=hint)
         raise UnreadableError
+    repaired = False
     try:
         root = etree.fromstring(text, _parser(recover=False))
         refuse_excess(excess_of_tree(root, text), notes)
     except etree.XMLSyntaxError as error:
-        root = _recover(text, notes, error)
+        root, repaired = _recover(text, notes, error), True
+    refuse_excess(excess_of_namespaces(root, text, repaired=repaired), notes)
     if root.getroottree().docinfo.doctype:
         notes.report(reading.DOCTYPE, "the document has a DOCTYPE; none is allowed", Location(line=1, path="/"))
         raise UnreadableError

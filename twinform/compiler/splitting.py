@@ -5,14 +5,14 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from twinform.compiler.emitting import emit
+from twinform.compiler.emitting import emit, emit_legal
 from twinform.compiler.errors import CompileError
 from twinform.compiler.includes import expand
 from twinform.compiler.loading import Reading, garbage_collection_paused, read
 from twinform.compiler.orders import Order
 from twinform.compiler.other_documents import OtherDocuments
 from twinform.compiler.uris import LocalAssets
-from twinform.diagnostics import Diagnostic, Ledger, Notes
+from twinform.diagnostics import Companion, Diagnostic, Ledger, Notes
 from twinform.diagnostics.rules import structure
 from twinform.ir import Document, Format, Include, Model, World
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
@@ -27,11 +27,12 @@ _UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
 
 @dataclass(frozen=True, slots=True)
 class Split:
-    """The text of each file by its name, and what was found and lost on the way."""
+    """The text of each file by its name, what was found and lost on the way, and the files that passes made beside."""
 
     files: Mapping[str, str]
     diagnostics: tuple[Diagnostic, ...]
     ledger: Ledger
+    companions: tuple[Companion, ...] = ()
 
 
 def split(
@@ -68,7 +69,8 @@ def split(
         if notes.has_errors:
             raise CompileError(tuple(notes.diagnostics))
         lost = sum(entry.weight for entry in notes.entries)
-        return Split(files.texts, tuple(notes.diagnostics), Ledger(max(0, checked.size - lost), tuple(notes.entries)))
+        ledger = Ledger(max(0, checked.size - lost), tuple(notes.entries))
+        return Split(files.texts, tuple(notes.diagnostics), ledger, tuple(notes.companions))
 
 
 def _inside_models(document: Document | None) -> Callable[[Include], bool]:
@@ -110,10 +112,8 @@ class _Files:
         alone = document.model_copy(
             update={"models": (model,), "worlds": (), "lights": (), "includes": (), "opaque": ()}
         )
-        from twinform.compiler.crossing import cross  # noqa: PLC0415 - whoever splits nothing does not need it
-
         notes = Notes(self.notes.file, self.notes.strict, origins=self.notes.origins)
-        text = cross(alone, alone, self.order, notes, self.watch).text
+        _, text = emit_legal(alone, self.order.legalisation(alone), notes, self.watch)
         self.notes.extend(notes.diagnostics)
         self.notes.entries.extend(notes.entries)
         return text

@@ -4,8 +4,8 @@ from pathlib import Path
 
 _HIGHEST = 6
 """So many folders up: a file in `ws/src/repository/package/urdf/parts` still sees the workspace's sources."""
-_TOPS = (".git", ".hg")
-"""What marks the top of a repository."""
+TOPS = (".git", ".hg")
+"""What marks the top of a repository: a folder or, in a worktree or submodule, a file."""
 
 
 def folders_around(file: Path) -> tuple[Path, ...]:
@@ -15,7 +15,7 @@ def folders_around(file: Path) -> tuple[Path, ...]:
     real = folder.resolve()
     while len(found) <= _HIGHEST and real.parent != real:
         found.append(folder)
-        if any((real / mark).exists() for mark in _TOPS):
+        if any((real / mark).exists() for mark in TOPS):
             break
         folder, real = _above(folder, real), real.parent
     return tuple(found)

@@ -28,7 +28,8 @@ class SearchPath:
     """The folders in which URIs are looked up.
 
     `own` comes from the caller and is looked in first; `models` hold a folder for each model, `packages` one for each
-    package, and `workspaces` packages at any depth. The folders around the file that has the URI come last.
+    package, and `workspaces` packages at any depth. The folders around the file that has the URI come last. `seen` are
+    the files that were found or read, so that nothing is written over one of them.
     """
 
     own: tuple[Path, ...] = ()
@@ -37,6 +38,7 @@ class SearchPath:
     workspaces: tuple[Path, ...] = ()
     fuel: tuple[Path, ...] = ()
     index: PackageIndex = field(default_factory=PackageIndex, compare=False, repr=False)
+    seen: set[Path] = field(default_factory=set[Path], compare=False, repr=False)
 
     @classmethod
     def of(cls, own: Iterable[str | Path] = (), environment: Mapping[str, str] = os.environ) -> Self:
@@ -56,7 +58,11 @@ class SearchPath:
         Raises:
             UriError: there is none, or it must not be read.
         """
-        uri = uri.strip()
+        found = self._find(uri.strip(), beside)
+        self.seen.add(found)
+        return found
+
+    def _find(self, uri: str, beside: Path) -> Path:
         scheme, separator, rest = uri.partition("://")
         if not separator:
             return self._plain(uri, beside)

@@ -1,6 +1,7 @@
 """Findings as values: rules, diagnostics, the ledger, and reporters that only format them."""
 
 from twinform.diagnostics.catalogue import catalogue
+from twinform.diagnostics.companion import Companion
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.ledger import Entry, Fate, Ledger
 from twinform.diagnostics.location import NOWHERE, Location, Source
@@ -11,6 +12,7 @@ from twinform.diagnostics.rule import Rule, Severity
 
 __all__ = [
     "NOWHERE",
+    "Companion",
     "Diagnostic",
     "Entry",
     "Fate",

@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 
+from twinform.diagnostics.companion import Companion
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.ledger import Entry, Fate
 from twinform.diagnostics.location import NOWHERE, Location
@@ -19,7 +20,8 @@ class Notes:
     """Collects diagnostics and ledger entries, in the order in which they are made.
 
     `file` completes the locations, which know only a line and a path. `origins` lead from the lines of expanded texts
-    to where they were written. `has_errors` says whether anything here stops a conversion.
+    to where they were written. `has_errors` says whether anything here stops a conversion. `companions` are the files
+    that passes make to lie beside the result.
     """
 
     file: str = ""
@@ -29,6 +31,7 @@ class Notes:
     left_out: int = 0
     has_errors: bool = False
     origins: dict[str, Origins] = field(default_factory=dict[str, Origins])
+    companions: list[Companion] = field(default_factory=list[Companion])
 
     def __post_init__(self) -> None:
         self.has_errors = any(diagnostic.is_error for diagnostic in self.diagnostics)

@@ -15,6 +15,9 @@ _UNTURNED: Matrix3 = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 _GIMBAL_LOCK = 1e-15
 """Below this cosine of the pitch, roll and yaw turn about one axis to the last digit, and yaw is taken as zero."""
 
+_DIGITS, _NOISE = 12, 2e-15
+"""Numbers that people write have at most so many digits behind the point; composing some of them errs by less."""
+
 
 @dataclass(frozen=True, slots=True)
 class Transform:
@@ -40,8 +43,8 @@ class Transform:
         written = self.notation
         if written is not None:
             return written.model_copy(update={"relative_to": relative_to, "opaque": ()})
-        xyz = self.translation if self.translation != _ORIGIN else None
-        rpy = self.rpy() if self.rotation != _UNTURNED else None
+        xyz = rounded(self.translation) if self.translation != _ORIGIN else None
+        rpy = rounded(self.rpy()) if self.rotation != _UNTURNED else None
         return Pose(xyz=xyz, rpy=rpy, relative_to=relative_to)
 
     @property
@@ -99,6 +102,17 @@ class Transform:
         )
         x, y, z, w = rows[largest]
         return _unit((x, y, z, w))
+
+
+def rounded(vector: Vector3) -> Vector3:
+    """The vector without the noise of composing: a number next to one of few digits is that one."""
+    x, y, z = vector
+    return (_rounded(x), _rounded(y), _rounded(z))
+
+
+def _rounded(number: float) -> float:
+    short = round(number, _DIGITS)
+    return short + 0.0 if abs(number - short) <= _NOISE * max(1.0, abs(number)) else number
 
 
 def _plus_zero(vector: Vector3) -> Vector3:

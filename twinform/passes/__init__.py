@@ -2,6 +2,7 @@
 
 from twinform.passes.assets import NO_ASSETS, AssetError, AssetPass, Assets
 from twinform.passes.base import Pass
+from twinform.passes.companions import CompanionPass, CompanionPath
 from twinform.passes.errors import BrokenPassError, FailedPassError, PassError
 from twinform.passes.named import Names, UnknownPipelineError
 from twinform.passes.other_documents import DocumentPass, DocumentReader
@@ -26,6 +27,8 @@ __all__ = [
     "AssetPass",
     "Assets",
     "BrokenPassError",
+    "CompanionPass",
+    "CompanionPath",
     "DocumentPass",
     "DocumentReader",
     "FailedPassError",

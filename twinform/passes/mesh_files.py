@@ -32,9 +32,11 @@ def open_scene(path: Path, *, process: bool = True) -> Scene:
     Raises:
         ImportError: the extra is not installed.
         OSError: the file cannot be read.
-        RefusedMeshError: it is too large, or declares a document type.
+        RefusedMeshError: it is no file, is too large, or declares a document type.
         Exception: what the reader of the format raises.
     """
+    if path.exists() and not path.is_file():
+        raise RefusedMeshError("it is no file")  # whoever opens a pipe may wait for ever
     if path.stat().st_size > _LARGEST:
         raise RefusedMeshError(f"it is larger than {_LARGEST >> 20} MiB")
     content, kind = path.read_bytes(), kind_of(path)

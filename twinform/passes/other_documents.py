@@ -1,6 +1,7 @@
 """How a pass gets a document that is not the one it runs over: by a port that the driver gives it."""
 
 from abc import abstractmethod
+from collections.abc import Callable
 from typing import Protocol, Self
 
 from pydantic import PrivateAttr
@@ -23,10 +24,15 @@ class DocumentReader(Protocol):
         ...
 
 
+Refusal = Callable[[str], str | None]
+"""Says why a pass must not have the file of a path; None where it may."""
+
+
 class DocumentPass(Pass):
     """A pass whose purpose needs other documents. Whoever runs it lends it a reader, by `with_reader`."""
 
     _reader: DocumentReader | None = PrivateAttr(default=None)
+    _refusal: Refusal | None = PrivateAttr(default=None)
 
     def with_reader(self, reader: DocumentReader) -> Self:
         """The same pass, with somebody who reads files for it."""
@@ -34,12 +40,25 @@ class DocumentPass(Pass):
         bound._reader = reader  # noqa: SLF001 - its own
         return bound
 
+    def with_refusal(self, refusal: Refusal) -> Self:
+        """The same pass, from somebody who is not trusted with every file."""
+        bound = self.model_copy()
+        bound._refusal = refusal  # noqa: SLF001 - its own
+        return bound
+
     def run(self, document: Document, notes: Notes) -> Document:
         """Without a reader there is nothing that it can do."""
         if self._reader is not None:
-            return self.run_with(document, notes, self._reader)
+            return self.run_with(document, notes, self._read)
         notes.report(UNREAD_DOCUMENT, f"{self.name} needs other files, and nobody reads files here", document.location)
         return document
+
+    def _read(self, path: str, around: Document, notes: Notes) -> Document | None:
+        problem = self._refusal(path) if self._refusal else None
+        if problem is None:
+            return self._reader(path, around, notes) if self._reader else None
+        notes.report(UNREAD_DOCUMENT, problem, around.location, found=path)
+        return None
 
     @abstractmethod
     def run_with(self, document: Document, notes: Notes, read: DocumentReader) -> Document:

@@ -176,11 +176,3 @@ UNBRIDGED_TOPIC = Rule(
     better="Give the sensor or plugin a topic of its own, or say which world it is: `bridge-config{world=NAME ...}`.",
     references="ros_gz_bridge, README.md",
 )
-UNWRITTEN_FILE = Rule(
-    name="unwritten-file",
-    severity=Severity.ERROR,
-    finds="A file that a pass was asked to write and cannot.",
-    matters="What was asked for is not there.",
-    example="`bridge-config{file=missing/folder/bridge.yaml}`",
-    better="Make the folder, or name a file that may be written.",
-)

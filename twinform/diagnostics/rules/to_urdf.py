@@ -168,8 +168,19 @@ COLOURS = Rule(
 STALE_CARRIER = Rule(
     name="stale-carrier",
     severity=Severity.WARNING,
-    finds="A carrier whose piece no longer fits the model around it, because somebody edited the file since.",
-    matters="Putting the piece back would undo the edit; so it is left out, and what the file says now counts.",
-    example="The colour of a visual was changed in the SDF, and its carrier names the URDF material it had before.",
+    finds=(
+        "A carrier or mark of ours (`tf:`) that does not fit the model around it any more: what it belongs to was "
+        "deleted, renamed or says something else, or it was edited so that it means nothing."
+    ),
+    matters=(
+        "What the file says counts. A carrier holds only what the file leaves unsaid, so this one is dropped, and what "
+        "it held is lost: a second color, a name, the frame that a pose was written in. The robot is the one that the "
+        "file describes. Of a file that a version before 0.2 wrote, all that it remembered of its source "
+        "(`<tf:source>` and the like) is ignored, with one warning."
+    ),
+    example=(
+        "A visual of URDF has `<color rgba='0 1 0 1'/>` and `<tf:colors ambient='0.1 0 0 1' of='1 0 0 1'/>`: its color "
+        "was red when its ambient one was 0.1 0 0 1, and has been changed since."
+    ),
     better="Nothing, if the edit was meant. Delete the carrier to be rid of the warning.",
 )

@@ -6,11 +6,14 @@ XACRO_ERROR = Rule(
     name="xacro-error",
     severity=Severity.ERROR,
     finds="A xacro file that cannot be expanded: an undefined property, macro or argument, a missing include or "
-    "package, a bad expression, macros that never end.",
+    "package, a bad expression, macros that never end; or an expression or file that is refused, since a robot needs "
+    "none of it: what leads to Python behind the expression, asks for too much, or lies outside of the folders of "
+    "models and packages.",
     matters="There is no model before it is expanded.",
     example="`<link name='${prefix}_base'/>` where no property is called `prefix`.",
     better="Mend the line that the message names. Arguments come after the inputs, `prefix:=left`; packages are looked "
-    "for in ROS_PACKAGE_PATH, AMENT_PREFIX_PATH, around the file, and in the folders of `--path DIR`.",
+    "for in ROS_PACKAGE_PATH, AMENT_PREFIX_PATH, around the file, and in the folders of `--path DIR`. The page about "
+    "working with xacro lists what expressions may use.",
 )
 XACRO_WARNING = Rule(
     name="xacro-warning",
@@ -40,7 +43,7 @@ XACRO_REFUSED = Rule(
     name="xacro-refused",
     severity=Severity.ERROR,
     finds="A xacro file where `--no-xacro` refuses them.",
-    matters="Expanding one evaluates Python expressions and reads the files that it names.",
+    matters="Expanding one evaluates its expressions and reads files of its repository and packages that it names.",
     example="`twinform check --no-xacro robot.urdf.xacro`",
     better="Leave `--no-xacro` out for files that you trust, or expand them elsewhere.",
 )

@@ -8,6 +8,7 @@ from typing import TypeVar
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import includes as rules
 from twinform.ir import Document, Include, Model, World
+from twinform.ir.namespaces import joined
 from twinform.passes.includes.merge import merge_into_model, merge_into_world
 from twinform.passes.includes.place import account_replaced, placed_actor, placed_light, placed_model, report_leftovers
 from twinform.passes.includes.relocate import relocate
@@ -54,7 +55,8 @@ def expand_includes(document: Document, resolve: Resolver, notes: Notes, *, carr
     document = upgrade_document(document, version, notes, carriers=carriers)
     by_identity = {id(include): each for include, each in zip(_includes(document), found, strict=True)}
     document = _Expansion(by_identity, version, notes, carriers).document(document)
-    return document.model_copy(update={"namespaces": _namespaces(document, found)})
+    namespaces = joined(document.namespaces, (each.document.namespaces for each in found if each))
+    return document.model_copy(update={"namespaces": namespaces})
 
 
 def _needs(document: Document) -> Iterator[str]:
@@ -64,16 +66,6 @@ def _needs(document: Document) -> Iterator[str]:
         yield _NESTED_MODELS
     if any(include.merge for include in inner):
         yield _NAMED_FRAMES
-
-
-def _namespaces(document: Document, found: Iterable[Included | None]) -> tuple[tuple[str, str], ...]:
-    """The prefixes of all documents; where they differ, the first counts."""
-    known = dict(document.namespaces)
-    for each in found:
-        for prefix, uri in each.document.namespaces if each else ():
-            if prefix and uri not in known.values():
-                known.setdefault(prefix, uri)
-    return tuple(known.items())
 
 
 def _includes(document: Document) -> Iterator[Include]:

@@ -14,7 +14,8 @@ class Target:
     """What a conversion is to make.
 
     `carriers` says whether parts that the target cannot say travel along; `model` names the one of several models that
-    becomes a URDF.
+    becomes a URDF; `mixed` says that the SDF may have words that its version does not have, as its source had, and
+    `mixed_source` that the file at hand is such a one.
     """
 
     format: Format
@@ -22,6 +23,8 @@ class Target:
     urdf_version: Literal["1.0", "1.1", "1.2"] = "1.0"
     carriers: bool = True
     model: str | None = None
+    mixed: bool = False
+    mixed_source: bool = False
 
 
 def legalisation(source: Format, version: str | None, target: Target) -> tuple[Pass, ...]:
@@ -36,7 +39,9 @@ def legalisation(source: Format, version: str | None, target: Target) -> tuple[P
     if target.format is Format.SDF:
         from twinform.passes.legalise.to_sdf import to_sdf  # noqa: PLC0415 - see above
 
-        return to_sdf(target.sdf_version, carriers=target.carriers)
+        return to_sdf(target.sdf_version, carriers=target.carriers, mixed=target.mixed)
     from twinform.passes.legalise.to_urdf import to_urdf  # noqa: PLC0415 - see above
 
-    return to_urdf(model=target.model, urdf_version=target.urdf_version, carriers=target.carriers)
+    return to_urdf(
+        model=target.model, urdf_version=target.urdf_version, carriers=target.carriers, mixed=target.mixed_source
+    )

@@ -10,6 +10,9 @@ from twinform.passes.inertia.shapes import WATER, inertial_of, own_density
 from twinform.passes.legalise.carrier import to_element
 from twinform.passes.meshes import MeshError, Meshes
 
+COMPUTED_MASS = "computed-mass"
+"""The mark on an inertial whose mass was computed with its inertia: `<tf:computed-mass/>`."""
+
 
 class NoInertiaError(Exception):
     """Why an inertia cannot be computed, and where that is said."""

@@ -13,27 +13,32 @@ from typing import TypeVar
 
 from lxml import etree
 
-from twinform.ir import Element, Node, Opaque
+from twinform.ir import Element, Node, Opaque, walk
 from twinform.schemas import XmlElement, parse_version, table, writer
 
 NAMESPACE = "urn:twinform:1"
 PREFIX = "tf"
-SOURCE = f"{{{NAMESPACE}}}source"
-"""The element that remembers the source of a file; `compiler/memory/` reads and writes it."""
+_OURS = f"{{{NAMESPACE}}}"
 
 Attributes = tuple[tuple[str, str], ...]
+
+SOURCE = "source"
+"""What versions before 0.2 wrote at the end of a model: changes that lead back to the source."""
+
+DANGLING: Attributes = (("dangling", "true"),)
+"""What a carrier says about a piece that named what was not there, so that this is no sign of an edit."""
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
 
-def carry(node: AnyNode, pieces: Iterable[Opaque], dialect: str) -> AnyNode:
-    """The node with these pieces of the other format in carriers."""
-    carriers = pack(pieces, dialect)
+def carry(node: AnyNode, pieces: Iterable[Opaque], dialect: str, about: Attributes = ()) -> AnyNode:
+    """The node with these pieces of the other format in carriers; `about` are more attributes of the carriers."""
+    carriers = pack(pieces, dialect, about)
     return node.model_copy(update={"opaque": (*node.opaque, *carriers)}) if carriers else node
 
 
 def pack(pieces: Iterable[Opaque], dialect: str, about: Attributes = ()) -> tuple[Opaque, ...]:
-    """A carrier for each of the pieces; `about` are more attributes of the carriers."""
+    """A carrier for each of the pieces, with these attributes besides."""
     return tuple([Opaque(element=_carrier(piece, dialect, about)) for piece in pieces])
 
 
@@ -42,10 +47,39 @@ def is_carrier(part: Opaque, dialect: str) -> bool:
     return part.element is not None and part.element.name == f"{{{NAMESPACE}}}{dialect}"
 
 
+def is_dangling(part: Opaque) -> bool:
+    """Whether what a carrier holds named a part that was not there."""
+    return part.element is not None and part.element.get("dangling") is not None
+
+
 def is_ours(part: Opaque) -> bool:
     """Whether an opaque part is of our own namespace: a carrier, or a mark."""
     name = part.element.name if part.element else part.attribute[0] if part.attribute else ""
-    return name.startswith(f"{{{NAMESPACE}}}")
+    return name.startswith(_OURS)
+
+
+def is_memory(part: Opaque) -> bool:
+    """Whether only versions before 0.2 wrote such a part, which remembered the source.
+
+    That is `<tf:source>`, attributes of our namespace, and carriers of what stood outside the model (`at="/sdf"`).
+    """
+    if part.element is None:
+        return is_ours(part)
+    return is_carrier(part, SOURCE) or (is_ours(part) and (part.element.get("at") or "").startswith("/"))
+
+
+def has_ours(node: Node) -> bool:
+    """Whether a carrier or mark is anywhere in a node."""
+    return any(
+        part.element is not None and any(inner.name.startswith(_OURS) for inner in part.element.walk())
+        for each in walk(node)
+        for part in each.opaque
+    ) or any(
+        inner.name.startswith(_OURS)
+        for extension in getattr(node, "extensions", ())
+        for each in extension.content
+        for inner in each.walk()
+    )
 
 
 def unpack(part: Opaque) -> tuple[Opaque, ...]:

@@ -2,11 +2,13 @@
 
 from collections.abc import Iterable
 
-from twinform.ir import Element, Opaque
-from twinform.passes.legalise.carrier import is_ours
-from twinform.passes.legalise.marks import MADE
+from twinform.ir import Opaque
+from twinform.passes.legalise.carrier import NAMESPACE, is_ours
 
 Parts = tuple[Opaque, ...]
+
+_FIRST, _SECOND = (f"{{{NAMESPACE}}}{field}" for field in ("axis", "axis2"))
+"""The marks on how the two axes were written."""
 
 
 def split_axes(parts: Iterable[Opaque]) -> tuple[Parts, Parts]:
@@ -14,50 +16,28 @@ def split_axes(parts: Iterable[Opaque]) -> tuple[Parts, Parts]:
     first: list[Opaque] = []
     rest: list[Opaque] = []
     for part in parts:
-        if part.attribute and part.attribute[0] == MADE:
-            first += _marks(field for field in part.attribute[1].split() if _is_of(field, ".", "axis"))
-            rest += _marks(_moved(f, ".", "axis2") for f in part.attribute[1].split() if not _is_of(f, ".", "axis"))
-        elif _is_of(_path(part), "/", "axis"):
+        if is_of_axis(_path(part)) or _is_called(part, _FIRST):
             first.append(part)
         else:
-            rest.append(_with_path(part, _moved(_path(part), "/", "axis2")))
+            rest.append(_with_name(_with_path(part, _moved(_path(part), "axis2", "axis")), _SECOND, _FIRST))
     return tuple(first), tuple(rest)
 
 
 def join_axes(first: Iterable[Opaque], rest: Iterable[Opaque]) -> Parts:
     """The parts of a joint with two axes: the inverse of `split_axes`."""
-    fields: list[str] = []
-    joined: list[Opaque] = []
-    for part in first:
-        if part.attribute and part.attribute[0] == MADE:
-            fields += (field for field in part.attribute[1].split() if _is_of(field, ".", "axis"))
-        elif _is_of(_path(part), "/", "axis"):
-            joined.append(part)
-    for part in rest:
-        if part.attribute and part.attribute[0] == MADE:
-            fields += (_moved(field, ".", "axis", "axis2") for field in part.attribute[1].split())
-        else:
-            joined.append(_with_path(part, _moved(_path(part), "/", "axis", "axis2")))
-    return (*_marks(fields), *joined)
+    joined = [part for part in first if is_of_axis(_path(part)) or _is_called(part, _FIRST)]
+    joined += (_with_name(_with_path(part, _moved(_path(part), "axis", "axis2")), _FIRST, _SECOND) for part in rest)
+    return tuple(joined)
 
 
 def is_of_axis(path: str) -> bool:
     """Whether a part at this path is one of the axis."""
-    return _is_of(path, "/", "axis")
+    return path == "axis" or path.startswith("axis/")
 
 
-def _marks(fields: Iterable[str]) -> Parts:
-    words = " ".join(fields)
-    return (Opaque(attribute=(MADE, words)),) if words else ()
-
-
-def _is_of(path: str, between: str, step: str) -> bool:
-    return path == step or path.startswith(step + between)
-
-
-def _moved(path: str, between: str, step: str, to: str = "axis") -> str:
+def _moved(path: str, step: str, to: str) -> str:
     """The path with another first step, if that is its first step."""
-    return to + path.removeprefix(step) if _is_of(path, between, step) else path
+    return to + path.removeprefix(step) if path == step or path.startswith(f"{step}/") else path
 
 
 def _path(part: Opaque) -> str:
@@ -73,5 +53,15 @@ def _with_path(part: Opaque, path: str) -> Opaque:
     if not (is_ours(part) and part.element):
         return part.model_copy(update={"at": path})
     attributes = tuple((name, path if name == "at" else value) for name, value in part.element.attributes)
-    element: Element = part.element.model_copy(update={"attributes": attributes})
-    return part.model_copy(update={"element": element})
+    return part.model_copy(update={"element": part.element.model_copy(update={"attributes": attributes})})
+
+
+def _is_called(part: Opaque, name: str) -> bool:
+    return part.element is not None and part.element.name == name
+
+
+def _with_name(part: Opaque, name: str, to: str) -> Opaque:
+    """The part with another name, if it is an element of this one."""
+    if part.element is None or part.element.name != name:
+        return part
+    return part.model_copy(update={"element": part.element.model_copy(update={"name": to})})

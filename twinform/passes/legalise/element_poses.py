@@ -8,15 +8,23 @@ from twinform.diagnostics import Notes
 from twinform.ir import Element, Opaque, Pose, Sensor
 from twinform.ir.frames import FrameGraph, Kind
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.carrier import to_element
+from twinform.passes.legalise.carrier import NAMESPACE, to_element
 from twinform.passes.legalise.nodes import map_elements
+from twinform.passes.legalise.notation import POSE, as_marked
 from twinform.schemas import Context, element_xml, reader, table
 
 _FRAME_ATTRIBUTES = ("relative_to", "frame")
 """How a pose names its frame, since SDF 1.7 and before."""
 
-Keep = Callable[[str, Element], tuple[Element, ...]]
-"""What is written beside the moved pose for the one that stood there: (a message, the pose)"""
+Keep = Callable[[str, Pose], tuple[Element, ...]]
+"""What is written beside the moved pose for the one that stood there: (a message, that pose)"""
+
+
+_MARK = f"{{{NAMESPACE}}}{POSE}"
+
+
+def _as_named(name: str) -> tuple[str, Kind]:
+    return name, "frame"
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,6 +36,8 @@ class ElementPoses:
     base: tuple[str, Kind]
     keep: Keep
     kind: Kind = "link"
+    frame: Callable[[str], tuple[str, Kind]] = _as_named
+    """The frame that a mark names, where marks say in which frame a pose is to be written."""
 
     def parts(self, parts: tuple[Opaque, ...], *, still: bool) -> tuple[Opaque, ...]:
         """The opaque parts of the link: their poses are in the link's frame, or in the one that they name."""
@@ -41,7 +51,7 @@ class ElementPoses:
 
     def sensor(self, sensor: Sensor, written: Pose | None) -> Sensor:
         """A sensor of the link; a pose in it that names a frame becomes one in the sensor's frame."""
-        if not any(_names_frame(part.element) for part in sensor.opaque if part.element):
+        if not any(_names_frame(part.element) or _is_marked(part.element) for part in sensor.opaque if part.element):
             return sensor
         placed = self._resolve(written)
 
@@ -56,7 +66,9 @@ class ElementPoses:
             child if child.name == "pose" or child.name[0] == "{" else self._move(child, holder, moves=False)
             for child in element.children
         )
-        pose = element.find("pose")
+        pose, mark = element.find("pose"), element.find(_MARK)
+        if mark is not None:
+            return self._as_marked(element, children, mark, holder, pose, moves=moves)
         if pose is not None and not moves and _frame_of(pose) in _own_frames(element):  # of SDF 1.5 and 1.6
             return element.model_copy(update={"children": children})
         names_frame = pose is not None and _frame_of(pose) is not None
@@ -69,7 +81,31 @@ class ElementPoses:
         if pose is None:
             return element.model_copy(update={"children": (made, *children)})
         message = f"the pose of <{element.name}> of {self.kind} {self.holder!r} is in another frame"
-        return element.model_copy(update={"children": (*children, *self.keep(message, pose))})
+        return element.model_copy(update={"children": (*children, *self.keep(message, read))})
+
+    def _as_marked(
+        self,
+        element: Element,
+        children: tuple[Element, ...],
+        mark: Element,
+        holder: Transform,
+        pose: Element | None,
+        *,
+        moves: bool,
+    ) -> Element:
+        """An element whose pose is written in the frame and notation that a mark in it says; the mark goes."""
+        read = Pose() if pose is None else read_pose(pose)
+        placed = self._resolve(read) if moves or read.relative_to else holder.compose(Transform.from_pose(read))
+        name = mark.get("relative_to")
+        around, kind = self.frame(name) if name else ("", "frame")
+        known = bool(name) and self.graph.knows(around)
+        if known:
+            here = self.graph.pose(self.base[0], around, kind=self.base[1], base=kind).compose(placed)
+        else:
+            here = placed if moves else holder.inverse().compose(placed)
+        made = to_element(as_marked(here, mark, name if known else None) or Pose(), "pose", "sdf")
+        rest = tuple(made if child is pose else child for child in children if child is not mark)
+        return element.model_copy(update={"children": rest if pose is not None else (made, *rest)})
 
     def _resolve(self, pose: Pose | None) -> Transform:
         return self.graph.resolve(pose, self.holder, self.base[0], kind=self.kind, base=self.base[1])
@@ -97,6 +133,10 @@ def _names_frame(element: Element) -> bool:
         return False
     own = element.name == "pose" and _frame_of(element) is not None
     return own or any(map(_names_frame, element.children))
+
+
+def _is_marked(element: Element) -> bool:
+    return any(each.name == _MARK for each in element.walk())
 
 
 def read_pose(element: Element) -> Pose:

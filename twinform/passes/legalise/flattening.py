@@ -59,8 +59,6 @@ class _Scope:
             pose = pose.model_copy(update={"relative_to": self.frame_name})
         inside = self._inside(link.model_copy(update={"pose": None}))
         update: dict[str, object] = {"name": self.prefix + link.name, "pose": pose}
-        if link.pose is None:
-            inside = mark_made(inside, "pose")
         return inside.model_copy(update=update)
 
     def joint(self, joint: Joint) -> Joint:
@@ -124,4 +122,4 @@ def _own_frame(model: Model, around: _Scope, scope: _Scope, graph: FrameGraph) -
     if model.placement_frame:
         pose = graph.pose(name, base, kind="model", base="joint").to_pose(base)
     attached = body if graph.knows(body) and body not in (name, MODEL) else around.frame_name
-    return mark_made(Frame(name=name, attached_to=attached, pose=pose, source=model.source), ".")
+    return mark_made(Frame(name=name, attached_to=attached, pose=pose, source=model.source))

@@ -13,6 +13,10 @@ _PARALLEL = 1e-9
 """How far from 1 the cosine between two axes may be that are one."""
 
 
+GEARED = "geared"
+"""The mark on a joint that mimics because a gearbox couples it: `<tf:geared/>`."""
+
+
 class Relation(NamedTuple):
     """The joint `follower` turns `multiplier` times as far as `leader`."""
 

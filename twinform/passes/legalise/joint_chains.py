@@ -3,21 +3,21 @@
 The last joint of a chain keeps the name and the child of the one that it stands for and says its type; the joints above
 it, and the links between, say whose parts they are:
 
-    <joint name="neck_axis" type="revolute" tf:part_of="neck">
-    <link name="neck_axis_link" tf:part_of="neck"/>
-    <joint name="neck" type="revolute" tf:type="universal">
+    <joint name="neck_axis" type="revolute"><tf:part joint="neck"/>
+    <link name="neck_axis_link"><tf:part joint="neck"/></link>
+    <joint name="neck" type="revolute"><tf:chain type="universal"/>
 """
 
 import math
 
-from twinform.ir import Joint, JointType, Link, Opaque
+from twinform.ir import Joint, JointType, Link
 from twinform.ir.node import Vector3
-from twinform.passes.legalise.carrier import NAMESPACE
+from twinform.passes.legalise.marks import find_mark
 
-TYPE = f"{{{NAMESPACE}}}type"
-"""The attribute of the last joint: the type of the joint that the chain stands for."""
-PART_OF = f"{{{NAMESPACE}}}part_of"
-"""The attribute of the other joints and of the links: the name of the last joint."""
+CHAIN = "chain"
+"""The mark on the last joint, with the type of the joint that the chain stands for."""
+PART = "part"
+"""The mark on the other joints and on the links, with the name of the last joint."""
 
 CHAINS: dict[JointType, tuple[str, ...]] = {
     "universal": ("axis",),
@@ -36,25 +36,16 @@ PITCHES: tuple[str, ...] = ("screw_thread_pitch", "thread_pitch")
 TWO_AXES: frozenset[JointType] = frozenset({"universal", "revolute2"})
 
 
-def type_mark(joint: Joint) -> Opaque:
-    """The mark on the last joint of the chain of a joint."""
-    return Opaque(attribute=(TYPE, joint.type))
+def chain_type(joint: Joint) -> str | None:
+    """The type of the joint that a chain stands for, if this is its last joint."""
+    found = find_mark(joint, CHAIN)
+    return found.get("type") if found else None
 
 
-def part_mark(name: str) -> Opaque:
-    """The mark on the other parts of the chain of the joint of this name."""
-    return Opaque(attribute=(PART_OF, name))
-
-
-def marked(node: Joint | Link, mark: str) -> str | None:
-    """What a mark says, if the node has it."""
-    found = (part.attribute[1] for part in node.opaque if part.attribute and part.attribute[0] == mark)
-    return next(found, None)
-
-
-def is_chain_mark(part: Opaque) -> bool:
-    """Whether an opaque part is one of the two marks."""
-    return part.attribute is not None and part.attribute[0] in (TYPE, PART_OF)
+def part_of(node: Joint | Link) -> str | None:
+    """The name of the last joint of the chain, if the node is another part of it."""
+    found = find_mark(node, PART)
+    return found.get("joint") if found else None
 
 
 def metres_per_radian(joint: Joint) -> float | None:

@@ -8,6 +8,9 @@ from twinform.ir import Joint, Opaque, Pose
 from twinform.ir.frames import FrameGraph
 from twinform.passes.legalise.nodes import text_piece
 
+ENDS = "ends"
+"""The mark on a joint whose ends were frames: `<tf:ends parent="mount" child="flange"/>`."""
+
 
 def resolve_ends(joint: Joint, links: Container[str], graph: FrameGraph) -> tuple[Joint, list[Opaque]]:
     """The joint between the links that its ends move with, and the ends that were others, as pieces.

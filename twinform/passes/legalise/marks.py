@@ -1,46 +1,68 @@
-"""Marks on what a pass has made up, so that the way back can leave it out again."""
+"""Marks: elements of our namespace that say how the source wrote a part that the target says in its own words.
 
+A mark never repeats what the target says; it holds the rest, so that it stays true when the other part is edited:
+
+    <tf:made/>                                   a conversion made this link, joint or frame up
+    <tf:from format="sdf" version="1.9"/>        in a model: what it was converted from
+    <tf:offset xyz="0 0 0.1" rpy="0 0 0"/>       the frame that the source had, in the frame that stands here
+    <tf:pose relative_to="base"/>                the frame, and the notation, in which the source wrote this pose
+    <tf:axis expressed_in="base"/>               the frame in which the source wrote this axis
+
+Other marks stand beside what uses them: `joint_chains.py`, `to_sdf/shared_materials.py` and so on. They are elements
+and never attributes: other readers skip foreign elements, and some fail on foreign attributes.
+"""
+
+from collections.abc import Mapping
 from typing import TypeVar
 
-from twinform.ir import Node, Opaque, map_children
+from twinform.ir import Element, Node, Opaque, map_children
 from twinform.passes.legalise.carrier import NAMESPACE
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
-MADE = f"{{{NAMESPACE}}}made"
-"""The attribute that lists the fields of a node that were not in the source; `.` is the whole node."""
+MADE = "made"
+"""The mark on a link, joint or frame that was not in the source."""
 
 
-def mark_made(node: AnyNode, *fields: str) -> AnyNode:
-    """The node with a mark on the fields that a pass has made up, so that the way back can leave them out again."""
-    if "." in made_fields(node):
-        return node
-    rest = tuple(part for part in node.opaque if not _is_mark(part))
-    words = " ".join(dict.fromkeys((*made_fields(node), *fields)))
-    return node.model_copy(update={"opaque": (Opaque(attribute=(MADE, words)), *rest)}) if words else node
+def mark(kind: str, text: str | None = None, attributes: Mapping[str, str | None] | None = None) -> Opaque:
+    """A mark; attributes that are None are left out."""
+    written = tuple((name, value) for name, value in (attributes or {}).items() if value is not None)
+    return Opaque(element=Element(name=f"{{{NAMESPACE}}}{kind}", text=text, attributes=written))
 
 
-def made_fields(node: Node) -> tuple[str, ...]:
-    """The fields that a pass has made up."""
-    found = (part.attribute[1] for part in node.opaque if part.attribute is not None and _is_mark(part))
-    return tuple(" ".join(found).split())
+def with_mark(
+    node: AnyNode, kind: str, text: str | None = None, attributes: Mapping[str, str | None] | None = None
+) -> AnyNode:
+    """The node with one more mark, before its other opaque parts."""
+    return node.model_copy(update={"opaque": (mark(kind, text, attributes), *node.opaque)})
 
 
-def without_mark(node: AnyNode, field: str) -> AnyNode:
-    """The node without the mark on one field."""
-    fields = [each for each in made_fields(node) if each != field]
-    rest = tuple(part for part in node.opaque if not _is_mark(part))
-    bare = node.model_copy(update={"opaque": rest})
-    return mark_made(bare, *fields) if fields else bare
+def is_mark(part: Opaque, kind: str) -> bool:
+    """Whether an opaque part is a mark of this kind."""
+    return part.element is not None and part.element.name == f"{{{NAMESPACE}}}{kind}"
 
 
-def _is_mark(part: Opaque) -> bool:
-    return part.attribute is not None and part.attribute[0] == MADE
+def find_mark(node: Node, kind: str) -> Element | None:
+    """The first mark of a kind on the node."""
+    return next((part.element for part in node.opaque if is_mark(part, kind)), None) if node.opaque else None
 
 
-def without_marks(node: AnyNode) -> AnyNode:
-    """The node without the marks of the passes, on it and in it."""
-    kept = tuple(part for part in node.opaque if not _is_mark(part))
-    if len(kept) != len(node.opaque):
-        node = node.model_copy(update={"opaque": kept})
-    return map_children(node, without_marks)
+def without_mark(node: AnyNode, *kinds: str) -> AnyNode:
+    """The node without its marks of these kinds."""
+    kept = tuple(part for part in node.opaque if not any(is_mark(part, kind) for kind in kinds))
+    return node if len(kept) == len(node.opaque) else node.model_copy(update={"opaque": kept})
+
+
+def mark_made(node: AnyNode) -> AnyNode:
+    """The node, marked as made up by a pass, so that the reverse conversion leaves it out."""
+    return node if is_made(node) else with_mark(node, MADE)
+
+
+def is_made(node: Node) -> bool:
+    """Whether a pass has made the node up."""
+    return find_mark(node, MADE) is not None
+
+
+def without_made(node: AnyNode) -> AnyNode:
+    """The node without marks of what was made up, on it and in it."""
+    return map_children(without_mark(node, MADE), without_made)

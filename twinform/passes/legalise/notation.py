@@ -2,8 +2,10 @@
 
 import math
 
-from twinform.ir import Pose
+from twinform.ir import Element, Pose
+from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform
+from twinform.schemas import format_value
 
 
 def in_radians(transform: Transform, relative_to: str | None = None) -> Pose:
@@ -17,3 +19,68 @@ def in_radians(transform: Transform, relative_to: str | None = None) -> Pose:
     elif written.degrees and rpy is not None:
         rpy = (math.radians(rpy[0]), math.radians(rpy[1]), math.radians(rpy[2]))
     return Pose(xyz=written.xyz, rpy=rpy, relative_to=relative_to, source=written.source)
+
+
+POSE = "pose"
+"""The mark on what has a pose: the frame and the notation in which SDF wrote it."""
+
+
+def pose_attributes(written: Pose | None) -> dict[str, str | None]:
+    """What a mark says of a pose as SDF wrote it; nothing where that is the usual frame and notation."""
+    if written is None:
+        return {}
+    degrees = None if written.degrees is None else str(written.degrees).lower()
+    said = {"relative_to": written.relative_to, "degrees": degrees, "rotation_format": written.rotation_format}
+    return {name: value for name, value in said.items() if value is not None}
+
+
+def as_marked(transform: Transform, mark: Element | None, relative_to: str | None) -> Pose | None:
+    """The pose in the notation that a mark says; None for the identity, which goes without saying."""
+    if mark is None or not (mark.get("degrees") or mark.get("rotation_format")):
+        pose = transform.to_pose(relative_to)
+        return None if pose == Pose() else pose
+    degrees, form = mark.get("degrees"), mark.get("rotation_format")
+    plain = transform.to_pose()
+    update: dict[str, object] = {"degrees": None if degrees is None else degrees == "true", "rotation_format": form}
+    if form == "quat_xyzw":
+        update |= {"rpy": None, "quat_xyzw": transform.quaternion()}
+    elif degrees == "true":
+        roll, pitch, yaw = transform.rpy()
+        update["rpy"] = (math.degrees(roll), math.degrees(pitch), math.degrees(yaw))
+    return plain.model_copy(update={**update, "xyz": plain.xyz or (0.0, 0.0, 0.0), "relative_to": relative_to})
+
+
+BODY = "body"
+"""The mark on a link of URDF called `world` that is a link in SDF too, and not its world."""
+FRAME = "frame"
+"""The mark on a link that is a frame in SDF, with what that is attached to where it is not the parent of its joint."""
+NESTED = "nested"
+"""The mark on a link that is the frame of a nested model in SDF, with what else that model says."""
+LINK = "link"
+"""The mark on a frame of SDF that is a link in URDF; the frame that it is attached to is its joint."""
+OFFSET = "offset"
+"""The mark on a link or model whose frame in SDF is another one than in URDF: the one of SDF in that of URDF."""
+
+
+def offset_attributes(offset: Transform) -> dict[str, str | None]:
+    """What the mark says: metres and radians."""
+    pose = in_radians(offset)
+    return {name: format_value(value) for name in ("xyz", "rpy") if (value := getattr(pose, name)) is not None}
+
+
+def read_offset(mark: Element) -> Transform:
+    """What a mark says, which may have been edited.
+
+    Raises:
+        ValueError: it is not three numbers.
+    """
+    return Transform.from_pose(Pose(xyz=_vector(mark.get("xyz")), rpy=_vector(mark.get("rpy"))))
+
+
+def _vector(text: str | None) -> Vector3:
+    if text is None:
+        return (0.0, 0.0, 0.0)
+    x, y, z = map(float, text.split())
+    if not all(map(math.isfinite, (x, y, z))):
+        raise ValueError(f"{text!r} is not three numbers")
+    return (x, y, z)

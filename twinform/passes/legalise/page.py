@@ -26,10 +26,7 @@ This file is made by `python -m twinform.passes.legalise.page docs/explanation/p
    each that changed something.
 4. **Legalisation**: the passes below, which turn what the target cannot say into what it can. The document is verified
    after the last of them.
-5. **The way back** is tried in memory: the same, from the target to the source. What it does not find is remembered in
-   the file ([why](decisions.md#every-conversion-goes-the-way-back-once-and-remembers-what-it-does-not-find-there)).
-   Where the source has such a memory itself, it is recalled before anything is written.
-6. **Writing**, and the schema of the target once more.
+5. **Writing**, and the schema of the target once more.
 """
 _CARRIERS = """\
 Without `--no-carriers`, what the target has no words for travels along in our own namespace; each of these passes says

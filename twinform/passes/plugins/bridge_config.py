@@ -1,44 +1,45 @@
-"""Write the configuration of ros_gz_bridge."""
+"""The configuration of ros_gz_bridge, as a file beside the result."""
 
-from pathlib import Path
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from twinform.diagnostics import Notes
-from twinform.diagnostics.rules import plugins as rules
 from twinform.ir import Document
-from twinform.passes.base import Pass
+from twinform.passes.companions import CompanionPass, CompanionPath
 from twinform.passes.plugins.bridge import bridge_yaml, bridges
 from twinform.passes.plugins.parts import ReleaseName
 
 
-class BridgeConfig(Pass):
+def _yaml(path: str) -> str:
+    if not path.endswith((".yaml", ".yml")):
+        raise ValueError("takes the name of a YAML file, which ends in .yaml or .yml")
+    return path
+
+
+class BridgeConfig(CompanionPass):
     """Writes the YAML file that ros_gz_bridge needs to carry the topics of sensors and plugins to ROS and back.
 
     For the clock, each topic that a sensor or a system of the catalogue writes, and each that a system reads, it has
     the names and messages on both sides and the direction. Names of ROS are short: `cmd_vel`, `odom`, `joint_states`,
     `imu`; with several models each has its own below the model's name. Transforms go to `/tf`.
 
-    It changes nothing in the document. The file is written when the pass runs, whatever becomes of the conversion;
-    `twinform convert --bridge FILE` writes the same for the result, if there is one.
+    It changes nothing in the document. The file is written together with the result, below its folder, where there is
+    no error; without `-o` there is no such folder. A file that is there is only replaced if it was written by twinform.
+    `twinform convert --bridge FILE` writes the same for the result, wherever it says.
     It never bridges topics whose message ROS does not know, nor those whose name depends on an unknown world.
-    Diagnostics: `unbridged-topic`, `unwritten-file`.
+    Diagnostics: `unbridged-topic`.
     """
 
     name: ClassVar[str] = "bridge-config"
     example: ClassVar[str] = "bridge-config{file=bridge.yaml release=harmonic}"
 
-    file: str = Field(min_length=1, description="Where to write it.")
+    file: Annotated[CompanionPath, AfterValidator(_yaml)] = Field(
+        description="Where to write it: a path below the folder of the result, ending in `.yaml` or `.yml`."
+    )
     release: ReleaseName = Field(default="harmonic", description="The release of Gazebo that runs the model.")
     world: str | None = Field(default=None, description="The world that a model is put into; topics may contain it.")
 
-    def run(self, document: Document, notes: Notes) -> Document:
-        """The same document."""
-        text = bridge_yaml(bridges(document, self.release, notes, self.world))
-        try:
-            Path(self.file).write_text(text, encoding="utf-8")
-        except (OSError, ValueError) as error:
-            message = f"{self.file} cannot be written: {getattr(error, 'strerror', None) or error}"
-            notes.report(rules.UNWRITTEN_FILE, message, found=self.file)
-        return document
+    def text(self, document: Document, notes: Notes) -> str:
+        """The text of the file."""
+        return bridge_yaml(bridges(document, self.release, notes, self.world))

@@ -8,6 +8,7 @@ from pydantic import Field
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import edits as rules
 from twinform.ir import Document, Format, Model
+from twinform.ir.namespaces import joined
 from twinform.ir.node import Vector3
 from twinform.passes.other_documents import DocumentPass, DocumentReader
 from twinform.passes.structure.join_models import Mount, join_sdf, join_urdf, root_of
@@ -57,7 +58,8 @@ class Attach(DocumentPass):
         made = self._joined(target, guest, document.format, notes)
         if made is target:
             return document
-        return _replaced(document, target, made).model_copy(update={"namespaces": _namespaces(document, other)})
+        namespaces = joined(document.namespaces, [other.namespaces])
+        return _replaced(document, target, made).model_copy(update={"namespaces": namespaces})
 
     def _joined(self, target: Model, guest: Model, format_: Format, notes: Notes) -> Model:
         scope = scope_of(guest, self._choose, deep=False)
@@ -108,12 +110,3 @@ def _replaced(document: Document, old: Model, new: Model) -> Document:
         for world in document.worlds
     )
     return document.model_copy(update={"models": models, "worlds": worlds})
-
-
-def _namespaces(document: Document, other: Document) -> tuple[tuple[str, str], ...]:
-    """The prefixes of both; where they differ, those of the document count."""
-    known = dict(document.namespaces)
-    for prefix, uri in other.namespaces:
-        if prefix and uri not in known.values():
-            known.setdefault(prefix, uri)
-    return tuple(known.items())

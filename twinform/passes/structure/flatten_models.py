@@ -12,7 +12,7 @@ from twinform.ir import Document, Format, Frame, Link, Model, World
 from twinform.ir.frames import MODEL, FrameGraph
 from twinform.passes.legalise.flattening import flatten
 from twinform.passes.legalise.joint_ends import report_self_joint, resolve_ends
-from twinform.passes.legalise.marks import without_marks
+from twinform.passes.legalise.marks import without_made
 from twinform.passes.structure.model_edit import ModelEdit, Place
 from twinform.passes.structure.renaming import renamed_contents, renamed_model
 from twinform.passes.structure.scopes import Part, Scope, report_clashes, scope_of
@@ -59,7 +59,7 @@ class FlattenModels(ModelEdit):
         if place.format is Format.URDF or not model.models or _has_includes(model, place.notes):
             return model
         _report_settings(model, place)
-        flat = without_marks(flatten(_prepared(model), _plain))
+        flat = without_made(flatten(_prepared(model), _plain))
         flat = _with_rest(flat, model, place)
         if _has_self_joint(flat, place.notes):
             return model

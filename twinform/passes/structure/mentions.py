@@ -4,7 +4,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from twinform.ir import Element, Model, Node, Plugin, walk
-from twinform.passes.legalise.carrier import SOURCE
 from twinform.passes.structure.reference_words import Kind, kind_of_attribute, kind_of_text
 
 
@@ -30,7 +29,7 @@ def _elements(node: Node) -> Iterator[Element]:
     content: tuple[Element, ...] = getattr(node, "content", ())
     yield from content
     for part in node.opaque:
-        if part.element is not None and part.element.name != SOURCE:
+        if part.element is not None:
             yield part.element
 
 

@@ -25,7 +25,6 @@ from twinform.ir import (
     Visual,
 )
 from twinform.ir.sourced import Sourced
-from twinform.passes.legalise.carrier import SOURCE
 from twinform.passes.legalise.nodes import map_elements, map_poses
 from twinform.passes.structure.reference_words import Kind, kind_of_attribute, kind_of_text
 from twinform.passes.structure.scopes import Scope
@@ -172,8 +171,6 @@ class _Renamer:
 
     def element(self, element: Element, holder: str, where: Location) -> Element:
         """An element without a typed form; `holder` is the name of the one around it."""
-        if element.name == SOURCE:  # it remembers another file, which keeps its names
-            return element
         where = element.location if element.source else where
         inner = self.scope.inner.get(element.get("name") or "") if element.name in _MODELS else None
         if inner is not None:

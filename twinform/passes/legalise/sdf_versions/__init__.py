@@ -5,13 +5,14 @@ from twinform.passes.legalise.sdf_versions.leave_out import LeaveOut
 from twinform.passes.legalise.sdf_versions.put_back import PutBack
 from twinform.passes.legalise.sdf_versions.rename_states import RenameStates
 from twinform.passes.legalise.sdf_versions.set_version import SetVersion
-from twinform.passes.legalise.sdf_versions.steps import backward, forward, unversioned
+from twinform.passes.legalise.sdf_versions.steps import backward, forward, meaning_back, unversioned
 from twinform.passes.legalise.sdf_versions.write_plain_poses import WritePlainPoses
 from twinform.schemas import Version, parse_version, print_version, table
 
 __all__ = [
     "change_version",
     "known_version",
+    "lower_meaning",
     "lower_version",
     "raise_for_merging",
     "raise_unversioned",
@@ -61,14 +62,19 @@ def raise_for_merging(declared: str, asked: str, *, carriers: bool = True) -> tu
     return (*forward(parse_version(declared), parse_version(asked)), back, SetVersion(version=asked))
 
 
-def raise_unversioned() -> tuple[Pass, ...]:
+def raise_unversioned(*, carriers: bool = True) -> tuple[Pass, ...]:
     """The passes that say old words in new ones where nobody has declared a version, as in `<gazebo>` elements."""
-    return tuple(unversioned(table("sdf").versions[-1]))
+    return tuple(unversioned(table("sdf").versions[-1], carriers=carriers))
 
 
 def lower_version(declared: str | None, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
     """The passes that say a newer file in older words."""
     return tuple(backward(parse_version(known_version(declared)), parse_version(asked), carriers=carriers))
+
+
+def lower_meaning(asked: str) -> tuple[Pass, ...]:
+    """The passes for what means something else in an older version; newer words stay."""
+    return tuple(meaning_back(parse_version(table("sdf").versions[-1]), parse_version(asked)))
 
 
 def known_version(declared: str | None) -> str:

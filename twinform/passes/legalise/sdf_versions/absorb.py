@@ -38,6 +38,16 @@ def absorb(node: AnyNode, pieces: tuple[Opaque, ...], terms: Terms, version: Ver
     return node
 
 
+def says_already(node: Node, piece: Opaque, terms: Terms) -> bool:
+    """Whether a mimic, which no older version has, was written by hand where one is carried."""
+    if terms.without or terms.instead or piece.element is None or piece.element.name != "mimic":
+        return False
+    holder: object = node
+    for step in filter(None, piece.at.split("/")):
+        holder = getattr(holder, step, None)
+    return getattr(holder, "mimic", None) is not None
+
+
 def _blanked(node: AnyNode, path: list[str]) -> AnyNode:
     first, *rest = path
     value = getattr(node, first, None)

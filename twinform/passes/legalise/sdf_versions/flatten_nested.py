@@ -6,7 +6,7 @@ from typing import ClassVar
 from twinform.diagnostics.rules import to_sdf as rules
 from twinform.ir import Document, Model, World, count_parts
 from twinform.passes.legalise.flattening import flatten
-from twinform.passes.legalise.marks import without_marks
+from twinform.passes.legalise.marks import without_made
 from twinform.passes.legalise.nodes import piece
 from twinform.passes.legalise.sdf_versions.base import VersionPass, map_worlds
 from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms
@@ -34,7 +34,7 @@ class FlattenNested(VersionPass):
     def _flat(self, model: Model, keeper: Keeper) -> Model:
         if not model.models:
             return model
-        flat = without_marks(flatten(model, lambda frame, shell: frame))
+        flat = without_made(flatten(model, lambda frame, shell: frame))
         since = parse_version(self.source)  # whose words the nested model is in
         for index in reversed(range(len(model.models))):
             nested = model.models[index]

@@ -27,7 +27,7 @@ class NestModels(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document without scoped names."""
-        return map_models(document, lambda model: _nest(model, keeper.notes))
+        return map_models(document, lambda model: nest(model, keeper.notes))
 
 
 @dataclass(slots=True)
@@ -67,7 +67,8 @@ class _Inner:
         return pose.model_copy(update={"relative_to": self.strip(pose.relative_to)})
 
 
-def _nest(model: Model, notes: Notes) -> Model:
+def nest(model: Model, notes: Notes) -> Model:
+    """The model with nested models of what has scoped names in it."""
     named = (*model.links, *model.joints, *model.frames, *model.models)
     if not any(_SCOPE in node.name for node in named):
         return model
@@ -131,7 +132,7 @@ def _model(inner: _Inner, around: Model, graph: FrameGraph, notes: Notes) -> Mod
     message = f"{len(nested.links)} links, {len(nested.joints)} joints and {len(nested.frames)} frames of model "
     message += f"{around.name!r} are in its nested model {inner.name!r}"
     notes.account(Fate.APPROXIMATED, rules.OTHER_WORDS, message, nested.location, 0)
-    return _nest(nested, notes)
+    return nest(nested, notes)
 
 
 def _link(link: Link, inner: _Inner, base: str, graph: FrameGraph) -> Link:

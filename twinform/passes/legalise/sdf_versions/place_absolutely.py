@@ -199,9 +199,10 @@ class _Poses:
         """The poses in untyped parts of the holder."""
         return ElementPoses(self.graph, self.holder, (self.holder, self.kind), self._keep, self.kind)
 
-    def _keep(self, message: str, pose: Element) -> tuple[Element, ...]:
-        self.placer.keeper.account(rules.OTHER_WORDS, message, NOWHERE, 1 + len(pose.attributes))
-        carriers = version_carriers([Opaque(element=pose)], Terms(since=_NAMES, instead="pose"))
+    def _keep(self, message: str, pose: Pose) -> tuple[Element, ...]:
+        written = to_element(pose, "pose", "sdf")
+        self.placer.keeper.account(rules.OTHER_WORDS, message, NOWHERE, 1 + len(written.attributes))
+        carriers = version_carriers([Opaque(element=written)], Terms(since=_NAMES, instead="pose"))
         return tuple(part.element for part in carriers if part.element) if self.placer.keeper.carriers else ()
 
 

@@ -7,7 +7,7 @@ from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Document, Element, Model, Node, Opaque, World, map_children, walk
 from twinform.passes.legalise.carrier import NAMESPACE
-from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb
+from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb, says_already
 from twinform.passes.legalise.sdf_versions.base import VersionPass, is_foreign
 from twinform.passes.legalise.sdf_versions.carriers import DIALECT, Keeper, carried, is_version_carrier, terms_of
 from twinform.passes.legalise.sdf_versions.comparison import same, without_carriers
@@ -93,7 +93,10 @@ def restored_itself(node: AnyNode, version: Version) -> AnyNode:
         kept = tuple(part for part in node.opaque if not any(part is each for each in own))
         node = node.model_copy(update={"opaque": kept})
         for part in reversed(own):
-            node = absorb(node, carried(part), terms_of(part), version)
+            terms = terms_of(part)
+            if any(says_already(node, piece, terms) for piece in carried(part)):
+                raise CarrierError("what it holds is written beside it by now")
+            node = absorb(node, carried(part), terms, version)
     parts = tuple(_inside(part, version) for part in node.opaque)
     kept = tuple(part for part in parts if part is not None)
     if len(kept) != len(node.opaque) or any(new is not old for new, old in zip(kept, node.opaque, strict=True)):

@@ -18,7 +18,7 @@ from twinform.passes.legalise.sdf_versions.nest_models import NestModels
 from twinform.passes.legalise.sdf_versions.place_absolutely import PlaceAbsolutely
 from twinform.passes.legalise.sdf_versions.place_inertials import PlaceInertials
 from twinform.passes.legalise.sdf_versions.rename_states import RenameStates
-from twinform.passes.legalise.sdf_versions.spread_imu_noise import SpreadImuNoise
+from twinform.passes.legalise.sdf_versions.spread_imu_noise import GatherImuNoise, SpreadImuNoise
 from twinform.passes.legalise.sdf_versions.turn_axes import TurnAxes
 from twinform.passes.legalise.sdf_versions.write_inertias import WriteInertias
 from twinform.passes.legalise.sdf_versions.write_plain_poses import WritePlainPoses
@@ -67,9 +67,9 @@ def _from_named_frames(crosses: Crosses, version: str, *, names: bool) -> Iterat
         yield RenameStates(version=version)
 
 
-def unversioned(version: str) -> Iterator[Pass]:
+def unversioned(version: str, *, carriers: bool = True) -> Iterator[Pass]:
     """The passes for words of any version in a text that declares none, where no newer version means something else."""
-    yield SpreadImuNoise(version=version)
+    yield SpreadImuNoise(version=version, mark=carriers)
     yield NamePoseFrames(version=version)
     yield NameAxisFrames(version=version)
 
@@ -80,6 +80,20 @@ def backward(new: Version, old: Version, *, carriers: bool = True) -> Iterator[P
     yield from _models_back(crosses, print_version(old), print_version(new), carriers=carriers)
     yield from _values_back(crosses, print_version(old), carriers=carriers)
     yield LeaveOut(version=print_version(old), carriers=carriers)
+
+
+def meaning_back(new: Version, old: Version) -> Iterator[Pass]:
+    """The passes from a newer version to an older one for words that both have, and that mean something else there."""
+    crosses: Crosses = lambda minor: old < (1, minor) <= new  # noqa: E731 - a word for the lines below
+    version = print_version(old)
+    if crosses(5):
+        yield TurnAxes(version=version)
+    if crosses(6):
+        yield GatherImuNoise(version=version)
+    if crosses(10):
+        yield BoundLimits(version=version)
+    if crosses(4):
+        yield MoveTimeSteps(version=version, back=True)
 
 
 def _models_back(crosses: Crosses, version: str, source: str, *, carriers: bool) -> Iterator[Pass]:
@@ -109,6 +123,7 @@ def _values_back(crosses: Crosses, version: str, *, carriers: bool) -> Iterator[
         yield WriteThreadPitches(version=version, carriers=carriers, back=True)
         yield NameTheNameless(version=version, carriers=carriers)
     if crosses(6):
+        yield GatherImuNoise(version=version, carriers=carriers)
         yield MoveWorldFields(version=version, carriers=carriers, back=True)
     if crosses(4):
         yield MoveTimeSteps(version=version, carriers=carriers, back=True)

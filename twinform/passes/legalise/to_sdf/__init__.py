@@ -1,7 +1,10 @@
 """From the terms of URDF to those of SDF: the passes, in order."""
 
+from twinform.ir import Format
 from twinform.passes.base import Pass
-from twinform.passes.legalise.sdf_versions import lower_version, raise_unversioned
+from twinform.passes.legalise.drop_stale import DropStale
+from twinform.passes.legalise.names import RestoreNames
+from twinform.passes.legalise.sdf_versions import lower_meaning, lower_version, raise_unversioned
 from twinform.passes.legalise.to_sdf.bodies import UrdfBodies
 from twinform.passes.legalise.to_sdf.carry_urdf import CarryUrdf
 from twinform.passes.legalise.to_sdf.declare_quaternions import DeclareQuaternions
@@ -13,34 +16,49 @@ from twinform.passes.legalise.to_sdf.joints import UrdfJoints
 from twinform.passes.legalise.to_sdf.leave_inertias import LeaveInertias
 from twinform.passes.legalise.to_sdf.mesh_uris import MeshUris
 from twinform.passes.legalise.to_sdf.name_shapes import NameShapes
+from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
+from twinform.passes.legalise.to_sdf.restore_joints import RestoreJoints
+from twinform.passes.legalise.to_sdf.restore_nested import NameScopes, RestoreNested
 from twinform.passes.legalise.to_sdf.retarget import RetargetSdf
 from twinform.passes.legalise.to_sdf.shared_materials import SharedMaterials
 from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
 from twinform.passes.legalise.to_sdf.unpack_sdf import UnpackSdf
 from twinform.passes.legalise.to_sdf.world_link import WorldLink
+from twinform.schemas import parse_version
 
 __all__ = ["to_sdf"]
 
+_ONE_SCOPE = (1, 7)
+"""Since this version all names in a model are unlike each other."""
 
-def to_sdf(version: str, *, carriers: bool) -> tuple[Pass, ...]:
-    """The passes that make SDF of a version out of a URDF document."""
+
+def to_sdf(version: str, *, carriers: bool, mixed: bool = False) -> tuple[Pass, ...]:
+    """The passes that make SDF of a version out of a URDF document; `mixed` lets it have words of newer ones."""
     return (
         CarryUrdf(carriers=carriers),  # before anything of SDF comes in
         FoldGazebo(carriers=carriers),
-        *raise_unversioned(),
+        *raise_unversioned(carriers=carriers),
+        UnpackSdf(of="bodies"),
         FoldJoints(),
         LeaveInertias(version=version),
         WorldLink(carriers=carriers),
         UniqueNames(carriers=carriers),
-        NameShapes(),
+        NameShapes(carriers=carriers),
         SharedMaterials(carriers=carriers),
         FrameLinks(carriers=carriers),
-        UrdfBodies(),
+        UrdfBodies(carriers=carriers),
         UrdfJoints(carriers=carriers),
+        RestoreJoints(),
         FoldGearboxes(),
-        UnpackSdf(carriers=carriers),  # when all that URDF says is said
-        MeshUris(),
+        UnpackSdf(of="parts"),  # when all that URDF says is said
+        MeshUris(carriers=carriers),
+        RestoreNames(to=Format.SDF),
+        NameScopes(),
+        RestoreFrames(),
+        RestoreNested(),
+        DropStale(to=Format.SDF),
         DeclareQuaternions(),
-        *lower_version(None, version, carriers=carriers),
-        RetargetSdf(version=version),
+        *(lower_meaning(version) if mixed else lower_version(None, version, carriers=carriers)),
+        *([RestoreNames(to=Format.SDF, apart=True)] if parse_version(version) < _ONE_SCOPE else []),
+        RetargetSdf(version=version, carriers=carriers),
     )

@@ -5,12 +5,17 @@ from typing import ClassVar
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import to_sdf
-from twinform.ir import Inertia, Inertial, Link, Model
+from twinform.ir import Format, Inertia, Inertial, Link, Model
+from twinform.passes.legalise.marks import with_mark
 from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.legalise.provenance import came_from
 from twinform.passes.legalise.to_sdf.frame_links import is_massless
 
 _NO_INERTIA = Inertia(ixx=0.0, ixy=0.0, ixz=0.0, iyy=0.0, iyz=0.0, izz=0.0)
 _NONE = Inertial(mass=0.0, inertia=_NO_INERTIA)
+
+UNSAID = "unsaid"
+"""The mark on an inertial of SDF that lists what URDF leaves out: `<tf:unsaid>inertia</tf:unsaid>`."""
 
 
 class UrdfBodies(ModelPass):
@@ -23,15 +28,17 @@ class UrdfBodies(ModelPass):
     """
 
     name: ClassVar[str] = "urdf-bodies"
+    carriers: bool = True
 
     def run_model(self, model: Model, notes: Notes) -> Model:
         """The model with a mass for every link."""
         self._report_massless(model, notes)
-        links = tuple(_with_inertial(link) for link in model.links)
+        links = tuple(_with_inertial(link, carriers=self.carriers) for link in model.links)
         children = {joint.child for joint in model.joints}
         root = next((link.name for link in links if link.name not in children), None)
         update: dict[str, object] = {"links": links}
-        if root is not None and links and links[0].name != root and model.canonical_link is None:
+        usual = came_from(model, Format.SDF) or (links and links[0].name == root)
+        if root is not None and not usual and model.canonical_link is None:
             update["canonical_link"] = root
         return model.model_copy(update=update)
 
@@ -51,7 +58,7 @@ class UrdfBodies(ModelPass):
                 notes.report(to_sdf.MASSLESS_LINK, message, link.location)
 
 
-def _with_inertial(link: Link) -> Link:
+def _with_inertial(link: Link, *, carriers: bool) -> Link:
     inertial = link.inertial
     if inertial is None:
         return link.model_copy(update={"inertial": _NONE})
@@ -62,7 +69,10 @@ def _with_inertial(link: Link) -> Link:
         missing["mass"] = 0.0
     if inertial.inertia is None:
         missing["inertia"] = _NO_INERTIA
-    return link.model_copy(update={"inertial": inertial.model_copy(update=missing)}) if missing else link
+    if not missing:
+        return link
+    made = inertial.model_copy(update=missing)
+    return link.model_copy(update={"inertial": with_mark(made, UNSAID, " ".join(missing)) if carriers else made})
 
 
 def _reaches(start: str, edges: dict[str, list[str]], goal: set[str]) -> bool:

@@ -1,22 +1,39 @@
 """Parts that only URDF knows go into carriers."""
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from functools import cache
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf
-from twinform.ir import GazeboExtension, Joint, Model, Node, Opaque, Pose, map_children
-from twinform.passes.legalise.carrier import carry, is_carrier, is_ours, unpack
-from twinform.passes.legalise.joint_chains import is_chain_mark
+from twinform.ir import (
+    Collision,
+    Format,
+    GazeboExtension,
+    Inertial,
+    Joint,
+    Link,
+    Model,
+    Node,
+    Opaque,
+    Pose,
+    Visual,
+    map_children,
+)
+from twinform.passes.legalise.carrier import DANGLING, carry, is_carrier, is_ours, unpack
 from twinform.passes.legalise.model_pass import ModelPass
-from twinform.passes.legalise.to_sdf.unpack_sdf import is_looked_into
+from twinform.passes.legalise.provenance import came_from
+from twinform.passes.legalise.urdf_pieces import joints_of
 from twinform.schemas import Fact, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
 _BALLS = frozenset({"ball", "spherical"})
 """What dialects of URDF call the ball joint of SDF."""
+_IN_BOTH = (Model, Link, Joint, Visual, Collision, Inertial)
+"""Nodes that are an element in both formats, in which other tools' parts stand as they are."""
+_ONCE = frozenset({"axis", "limit", "dynamics", "mimic"})
+"""What a joint has once; a second one means nothing, and no edit has made it so."""
 
 
 class CarryUrdf(ModelPass):
@@ -36,37 +53,38 @@ class CarryUrdf(ModelPass):
 
     def run_model(self, model: Model, notes: Notes) -> Model:
         """The model without opaque parts of URDF."""
-        return self._sweep(model, notes)
+        joints = frozenset(joint.name for joint in model.joints)
+        swept = self._sweep(model, notes, came_from(model, Format.SDF))
+        return swept.model_copy(update={"opaque": tuple(_with_doubt(part, joints) for part in swept.opaque)})
 
-    def _sweep(self, node: AnyNode, notes: Notes) -> AnyNode:
+    def _sweep(self, node: AnyNode, notes: Notes, back: bool) -> AnyNode:
         if isinstance(node, GazeboExtension):  # the next pass knows what may stand in it
             return node
-        node = map_children(node, lambda child: self._sweep(child, notes))
+        node = map_children(node, lambda child: self._sweep(child, notes, back))
         if isinstance(node, Joint) and node.type in _BALLS:
             message = f"{node.type} joint {node.name!r} is one of a dialect of URDF"
             kept = [Opaque(attribute=("type", node.type))]
-            ball = self._swept(node.model_copy(update={"type": "ball"}), notes)
+            ball = self._swept(node.model_copy(update={"type": "ball"}), notes, back)
             return self._carry(ball, kept, notes, message)
-        return self._swept(node, notes)
+        return self._swept(node, notes, back)
 
-    def _swept(self, node: AnyNode, notes: Notes) -> AnyNode:
+    def _swept(self, node: AnyNode, notes: Notes, back: bool) -> AnyNode:
         """The node with its own parts in carriers, or out of them."""
         pose: Pose | None = node.__dict__.get("pose")
         if not node.opaque and not (pose and pose.opaque):
             return node
-        pieces = [part for part in node.opaque if not is_ours(part)]
-        ours = [piece for part in node.opaque if is_ours(part) for piece in _unpacked(part)]
-        update: dict[str, object] = {"opaque": tuple(piece for piece in ours if self._keeps(piece, node))}
+        kept: list[Opaque] = []
+        pieces: list[Opaque] = []
+        for part in node.opaque:
+            if is_ours(part):
+                kept += _unpacked(part)
+            else:  # other tools' parts stood in the SDF file as they do here
+                (kept if back and isinstance(node, _IN_BOTH) and _is_foreign(part) else pieces).append(part)
+        update: dict[str, object] = {"opaque": tuple(kept)}
         if pose and pose.opaque:
             pieces += [_inside("origin", part) for part in pose.opaque]
             update["pose"] = pose.model_copy(update={"opaque": ()})
         return self._carry(node.model_copy(update=update), pieces, notes) if not isinstance(node, Pose) else node
-
-    def _keeps(self, part: Opaque, node: Node) -> bool:
-        if self.carriers or not is_ours(part):
-            return True
-        later = is_carrier(part, "sdf") and is_looked_into(node)  # by `unpack-sdf`
-        return later or is_chain_mark(part)  # which goes where the chain is folded
 
     def _carry(self, node: AnyNode, pieces: list[Opaque], notes: Notes, message: str = "") -> AnyNode:
         fate = Fate.CARRIED if self.carriers else Fate.DROPPED
@@ -74,22 +92,42 @@ class CarryUrdf(ModelPass):
             why = message or f"{piece.name} is not a part of SDF"
             where = piece.location if piece.source else node.location
             notes.account(fate, to_sdf.URDF_ONLY, why, where, max(1, piece.weight))
-        return carry(node, pieces, "urdf") if self.carriers else node
+        if not self.carriers:
+            return node
+        again = [piece for piece in pieces if isinstance(node, Joint) and piece.element and piece.element.name in _ONCE]
+        node = carry(node, [piece for piece in pieces if piece not in again], "urdf")
+        return carry(node, again, "urdf", DANGLING)
+
+
+def _is_foreign(part: Opaque) -> bool:
+    name = part.element.name if part.element else part.attribute[0] if part.attribute else ""
+    return not part.at and name.startswith("{")
+
+
+def _with_doubt(part: Opaque, joints: Container[str]) -> Opaque:
+    """A carrier that says so, if what it holds is about a joint that the robot never had."""
+    if not is_carrier(part, "urdf") or part.element is None:
+        return part
+    named = [name for piece in unpack(part) if piece.element for name in joints_of(piece.element)]
+    if all(name in joints for name in named):
+        return part
+    element = part.element.model_copy(update={"attributes": (*DANGLING, *part.element.attributes)})
+    return part.model_copy(update={"element": element})
 
 
 def _unpacked(part: Opaque) -> tuple[Opaque, ...]:
     """What is in a carrier of SDF, if the model does not say it already in words of its own; else the carrier."""
     pieces = unpack(part) if is_carrier(part, "sdf") else ()
-    fit = all(piece.element and piece.element.name not in _typed_in_sdf() for piece in pieces)
+    fit = all(piece.element and not piece.at and piece.element.name not in _typed_in_sdf() for piece in pieces)
     return pieces if pieces and fit else (part,)
 
 
 @cache
 def _typed_in_sdf() -> frozenset[str]:
-    """Elements that a typed field of the IR stands for; whole shapes are listed there beside what URDF could say."""
+    """Elements that a typed field of the IR stands for, which `unpack-sdf` puts back where nothing else is said."""
     definitions = table("sdf").definitions.values()
     placed = {row.name for definition in definitions for row in _rows(definition) if row.place}
-    return frozenset(placed - {"visual", "collision"})
+    return frozenset(placed)
 
 
 def _rows(fact: Fact) -> Iterator[Fact]:

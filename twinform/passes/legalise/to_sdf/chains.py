@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from twinform.ir import Axis, Dynamics, Joint, JointType, Limit, Link, Model, Opaque
 from twinform.ir.transform import Transform
@@ -9,17 +10,17 @@ from twinform.passes.legalise.carrier import is_carrier, is_ours, unpack
 from twinform.passes.legalise.chain_carriers import Parts, is_of_axis, join_axes
 from twinform.passes.legalise.joint_chains import (
     BALL_AXES,
+    CHAIN,
     CHAINS,
-    PART_OF,
     PITCHES,
     TWO_AXES,
-    is_chain_mark,
-    marked,
     metres_per_radian,
+    part_of,
 )
-from twinform.passes.legalise.marks import made_fields, mark_made
+from twinform.passes.legalise.marks import without_mark
 from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb
 from twinform.passes.legalise.sdf_versions.carriers import Terms
+from twinform.passes.legalise.to_sdf.mimic_references import with_reference
 from twinform.schemas import parse_version, table
 
 _KINDS: dict[str, JointType] = {str(kind): kind for kind in CHAINS}
@@ -44,7 +45,24 @@ class Chain:
     last: Joint
 
 
-def find_chain(last: Joint, kind: str, model: Model) -> Chain:
+class Neighbors(NamedTuple):
+    """The links of a model by name, the joints by their children, and the names of joints by their parents."""
+
+    links: dict[str, Link]
+    above: dict[str | None, Joint]
+    below: dict[str | None, list[str]]
+
+    @classmethod
+    def of(cls, model: Model) -> "Neighbors":
+        """Those of a model, to be made once for all of its chains."""
+        below: dict[str | None, list[str]] = {}
+        for joint in model.joints:
+            below.setdefault(joint.parent, []).append(joint.name)
+        links = {link.name: link for link in model.links}
+        return cls(links, {joint.child: joint for joint in model.joints}, below)
+
+
+def find_chain(last: Joint, kind: str, around: Neighbors) -> Chain:
     """The chain that ends in this joint.
 
     Raises:
@@ -53,8 +71,8 @@ def find_chain(last: Joint, kind: str, model: Model) -> Chain:
     known = _KINDS.get(kind)
     if known is None:
         raise StaleChainError(f"there are no chains for {kind!r}")
-    chain = _walk(last, known, model)
-    _check_links(chain, model)
+    chain = _walk(last, known, around)
+    _check_links(chain, around)
     for joint in (*chain.above[1:], last):
         if not Transform.from_pose(joint.pose).is_identity:
             raise StaleChainError(f"joint {joint.name!r} is not where the others are")
@@ -66,15 +84,13 @@ def find_chain(last: Joint, kind: str, model: Model) -> Chain:
     return chain
 
 
-def _walk(last: Joint, kind: JointType, model: Model) -> Chain:
-    above = {joint.child: joint for joint in model.joints}
-    links = {link.name: link for link in model.links}
+def _walk(last: Joint, kind: JointType, around: Neighbors) -> Chain:
     joints: list[Joint] = []
     between: list[Link] = []
     joint = last
     for _ in CHAINS[kind]:
-        link, upper = links.get(joint.parent or ""), above.get(joint.parent)
-        if link is None or upper is None or {marked(link, PART_OF), marked(upper, PART_OF)} != {last.name}:
+        link, upper = around.links.get(joint.parent or ""), around.above.get(joint.parent)
+        if link is None or upper is None or {part_of(link), part_of(upper)} != {last.name}:
             raise StaleChainError(f"what is above {joint.name!r} is not of the chain")
         joints.insert(0, upper)
         between.insert(0, link)
@@ -82,18 +98,17 @@ def _walk(last: Joint, kind: JointType, model: Model) -> Chain:
     return Chain(kind, tuple(joints), tuple(between), last)
 
 
-def _check_links(chain: Chain, model: Model) -> None:
+def _check_links(chain: Chain, around: Neighbors) -> None:
     """The links between hold nothing but the chain."""
-    names = {link.name for link in chain.between}
     inside = {joint.name for joint in (*chain.above, chain.last)}
     for link in chain.between:
         if link.inertial is not None or any(getattr(link, field) for field in _NO_BODY):
             raise StaleChainError(f"link {link.name!r} has a body")
         if any(not is_ours(part) for part in link.opaque):
             raise StaleChainError(f"link {link.name!r} says something")
-    for joint in model.joints:
-        if joint.parent in names and joint.name not in inside:
-            raise StaleChainError(f"joint {joint.name!r} hangs from a link of it")
+    for name in (name for link in chain.between for name in around.below.get(link.name, ())):
+        if name not in inside:
+            raise StaleChainError(f"joint {name!r} hangs from a link of it")
 
 
 def _check_limits(chain: Chain) -> None:
@@ -140,14 +155,18 @@ _CHECKS = {"universal": _check_turns, "revolute2": _check_turns, "ball": _check_
 
 
 def folded(chain: Chain) -> Joint:
-    """The joint that a chain stands for, with the values that the chain has now."""
+    """The joint that a chain stands for, with the values that the chain has now.
+
+    Raises:
+        StaleChainError: what it carries says nothing.
+    """
     first, last = chain.above[0], chain.last
-    own = tuple(part for part in last.opaque if not is_chain_mark(part))
+    if chain.kind in TWO_AXES:
+        first, last = _referred(first), _referred(last)
+    own = without_mark(last, CHAIN).opaque
     opaque = join_axes(first.opaque, own) if chain.kind in TWO_AXES else own
     update: dict[str, object] = {"type": chain.kind, "parent": first.parent, "pose": first.pose, "opaque": opaque}
     joint = last.model_copy(update=update)
-    if "pose" in made_fields(first) and not any("pose" in _names(part) for part in opaque):
-        joint = mark_made(joint, "pose")
     if chain.kind in TWO_AXES:
         return joint.model_copy(update={"axis": _in_sdf(first), "axis2": _in_sdf(last)})
     return _ball(joint, last) if chain.kind == "ball" else _screw(joint, chain)
@@ -163,6 +182,13 @@ def _in_sdf(joint: Joint) -> Axis:
     elif limit is not None:
         limit = limit.model_copy(update={"lower": limit.lower or 0.0, "upper": limit.upper or 0.0})
     return axis.model_copy(update={"xyz": axis.xyz or (1.0, 0.0, 0.0), "limit": limit})
+
+
+def _referred(joint: Joint) -> Joint:
+    made = with_reference(joint)
+    if made is None:
+        raise StaleChainError(f"joint {joint.name!r} does not mimic as it did")
+    return made
 
 
 def _ball(joint: Joint, last: Joint) -> Joint:

@@ -7,10 +7,13 @@ from typing import Any, ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Location, Notes, Rule, Severity
 from twinform.diagnostics.rules import structure, to_sdf
-from twinform.ir import Element, GazeboExtension, Joint, Link, Model, Node, Opaque
-from twinform.passes.legalise.carrier import carry
+from twinform.ir import Element, Format, GazeboExtension, Joint, Link, Model, Node, Opaque
+from twinform.passes.legalise.carrier import DANGLING, Attributes, pack
 from twinform.passes.legalise.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
+from twinform.passes.legalise.marks import with_mark
+from twinform.passes.legalise.material_marks import LOOK
 from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.legalise.provenance import came_from
 from twinform.passes.legalise.to_sdf.gazebo_content import read_content
 from twinform.passes.legalise.to_sdf.gazebo_fields import (
     set_collision,
@@ -76,12 +79,19 @@ class _Fold:
                 "joints": tuple(_each(self.robot.joints, groups, self._joint)),
             }
         )
+        parts = self.links | self.joints
         for name, found in groups.items():
-            if name and name not in self.links | self.joints:
+            if name and name not in parts:
                 for extension in found:  # so that a corrected name finds it again
-                    self._keep(extension, extension.content, to_sdf.URDF_ONLY, f"<gazebo> refers to {name!r}: nothing")
+                    self._keep(
+                        extension,
+                        extension.content,
+                        to_sdf.URDF_ONLY,
+                        f"<gazebo> refers to {name!r}: nothing",
+                        DANGLING,
+                    )
         model = self._model(model, groups[""]) if "" in groups else model
-        return carry(model, self.kept, "urdf") if self.carriers else model
+        return model.model_copy(update={"opaque": (*model.opaque, *self.kept)}) if self.carriers else model
 
     def _shell(self, extension: GazeboExtension) -> None:
         """Attributes and text of the element itself, and an element without content, which nothing comes of."""
@@ -145,6 +155,8 @@ class _Fold:
         for extension, elements in sorter.misplaced:
             self._misplaced(extension, elements, f"{extension.reference!r}" if extension.reference else "the model")
         for extension, elements in sorter.ignored:
+            if came_from(self.robot, Format.SDF):  # made so that libsdformat lets the links be
+                continue
             message = ", ".join(f"<{element.name}>" for element in elements)
             self._keep(extension, elements, to_sdf.URDF_ONLY, f"{message} has nothing to do here: no link is merged")
         for extension, elements in sorter.without_use:
@@ -165,7 +177,9 @@ class _Fold:
             message = f"{names} means nothing for {target}"
             self._keep(extension, elements, to_sdf.GAZEBO_TAG_WITHOUT_TARGET, message)
 
-    def _keep(self, extension: GazeboExtension, elements: Iterable[Element], rule: Rule, message: str) -> None:
+    def _keep(
+        self, extension: GazeboExtension, elements: Iterable[Element], rule: Rule, message: str, about: Attributes = ()
+    ) -> None:
         """Carry a part of an extension in an element like its own."""
         content = tuple(elements)
         attributes = [part.attribute for part in extension.opaque if part.attribute] if not content else []
@@ -179,7 +193,7 @@ class _Fold:
         else:
             for part in content or (element,):
                 self.notes.account(fate, rule, message, place_of(part, extension), part.weight)
-        self.kept.append(Opaque(element=element))
+        self.kept += pack([Opaque(element=element)], "urdf", about)
 
     def _into_shapes(self, link: Link, blob: Blob) -> Link:
         """Each child of the blob goes into every shape of its kind, in place of what is there."""
@@ -187,7 +201,10 @@ class _Fold:
         inside = blob.extension.model_copy(update={"content": blob.content})
         extra = read_content(blob.kind, link.name, self.robot.name, [inside], self.notes)
         replaced: list[str] = []
-        changed = tuple(merge(shape, extra, replaced, replace=True) for shape in getattr(link, field))
+        shapes = getattr(link, field)
+        if self.carriers and blob.kind == "visual" and "material" in extra and not any(s.material for s in shapes):
+            link = with_mark(link, LOOK)
+        changed = tuple(merge(shape, extra, replaced, replace=True) for shape in shapes)
         for name in dict.fromkeys(replaced):
             self._conflict(link, name, "the one in <gazebo>", blob.where)
         return link.model_copy(update={field: changed})
@@ -200,6 +217,10 @@ class _Fold:
         name = str(node.__dict__["name"]) if kind != "model" else self.robot.name
         conflicts: list[str] = []
         merged = merge(node, read_content(kind, name, self.robot.name, content, self.notes), conflicts)
+        again = [part for part in merged.opaque if _is_second(part) and part not in node.opaque]
+        if again:  # a reader takes the first
+            merged = merged.model_copy(update={"opaque": tuple(part for part in merged.opaque if part not in again)})
+            conflicts.append("pose")
         for field in conflicts:
             self._again(node, field, content)
         return merged
@@ -228,6 +249,11 @@ def _each(
 ) -> Iterable[Any]:
     for node in nodes:
         yield fold(node, groups[node.name]) if node.name in groups else node
+
+
+def _is_second(part: Opaque) -> bool:
+    """Whether it is a pose beside the one that the node has."""
+    return part.element is not None and part.element.name == "pose" and not part.at
 
 
 def _only(extension: GazeboExtension, names: Iterable[str]) -> GazeboExtension:

@@ -7,11 +7,10 @@ from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Joint, Mimic, Model
 from twinform.ir.frames import FrameError, FrameGraph
-from twinform.passes.legalise.gearboxes import UngearedError, relation
-from twinform.passes.legalise.marks import made_fields, without_mark
+from twinform.passes.legalise.gearboxes import GEARED, UngearedError, relation
+from twinform.passes.legalise.marks import find_mark, without_mark
 from twinform.passes.legalise.model_pass import ModelPass
 
-_MIMIC = "axis.mimic"
 _CLOSE = 1e-9
 """How far multipliers may be apart that were made from one ratio."""
 
@@ -28,7 +27,7 @@ class FoldGearboxes(ModelPass):
 
     def run_model(self, model: Model, notes: Notes) -> Model:
         """The model with each coupling said once."""
-        marked = [joint for joint in model.joints if _MIMIC in made_fields(joint) and joint.axis and joint.axis.mimic]
+        marked = [joint for joint in model.joints if find_mark(joint, GEARED) and joint.axis and joint.axis.mimic]
         if not marked:
             return model
         graph = FrameGraph(model)
@@ -48,7 +47,7 @@ class FoldGearboxes(ModelPass):
 
 def _without_mimic(joint: Joint) -> Joint:
     axis = joint.axis and joint.axis.model_copy(update={"mimic": None})
-    return without_mark(joint.model_copy(update={"axis": axis}), _MIMIC)
+    return without_mark(joint.model_copy(update={"axis": axis}), GEARED)
 
 
 def _kept(joint: Joint, bare: Joint, coupled: Mimic | None, notes: Notes) -> Joint:
@@ -58,7 +57,7 @@ def _kept(joint: Joint, bare: Joint, coupled: Mimic | None, notes: Notes) -> Joi
         return bare
     message = f"joint {joint.name!r} mimics {mimic.joint if mimic else None!r}, and no gearbox couples them so any more"
     notes.report(rules.STALE_CARRIER, message, joint.location, found=joint.name)
-    return without_mark(joint, _MIMIC)
+    return without_mark(joint, GEARED)
 
 
 def _is_the_same(mimic: Mimic, coupled: Mimic) -> bool:

@@ -6,10 +6,10 @@ from typing import ClassVar, TypeVar
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Axis, Joint, Link, Model
-from twinform.passes.legalise.joint_chains import PART_OF, TWO_AXES, TYPE, is_chain_mark, marked
-from twinform.passes.legalise.marks import MADE
+from twinform.passes.legalise.joint_chains import CHAIN, PART, TWO_AXES, chain_type
+from twinform.passes.legalise.marks import find_mark, without_mark
 from twinform.passes.legalise.model_pass import ModelPass
-from twinform.passes.legalise.to_sdf.chains import Chain, StaleChainError, find_chain, folded
+from twinform.passes.legalise.to_sdf.chains import Chain, Neighbors, StaleChainError, find_chain, folded
 
 AnyPart = TypeVar("AnyPart", Joint, Link)
 
@@ -34,60 +34,57 @@ class FoldJoints(ModelPass):
         made: dict[str, Joint] = {}
         first: dict[str, str] = {}
         gone: set[str] = set()
-        for chain in _chains(model, notes):
-            made[chain.last.name] = folded(chain)
+        for chain, joint in _chains(model, notes):
+            made[joint.name] = joint
             gone |= {part.name for part in (*chain.above, *chain.between)}
-            if made[chain.last.name].type in TWO_AXES:
+            if joint.type in TWO_AXES:
                 first[chain.above[0].name] = chain.last.name
         joints = (made.get(joint.name) or _unmarked(joint) for joint in model.joints if joint.name not in gone)
         links = (_unmarked(link) for link in model.links if link.name not in gone)
-        followed = tuple(_follow(joint, first) for joint in joints)
+        second = frozenset(first.values())
+        followed = tuple(_follow(joint, first, second) for joint in joints)
         return model.model_copy(update={"joints": followed, "links": tuple(links)})
 
 
-def _chains(model: Model, notes: Notes) -> Iterator[Chain]:
-    """The chains that still are what they were made; the others are reported."""
+def _chains(model: Model, notes: Notes) -> Iterator[tuple[Chain, Joint]]:
+    """The chains that still are what they were made, with the joints that they are; the others are reported."""
+    around = Neighbors.of(model)
     for joint in model.joints:
-        kind = marked(joint, TYPE)
+        kind = chain_type(joint)
         if kind is None:
             continue
         try:
-            yield find_chain(joint, kind, model)
+            chain = find_chain(joint, kind, around)
+            made = folded(chain)
         except StaleChainError as error:
             message = f"joint {joint.name!r} was {kind}, and the chain that it became has changed: {error}"
             notes.report(rules.STALE_CARRIER, message, joint.location, found=joint.name)
+        else:
+            yield chain, made
 
 
 def _is_marked(node: Joint | Link) -> bool:
-    return marked(node, TYPE) is not None or marked(node, PART_OF) is not None
+    return find_mark(node, CHAIN) is not None or find_mark(node, PART) is not None
 
 
 def _unmarked(node: AnyPart) -> AnyPart:
     """A part of a chain that stays: it was made, and stands for itself now."""
-    if not _is_marked(node):
-        return node
-    kept = tuple(part for part in node.opaque if not is_chain_mark(part) and not _is_whole(part.attribute))
-    return node.model_copy(update={"opaque": kept})
+    return without_mark(node, CHAIN, PART)
 
 
-def _is_whole(attribute: tuple[str, str] | None) -> bool:
-    """Whether it says that the whole node was made."""
-    return attribute == (MADE, ".")
-
-
-def _follow(joint: Joint, first: dict[str, str]) -> Joint:
-    update = {field: _follows(getattr(joint, field), first) for field in ("axis", "axis2")}
+def _follow(joint: Joint, first: dict[str, str], second: frozenset[str]) -> Joint:
+    update = {field: _follows(getattr(joint, field), first, second) for field in ("axis", "axis2")}
     changed = {field: axis for field, axis in update.items() if axis is not getattr(joint, field)}
     return joint.model_copy(update=changed) if changed else joint
 
 
-def _follows(axis: Axis | None, first: dict[str, str]) -> Axis | None:
+def _follows(axis: Axis | None, first: dict[str, str], second: frozenset[str]) -> Axis | None:
     """The axis with its mimic of a joint in a chain of two, now of one of the two axes of one joint."""
     mimic = axis.mimic if axis else None
     if axis is None or mimic is None:
         return axis
     if mimic.joint in first:
         mimic = mimic.model_copy(update={"joint": first[mimic.joint]})
-    elif mimic.joint in first.values():
+    elif mimic.joint in second:
         mimic = mimic.model_copy(update={"axis": "axis2"})
     return axis if mimic is axis.mimic else axis.model_copy(update={"mimic": mimic})

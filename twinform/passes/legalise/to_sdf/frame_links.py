@@ -4,20 +4,28 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf
-from twinform.ir import Collision, Element, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual
+from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
+from twinform.ir import Collision, Element, Format, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual
+from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.passes.legalise.carrier import carry, is_ours, to_element
+from twinform.passes.legalise.marks import find_mark, is_made, with_mark, without_mark
 from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.legalise.notation import FRAME, LINK, OFFSET, read_offset
+from twinform.passes.legalise.provenance import came_from
 from twinform.passes.legalise.to_sdf.name_shapes import name_all
 
 Placed = TypeVar("Placed", Visual, Collision, Sensor, Light)
+
+_FLAGS = ("gravity", "enable_wind", "self_collide", "kinematic")
 
 
 class FrameLinks(ModelPass):
     """Turn a link without mass on a fixed joint into SDF's `<frame>`, and its joint into another one.
 
     Changes: 1. the joint becomes a frame attached to its parent, with the joint's origin; 2. the link becomes a frame
-    attached to that one; 3. visuals, collisions, sensors and lights move to the nearest link above that stays a link,
-    and are posed in the link's frame as before. Joints below keep the link's name as their parent.
+    attached to that one, and is marked as a link of URDF; 3. visuals, collisions, sensors and lights move to the
+    nearest link above that stays a link, and are posed in the link's frame as before. Joints below keep the link's name
+    as their parent.
     Never touches: links with mass; a link fixed to the world, which has no link above; one whose joint has a sensor,
     which would have no place.
     Diagnostics: none; ledger entries under `frame-link` for what a frame cannot have.
@@ -29,40 +37,58 @@ class FrameLinks(ModelPass):
     def run_model(self, model: Model, notes: Notes) -> Model:
         """The model without massless links on fixed joints."""
         links = {link.name: link for link in model.links}
+        stays = came_from(model, Format.SDF)  # where frames are marked
         moved = {
             joint.child: joint
             for joint in model.joints
             if joint.type == "fixed"
             and joint.parent in links
             and joint.child in links
-            and is_massless(links[joint.child])
             and not joint.sensors
+            and is_massless(links[joint.child])
+            and not (stays and (find_mark(links[joint.child], FRAME) is None or links[joint.child].inertial))
         }
         if not moved:
             return model
         guests: dict[str, list[Link]] = {}
+        anchors: dict[str, str] = {}
         for name in moved:
-            guests.setdefault(_anchor(name, moved), []).append(links[name])
+            guests.setdefault(_anchor(name, moved, anchors), []).append(links[name])
         frames = [frame for joint in moved.values() for frame in self._frames(joint, links[joint.child or ""], notes)]
         model = self._keep_physics(model, list(moved.values()), notes)
-        return model.model_copy(
+        model = self._keep_flags(model, [links[name] for name in moved if name], notes)
+        made = model.model_copy(
             update={
                 "links": tuple(
-                    _host(link, guests.get(link.name, []), notes) for link in model.links if link.name not in moved
+                    _host(link, guests.get(link.name, []), notes, carriers=self.carriers)
+                    for link in model.links
+                    if link.name not in moved
                 ),
                 "joints": tuple(joint for joint in model.joints if moved.get(joint.child or "") is not joint),
                 "frames": (*model.frames, *frames),
             }
         )
+        if not stays:
+            made = made.model_copy(update={"canonical_link": model.canonical_link or _root(model)})
+        parents = {name: joint.parent or "" for name, joint in moved.items() if find_mark(links[name or ""], FRAME)}
+        placed = _attached(made, parents, notes) if parents else made
+        return placed.model_copy(update={"canonical_link": model.canonical_link})
 
-    def _frames(self, joint: Joint, link: Link, notes: Notes) -> tuple[Frame, Frame]:
+    def _frames(self, joint: Joint, link: Link, notes: Notes) -> tuple[Frame, ...]:
         pose = joint.pose.model_copy(update={"relative_to": None}) if joint.pose else None
         if pose == Pose():
             pose = None
+        mark = find_mark(link, FRAME)
+        if mark is not None and is_made(joint):
+            return (_as_before(joint, link, mark, pose),)
         mount = Frame(
             name=joint.name, attached_to=joint.parent, pose=pose, opaque=_carriers(joint), source=joint.source
         )
-        body = Frame(name=link.name, attached_to=joint.name, source=link.source, opaque=_carriers(link))
+        bare, offset = _offset(link)
+        opaque = _carriers(bare)
+        body = Frame(name=link.name, attached_to=joint.name, pose=offset, source=link.source, opaque=opaque)
+        if self.carriers:
+            body = with_mark(body, LINK)
         return self._rest_of_joint(mount, joint, notes), self._rest_of_link(body, link, notes)
 
     def _rest_of_joint(self, frame: Frame, joint: Joint, notes: Notes) -> Frame:
@@ -86,15 +112,23 @@ class FrameLinks(ModelPass):
             kept.append(Opaque(element=element))
         return carry(model, kept, "urdf") if self.carriers else model
 
+    def _keep_flags(self, model: Model, links: list[Link], notes: Notes) -> Model:
+        """What `<gazebo>` says of a link that becomes a frame, and that has no body to act on."""
+        kept: list[Opaque] = []
+        for link in links:
+            said = {field: getattr(link, field) for field in _FLAGS}
+            if all(value is None for value in said.values()):
+                continue
+            bare = to_element(Link(name="", spelling=link.spelling, **said), "link", "sdf")
+            element = Element(name="gazebo", attributes=(("reference", link.name),), children=bare.children)
+            names = ", ".join(field for field, value in said.items() if value is not None)
+            message = f"{names} of {link.name!r} have no body to act on"
+            fate = Fate.CARRIED if self.carriers else Fate.DROPPED
+            notes.account(fate, to_sdf.FRAME_LINK, message, link.location, len(bare.children))
+            kept.append(Opaque(element=element))
+        return carry(model, kept, "urdf") if self.carriers else model
+
     def _rest_of_link(self, frame: Frame, link: Link, notes: Notes) -> Frame:
-        flags = [
-            field
-            for field in ("gravity", "enable_wind", "self_collide", "kinematic")
-            if getattr(link, field) is not None
-        ]
-        if flags:
-            message = f"{', '.join(flags)} of {link.name!r} have no body to act on"
-            notes.account(Fate.DROPPED, to_sdf.FRAME_LINK, message, link.location, len(flags))
         if link.inertial is None:
             return frame
         bare = Link(name=link.name, inertial=link.inertial)
@@ -109,16 +143,66 @@ class FrameLinks(ModelPass):
         return carry(frame, rest, "urdf") if self.carriers else frame
 
 
+def _attached(model: Model, parents: dict[str, str], notes: Notes) -> Model:
+    """The model with every frame attached to the link that its joint had as the parent, if that is another one."""
+    graph = FrameGraph(model)
+    frames: list[Frame] = []
+    for frame in model.frames:
+        parent, holder = parents.get(frame.name, ""), frame.attached_to or MODEL
+        if parent and holder != parent and not (graph.knows(holder) and _moves_with(graph, holder, parent)):
+            message = f"frame {frame.name!r} was attached to {holder!r}, which does not move with {parent!r}"
+            notes.report(STALE_CARRIER, message, frame.location, found=holder)
+            frame = frame.model_copy(update={"attached_to": parent})  # noqa: PLW2901 - the same frame, elsewhere
+        frames.append(frame)
+    return model.model_copy(update={"frames": tuple(frames)})
+
+
+def _root(model: Model) -> str | None:
+    """The link that no joint holds, which the frame of the model moves with."""
+    children = {joint.child for joint in model.joints}
+    return next((link.name for link in model.links if link.name not in children), None)
+
+
+def _moves_with(graph: FrameGraph, holder: str, parent: str) -> bool:
+    try:
+        return graph.body(holder, kind="frame") == graph.body(parent)
+    except FrameError:
+        return False
+
+
+def _as_before(joint: Joint, link: Link, mark: Element, pose: Pose | None) -> Frame:
+    """The one frame of SDF that a link and its joint were made of; it is still where they are."""
+    holder = mark.get("attached_to")
+    if holder is not None:
+        pose = (pose or Pose()).model_copy(update={"relative_to": joint.parent})
+    opaque = without_mark(link, FRAME).opaque
+    attached = None if holder == MODEL else holder or joint.parent
+    return Frame(name=link.name, attached_to=attached, pose=pose, opaque=opaque, source=link.source)
+
+
+def _offset(link: Link) -> tuple[Link, Pose | None]:
+    """The link without the mark on its frame in SDF, and where that is in its joint."""
+    found = find_mark(link, OFFSET)
+    try:
+        return without_mark(link, OFFSET), read_offset(found).to_pose() if found else None
+    except ValueError:  # which `restore-frames` would have reported
+        return without_mark(link, OFFSET), None
+
+
 def is_massless(link: Link) -> bool:
     """Whether a link of URDF, where an absent inertial means no mass, has none."""
     return link.inertial is None or (not link.inertial.auto and (link.inertial.mass or 0.0) <= 0.0)
 
 
-def _anchor(name: str, moved: dict[str, Joint]) -> str:
-    """The nearest link above that stays a link."""
-    while name in moved:
+def _anchor(name: str, moved: dict[str, Joint], known: dict[str, str]) -> str:
+    """The nearest link above that stays a link; what is `known` of other links is used, and added to."""
+    way: list[str] = []
+    while name in moved and name not in known:
+        way.append(name)
         name = moved[name].parent or ""
-    return name
+    anchor = known.get(name, name)
+    known.update(dict.fromkeys(way, anchor))
+    return anchor
 
 
 def _carriers(node: Link | Joint) -> tuple[Opaque, ...]:
@@ -131,7 +215,7 @@ def _is_native(part: Opaque) -> bool:
     return not is_ours(part) and not (part.element is not None and part.element.name.startswith("{"))
 
 
-def _host(link: Link, guests: list[Link], notes: Notes) -> Link:
+def _host(link: Link, guests: list[Link], notes: Notes, *, carriers: bool) -> Link:
     if not guests:
         return link
     visuals = (*link.visuals, *(_placed(visual, guest.name) for guest in guests for visual in guest.visuals))
@@ -139,8 +223,8 @@ def _host(link: Link, guests: list[Link], notes: Notes) -> Link:
     plain = tuple(_placed_element(part, guest.name) for guest in guests for part in guest.opaque if _is_native(part))
     return link.model_copy(
         update={
-            "visuals": name_all(visuals, f"{link.name}_visual", notes),
-            "collisions": name_all(collisions, f"{link.name}_collision", notes),
+            "visuals": name_all(visuals, f"{link.name}_visual", notes, carriers=carriers),
+            "collisions": name_all(collisions, f"{link.name}_collision", notes, carriers=carriers),
             "sensors": (*link.sensors, *(_placed(one, guest.name) for guest in guests for one in guest.sensors)),
             "lights": (*link.lights, *(_placed(one, guest.name) for guest in guests for one in guest.lights)),
             "opaque": (*link.opaque, *plain),

@@ -21,6 +21,7 @@ from twinform.ir import (
 )
 from twinform.passes.legalise.carrier import from_xml
 from twinform.passes.legalise.gazebo_tags import SCRIPT_URI, Tag
+from twinform.passes.legalise.to_sdf.gazebo_merging import merge
 from twinform.schemas import format_value
 
 Values = Iterable[tuple[Tag, Any]]
@@ -69,7 +70,7 @@ def set_joint_fields(joint: Joint, values: Values) -> Joint:
         dynamics = (axis.dynamics or Dynamics()).model_copy(update=springs)
         joint = joint.model_copy(update={"axis": axis.model_copy(update={"dynamics": dynamics})})
     physics = [(tag.field, value) for tag, value in values if tag.target == "physics"]
-    return joint.model_copy(update={"opaque": (*joint.opaque, _physics(physics))}) if physics else joint
+    return merge(joint, {"opaque": (_physics(physics),)}, []) if physics else joint
 
 
 def _physics(values: list[tuple[str, object]]) -> Opaque:

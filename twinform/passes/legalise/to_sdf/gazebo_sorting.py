@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 
-from twinform.diagnostics import Fate, Location, Notes, Severity
+from twinform.diagnostics import Fate, Location, Notes, Severity, Source
 from twinform.diagnostics.rules import structure, to_sdf
 from twinform.ir import Element, GazeboExtension, Link
 from twinform.passes.legalise.gazebo_tags import FALSE, LINK_TAGS, TRUE, TRUTHS, Tag, value_text
@@ -129,7 +129,9 @@ class Sorter:
             message = f"text {element.text[:40]!r} in <{element.name}> of <gazebo>"
             self._notes.report(structure.STRAY_TEXT, message, where, found=element.text[:40])
             self._notes.account(Fate.DROPPED, structure.STRAY_TEXT, message, where)
-        self.blobs.append(Blob(element.name, element.children, extension, where))
+        above = extension.source
+        source = above and Source(above.file, where.line, above, element.name)
+        self.blobs.append(Blob(element.name, element.children, extension.model_copy(update={"source": source}), where))
 
     def _value(self, tag: Tag, element: Element, where: Location) -> None:
         self._extra_attributes(element, where, ("value",))

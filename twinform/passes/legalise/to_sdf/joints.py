@@ -4,9 +4,10 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes, Rule
 from twinform.diagnostics.rules import to_sdf
-from twinform.ir import Axis, Joint, Limit, Link, Model, Opaque
-from twinform.passes.legalise.carrier import carry, to_element
-from twinform.passes.legalise.marks import mark_made
+from twinform.ir import Axis, Element, Joint, Limit, Link, Model, Opaque, count_parts
+from twinform.ir.frames import WORLD
+from twinform.passes.legalise.carrier import NAMESPACE, carry, to_element
+from twinform.passes.legalise.marks import is_made, mark_made
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.to_sdf.planar import planar_chain
 from twinform.passes.legalise.to_sdf.unique_names import free_name
@@ -14,6 +15,8 @@ from twinform.schemas import format_value
 
 _X = (1.0, 0.0, 0.0)
 """URDF's default axis; SDF's is z."""
+FLOATING = "floating"
+"""The mark on a link of SDF that a floating joint of URDF leaves free, with what else the joint says."""
 _OF_FIXED = frozenset({"axis", "limit", "dynamics", "mimic"})
 _BESIDE_AXIS = frozenset({"limit", "dynamics", "mimic"})
 Made = TypeVar("Made", Link, Joint)
@@ -22,12 +25,13 @@ Made = TypeVar("Made", Link, Joint)
 class UrdfJoints(ModelPass):
     """Say the types, default axes and default limits of URDF in SDF's terms.
 
-    Changes: 1. a `fixed` joint loses its axis, limits and the like, which are carried; 2. a `continuous` joint loses
-    lower and upper limit, which URDF ignores; 3. a joint that moves gets its axis written, 1 0 0 where URDF leaves it
-    out; 4. a revolute or prismatic joint gets its limits written, 0 where URDF leaves them out; 5. a `floating` joint
-    goes, and its child link is posed where it was; 6. limits of acceleration and jerk, which SDF lacks, are carried;
-    7. a `planar` joint becomes two sliding joints and a turning one, with two links without mass between them, all of
-    them marked so that they become one again.
+    Changes: 1. a `fixed` joint loses its axis, limits and the like, which are carried; 2. a `continuous` joint is
+    `revolute` without limits, as no engine of Gazebo knows the other, and loses lower and upper, which URDF ignores; 3.
+    a joint that moves gets its axis written, 1 0 0 where URDF leaves it out; 4. a revolute or prismatic joint gets its
+    limits written, 0 where URDF leaves them out; 5. a `floating` joint goes, and so does one that was made to fix a
+    static model to the world; its child link is posed where it was; 6. limits of acceleration and jerk, which SDF
+    lacks, are carried; 7. a `planar` joint becomes two sliding joints and a turning one, with two links without mass
+    between them, all of them marked so that they become one again.
     Never touches: names, origins, parents, children.
     Diagnostics: `joint-chain`; ledger entries under `urdf-only` and `no-joint`.
     """
@@ -37,8 +41,8 @@ class UrdfJoints(ModelPass):
 
     def run_model(self, model: Model, notes: Notes) -> Model:
         """The model with joints of SDF."""
-        free = {joint.child: joint for joint in model.joints if joint.type == "floating"}
-        joints = tuple(self._joint(joint, notes) for joint in model.joints if joint.type != "floating")
+        free = {joint.child: joint for joint in model.joints if _is_free(joint, model)}
+        joints = tuple(self._joint(joint, notes) for joint in model.joints if not _is_free(joint, model))
         links = model.links
         if free:
             links = tuple(self._free(link, free[link.name], notes) if link.name in free else link for link in links)
@@ -64,7 +68,7 @@ class UrdfJoints(ModelPass):
         return model.model_copy(update={"links": every, "joints": tuple(joints)})
 
     def _made(self, node: Made) -> Made:
-        return mark_made(node, ".") if self.carriers else node
+        return mark_made(node) if self.carriers else node
 
     def _was_planar(self, turn: Joint, joint: Joint, notes: Notes) -> Joint:
         message = f"planar joint {joint.name!r} is two sliding joints and a turning one in SDF, with links without mass"
@@ -74,11 +78,18 @@ class UrdfJoints(ModelPass):
         return self._keep(turn, pieces, f"planar joint {joint.name!r} is a chain of joints", notes, to_sdf.JOINT_CHAIN)
 
     def _free(self, link: Link, joint: Joint, notes: Notes) -> Link:
+        freed = link.model_copy(update={"pose": joint.pose})
+        if is_made(joint):
+            return freed
         message = f"joint {joint.name!r} leaves link {link.name!r} free, which needs no joint in SDF"
-        element = to_element(joint, "joint", "urdf")
-        notes.account(self._fate(), to_sdf.NO_JOINT, message, joint.location, element.weight)
-        link = link.model_copy(update={"pose": joint.pose, "opaque": (*link.opaque, *joint.opaque)})
-        return carry(link, [Opaque(element=element)], "urdf") if self.carriers else link
+        element = to_element(joint.model_copy(update={"pose": None}), "joint", "urdf")
+        notes.account(self._fate(), to_sdf.NO_JOINT, message, joint.location, count_parts(joint))
+        if not self.carriers:
+            return freed
+        rest = tuple(child for child in element.children if child.name not in {"parent", "child"})
+        attributes = (("joint", joint.name), ("parent", joint.parent or ""))
+        mark = Element(name=f"{{{NAMESPACE}}}{FLOATING}", attributes=attributes, children=rest)
+        return freed.model_copy(update={"opaque": (*freed.opaque, Opaque(element=mark))})
 
     def _joint(self, joint: Joint, notes: Notes) -> Joint:
         match joint.type:
@@ -120,6 +131,8 @@ class UrdfJoints(ModelPass):
             update["limit"] = limit
         if axis.xyz is None:
             update["xyz"] = _X
+        if joint.type == "continuous":
+            joint = joint.model_copy(update={"type": "revolute"})
         if not update:
             return joint
         joint = joint.model_copy(update={"axis": axis.model_copy(update=update)})
@@ -149,6 +162,13 @@ def _limit(joint: Joint, limit: Limit | None) -> tuple[Limit | None, list[Opaque
     if joint.type == "continuous" or not missing:
         return limit, rest
     return limit.model_copy(update=dict.fromkeys(missing, 0.0)), rest
+
+
+def _is_free(joint: Joint, model: Model) -> bool:
+    """Whether SDF needs no joint here: a static model is where it is, fixed to the world or not."""
+    if joint.type == "floating":
+        return True
+    return joint.type == "fixed" and joint.parent == WORLD and bool(model.static) and is_made(joint)
 
 
 def _without(limit: Limit, names: tuple[str, ...]) -> tuple[Limit, list[Opaque]]:

@@ -6,14 +6,14 @@ from typing import ClassVar
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Collision, Inertial, Link, Model, Opaque
+from twinform.ir import Inertial, Link, Model, Opaque
 from twinform.ir.frames import FrameError, FrameGraph
 from twinform.ir.solids import Solid, placed
 from twinform.ir.transform import Transform
 from twinform.passes.assets import AssetPass
-from twinform.passes.legalise.automatic_inertias import NoInertiaError, automatic
+from twinform.passes.legalise.automatic_inertias import COMPUTED_MASS, NoInertiaError, automatic
 from twinform.passes.legalise.carrier import is_carrier, unpack
-from twinform.passes.legalise.marks import made_fields, without_mark
+from twinform.passes.legalise.marks import find_mark, without_mark
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb
 from twinform.passes.legalise.sdf_versions.carriers import Terms
@@ -60,13 +60,11 @@ def _is_auto(part: Opaque) -> bool:
 
 def _leave(link: Link, graph: FrameGraph, meshes: Meshes, notes: Notes) -> Link:
     inertial = link.inertial or Inertial()
-    made = made_fields(inertial)
-    left = inertial.model_copy(update=dict.fromkeys(_FIELDS if "mass" in made else _FIELDS[1:]))
-    for field in _FIELDS:
-        left = without_mark(left, field)
+    computed = _FIELDS if find_mark(inertial, COMPUTED_MASS) else _FIELDS[1:]
+    left = without_mark(inertial.model_copy(update=dict.fromkeys(computed)), COMPUTED_MASS)
     try:
         left = _unpacked(left)
-        found = automatic(link, left, _collisions(link), graph, meshes)
+        found = automatic(link, left, link.collisions, graph, meshes)
     except (CarrierError, NoInertiaError, FrameError) as error:
         return _stale(link, inertial, str(error), notes)
     if not _is_the_same(found, inertial):
@@ -80,13 +78,6 @@ def _unpacked(inertial: Inertial) -> Inertial:
     kept = tuple(part for part in inertial.opaque if not is_carrier(part, "sdf"))
     newest = parse_version(table("sdf").versions[-1])
     return absorb(inertial.model_copy(update={"opaque": kept}), pieces, Terms(), newest)
-
-
-def _collisions(link: Link) -> Iterable[Collision]:
-    """Those of URDF, and those of shapes that it lacks, which were carried."""
-    newest = parse_version(table("sdf").versions[-1])
-    carried = tuple(part for part in link.opaque if part.element and part.element.name == "collision")
-    return (*link.collisions, *absorb(Link(name=link.name), carried, Terms(), newest).collisions)
 
 
 def _is_the_same(found: Solid, inertial: Inertial) -> bool:
@@ -112,7 +103,5 @@ def _stale(link: Link, inertial: Inertial, why: str, notes: Notes) -> Link:
     message = f"the inertia of link {link.name!r} was computed, and is not any more: {why}"
     notes.report(rules.STALE_CARRIER, message, inertial.location, found=link.name)
     kept = tuple(part for part in inertial.opaque if not _is_auto(part))
-    bare = inertial.model_copy(update={"opaque": kept})
-    for field in _FIELDS:
-        bare = without_mark(bare, field)
+    bare = without_mark(inertial.model_copy(update={"opaque": kept}), COMPUTED_MASS)
     return link.model_copy(update={"inertial": bare})

@@ -1,52 +1,82 @@
 """Where meshes and textures are."""
 
-from typing import ClassVar
+from dataclasses import dataclass
+from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Notes
-from twinform.ir import Collision, Link, Material, Mesh, Model, Node, Visual, map_children
+from twinform.ir import Collision, Format, Link, Mesh, Model, Visual
+from twinform.passes.legalise.marks import find_mark, with_mark, without_mark
 from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.legalise.provenance import came_from
+from twinform.passes.legalise.uri_schemes import GAZEBO, MESH_SCHEME, ROS, TEXTURE_SCHEME, model_uri, scheme_of
 
-_ROS, _GAZEBO = "package://", "model://"
+Shape = TypeVar("Shape", Visual, Collision)
 
 
 class MeshUris(ModelPass):
     """Write `package://` as `model://`, which Gazebo looks up in its own resource path.
 
-    Changes: 1. URIs of meshes; 2. URIs of textures.
+    Changes: 1. URIs of meshes; 2. URIs of textures. What was `model://` in URDF is marked, and what a mark says was
+    `package://` in SDF stays so.
     Never touches: files, relative paths and other schemes.
     Diagnostics: none.
     """
 
     name: ClassVar[str] = "mesh-uris"
+    carriers: bool = True
 
     def run_model(self, model: Model, notes: Notes) -> Model:
         """The model with URIs that Gazebo resolves."""
-        return model.model_copy(update={"links": tuple([_link(link) for link in model.links])})
+        marks = self.carriers and not came_from(model, Format.SDF)
+        return model.model_copy(update={"links": tuple([_Links(notes, marks).link(link) for link in model.links])})
 
 
-def _link(link: Link) -> Link:
-    shapes = (*link.visuals, *link.collisions)
-    return map_children(link, _rewrite) if any(map(_names_a_package, shapes)) else link
+@dataclass(frozen=True, slots=True)
+class _Links:
+    """One run over the links; `marks` says whether the scheme of a URI is to be marked."""
 
+    notes: Notes
+    marks: bool
 
-def _names_a_package(shape: Visual | Collision) -> bool:
-    mesh = shape.geometry.shape if shape.geometry else None
-    material = shape.material if isinstance(shape, Visual) else None
-    return (isinstance(mesh, Mesh) and _is_ros(mesh.uri)) or (material is not None and _is_ros(material.albedo_map))
+    def link(self, link: Link) -> Link:
+        visuals = tuple([self._visual(each) for each in link.visuals])
+        collisions = tuple([self._shape(each) for each in link.collisions])
+        pairs = zip((*visuals, *collisions), (*link.visuals, *link.collisions), strict=True)
+        if all(new is old for new, old in pairs):
+            return link
+        return link.model_copy(update={"visuals": visuals, "collisions": collisions})
 
+    def _visual(self, visual: Visual) -> Visual:
+        visual = self._shape(visual)
+        material = visual.material
+        if material is None or material.albedo_map is None:
+            return visual
+        visual, uri = self._uri(visual, TEXTURE_SCHEME, material.albedo_map)
+        if uri == material.albedo_map:
+            return visual
+        return visual.model_copy(update={"material": material.model_copy(update={"albedo_map": uri})})
 
-def _rewrite(node: Node) -> Node:
-    """The node, and all below it, with URIs for Gazebo."""
-    if isinstance(node, Mesh):
-        return node.model_copy(update={"uri": _gazebo(node.uri)}) if _is_ros(node.uri) else node
-    if isinstance(node, Material):
-        return node.model_copy(update={"albedo_map": _gazebo(node.albedo_map)}) if _is_ros(node.albedo_map) else node
-    return map_children(node, _rewrite)
+    def _shape(self, shape: Shape) -> Shape:
+        geometry = shape.geometry
+        mesh = geometry.shape if geometry else None
+        if geometry is None or not isinstance(mesh, Mesh) or mesh.uri is None:
+            return shape
+        shape, uri = self._uri(shape, MESH_SCHEME, mesh.uri)
+        if uri == mesh.uri:
+            return shape
+        return shape.model_copy(
+            update={"geometry": geometry.model_copy(update={"shape": mesh.model_copy(update={"uri": uri})})}
+        )
 
-
-def _is_ros(uri: str | None) -> bool:
-    return uri is not None and uri.startswith(_ROS)
-
-
-def _gazebo(uri: str | None) -> str:
-    return _GAZEBO + (uri or "")[len(_ROS) :]
+    def _uri(self, shape: Shape, kind: str, written: str) -> tuple[Shape, str]:
+        """The URI for Gazebo, and the shape with what has to be known for the reverse conversion."""
+        if scheme_of(written) not in {ROS, GAZEBO}:
+            return without_mark(shape, kind), written
+        mark = find_mark(shape, kind)
+        if mark is not None:
+            bare = without_mark(shape, kind)
+            return bare, written if mark.get("scheme") == scheme_of(written) == ROS else model_uri(written)[0]
+        uri, lost = model_uri(written)
+        if not lost:
+            return shape, uri
+        return (with_mark(shape, kind, attributes={"scheme": GAZEBO}) if self.marks else shape), uri

@@ -1,13 +1,21 @@
 """A name for every visual and collision."""
 
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
+from itertools import count
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf
 from twinform.ir import Collision, Link, Model, Visual
+from twinform.passes.legalise.marks import with_mark
 from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.legalise.names import NAME
 
 Shape = TypeVar("Shape", Visual, Collision)
+
+UNNAMED = "unnamed"
+"""The mark on a model of SDF that lists, line by line, the names of shapes that have none in URDF."""
 
 
 class NameShapes(ModelPass):
@@ -20,35 +28,48 @@ class NameShapes(ModelPass):
     """
 
     name: ClassVar[str] = "name-shapes"
+    carriers: bool = True
 
     def run_model(self, model: Model, notes: Notes) -> Model:
         """The model with named shapes."""
-        links = tuple(_name_link(link, notes) for link in model.links)
-        return model.model_copy(update={"links": links})
+        links = tuple(_name_link(link, notes, carriers=self.carriers) for link in model.links)
+        made = [new for old, link in zip(model.links, links, strict=True) for new in _made_names(old, link)]
+        model = model.model_copy(update={"links": links})
+        return with_mark(model, UNNAMED, "\n".join(made)) if made and self.carriers else model
 
 
-def _name_link(link: Link, notes: Notes) -> Link:
-    visuals = name_all(link.visuals, f"{link.name}_visual", notes)
-    collisions = name_all(link.collisions, f"{link.name}_collision", notes)
+def _name_link(link: Link, notes: Notes, *, carriers: bool) -> Link:
+    visuals = name_all(link.visuals, f"{link.name}_visual", notes, carriers=carriers)
+    collisions = name_all(link.collisions, f"{link.name}_collision", notes, carriers=carriers)
     if visuals is link.visuals and collisions is link.collisions:
         return link
     return link.model_copy(update={"visuals": visuals, "collisions": collisions})
 
 
-def name_all(shapes: tuple[Shape, ...], base: str, notes: Notes) -> tuple[Shape, ...]:
+def _made_names(old: Link, new: Link) -> Iterator[str]:
+    """The names of shapes that had none."""
+    if new is not old:
+        pairs = zip((*old.visuals, *old.collisions), (*new.visuals, *new.collisions), strict=True)
+        yield from (str(after.name) for before, after in pairs if before.name is None)
+
+
+def name_all(shapes: tuple[Shape, ...], base: str, notes: Notes, *, carriers: bool) -> tuple[Shape, ...]:
     """The shapes with one name each; `base` names those that have none."""
     taken = {name for name in map(_own_name, shapes) if name}
     if len(taken) == len(shapes):
         return shapes
     seen: set[str] = set()
+    numbers: defaultdict[str, count[int]] = defaultdict(lambda: count(1))
     named: list[Shape] = []
     for shape in shapes:
         name = _own_name(shape)
         if not name or name in seen:
-            name = _free(name or base, taken | seen)
+            name = _free(name or base, taken, seen, numbers)
             if shape.name:
                 message = f"{shape.name!r} {_why(shape)} is called {name!r} in SDF"
-                notes.account(Fate.APPROXIMATED, to_sdf.SHAPE_NAME, message, shape.location)
+                notes.account(Fate.CARRIED if carriers else Fate.DROPPED, to_sdf.SHAPE_NAME, message, shape.location)
+                if carriers:
+                    shape = with_mark(shape, NAME, shape.name, {"instead_of": name})  # noqa: PLW2901 - the same shape
         seen.add(name)
         named.append(shape if shape.name == name else shape.model_copy(update={"name": name}))
     return tuple(named)
@@ -63,8 +84,9 @@ def _why(shape: Visual | Collision) -> str:
     return "is there twice; the second one" if _own_name(shape) else "is no name; it"
 
 
-def _free(base: str, taken: set[str]) -> str:
-    name, number = base, 1
-    while name in taken:
-        name, number = f"{base}_{number}", number + 1
+def _free(base: str, taken: set[str], seen: set[str], numbers: Mapping[str, "count[int]"]) -> str:
+    """The base, or the base with the next number that gives a new name; numbers that were tried are not tried again."""
+    name = base
+    while name in taken or name in seen:
+        name = f"{base}_{next(numbers[base])}"
     return name

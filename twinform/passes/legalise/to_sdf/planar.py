@@ -47,7 +47,7 @@ def planar_chain(joint: Joint, names: tuple[str, str, str, str]) -> Chain:
     )
     turn = joint.model_copy(
         update={
-            "type": "continuous",
+            "type": "revolute",
             "parent": second_link,
             "pose": Pose(relative_to=second_link),
             "axis": Axis(xyz=normal),

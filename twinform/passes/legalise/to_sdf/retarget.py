@@ -2,32 +2,45 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics import Fate, Notes
-from twinform.ir import Document, Format
+from twinform.diagnostics import Notes
+from twinform.ir import Document, Format, Model
 from twinform.passes.base import Pass
-from twinform.passes.legalise.carrier import NAMESPACE, PREFIX
+from twinform.passes.legalise.carrier import NAMESPACE, PREFIX, has_ours
+from twinform.passes.legalise.marks import without_mark
+from twinform.passes.legalise.notation import BODY
+from twinform.passes.legalise.provenance import came_from, source_version, with_provenance, without_provenance
+from twinform.schemas import table
 
 
 class RetargetSdf(Pass):
     """Declare the document to be SDF of a version, with the prefix of the carriers where there are any.
 
-    Changes: format, version and namespaces of the document.
+    Changes: format, version and namespaces of the document; the model is marked as one that came from URDF.
     Never touches: anything in it.
     Diagnostics: none.
     """
 
     name: ClassVar[str] = "retarget-sdf"
     version: str
+    carriers: bool = True
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The document in terms of SDF."""
         kept = tuple((prefix, uri) for prefix, uri in document.namespaces if prefix not in {"", PREFIX})
-        carried = any(entry.fate is Fate.CARRIED for entry in notes.entries)
-        carriers = carried or (PREFIX, NAMESPACE) in document.namespaces
+        models = tuple(self._from_urdf(model, document) for model in document.models)
+        before = source_version(document, Format.SDF)
         return document.model_copy(
             update={
                 "format": Format.SDF,
-                "version": self.version,
-                "namespaces": (*kept, (PREFIX, NAMESPACE)) if carriers else kept,
+                "version": self.version if before is None or before in table("sdf").versions else before,
+                "models": models,
+                "namespaces": (*kept, (PREFIX, NAMESPACE)) if any(map(has_ours, models)) else kept,
             }
         )
+
+    def _from_urdf(self, model: Model, document: Document) -> Model:
+        """The model, marked as one that came from URDF, unless it is one of SDF that is back."""
+        if came_from(model, Format.SDF):
+            links = tuple(without_mark(link, BODY) for link in model.links)
+            return without_provenance(model.model_copy(update={"links": links}))
+        return with_provenance(without_provenance(model), document) if self.carriers else model

@@ -5,17 +5,20 @@ from typing import ClassVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf
-from twinform.ir import Color, Element, Link, Material, Model, Opaque, Visual, count_parts
-from twinform.passes.legalise.carrier import carry, pack, to_element
+from twinform.ir import Link, Material, Model, Opaque, Visual, count_parts
+from twinform.passes.legalise.carrier import pack, to_element
+from twinform.passes.legalise.marks import mark
+from twinform.passes.legalise.material_marks import MATERIAL, SHARED_MATERIAL, material_name
 from twinform.passes.legalise.model_pass import ModelPass
 
 
 class SharedMaterials(ModelPass):
-    """Write the colour and texture of a URDF material into every visual that uses it.
+    """Write the color and texture of a URDF material into every visual that uses it.
 
-    Changes: 1. a colour becomes `diffuse` and `ambient`; 2. a texture becomes the albedo map of a PBR material; 3. a
+    Changes: 1. a color becomes `diffuse` and `ambient`; 2. a texture becomes the albedo map of a PBR material; 3. a
     visual that only names a material takes what is defined for the name, by the robot or else by the first visual that
-    says more. The `<material>` elements as they stood are carried, by the visual and by the model.
+    says more. The name is a mark on the visual, and which materials the robot defines are marks on the model; only a
+    definition that no visual uses as it stands is carried whole.
     Never touches: what a `<gazebo>` element says about the look.
     Diagnostics: none; ledger entries under `material-name`.
     """
@@ -26,35 +29,49 @@ class SharedMaterials(ModelPass):
     def run_model(self, model: Model, notes: Notes) -> Model:
         """The model without shared materials."""
         materials = [visual.material for link in model.links for visual in link.visuals if visual.material]
+        shared = {material.name: material for material in model.materials}
         defined: dict[str, Material] = {}
         for material in (*model.materials, *materials):
             if material.name and (material.color or material.texture):
                 defined.setdefault(material.name, material)
         for material in model.materials:
             self._account(material, count_parts(material), notes)
-        shared = [Opaque(element=_element(material)) for material in model.materials]
-        links = tuple(self._link(link, defined, notes) for link in model.links)
-        model = model.model_copy(update={"links": links, "materials": ()})
-        return carry(model, shared, "urdf") if self.carriers else model
+        links = tuple(self._link(link, shared, defined, notes) for link in model.links)
+        named = {each.name for each in materials if not (each.color or each.texture)}
+        marks = tuple(_definition(material, named) for material in model.materials) if self.carriers else ()
+        return model.model_copy(update={"links": links, "materials": (), "opaque": (*model.opaque, *marks)})
 
-    def _link(self, link: Link, defined: dict[str, Material], notes: Notes) -> Link:
+    def _link(self, link: Link, shared: dict[str | None, Material], defined: dict[str, Material], notes: Notes) -> Link:
         if not any(visual.material for visual in link.visuals):
             return link
-        return link.model_copy(update={"visuals": tuple(self._visual(one, defined, notes) for one in link.visuals)})
+        visuals = tuple(self._visual(one, link, shared, defined, notes) for one in link.visuals)
+        return link.model_copy(update={"visuals": visuals})
 
-    def _visual(self, visual: Visual, defined: dict[str, Material], notes: Notes) -> Visual:
+    def _visual(
+        self,
+        visual: Visual,
+        link: Link,
+        shared: dict[str | None, Material],
+        defined: dict[str, Material],
+        notes: Notes,
+    ) -> Visual:
         material = visual.material
-        if material is None or not (material.name or material.color or material.texture):
+        if material is None or not (material.name is not None or material.color or material.texture):
             return visual
         source = material
         if not (material.color or material.texture):
             source = defined.get(material.name or "", material)
-        look = _sdf_material(material, source)
-        if not material.name:
-            return visual.model_copy(update={"material": look})
+        visual = visual.model_copy(update={"material": _sdf_material(material, source)})
+        own = material.color is not None or material.texture is not None
+        if own and material.name == material_name(link, visual):
+            return visual
+        if material.name is None:
+            unnamed = mark(MATERIAL, attributes={"unnamed": "true"})
+            return visual.model_copy(update={"opaque": (*visual.opaque, unnamed)}) if self.carriers else visual
         self._account(material, 1, notes)
-        carriers = _carriers(material.name, material.color, material.texture) if self.carriers else ()
-        return visual.model_copy(update={"material": look, "opaque": (*visual.opaque, *carriers)})
+        return (
+            visual.model_copy(update={"opaque": (*visual.opaque, _name(material, shared))}) if self.carriers else visual
+        )
 
     def _account(self, material: Material, weight: int, notes: Notes) -> None:
         fate = Fate.CARRIED if self.carriers else Fate.DROPPED
@@ -63,14 +80,27 @@ class SharedMaterials(ModelPass):
         notes.account(fate, to_sdf.MATERIAL_NAME, message, material.location, weight)
 
 
+def _name(material: Material, shared: dict[str | None, Material]) -> Opaque:
+    """The mark with the name; it says where the material is defined if that is not where the name makes one expect."""
+    own = material.color is not None or material.texture is not None
+    definition = shared.get(material.name)
+    usual = definition is None or not (definition.color or definition.texture)
+    return _name_mark(material.name or "", None if own == usual else "here" if own else "elsewhere")
+
+
 @lru_cache(maxsize=256)
-def _carriers(name: str | None, color: Color | None, texture: str | None) -> tuple[Opaque, ...]:
-    """The material as URDF writes it, in a carrier; most robots say the same few again and again."""
-    return pack([Opaque(element=_element(Material(name=name, color=color, texture=texture)))], "urdf")
+def _name_mark(name: str, defined: str | None) -> Opaque:
+    """Most robots say the same few names again and again."""
+    return mark(MATERIAL, name, {"defined": defined})
 
 
-def _element(material: Material) -> Element:
-    return to_element(material.model_copy(update={"opaque": ()}), "material", "urdf")
+def _definition(material: Material, named: set[str | None]) -> Opaque:
+    """The mark of a material that the robot defines; with all that it says, where no visual has that by its name."""
+    plain = not material.opaque and (material.color or material.texture)
+    if plain and material.name in named:
+        return mark(SHARED_MATERIAL, material.name)
+    (whole,) = pack([Opaque(element=to_element(material, "material", "urdf"))], "urdf")
+    return whole
 
 
 def _sdf_material(material: Material, source: Material) -> Material:

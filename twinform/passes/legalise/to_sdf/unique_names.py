@@ -5,9 +5,10 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf
-from twinform.ir import Axis, Joint, Link, Model, Opaque, Pose
-from twinform.passes.legalise.carrier import carry
+from twinform.ir import Axis, Joint, Link, Model, Pose
+from twinform.passes.legalise.marks import with_mark
 from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.legalise.names import NAME
 
 Named = TypeVar("Named", Link, Joint)
 
@@ -66,7 +67,7 @@ class UniqueNames(ModelPass):
         notes.report(to_sdf.RENAMED, message, node.location, found=node.name)
         notes.account(Fate.CARRIED if self.carriers else Fate.DROPPED, to_sdf.RENAMED, message, node.location)
         if self.carriers:
-            node = carry(node, [Opaque(attribute=("name", node.name))], "urdf")
+            node = with_mark(node, NAME, node.name, {"instead_of": name})
         return node.model_copy(update={"name": name})
 
 

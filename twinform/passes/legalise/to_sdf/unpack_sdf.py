@@ -1,11 +1,14 @@
-"""What SDF says of shapes and fixed joints, and URDF does not, stands where it stood."""
+"""What SDF says and URDF does not, put back where it stood."""
 
 from collections.abc import Iterable
-from typing import ClassVar, TypeVar, cast
+from typing import ClassVar, Literal, TypeVar, cast
 
 from twinform.diagnostics import Notes
-from twinform.ir import Collision, Color, Joint, Link, Material, Model, Node, Opaque, Visual, map_children
-from twinform.passes.legalise.carrier import is_carrier, unpack
+from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
+from twinform.ir import Color, Element, Joint, Link, Material, Model, Node, Opaque, Visual, map_children
+from twinform.passes.legalise.carrier import is_carrier, is_memory, unpack
+from twinform.passes.legalise.marks import find_mark, without_mark
+from twinform.passes.legalise.material_marks import COLORS, SCRIPTS
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb
 from twinform.passes.legalise.sdf_versions.carriers import Terms
@@ -14,78 +17,113 @@ from twinform.schemas import parse_version, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
-_COLOURS = ("ambient", "diffuse")
-"""What URDF has one colour for."""
+_ENDS = frozenset({"lower", "upper"})
 _ABOUT = frozenset({"opaque", "source", "spelling"})
 """Fields in which a node says nothing of its own, or one thing beside others."""
 
 
 class UnpackSdf(ModelPass):
-    """Put what came from an SDF file back into visuals, collisions and fixed joints.
+    """Put what URDF could not say, and carriers of SDF hold, back where it stood.
 
-    Changes: carriers of scripts, colours of light, surfaces, axes of fixed joints and the like become what they were,
-    where the model leaves open what they say, in words of URDF and in `<gazebo>`. With `carriers` false, the others go.
-    Never touches: poses, which are in the frames of the file that they came from; joints that move; what does not fit.
-    These carriers stay.
-    Diagnostics: none.
+    Changes: carriers of shapes, scripts, colors of light, surfaces, axes of fixed joints and the like become what they
+    were, where the model leaves open what they say, in words of URDF and in `<gazebo>`: with `of` "bodies" those of the
+    model and its links, with "parts" the others.
+    Never touches: what does not fit; these carriers stay, and the last pass reports them.
+    Diagnostics: `stale-carrier` for colors of a visual that has another one now.
     """
 
     name: ClassVar[str] = "unpack-sdf"
-    carriers: bool = True
+    of: Literal["bodies", "parts"] = "parts"
 
     def run_model(self, model: Model, notes: Notes) -> Model:
         """The model without carriers of what is left open."""
-        return map_children(model, self._unpacked)
+        if self.of == "parts":
+            return map_children(model, lambda node: self._parts(node, notes))
+        model = _without_carriers(model)
+        return model.model_copy(update={"links": tuple(_without_carriers(link) for link in model.links)})
 
-    def _unpacked(self, node: Node) -> Node:
+    def _parts(self, node: Node, notes: Notes) -> Node:
         if isinstance(node, Link):
-            return map_children(node, self._unpacked)
-        return self._without_carriers(node) if is_looked_into(node) else node
-
-    def _without_carriers(self, node: Node) -> Node:
-        carriers = [part for part in node.opaque if is_carrier(part, "sdf")]
-        if not carriers:
-            return node
-        node = node.model_copy(update={"opaque": tuple(part for part in node.opaque if not is_carrier(part, "sdf"))})
+            return map_children(node, lambda child: self._parts(child, notes))
         if isinstance(node, Visual):
-            node, carriers = _with_colours(node, carriers)
-        for carrier in carriers:
-            more = _with(node, carrier)
-            if more is None and self.carriers:
-                more = node.model_copy(update={"opaque": (*node.opaque, carrier)})
-            node = more or node
+            node = _with_scripts(_with_colors(node, notes), notes)
+        return _without_carriers(node)
+
+
+def _without_carriers(node: AnyNode) -> AnyNode:
+    carriers = [part for part in node.opaque if is_carrier(part, "sdf")] if node.opaque else []
+    if not carriers:
         return node
+    node = node.model_copy(update={"opaque": tuple(part for part in node.opaque if not is_carrier(part, "sdf"))})
+    for carrier in carriers:
+        if _is_blank_pose(carrier):
+            continue
+        more = None if is_memory(carrier) or _is_overruled(carrier, node) else _with(node, carrier)
+        node = node.model_copy(update={"opaque": (*node.opaque, carrier)}) if more is None else more
+    return node
 
 
-def is_looked_into(node: Node) -> bool:
-    """Whether its carriers of SDF may come out once all that URDF says is said."""
-    return isinstance(node, Visual | Collision) or (isinstance(node, Joint) and node.type == "fixed")
+def _is_blank_pose(carrier: Opaque) -> bool:
+    """Whether it is a pose that says nothing, which the link says by now."""
+    return all(piece.element is not None and piece.element == Element(name="pose") for piece in unpack(carrier))
 
 
-def _with_colours(visual: Visual, carriers: list[Opaque]) -> tuple[Visual, list[Opaque]]:
-    """The visual with the two colours that URDF has one for, unless that one was changed since, and what is left."""
-    colours = [carrier for carrier in carriers if _is_colour(carrier)]
-    empty = visual.model_copy(update={"material": Material()})
-    material = visual.material or Material()
+def _is_overruled(carrier: Opaque, node: Node) -> bool:
+    """Whether URDF says otherwise by leaving something out: limits of a joint that turns, or a whole material."""
+    at = (carrier.element.get("at") or "") if carrier.element else ""
+    if isinstance(node, Joint):
+        named = {piece.element.name for piece in unpack(carrier) if piece.element}
+        return at == "axis/limit" and node.type != "continuous" and bool(named & _ENDS)
+    return isinstance(node, Visual) and at.startswith("material") and not _has_look(node.material)
+
+
+def _has_look(material: Material | None) -> bool:
+    """Whether URDF says how something looks, beside which there may be more to say."""
+    said = (material.ambient, material.diffuse, material.albedo_map, material.script) if material else ()
+    return any(each is not None for each in said)
+
+
+def _with_colors(visual: Visual, notes: Notes) -> Visual:
+    """The visual with the two colors that URDF has one for, unless that one was changed since."""
+    found = find_mark(visual, COLORS)
+    material = visual.material
+    if found is None:
+        return visual
+    visual = without_mark(visual, COLORS)
     try:
-        said = _absorbed(empty, colours).material or Material()
-        if not _are_same(said.diffuse or said.ambient, material.diffuse):
-            return visual, carriers
-        material = material.model_copy(update={"ambient": None, "diffuse": None})
-        visual = _absorbed(visual.model_copy(update={"material": material}), colours)
-    except CarrierError:
-        return visual, carriers
-    return visual, [carrier for carrier in carriers if carrier not in colours]
+        of, ambient, diffuse = (_color(found.get(name)) for name in ("of", "ambient", "diffuse"))
+    except ValueError as error:
+        of = ambient = diffuse = None
+        notes.report(STALE_CARRIER, f"the colors of visual {visual.name!r} say nothing: {error}", visual.location)
+    if material is None or material.diffuse is None or of is None or urdf_color(material.diffuse) != of:
+        message = f"visual {visual.name!r} had two colors in SDF, and has another one now"
+        notes.report(STALE_CARRIER, message, visual.location, found=found.get("of") or "")
+        return visual
+    said = {name: color for name, color in (("ambient", ambient), ("diffuse", diffuse)) if color is not None}
+    return visual.model_copy(update={"material": material.model_copy(update={n: c or None for n, c in said.items()})})
 
 
-def _is_colour(carrier: Opaque) -> bool:
-    pieces = unpack(carrier)
-    return all(piece.at == "material" and piece.element and piece.element.name in _COLOURS for piece in pieces)
+def _with_scripts(visual: Visual, notes: Notes) -> Visual:
+    """The visual whose material of Gazebo Classic is in files of its own, unless it has none any more."""
+    found = find_mark(visual, SCRIPTS)
+    if found is None:
+        return visual
+    visual = without_mark(visual, SCRIPTS)
+    script = visual.material.script if visual.material else None
+    if visual.material is None or script is None:
+        message = f"visual {visual.name!r} had a material of Gazebo Classic in SDF, and has none now"
+        notes.report(STALE_CARRIER, message, visual.location, found=found.text or "")
+        return visual
+    uris = tuple(line.strip() for line in (found.text or "").splitlines() if line.strip())
+    script = script.model_copy(update={"uris": uris})
+    return visual.model_copy(update={"material": visual.material.model_copy(update={"script": script})})
 
 
-def _are_same(said: Color | None, here: Color | None) -> bool:
-    """Whether two colours are one in URDF."""
-    return said is not None and here is not None and urdf_color(said) == urdf_color(here)
+def _color(text: str | None) -> Color | None:
+    """The color that a mark says; empty for one that is not written, None where it is the usual one."""
+    if text is None:
+        return None
+    return tuple(float(part) for part in text.split())
 
 
 def _absorbed(node: AnyNode, carriers: Iterable[Opaque]) -> AnyNode:
@@ -94,15 +132,18 @@ def _absorbed(node: AnyNode, carriers: Iterable[Opaque]) -> AnyNode:
     Raises:
         CarrierError: one of them does not fit.
     """
-    pieces = tuple(piece for carrier in carriers for piece in unpack(carrier))
-    return absorb(node, pieces, Terms(), parse_version(table("sdf").versions[-1]))
+    for carrier in carriers:
+        index = carrier.element.get("index") if carrier.element else None
+        terms = Terms(index=int(index) if index and index.isdecimal() else None)
+        node = absorb(node, unpack(carrier), terms, parse_version(table("sdf").versions[-1]))
+    return node
 
 
 def _with(node: AnyNode, carrier: Opaque) -> AnyNode | None:
     """The node with what is in a carrier; None where it says that already, or cannot."""
     try:
         said = _absorbed(node.model_copy(update=_defaults(node)), [carrier])
-        has_pose = said.__dict__["pose"] is not None
+        has_pose = said.__dict__.get("pose") is not None
         return _absorbed(node, [carrier]) if not has_pose and _is_new(said, node) else None
     except CarrierError:
         return None
@@ -122,6 +163,11 @@ def _is_new(said: Node, node: Node) -> bool:
 
 
 def _goes_with(said: object, here: object, default: object) -> bool:
-    if said == default or here in (default, said):
+    if said == default or here in (default, said) or _are_nodes(said):
         return True
     return isinstance(said, Node) and type(said) is type(here) and _is_new(said, cast("Node", here))
+
+
+def _are_nodes(value: object) -> bool:
+    """Whether it is a list of nodes, to which more can be added."""
+    return isinstance(value, tuple) and bool(value) and isinstance(value[0], Node)  # pyright: ignore[reportUnknownArgumentType] - any

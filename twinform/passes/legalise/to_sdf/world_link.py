@@ -5,8 +5,10 @@ from typing import ClassVar
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf
 from twinform.ir import Joint, Link, Model, Opaque, count_parts
-from twinform.passes.legalise.carrier import carry, is_ours, to_element
+from twinform.passes.legalise.carrier import carry, is_carrier, to_element, unpack
+from twinform.passes.legalise.marks import find_mark
 from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.legalise.notation import BODY
 
 
 class WorldLink(ModelPass):
@@ -24,7 +26,12 @@ class WorldLink(ModelPass):
     def run_model(self, model: Model, notes: Notes) -> Model:
         """The model with `world` as a parent only."""
         world = next((link for link in model.links if link.name == "world"), None)
-        if world is None or any(joint.child == "world" for joint in model.joints) or len(model.links) == 1:
+        if (
+            world is None
+            or find_mark(world, BODY) is not None
+            or any(joint.child == "world" for joint in model.joints)
+            or len(model.links) == 1
+        ):
             return model
         links = tuple(link for link in model.links if link is not world)
         joints = tuple(_on_model(joint) for joint in model.joints)
@@ -33,7 +40,8 @@ class WorldLink(ModelPass):
             fate = Fate.CARRIED if self.carriers else Fate.DROPPED
             message = "nothing is fixed to the link 'world', and SDF has a world without saying so"
             notes.account(fate, to_sdf.URDF_ONLY, message, world.location, count_parts(world))
-        body = world.model_copy(update={"opaque": tuple(part for part in world.opaque if not is_ours(part))})
+        own = tuple(piece for part in world.opaque for piece in (unpack(part) if is_carrier(part, "urdf") else (part,)))
+        body = world.model_copy(update={"opaque": own})
         return self._keep_body(model, body, notes) if count_parts(body) > 2 else model
 
     def _keep_body(self, model: Model, world: Link, notes: Notes) -> Model:

@@ -1,6 +1,10 @@
 """From SDF's terms to URDF's, step by step."""
 
+from twinform.ir import Format
 from twinform.passes.base import Pass
+from twinform.passes.legalise.drop_stale import DropStale
+from twinform.passes.legalise.names import RestoreNames
+from twinform.passes.legalise.sdf_versions.spread_imu_noise import GatherImuNoise
 from twinform.passes.legalise.to_urdf.build_tree import BuildTree
 from twinform.passes.legalise.to_urdf.carry_the_rest import CarryTheRest
 from twinform.passes.legalise.to_urdf.compute_inertias import ComputeInertias
@@ -16,36 +20,53 @@ from twinform.passes.legalise.to_urdf.map_surfaces import MapSurfaces
 from twinform.passes.legalise.to_urdf.rebase_links import RebaseLinks
 from twinform.passes.legalise.to_urdf.relate_gearboxes import RelateGearboxes
 from twinform.passes.legalise.to_urdf.resolve_joint_ends import ResolveJointEnds
+from twinform.passes.legalise.to_urdf.restore_links import RestoreLinks
+from twinform.passes.legalise.to_urdf.restore_materials import RestoreMaterials
+from twinform.passes.legalise.to_urdf.restore_shapes import RestoreShapes
 from twinform.passes.legalise.to_urdf.select_model import SelectModel
+from twinform.passes.legalise.to_urdf.share_visuals import ShareVisuals
 from twinform.passes.legalise.to_urdf.turn_frames_into_links import TurnFramesIntoLinks
 from twinform.passes.legalise.to_urdf.unfold_joints import UnfoldJoints
 from twinform.passes.legalise.to_urdf.unpack_urdf import UnpackUrdf
 from twinform.passes.legalise.to_urdf.upgrade_sdf import UpgradeSdf
+from twinform.schemas import table
 
 __all__ = ["UrdfVersion", "to_urdf"]
 
 
-def to_urdf(*, model: str | None = None, urdf_version: UrdfVersion = "1.0", carriers: bool = True) -> tuple[Pass, ...]:
-    """The passes that make URDF of the model of this name, or of the only one."""
+def to_urdf(
+    *, model: str | None = None, urdf_version: UrdfVersion = "1.0", carriers: bool = True, mixed: bool = False
+) -> tuple[Pass, ...]:
+    """The passes that make URDF of the model of this name, or of the only one.
+
+    `mixed` says that the SDF has words that its version does not have.
+    """
     return (
         SelectModel(model=model),
-        UpgradeSdf(carriers=carriers),
+        UpgradeSdf(carriers=carriers, mixed=mixed),
+        GatherImuNoise(version=table("sdf").versions[-1], marked=True),
         FlattenModels(carriers=carriers),
         FoldPlanarJoints(carriers=carriers),
         ComputeInertias(carriers=carriers),
         FillInertials(carriers=carriers),
+        RestoreLinks(carriers=carriers),
         ResolveJointEnds(carriers=carriers),
         ExpressAxes(carriers=carriers),
         TurnFramesIntoLinks(carriers=carriers),
         BuildTree(carriers=carriers),
         RelateGearboxes(carriers=carriers),
         UnfoldJoints(carriers=carriers),
-        MapJoints(carriers=carriers),
+        MapJoints(carriers=carriers, urdf_version=urdf_version),
         RebaseLinks(carriers=carriers),
         MapGeometry(carriers=carriers, urdf_version=urdf_version),  # what it carries is where it will be
+        ShareVisuals(carriers=carriers),
         MapMaterials(carriers=carriers),
         MapSurfaces(carriers=carriers),
         ExtendGazebo(carriers=carriers),
         CarryTheRest(carriers=carriers, urdf_version=urdf_version),
+        RestoreMaterials(),
+        RestoreShapes(),
+        RestoreNames(to=Format.URDF),
         UnpackUrdf(),
+        DropStale(to=Format.URDF),
     )

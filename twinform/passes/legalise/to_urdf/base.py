@@ -3,9 +3,10 @@
 from abc import abstractmethod
 
 from twinform.diagnostics import Notes
-from twinform.ir import Document, Model
+from twinform.ir import Document, Format, Model
 from twinform.ir.frames import FrameError
 from twinform.passes.base import Pass
+from twinform.passes.legalise.provenance import came_from
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 
 
@@ -21,7 +22,7 @@ class ToUrdfPass(Pass):
         """The document with its model passed through."""
         if notes.has_errors:
             return document
-        keeper = Keeper(notes, self.carriers)
+        keeper = Keeper(notes, self.carriers, any(came_from(model, Format.URDF) for model in document.models))
         try:
             models = tuple(self.run_model(model, keeper) for model in document.models)
         except FrameError as error:

@@ -94,7 +94,7 @@ def _hang(model: Model, roots: list[Link], first: str, keeper: Keeper) -> Model:
         name = unique_name(f"{link.name}_{kind}_joint", taken)
         taken.add(name)
         made = Joint(name=name, type=kind, parent=first, child=link.name, source=link.source)
-        joints.append(mark_made(made, "."))
+        joints.append(mark_made(made))
         message = f"link {link.name!r} hangs by a {kind} joint from {first!r}"
         keeper.notes.account(Fate.APPROXIMATED, rules.HUNG_ROOT, message, link.location, 0)
     return model.model_copy(update={"joints": tuple(joints)})

@@ -4,11 +4,13 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Document, Format, Joint, Link, Model, Node, Opaque
+from twinform.ir import Document, Format, Joint, Link, Model, Node
 from twinform.ir.frames import WORLD
 from twinform.passes.base import Pass
-from twinform.passes.legalise.carrier import NAMESPACE, PREFIX
-from twinform.passes.legalise.marks import mark_made, without_marks
+from twinform.passes.legalise.carrier import NAMESPACE, PREFIX, has_ours
+from twinform.passes.legalise.marks import without_made
+from twinform.passes.legalise.notation import BODY
+from twinform.passes.legalise.provenance import came_from, with_provenance, without_provenance
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.passes.legalise.to_urdf.map_geometry import UrdfVersion
 from twinform.passes.legalise.to_urdf.remainder import Words, take_remainder, urdf_words
@@ -37,12 +39,12 @@ class CarryTheRest(Pass):
         """The document in terms of URDF."""
         if notes.has_errors:
             return document
-        keeper = Keeper(notes, self.carriers)
+        keeper = Keeper(notes, self.carriers, any(came_from(model, Format.URDF) for model in document.models))
         models = tuple(_finish(model, document, keeper) for model in document.models)
         if not self.carriers:
-            models = tuple(without_marks(model) for model in models)
+            models = tuple(without_made(model) for model in models)
         namespaces = tuple(pair for pair in document.namespaces if pair[0] not in ("", PREFIX))
-        if self.carriers:
+        if any(map(has_ours, models)):
             namespaces = (*namespaces, (PREFIX, NAMESPACE))
         version = None if self.urdf_version == "1.0" else self.urdf_version
         update = {"format": Format.URDF, "version": version, "models": models, "namespaces": namespaces}
@@ -51,19 +53,34 @@ class CarryTheRest(Pass):
 
 def _finish(model: Model, document: Document, keeper: Keeper) -> Model:
     rest = _Rest(keeper)
+    model = _without_usual_root(model, keeper)
     model = model.model_copy(
         update={"links": tuple(map(rest.link, model.links)), "joints": tuple(map(rest.joint, model.joints))}
     )
     model = rest.take(model, "model", urdf_words("robot"))
+    model = model.model_copy(update={"links": tuple(_marked_world(link, keeper) for link in model.links)})
     has_world = any(link.name == WORLD for link in model.links)  # which SDF before 1.7 did not forbid
     if not has_world and any(joint.parent == WORLD for joint in model.joints):
-        world = mark_made(Link(name=WORLD), ".")
-        model = model.model_copy(update={"links": (world, *model.links)})
-    if document.version is None:
+        model = model.model_copy(update={"links": (Link(name=WORLD), *model.links)})
+    if document.version is not None:
+        message = f"the file is SDF {document.version}"
+        keeper.account(rules.SDF_ONLY, message, document.location.at("@version"), 1)
+    if keeper.back or not keeper.carriers:
         return model
-    version = Opaque(at="/sdf", attribute=("version", document.version))
-    message = f"the file is SDF {document.version}"
-    return keeper.keep(model, [version], rules.SDF_ONLY, message, document.location.at("@version"))
+    return with_provenance(without_provenance(model), document)
+
+
+def _marked_world(link: Link, keeper: Keeper) -> Link:
+    """A link called `world`, which SDF before 1.7 did not forbid, is a body; the one of URDF is SDF's world."""
+    return keeper.mark(link, BODY) if link.name == WORLD else link
+
+
+def _without_usual_root(model: Model, keeper: Keeper) -> Model:
+    """The model, if it came from URDF, without a canonical link that the conversion named: the root."""
+    children = {joint.child for joint in model.joints}
+    root = next((link.name for link in model.links if link.name not in children), None)
+    usual = keeper.back and root is not None and model.canonical_link == root
+    return model.model_copy(update={"canonical_link": None}) if usual else model
 
 
 class _Rest:

@@ -7,8 +7,13 @@ from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Inertial, Link, Model
 from twinform.ir.frames import FrameGraph
 from twinform.passes.assets import AssetPass
-from twinform.passes.legalise.automatic_inertias import NoInertiaError, automatic, map_automatic, written_out
-from twinform.passes.legalise.marks import mark_made
+from twinform.passes.legalise.automatic_inertias import (
+    COMPUTED_MASS,
+    NoInertiaError,
+    automatic,
+    map_automatic,
+    written_out,
+)
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.passes.meshes import Meshes
@@ -37,7 +42,9 @@ def _compute(keeper: Keeper, meshes: Meshes, link: Link, inertial: Inertial, gra
     except NoInertiaError as error:
         keeper.notes.report(rules.AUTOMATIC_INERTIA, str(error), error.location, help=error.help)
         return link
-    written, pieces, made = written_out(inertial, found)
+    written, pieces, computed = written_out(inertial, found)
+    if "mass" in computed:
+        written = keeper.mark(written, COMPUTED_MASS, always=True)
     message = f"the inertia of link {link.name!r} is computed from its collisions"
-    kept = keeper.keep(mark_made(written, *made), pieces, rules.COMPUTED_INERTIA, message, inertial.location)
+    kept = keeper.keep(written, pieces, rules.COMPUTED_INERTIA, message, inertial.location)
     return link.model_copy(update={"inertial": kept})

@@ -4,12 +4,10 @@ from typing import ClassVar
 
 from twinform.diagnostics.rules import model as model_rules
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Axis, Element, Joint, Model, Opaque
+from twinform.ir import Axis, Joint, Model
 from twinform.ir.frames import FrameGraph
-from twinform.passes.legalise.marks import mark_made
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
-from twinform.schemas import format_value
 
 _AXES = {
     **dict.fromkeys(("revolute", "continuous", "prismatic", "screw"), ("axis",)),
@@ -50,8 +48,6 @@ def _express(joint: Joint, field: str, graph: FrameGraph, keeper: Keeper) -> Joi
     if axis.xyz is not None and not any(axis.xyz):
         message = f"the {field} of joint {joint.name!r} has length zero"
         keeper.notes.report(model_rules.ZERO_AXIS, message, axis.location, found="0 0 0")
-    if axis.xyz is None:
-        joint = mark_made(joint, f"{field}.xyz" if written else field)
     if not axis.expressed_in:
         made = axis if axis.xyz is not None else axis.model_copy(update={"xyz": _DEFAULT})
         return joint if made is axis else joint.model_copy(update={field: made})
@@ -60,11 +56,5 @@ def _express(joint: Joint, field: str, graph: FrameGraph, keeper: Keeper) -> Joi
     made = axis.model_copy(update={"xyz": (x + 0.0, y + 0.0, z + 0.0), "expressed_in": None})
     turned = joint.model_copy(update={field: made})
     message = f"the {field} of joint {joint.name!r} is expressed in {axis.expressed_in!r}"
-    return keeper.keep(turned, [_written(axis, field)], rules.AXIS_FRAME, message, axis.location)
-
-
-def _written(axis: Axis, field: str) -> Opaque:
-    """The axis as it stands in SDF."""
-    attributes = (("expressed_in", axis.expressed_in or ""),)
-    text = format_value(axis.xyz) if axis.xyz is not None else None
-    return Opaque(at=field, element=Element(name="xyz", attributes=attributes, text=text))
+    keeper.account(rules.AXIS_FRAME, message, axis.location, 2)
+    return keeper.mark(turned, field, attributes={"expressed_in": axis.expressed_in})

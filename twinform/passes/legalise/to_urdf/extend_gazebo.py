@@ -6,14 +6,16 @@ from typing import ClassVar
 
 from twinform.ir import Dynamics, Element, GazeboExtension, Joint, Link, Model, Opaque
 from twinform.ir.frames import WORLD
-from twinform.passes.legalise.carrier import is_carrier, to_element, unpack
+from twinform.passes.legalise.carrier import to_element
 from twinform.passes.legalise.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
-from twinform.passes.legalise.marks import made_fields
+from twinform.passes.legalise.marks import is_made
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.schemas import format_value, table
 
-_LINK_FIELDS = ("gravity", "enable_wind", "self_collide", "kinematic", "sensors", "lights")
+_LINK_FIELDS = ("enable_wind", "kinematic", "sensors", "lights")
+_TRUTHS = {"gravity": ("turnGravityOff", False), "self_collide": ("selfCollide", True)}
+"""Fields of a link with a tag of their own, and the value that the tag calls true."""
 _MODEL_FIELDS = ("static", "self_collide", "allow_auto_disable", "enable_wind", "pose")
 _SPRING_TAGS = {"spring_reference": "springReference", "spring_stiffness": "springStiffness"}
 _PHYSICS_TAGS = {
@@ -23,7 +25,6 @@ _PHYSICS_TAGS = {
     "ode/implicit_spring_damper": "implicitSpringDamper",
     "provide_feedback": "provideFeedback",
 }
-_KEPT_APART = frozenset({"preserveFixedJoint", "disableFixedJointLumping"})
 _NOT_VERBATIM = frozenset({"physics", "frame", *LINK_TAGS, *JOINT_TAGS, *MODEL_TAGS})
 """A second `<physics>` would be a second one in Gazebo too; `<frame>` in links and joints went with SDF 1.7. What is
 called like a tag would mean what the tag means."""
@@ -51,9 +52,10 @@ class ExtendGazebo(ToUrdfPass):
             content, left = _link_content(link)
             links.append(left)
             extensions.extend(_extension(link, content))
-        kept = _kept_apart(model)
+        if keeper.back:  # what URDF lets libsdformat merge, it may merge again
+            with_mass = set[str]()
         for joint in model.joints:
-            content, left = _joint_content(joint, names, with_mass if joint.name not in kept else set())
+            content, left = _joint_content(joint, names, with_mass)
             joints.append(left)
             extensions.extend(_extension(joint, content))
         extensions.extend(_model_extensions(model))
@@ -97,7 +99,8 @@ def _rest(parts: Iterable[Opaque], definition: str) -> tuple[Opaque, ...]:
 
 def _link_content(link: Link) -> tuple[list[Element], Link]:
     said = {field: getattr(link, field) for field in _LINK_FIELDS}
-    content: list[Element] = []
+    content = list(_truths(link))
+    link = link.model_copy(update=dict.fromkeys(_TRUTHS)) if content else link
     if any(value not in (None, ()) for value in said.values()):
         content += to_element(Link(name=link.name, spelling=link.spelling, **said), "link", "sdf").children
     content += _verbatim(link.opaque, "link")
@@ -107,9 +110,17 @@ def _link_content(link: Link) -> tuple[list[Element], Link]:
     return content, link.model_copy(update={**empty, "opaque": _rest(link.opaque, "link")})
 
 
+def _truths(link: Link) -> Iterator[Element]:
+    """What a link says of gravity and of touching itself, as tags."""
+    for field, (tag, same) in _TRUTHS.items():
+        value = getattr(link, field)
+        if value is not None:
+            yield Element(name=tag, text="true" if value is same else "false")
+
+
 def _joint_content(joint: Joint, links: set[str], with_mass: set[str]) -> tuple[list[Element], Joint]:
     content: list[Element] = []
-    if joint.type == "fixed" and joint.parent != WORLD and joint.child in with_mass and "." not in made_fields(joint):
+    if joint.type == "fixed" and joint.parent != WORLD and joint.child in with_mass and not is_made(joint):
         content.append(Element(name="preserveFixedJoint", text="true"))
     springs, joint = _springs(joint)
     physics, joint = _physics(joint)
@@ -120,14 +131,6 @@ def _joint_content(joint: Joint, links: set[str], with_mass: set[str]) -> tuple[
         content += to_element(Joint(name="", type="fixed", sensors=joint.sensors), "joint", "sdf").children
     content += _verbatim(joint.opaque, "joint")
     return content, joint.model_copy(update={"sensors": (), "opaque": _rest(joint.opaque, "joint")})
-
-
-def _kept_apart(model: Model) -> set[str]:
-    """The joints for which a carried `<gazebo>` says already whether libsdformat may merge their links."""
-    carried = [piece.element for part in model.opaque if is_carrier(part, "urdf") for piece in unpack(part)]
-    extensions = [element for element in carried if element is not None and element.name == "gazebo"]
-    said = [each for each in extensions if any(child.name in _KEPT_APART for child in each.children)]
-    return {element.get("reference") or "" for element in said}
 
 
 def _springs(joint: Joint) -> tuple[list[Element], Joint]:

@@ -3,7 +3,6 @@
 from typing import ClassVar
 
 from twinform.ir import Inertia, Inertial, Link, Model
-from twinform.passes.legalise.marks import mark_made
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 
@@ -30,7 +29,7 @@ class FillInertials(ToUrdfPass):
 
 def _fill_link(link: Link) -> Link:
     if link.inertial is None:
-        made = mark_made(Inertial(mass=_MASS, inertia=Inertia().model_copy(update=_UNIT)), ".")
+        made = Inertial(mass=_MASS, inertia=Inertia().model_copy(update=_UNIT))
         return link.model_copy(update={"inertial": made})
     inertial = _fill(link.inertial)
     return link if inertial is link.inertial else link.model_copy(update={"inertial": inertial})
@@ -42,8 +41,6 @@ def _fill(inertial: Inertial) -> Inertial:
     if not missing and inertial.mass is not None:
         return inertial
     update: dict[str, object] = {"inertia": inertia.model_copy(update=missing)}
-    made = [f"inertia.{name}" for name in missing] if inertial.inertia else ["inertia"]
     if inertial.mass is None:
         update["mass"] = _MASS
-        made = ["mass", *(made if missing else ())]
-    return mark_made(inertial.model_copy(update=update), *made)
+    return inertial.model_copy(update=update)

@@ -4,17 +4,23 @@ from functools import partial
 from typing import ClassVar
 
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Frame, Model, count_parts
+from twinform.ir import Format, Frame, Model, Opaque, count_parts
+from twinform.passes.legalise.carrier import NAMESPACE, to_element
 from twinform.passes.legalise.flattening import flatten
-from twinform.passes.legalise.nodes import piece
+from twinform.passes.legalise.marks import with_mark
+from twinform.passes.legalise.names import Names, renamed, with_old_names
+from twinform.passes.legalise.nodes import unique_name
+from twinform.passes.legalise.notation import NESTED, POSE, pose_attributes
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
+
+_SCOPE = "::"
 
 
 class FlattenModels(ToUrdfPass):
     """Bring the links, joints and frames of nested models up into the model.
 
-    Changes: 1. they are called `inner::name`, and what names them does so too; 2. a frame called `inner` stands for the
+    Changes: 1. they are called `inner__name`, and what names them does so too; 2. a frame called `inner` stands for the
     nested model's own frame, and poses that were relative to it name it; 3. all else that the nested model says is
     carried on that frame.
     Diagnostics: `include-not-expanded` for includes in any of the models; in the ledger `nested-model`.
@@ -27,13 +33,36 @@ class FlattenModels(ToUrdfPass):
         _refuse_includes(model, keeper)
         if not model.models or keeper.notes.has_errors:
             return model
-        return flatten(model, partial(_keep, keeper))
+        flat = flatten(model, partial(_keep, keeper))
+        names = _legal_names(flat)
+        flat = renamed(flat, names, Format.SDF)
+        return with_old_names(flat, names) if keeper.carriers else flat
 
 
 def _keep(keeper: Keeper, frame: Frame, shell: Model) -> Frame:
+    """The frame of a nested model with all else that the model says; its pose is the frame's."""
     message = f"nested model {frame.name!r} is flattened"
-    weight = count_parts(shell)
-    return keeper.keep(frame, [piece(shell, "model")], rules.NESTED_MODEL, message, shell.location, weight)
+    keeper.account(rules.NESTED_MODEL, message, shell.location, count_parts(shell))
+    if not keeper.carriers:
+        return frame
+    said = to_element(shell.model_copy(update={"pose": None}), "model", "sdf")
+    attributes = tuple(pair for pair in said.attributes if pair[0] != "name")
+    mark = said.model_copy(update={"name": f"{{{NAMESPACE}}}{NESTED}", "attributes": attributes})
+    frame = frame.model_copy(update={"opaque": (*frame.opaque, Opaque(element=mark))})
+    written = pose_attributes(shell.pose)
+    return with_mark(frame, POSE, attributes=written) if written else frame
+
+
+def _legal_names(model: Model) -> Names:
+    """What the parts of nested models are called in URDF, whose readers take `::` for something else."""
+    taken = {node.name for field in ("links", "joints", "frames") for node in getattr(model, field)}
+    names: Names = {}
+    for part, field in (("link", "links"), ("joint", "joints"), ("frame", "frames")):
+        for node in getattr(model, field):
+            if _SCOPE in node.name:
+                name = names[part, node.name] = unique_name(node.name.replace(_SCOPE, "__"), taken)
+                taken.add(name)
+    return names
 
 
 def _refuse_includes(model: Model, keeper: Keeper) -> None:

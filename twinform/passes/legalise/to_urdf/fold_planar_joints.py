@@ -1,12 +1,21 @@
 """A chain that came from a planar joint of URDF becomes one again."""
 
-from typing import ClassVar
+from collections.abc import Iterator
+from typing import ClassVar, TypeVar
 
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Joint, Link, Model, Opaque
+from twinform.ir import Joint, Limit, Link, Model, Opaque
 from twinform.passes.legalise.carrier import is_carrier, unpack
+from twinform.passes.legalise.marks import MADE, is_made, without_mark
+from twinform.passes.legalise.to_sdf.planar import planar_chain
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper, made_fields
+from twinform.passes.legalise.to_urdf.keeper import Keeper
+
+AnyPart = TypeVar("AnyPart", Joint, Link)
+
+_SLIDES = 2
+_BESIDE = frozenset({"name", "type", "opaque", "source", "spelling"})
+"""Fields in which the parts of a chain that is as it was made may differ; their types are looked at before."""
 
 
 class FoldPlanarJoints(ToUrdfPass):
@@ -14,7 +23,7 @@ class FoldPlanarJoints(ToUrdfPass):
 
     Changes: 1. the joint that was called so is planar, and has the parent and the place of the first one of its chain;
     2. the other two joints and the links between them go.
-    Never touches: chains that were edited since, and those that did not come from a planar joint.
+    Never touches: chains that did not come from a planar joint. Those that were edited since stay, without their marks.
     Diagnostics: `stale-carrier`.
     """
 
@@ -29,19 +38,40 @@ class FoldPlanarJoints(ToUrdfPass):
         links = {link.name: link for link in model.links}
         folded: dict[str, Joint] = {}
         gone: set[str] = set()
+        stale: set[str] = set()
         for joint in marked:
             chain = _chain(joint, above, links)
-            if chain is None:
+            if chain is None or not _is_as_made(joint, chain, links):
                 message = f"joint {joint.name!r} was planar, and the joints that it became have changed since"
                 keeper.notes.report(rules.STALE_CARRIER, message, joint.location, found=joint.name)
+                folded[joint.name] = joint.model_copy(update={"opaque": _without_planar(joint)})
+                stale |= set(_upwards(joint, above))
             else:
                 first, second = chain
                 folded[joint.name] = _planar(joint, first)
                 gone |= {first.name, second.name, first.child or "", second.child or ""}
-        joints = tuple(folded.get(joint.name, joint) for joint in model.joints if joint.name not in gone)
-        return model.model_copy(
-            update={"joints": joints, "links": tuple(link for link in model.links if link.name not in gone)}
-        )
+        joints = (folded.get(joint.name, joint) for joint in model.joints if joint.name not in gone)
+        kept = (link for link in model.links if link.name not in gone)
+        update = {
+            "joints": tuple(_own(joint, stale) for joint in joints),
+            "links": tuple(_own(one, stale) for one in kept),
+        }
+        return model.model_copy(update=update)
+
+
+def _upwards(joint: Joint, above: dict[str | None, Joint]) -> Iterator[str]:
+    """The names of the links and joints above that were made for a chain."""
+    for _ in range(_SLIDES):
+        upper = above.get(joint.parent)
+        if upper is None:
+            return
+        yield from (upper.name, joint.parent or "")
+        joint = upper
+
+
+def _own(part: AnyPart, stale: set[str]) -> AnyPart:
+    """A part of a chain that stays, which stands for itself now."""
+    return without_mark(part, MADE) if part.name in stale else part
 
 
 def _is_mark(part: Opaque) -> bool:
@@ -55,10 +85,33 @@ def _chain(joint: Joint, above: dict[str | None, Joint], links: dict[str, Link])
     if first is None or second is None or joint.type not in {"continuous", "revolute"}:
         return None
     between = [links.get(first.child or ""), links.get(second.child or "")]
-    made = [part is not None and "." in made_fields(part) for part in (first, second, *between)]
+    made = [part is not None and is_made(part) for part in (first, second, *between)]
     return (first, second) if all(made) and {first.type, second.type} == {"prismatic"} else None
 
 
+def _is_as_made(turn: Joint, chain: tuple[Joint, Joint], links: dict[str, Link]) -> bool:
+    """Whether a chain is the one that a planar joint becomes, with the axis and in the place that it has now."""
+    first, second = chain
+    names = (first.name, first.child or "", second.name, second.child or "")
+    made = planar_chain(_planar(turn, first), names)
+    between = (links[names[1]], links[names[3]])
+    parts = zip((first, second, turn, *between), (*made.joints, *made.links), strict=True)
+    return all(_bare(is_now) == _bare(was) for is_now, was in parts)
+
+
+def _bare(part: Joint | Link) -> dict[str, object]:
+    """What a part says of the motion; a pose of nothing is none, and so is a limit."""
+    said = {name: getattr(part, name) for name in type(part).model_fields if name not in _BESIDE}
+    if isinstance(part, Joint) and part.axis is not None:
+        limit = None if part.axis.limit == Limit() else part.axis.limit
+        said["axis"] = part.axis.model_copy(update={"limit": limit, "opaque": ()})
+    return said
+
+
 def _planar(joint: Joint, first: Joint) -> Joint:
-    opaque = tuple(part for part in joint.opaque if not _is_mark(part))
-    return joint.model_copy(update={"type": "planar", "parent": first.parent, "pose": first.pose, "opaque": opaque})
+    update = {"type": "planar", "parent": first.parent, "pose": first.pose, "opaque": _without_planar(joint)}
+    return joint.model_copy(update=update)
+
+
+def _without_planar(joint: Joint) -> tuple[Opaque, ...]:
+    return tuple(part for part in joint.opaque if not _is_mark(part))

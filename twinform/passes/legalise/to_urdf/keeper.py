@@ -1,25 +1,24 @@
 """What a pass does with parts that URDF cannot say: into a carrier and the ledger, or only the ledger."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TypeVar
 
 from twinform.diagnostics import Fate, Location, Notes, Rule
 from twinform.ir import Node, Opaque
-from twinform.passes.legalise.carrier import carry
-from twinform.passes.legalise.marks import MADE, made_fields, mark_made
-
-__all__ = ["MADE", "Keeper", "made_fields", "mark_made"]
+from twinform.passes.legalise.carrier import Attributes, carry
+from twinform.passes.legalise.marks import with_mark
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
 
 @dataclass(frozen=True, slots=True)
 class Keeper:
-    """Where the parts go in one run."""
+    """Where the parts go in one run. A model that came from URDF goes back there: how SDF wrote it need not travel."""
 
     notes: Notes
     carriers: bool
+    back: bool = False
 
     def keep(
         self,
@@ -29,12 +28,31 @@ class Keeper:
         message: str,
         location: Location,
         weight: int | None = None,
+        about: Attributes = (),
     ) -> AnyNode:
-        """The node with the pieces in carriers, and an entry in the ledger; the weight is the pieces' by default."""
+        """The node with the pieces in carriers, and an entry in the ledger; the weight is the pieces' by default.
+
+        `about` are more attributes of the carriers.
+        """
         listed = tuple(pieces)
         if not listed:
             return node
-        fate = Fate.CARRIED if self.carriers else Fate.DROPPED
         total = sum(piece.weight for piece in listed) if weight is None else weight
-        self.notes.account(fate, rule, message, location, total)
-        return carry(node, listed, "sdf") if self.carriers else node
+        self.account(rule, message, location, total)
+        return carry(node, listed, "sdf", about) if self.carriers else node
+
+    def account(self, rule: Rule, message: str, location: Location, weight: int) -> None:
+        """An entry in the ledger for what marks keep."""
+        self.notes.account(Fate.CARRIED if self.carriers else Fate.DROPPED, rule, message, location, weight)
+
+    def mark(
+        self,
+        node: AnyNode,
+        kind: str,
+        *,
+        text: str | None = None,
+        attributes: Mapping[str, str | None] | None = None,
+        always: bool = False,
+    ) -> AnyNode:
+        """The node with a mark on how SDF wrote it; if it came from URDF, only with what is more (`always`)."""
+        return with_mark(node, kind, text, attributes) if self.carriers and (always or not self.back) else node

@@ -17,10 +17,11 @@ from twinform.ir import (
     Visual,
     count_parts,
 )
-from twinform.passes.legalise.marks import mark_made
-from twinform.passes.legalise.nodes import piece, text_piece
+from twinform.passes.legalise.nodes import piece
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.legalise.to_urdf.urdf_uris import urdf_uri
+from twinform.passes.legalise.uri_schemes import MESH_SCHEME
 
 UrdfVersion = Literal["1.0", "1.1", "1.2"]
 Sayable = frozenset[type[Node]]
@@ -68,16 +69,20 @@ def _map_link(link: Link, sayable: Sayable, keeper: Keeper) -> Link:
 
 def _sort(link: Link, field: str, tag: str, shapes: tuple[AnyShaped, ...], sayable: Sayable, keeper: Keeper) -> Link:
     kept: list[AnyShaped] = []
+    taken = 0
     for one in shapes:
-        if _can_say(one.geometry, sayable):
-            kept.append(_map_shape(one, tag, keeper))
+        if _can_say(one.geometry, sayable) or (keeper.back and (one.geometry is None or one.geometry.shape is None)):
+            kept.append(_map_shape(one, keeper))
             continue
         kind = one.geometry.shape.kind if one.geometry and one.geometry.shape else "no shape"
         what = _UNSAYABLE.get(kind, f"is a {kind}, which URDF does not have")
         message = f"{tag} {one.name!r} of link {link.name!r} {what}"
         keeper.notes.report(rules.UNSAYABLE_SHAPE, message, one.location, found=kind)
         weight = count_parts(one)
-        link = keeper.keep(link, [piece(one, tag)], rules.UNSAYABLE_SHAPE, message, one.location, weight)
+        place = len(kept) + taken
+        taken += 1
+        about = (("index", str(place)),) if place < len(shapes) - 1 else ()
+        link = keeper.keep(link, [piece(one, tag)], rules.UNSAYABLE_SHAPE, message, one.location, weight, about)
     return link.model_copy(update={field: tuple(kept)}) if shapes else link
 
 
@@ -90,25 +95,15 @@ def _can_say(geometry: Geometry | None, sayable: Sayable) -> bool:
     return type(shape) in sayable
 
 
-def _map_shape(one: AnyShaped, tag: str, keeper: Keeper) -> AnyShaped:
+def _map_shape(one: AnyShaped, keeper: Keeper) -> AnyShaped:
     geometry = one.geometry
     shape = geometry.shape if geometry else None
     if geometry is None or shape is None:
         return one
     if isinstance(shape, Mesh):
-        uri, lost = package_uri(shape.uri or "")
+        one, uri = urdf_uri(one, MESH_SCHEME, shape.uri or "", keeper)
         made: Node = shape.model_copy(update={"uri": uri})
-        if lost:
-            message = f"the mesh of {tag} {one.name!r} is called {shape.uri!r}"
-            pieces = [text_piece("uri", shape.uri or "", "geometry/mesh")]
-            one = keeper.keep(one, pieces, rules.SDF_ONLY, message, shape.location)
     else:
         missing = {name: value for name, value in _DEFAULTS[type(shape)].items() if getattr(shape, name) is None}
-        made = mark_made(shape.model_copy(update=missing), *missing)
+        made = shape.model_copy(update=missing)
     return one.model_copy(update={"geometry": geometry.model_copy(update={"shape": made})})
-
-
-def package_uri(uri: str) -> tuple[str, bool]:
-    """A URI of SDF in terms of URDF, and whether the way back would give another one."""
-    there = uri.replace("model://", "package://", 1)
-    return there, there.replace("package://", "model://", 1) != uri

@@ -1,26 +1,35 @@
 """Joint types, limits and mimicry in terms of URDF."""
 
 import math
+from collections.abc import Mapping
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate
 from twinform.diagnostics.rules import to_sdf as shared_rules
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Axis, Joint, Limit, Mimic, Model, Node, Opaque
-from twinform.passes.legalise.marks import mark_made
+from twinform.ir import Axis, Joint, Limit, Mimic, Model, Node
 from twinform.passes.legalise.nodes import text_piece
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.legalise.to_urdf.map_geometry import UrdfVersion
 from twinform.schemas import format_value
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
 _WITHOUT_STRENGTH = ("effort", "velocity", "stiffness", "dissipation")
 """What goes from the limit of a continuous joint without strength: URDF would ask for the strength beside the rest."""
+_LIMITS = ("lower", "upper", "effort", "velocity")
+CONTINUOUS = "continuous"
+"""The mark on a continuous joint that is called so in SDF, where most say revolute without limits."""
+MIMIC = "mimic"
+"""The mark on a mimic joint whose mimicry has a `reference` in SDF, the position of the leader that counts as zero."""
 _TYPES = frozenset({"fixed", "revolute", "continuous", "prismatic", "floating", "planar"})
 _DIALECT = frozenset({"ball", "spherical"})
 """What a dialect of URDF calls a joint that came from there; another ball joint is a chain by now."""
-_UNBOUNDED = 1e16
+_FORCES = ("effort", "velocity")
+_NEEDS_STRENGTH = frozenset({"1.0", "1.1"})
+"""The versions of URDF in which a limit says effort and velocity."""
+UNBOUNDED = 1e16
 """What stands for infinity, as it does in SDF before 1.10: rad, m, N m, N, rad/s or m/s."""
 
 
@@ -28,18 +37,22 @@ class MapJoints(ToUrdfPass):
     """Say joints as URDF does.
 
     Changes: 1. a revolute joint without an end to its motion is continuous; 2. where URDF needs a number and the limit
-    is infinite or not written, it is 1e16; 3. the `reference` of a mimic goes into its offset.
+    is infinite or not written, it is 1e16; URDF 1.2 needs neither effort nor velocity; 3. the `reference` of a mimic
+    goes into its offset.
     Diagnostics: `joint-type-unsupported`; in the ledger `unbounded-limit` and `sdf-only`.
     """
 
     name: ClassVar[str] = "map-joints"
+    urdf_version: UrdfVersion = "1.0"
 
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model with joints of URDF."""
-        return model.model_copy(update={"joints": tuple(_map(joint, keeper) for joint in model.joints)})
+        strength = UNBOUNDED if self.urdf_version in _NEEDS_STRENGTH else None
+        return model.model_copy(update={"joints": tuple(_map(joint, strength, keeper) for joint in model.joints)})
 
 
-def _map(joint: Joint, keeper: Keeper) -> Joint:
+def _map(joint: Joint, strength: float | None, keeper: Keeper) -> Joint:
+    """The joint in URDF, which writes this for an effort or a velocity without a limit."""
     if joint.type in _DIALECT:
         return joint
     if joint.type not in _TYPES:
@@ -49,17 +62,20 @@ def _map(joint: Joint, keeper: Keeper) -> Joint:
         return joint
     if joint.type == "continuous":
         message = f"joint {joint.name!r} is called continuous, which is revolute without limits in most of SDF"
-        piece = Opaque(attribute=("type", "continuous"))
-        joint = keeper.keep(joint, [piece], rules.SDF_ONLY, message, joint.location)
+        keeper.account(rules.SDF_ONLY, message, joint.location, 1)
+        joint = keeper.mark(joint, CONTINUOUS)
     if joint.axis is None or joint.type in {"fixed", "floating", "planar"}:
         return joint
     joint = _map_mimic(joint, joint.axis, keeper)
     axis = joint.axis or Axis()
     limit = axis.limit or Limit()
-    if joint.type in {"revolute", "continuous"} and (joint.type == "continuous" or _is_endless(limit)):
-        joint, limit = _continuous(joint.model_copy(update={"type": "continuous"}), limit, keeper)
+    endless = limit.lower is None and limit.upper is None if keeper.back else _is_endless(limit)
+    if joint.type == "continuous" or (joint.type == "revolute" and endless):
+        joint, limit = _continuous(joint.model_copy(update={"type": "continuous"}), limit, strength, keeper)
     else:
-        joint, limit = _bounded(joint, limit, keeper)
+        limit = _fill(
+            joint, limit, {"lower": -UNBOUNDED, "upper": UNBOUNDED, **dict.fromkeys(_FORCES, strength)}, keeper
+        )
     made = None if limit == Limit() else limit
     return joint.model_copy(update={"axis": axis.model_copy(update={"limit": made})})
 
@@ -69,7 +85,7 @@ def _is_endless(limit: Limit) -> bool:
 
 
 def _is_bound(value: float | None) -> bool:
-    return value is not None and abs(value) < _UNBOUNDED  # which nan is not either
+    return value is not None and abs(value) < UNBOUNDED  # which nan is not either
 
 
 def _is_strength(value: float | None) -> bool:
@@ -77,32 +93,31 @@ def _is_strength(value: float | None) -> bool:
     return value is not None and 0 <= value < math.inf
 
 
-def _continuous(joint: Joint, limit: Limit, keeper: Keeper) -> tuple[Joint, Limit]:
-    joint = _keep_written(joint, limit, ("lower", "upper"), keeper)
+def _continuous(joint: Joint, limit: Limit, strength: float | None, keeper: Keeper) -> tuple[Joint, Limit]:
+    ends = tuple(name for name in ("lower", "upper") if _is_bound(getattr(limit, name)))
+    joint = _keep_written(joint, limit, ends, keeper)
+    endless = [name for name in _LIMITS if name not in ends and not _limits(limit, name)]
+    if endless:
+        message = f"the limits of joint {joint.name!r} that are infinite go without saying: {', '.join(endless)}"
+        keeper.account(rules.UNBOUNDED_LIMIT, message, limit.location, len(endless))
     limit = limit.model_copy(update={"lower": None, "upper": None})
     if _is_strength(limit.effort) or _is_strength(limit.velocity):
-        return _fill(joint, limit, dict.fromkeys(("effort", "velocity"), _UNBOUNDED), keeper)
-    joint = _keep_written(joint, limit, _WITHOUT_STRENGTH, keeper)
+        return joint, _fill(joint, limit, dict.fromkeys(_FORCES, strength), keeper)
+    joint = _keep_written(joint, limit, ("stiffness", "dissipation"), keeper)
     return joint, limit.model_copy(update=dict.fromkeys(_WITHOUT_STRENGTH))
 
 
-def _bounded(joint: Joint, limit: Limit, keeper: Keeper) -> tuple[Joint, Limit]:
-    ends = {"lower": -_UNBOUNDED, "upper": _UNBOUNDED, "effort": _UNBOUNDED, "velocity": _UNBOUNDED}
-    return _fill(joint, limit, ends, keeper)
-
-
-def _fill(joint: Joint, limit: Limit, numbers: dict[str, float], keeper: Keeper) -> tuple[Joint, Limit]:
-    """Put the numbers in where there is none that URDF can say, and keep what was written."""
-    said = {"lower": _is_finite, "upper": _is_finite, "effort": _is_strength, "velocity": _is_strength}
+def _fill(joint: Joint, limit: Limit, numbers: Mapping[str, float | None], keeper: Keeper) -> Limit:
+    """The limit with these numbers where it has none that URDF can say; None is a number that URDF does not need."""
+    strength = _is_finite if keeper.back else _is_strength
+    said = {"lower": _is_finite, "upper": _is_finite, "effort": strength, "velocity": strength}
     missing = {name: number for name, number in numbers.items() if not said[name](getattr(limit, name))}
-    if not missing:
-        return joint, limit
-    joint = _keep_written(joint, limit, tuple(missing), keeper)
-    joint = mark_made(joint, *(f"axis.limit.{name}" for name in missing if getattr(limit, name) is None))
     for name, number in missing.items():
+        if number is None:
+            continue
         message = f"the {name} limit of {joint.type} joint {joint.name!r} is infinite; URDF gets {number:g}"
         keeper.notes.account(Fate.APPROXIMATED, rules.UNBOUNDED_LIMIT, message, joint.location, 0)
-    return joint, limit.model_copy(update=missing)
+    return limit.model_copy(update=missing) if missing else limit
 
 
 def _is_finite(value: float | None) -> bool:
@@ -121,17 +136,16 @@ def _map_mimic(joint: Joint, axis: Axis, keeper: Keeper) -> Joint:
     mimic = axis.mimic
     if mimic is None or mimic.reference is None:
         return joint
-    update: dict[str, object] = {"reference": None}
-    written = [("reference", mimic.reference)]
-    if mimic.reference:
-        factor = 1.0 if mimic.multiplier is None else mimic.multiplier
-        update["offset"] = (mimic.offset or 0.0) - factor * mimic.reference
-        if mimic.offset is None:
-            joint = mark_made(joint, "axis.mimic.offset")
-        else:
-            written.append(("offset", mimic.offset))
-    pieces = [text_piece(name, format_value(value), "axis/mimic") for name, value in written]
-    message = f"the reference of the mimic joint {joint.name!r} is part of its offset in URDF"
-    made: Mimic = mimic.model_copy(update=update)
+    factor = 1.0 if mimic.multiplier is None else mimic.multiplier
+    offset = (mimic.offset or 0.0) - factor * mimic.reference if mimic.reference else mimic.offset
+    made: Mimic = mimic.model_copy(update={"reference": None, "offset": offset})
     joint = joint.model_copy(update={"axis": axis.model_copy(update={"mimic": made})})
-    return keeper.keep(joint, pieces, rules.SDF_ONLY, message, mimic.location)
+    message = f"the reference of the mimic joint {joint.name!r} is part of its offset in URDF"
+    keeper.account(rules.SDF_ONLY, message, mimic.location, 1)
+    return keeper.mark(joint, MIMIC, attributes={"reference": format_value(mimic.reference)})
+
+
+def _limits(limit: Limit, name: str) -> bool:
+    """Whether a limit is not written, or does limit something."""
+    value = getattr(limit, name)
+    return value is None or (name in {"effort", "velocity"} and _is_strength(value))

@@ -4,15 +4,15 @@ from typing import ClassVar
 
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Element, GazeboExtension, Link, Material, Model, Visual
-from twinform.passes.legalise.marks import mark_made
-from twinform.passes.legalise.nodes import text_piece, unique_name
+from twinform.passes.legalise.gazebo_tags import SCRIPT_URI
+from twinform.passes.legalise.material_marks import COLORS, SCRIPTS, material_name
+from twinform.passes.legalise.nodes import unique_name
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
-from twinform.passes.legalise.to_urdf.map_geometry import package_uri
-from twinform.passes.legalise.urdf_color import urdf_color
+from twinform.passes.legalise.to_urdf.urdf_uris import urdf_uri
+from twinform.passes.legalise.urdf_color import urdf_color, with_alpha
+from twinform.passes.legalise.uri_schemes import TEXTURE_SCHEME
 from twinform.schemas import format_value
-
-"""Red, green, blue and alpha."""
 
 
 class MapMaterials(ToUrdfPass):
@@ -32,8 +32,9 @@ class MapMaterials(ToUrdfPass):
         """The model with materials of URDF."""
         names: set[str] = set()
         links = tuple(_map_link(link, names, keeper) for link in model.links)
-        tags = tuple(tag for link in model.links for tag in _script_tag(link))
-        return model.model_copy(update={"links": links, "extensions": (*model.extensions, *tags)})
+        tags = {link.name: tag for link in links if (tag := _script_tag(link, keeper)) is not None}
+        links = tuple(_said_by_tag(link, keeper) if link.name in tags else link for link in links)
+        return model.model_copy(update={"links": links, "extensions": (*model.extensions, *tags.values())})
 
 
 def _map_link(link: Link, names: set[str], keeper: Keeper) -> Link:
@@ -52,35 +53,55 @@ def _map_visual(visual: Visual, link: Link, names: set[str], keeper: Keeper) -> 
         update |= {"color": urdf_color(color), "diffuse": None, "ambient": None}
         visual = _keep_colours(visual, material, keeper)
     if material.albedo_map is not None:
-        uri, lost = package_uri(material.albedo_map)
+        visual, uri = urdf_uri(visual, TEXTURE_SCHEME, material.albedo_map, keeper)
         update |= {"texture": uri, "albedo_map": None}
-        if lost:
-            message = f"the albedo map of visual {visual.name!r} is called {material.albedo_map!r}"
-            pieces = [text_piece("albedo_map", material.albedo_map, "material/pbr/metal")]
-            visual = keeper.keep(visual, pieces, rules.SDF_ONLY, message, material.location)
     if not update:
         return visual
-    update["name"] = unique_name(f"{link.name}_{visual.name}_material", names)
+    update["name"] = unique_name(material_name(link, visual), names)
     names.add(str(update["name"]))
-    made = mark_made(material.model_copy(update=update), "name")
-    return visual.model_copy(update={"material": made})
+    return visual.model_copy(update={"material": material.model_copy(update=update)})
 
 
 def _keep_colours(visual: Visual, material: Material, keeper: Keeper) -> Visual:
     """Carry the colours where they say more than one colour does."""
-    if material.diffuse == material.ambient and material.diffuse == urdf_color(material.diffuse or ()):
+    written = {"ambient": material.ambient, "diffuse": material.diffuse}
+    color = urdf_color(material.diffuse or material.ambient or ())
+    others = {
+        name: format_value(value) if value else ""
+        for name, value in written.items()
+        if not value or with_alpha(value) != color
+    }
+    if not others:
         return visual
-    written = (("ambient", material.ambient), ("diffuse", material.diffuse))
-    pieces = [text_piece(name, format_value(color), "material") for name, color in written if color is not None]
-    message = f"the colours of visual {visual.name!r} are {' and '.join(p.element.name for p in pieces if p.element)}"
-    return keeper.keep(visual, pieces, rules.COLOURS, message, material.location)
+    message = f"visual {visual.name!r} has two colors, or one beyond those of URDF"
+    keeper.account(rules.COLOURS, message, material.location, sum(1 for name in others if written[name]))
+    return keeper.mark(visual, COLORS, attributes={**others, "of": format_value(color)}, always=True)
 
 
-def _script_tag(link: Link) -> list[GazeboExtension]:
+def _script_tag(link: Link, keeper: Keeper) -> GazeboExtension | None:
+    """The tag of a link whose visuals all have one material of Gazebo Classic."""
     scripts = {
         visual.material.script.name if visual.material and visual.material.script else None for visual in link.visuals
     }
     name = scripts.pop() if len(scripts) == 1 else None
-    if name is None or not name.startswith("Gazebo/"):
-        return []
-    return [GazeboExtension(reference=link.name, content=(Element(name="material", text=name),), source=link.source)]
+    if name is None or not (name.startswith("Gazebo/") or keeper.back):
+        return None
+    return GazeboExtension(reference=link.name, content=(Element(name="material", text=name),), source=link.source)
+
+
+def _said_by_tag(link: Link, keeper: Keeper) -> Link:
+    """The link, whose visuals only say by now from which files their material is."""
+    visuals: list[Visual] = []
+    for visual in link.visuals:
+        material, script = visual.material, visual.material.script if visual.material else None
+        bare = material.model_copy(update={"script": None}) if material else None
+        one = visual.model_copy(update={"material": None if bare == Material() else bare})
+        if script and script.uris:
+            message = (
+                f"<material> for link {link.name!r} does not say in which files the material of {visual.name!r} is"
+            )
+            keeper.account(rules.SDF_ONLY, message, script.location, len(script.uris))
+        if script and script.uris != (SCRIPT_URI,):
+            one = keeper.mark(one, SCRIPTS, text="\n".join(script.uris), always=True)
+        visuals.append(one)
+    return link.model_copy(update={"visuals": tuple(visuals)})

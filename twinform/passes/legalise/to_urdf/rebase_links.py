@@ -1,38 +1,24 @@
 """In URDF the frame of a link is the frame of its joint."""
 
 from dataclasses import dataclass
-from functools import partial
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import NOWHERE
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import (
-    Collision,
-    Element,
-    Inertial,
-    Joint,
-    Light,
-    Link,
-    Model,
-    Node,
-    Opaque,
-    Pose,
-    Sensor,
-    Visual,
-    count_parts,
-)
-from twinform.ir.frames import WORLD, FrameGraph, Kind
+from twinform.ir import Element, Joint, Link, Model, Node, Pose, count_parts
+from twinform.ir.frames import MODEL, WORLD, FrameGraph, Kind
+from twinform.ir.transform import Transform
 from twinform.passes.legalise.element_poses import ElementPoses
-from twinform.passes.legalise.marks import made_fields, mark_made
-from twinform.passes.legalise.nodes import pose_piece
-from twinform.passes.legalise.notation import in_radians
+from twinform.passes.legalise.joint_chains import part_of
+from twinform.passes.legalise.joint_ends import ENDS
+from twinform.passes.legalise.marks import find_mark, is_made, mark
+from twinform.passes.legalise.names import SCOPED_NAME
+from twinform.passes.legalise.notation import FRAME, OFFSET, POSE, in_radians, offset_attributes, pose_attributes
+from twinform.passes.legalise.rebasing import AnyPosed, Base, Posed, Rebasing
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 
 AnyNode = TypeVar("AnyNode", bound=Node)
-AnyPosed = TypeVar("AnyPosed", Inertial, Visual, Collision, Sensor, Light)
-
-_Base = tuple[str, Kind]
 
 
 class RebaseLinks(ToUrdfPass):
@@ -41,7 +27,7 @@ class RebaseLinks(ToUrdfPass):
     Changes: 1. a joint's pose is relative to its parent link, a link's to its joint, with no offset; 2. the poses in a
     link, of sensors and lights too, are relative to the moved frame, in radians where URDF writes them; 3. the root
     link is the model's frame: the model's pose is the root's, or none where the root is `world`. Numbers stay as they
-    are where nothing moves.
+    are where nothing moves. Marks say where the frames of links and model were, and in which frames poses were written.
     Diagnostics: in the ledger `moved-frame` for every pose that is written in another way than it was.
     """
 
@@ -51,11 +37,14 @@ class RebaseLinks(ToUrdfPass):
         """The model with each link in the frame of its joint."""
         graph = FrameGraph(model)
         carried_by = {joint.child or "": joint.name for joint in model.joints}
-        bases: dict[str, _Base] = {WORLD: (WORLD, "world")}
+        bases: dict[str, Base] = {WORLD: (WORLD, "world")}
         for link in model.links:
             joint = carried_by.get(link.name)
             bases[link.name] = (link.name, "link") if joint is None else (joint, "joint")
-        links = tuple(_Rebase(graph, link.name, bases[link.name], keeper).link(link) for link in model.links)
+        framed = frozenset(joint.child or "" for joint in model.joints if _is_of_frame(joint))
+        links = tuple(
+            _Rebase(graph, link.name, bases[link.name], keeper, framed=framed).link(link) for link in model.links
+        )
         joints = tuple(_place_joint(joint, graph, bases[joint.parent or WORLD], keeper) for joint in model.joints)
         roots = [link.name for link in model.links if link.name not in carried_by]
         model = model.model_copy(update={"links": links, "joints": joints})
@@ -68,101 +57,125 @@ class _Rebase:
 
     graph: FrameGraph
     name: str
-    base: _Base
+    base: Base
     keeper: Keeper
     kind: Kind = "link"
+    framed: frozenset[str] = frozenset()
+    """Links that are frames in SDF, which are accounted for as such."""
+
+    @property
+    def poses(self) -> Rebasing:
+        elements = ElementPoses(self.graph, self.name, self.base, self._element, self.kind)
+        return Rebasing(self.graph, self.name, self.kind, self.base, elements, self._write, _is_plain)
 
     def link(self, link: Link) -> Link:
         """The link and all in it in the frame of its joint."""
-        offset = self.graph.pose(link.name, self.base[0], base=self.base[1])
-        still = offset.is_identity
-        elements = ElementPoses(self.graph, self.name, self.base, partial(_keep_element_pose, self.keeper))
-        update: dict[str, object] = {
-            "inertial": link.inertial and self._move(link.inertial, "inertial", still=still),
-            "visuals": tuple(self._move(visual, "visual", still=still) for visual in link.visuals),
-            "collisions": tuple(self._move(collision, "collision", still=still) for collision in link.collisions),
-            "sensors": tuple(elements.sensor(self._move(one, "sensor", still=still), one.pose) for one in link.sensors),
-            "lights": tuple(self._move(light, "light", still=still) for light in link.lights),
-            "opaque": elements.parts(link.opaque, still=still),
-        }
-        return self._own_pose(link.model_copy(update=update))
-
-    def joint(self, joint: Joint) -> Joint:
-        """The joint with its sensors in its own frame."""
-        elements = ElementPoses(self.graph, self.name, self.base, partial(_keep_element_pose, self.keeper), "joint")
-        moved = tuple(elements.sensor(self._move(one, "sensor", still=True), one.pose) for one in joint.sensors)
-        return joint.model_copy(update={"sensors": moved}) if moved else joint
+        return self._own_pose(self.poses.link(link))
 
     def _own_pose(self, link: Link) -> Link:
         name, kind = self.base
         written, made = link.pose, Pose(relative_to=name) if kind == "joint" else None
         moved = link.model_copy(update={"pose": made})
-        if written == made or {".", "pose"} & {*made_fields(link)}:
+        if is_made(link) or part_of(link) is not None:
             return moved
-        if written is None:
-            return mark_made(moved, "pose")
-        message = f"the frame of link {link.name!r} is that of its joint {name!r}"
-        if kind != "joint":
-            message = f"link {link.name!r} is the root, whose frame is that of the robot"
-        return self._keep(moved, written, message)
+        offset = self.graph.pose(link.name, name, base=kind)
+        if not offset.is_identity:
+            moved = self.keeper.mark(moved, OFFSET, attributes=offset_attributes(offset), always=True)
+        if find_mark(link, FRAME) is None:
+            moved = self._marked(moved, written)
+        if written is not None and written != made and _is_written(written, link) and link.name not in self.framed:
+            message = f"the frame of link {link.name!r} is that of its joint {name!r}"
+            if kind != "joint":
+                message = f"link {link.name!r} is the root, whose frame is that of the robot"
+            self._account(written, message)
+        return moved
 
-    def _move(self, holder: AnyPosed, tag: str, *, still: bool) -> AnyPosed:
+    def _write(self, holder: AnyPosed, tag: str, transform: Transform) -> AnyPosed:
         written = holder.pose
-        if still and (written is None or _is_plain(written)):
-            return holder
-        transform = self.graph.resolve(written, self.name, self.base[0], kind=self.kind, base=self.base[1])
         made = transform.to_pose() if tag in {"sensor", "light"} else in_radians(transform)
-        if written is None or "pose" in made_fields(holder):
-            return mark_made(holder.model_copy(update={"pose": made}), "pose")
         moved = holder.model_copy(update={"pose": made})
+        if written is None or made == written:
+            return moved
         name = getattr(holder, "name", None)
         message = (
             f"the pose of the {tag} {name!r} is written in another way" if name else f"the pose of the {tag} moved"
         )
-        return moved if made == written else self._keep(moved, written, f"{message} ({self.kind} {self.name!r})")
+        self._account(written, f"{message} ({self.kind} {self.name!r})")
+        return self._marked(moved, written, notation=made)
 
-    def _keep(self, node: AnyNode, written: Pose, message: str) -> AnyNode:
-        where, weight = written.location, count_parts(written)
-        return self.keeper.keep(node, [pose_piece(written)], rules.MOVED_FRAME, message, where, weight)
+    def _marked(self, node: AnyNode, written: Pose | None, *, notation: Pose | None = None) -> AnyNode:
+        attributes = pose_attributes(written)
+        if attributes.get("relative_to") == _scope_of(node):
+            del attributes["relative_to"]
+        if notation is not None and notation.degrees == (written and written.degrees):
+            attributes = {name: text for name, text in attributes.items() if name != "degrees"}
+        return self.keeper.mark(node, POSE, attributes=attributes) if attributes else node
+
+    def _account(self, written: Pose, message: str) -> None:
+        self.keeper.account(rules.MOVED_FRAME, message, written.location, count_parts(written))
+
+    def _element(self, message: str, written: Pose) -> tuple[Element, ...]:
+        self.keeper.account(rules.MOVED_FRAME, message, NOWHERE, count_parts(written))
+        attributes = pose_attributes(written)
+        made = mark(POSE, attributes=attributes).element if attributes else None
+        return (made,) if made and self.keeper.carriers and not self.keeper.back else ()
 
 
-def _is_plain(pose: Pose) -> bool:
-    """Whether URDF can write it as it is."""
-    return not (pose.relative_to or pose.degrees or pose.quat_xyzw or pose.rotation_format or pose.opaque)
+def _scope_of(node: Node) -> str:
+    """The frame of the nested model that a link was in, which its pose is relative to without saying so."""
+    found = find_mark(node, SCOPED_NAME)
+    return (found.text or "").rpartition("::")[0].replace("::", "__") if found else ""
 
 
-def _keep_element_pose(keeper: Keeper, message: str, pose: Element) -> tuple[Element, ...]:
-    kept = keeper.keep(Node(), [Opaque(element=pose)], rules.MOVED_FRAME, message, NOWHERE)
-    return tuple(part.element for part in kept.opaque if part.element)
+def _is_of_frame(joint: Joint) -> bool:
+    """Whether it was made to fix a frame, which is a link by now."""
+    return joint.type == "fixed" and joint.parent != WORLD and is_made(joint)
 
 
-def _place_joint(joint: Joint, graph: FrameGraph, base: _Base, keeper: Keeper) -> Joint:
+def _is_written(pose: Pose, holder: Link | Joint) -> bool:
+    """Whether a pose stands in the file that its holder was read from; passes make others."""
+    return pose.source is not None or holder.source is None
+
+
+def _is_plain(holder: Posed) -> bool:
+    """Whether URDF can write its pose as it is."""
+    pose = holder.pose
+    return pose is None or not (
+        pose.relative_to or pose.degrees or pose.quat_xyzw or pose.rotation_format or pose.opaque
+    )
+
+
+def _place_joint(joint: Joint, graph: FrameGraph, base: Base, keeper: Keeper) -> Joint:
     written = joint.pose
     made = in_radians(graph.pose(joint.name, base[0], kind="joint", base=base[1]), joint.parent)
-    placed = _Rebase(graph, joint.name, (joint.name, "joint"), keeper, "joint").joint(joint)
-    placed = placed.model_copy(update={"pose": made})
-    if written == made or "." in made_fields(joint):
+    rebase = _Rebase(graph, joint.name, (joint.name, "joint"), keeper, "joint")
+    placed = rebase.poses.joint(joint).model_copy(update={"pose": made})
+    if written is None or is_made(joint):
         return placed
-    if written is None:
-        return mark_made(placed, "pose") if made != Pose(relative_to=joint.parent) else placed
-    message = f"the pose of joint {joint.name!r} is relative to its parent link"
-    weight = count_parts(written)
-    return keeper.keep(placed, [pose_piece(written)], rules.MOVED_FRAME, message, written.location, weight)
+    if written != made and _is_written(written, joint):
+        message = f"the pose of joint {joint.name!r} is relative to its parent link"
+        keeper.account(rules.MOVED_FRAME, message, written.location, count_parts(written))
+    attributes = pose_attributes(written)
+    ends = find_mark(joint, ENDS)
+    if ends is not None and attributes.get("relative_to") == ends.get("child"):
+        del attributes["relative_to"]  # which goes without saying
+    return keeper.mark(placed, POSE, attributes=attributes) if attributes else placed
 
 
 def _place_model(model: Model, graph: FrameGraph, roots: list[str], keeper: Keeper) -> Model:
     """The pose of the root, which is the robot's frame."""
-    written = model.pose
+    written, root = model.pose, roots[0] if roots else WORLD
+    made = None
     if roots:
-        placed = graph.pose(roots[0], WORLD)
+        placed = graph.pose(root, WORLD, base="world")
         made = None if placed.is_identity and placed.notation is None else placed.to_pose()
-    else:
-        made = None
     moved = model.model_copy(update={"pose": made})
-    if written == made:
+    offset = graph.pose(MODEL, root, kind="model", base="link" if roots else "world")
+    if not offset.is_identity:
+        moved = keeper.mark(moved, OFFSET, attributes=offset_attributes(offset))
+    if written is None or written == made:
         return moved
-    if written is None:
-        return mark_made(moved, "pose")
-    message = f"the pose of model {model.name!r} is that of its root link {(roots or [WORLD])[0]!r}"
-    weight = count_parts(written)
-    return keeper.keep(moved, [pose_piece(written)], rules.MOVED_FRAME, message, written.location, weight)
+    message = f"the pose of model {model.name!r} is that of its root link {root!r}"
+    keeper.account(rules.MOVED_FRAME, message, written.location, count_parts(written))
+    attributes = pose_attributes(written)
+    return keeper.mark(moved, POSE, attributes=attributes) if attributes else moved

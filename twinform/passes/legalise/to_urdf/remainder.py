@@ -7,7 +7,7 @@ from functools import cache
 from typing import TypeVar, Union
 
 from twinform.ir import Element, Node, Opaque
-from twinform.passes.legalise.carrier import NAMESPACE, to_element
+from twinform.passes.legalise.carrier import is_ours, to_element
 from twinform.schemas import Fact, format_value, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -116,9 +116,20 @@ def _split_inner(split: Split, name: str, value: Node, words: Words, path: str) 
     split.endless += inner.endless
     if not inner.left:
         return
+    kept = value.model_copy(update=inner.kept)
+    if kind is None and _says_nothing(kept):  # then it is carried whole, beside nothing
+        split.left[name], split.kept[name] = value, None
+        return
     split.left[name] = _only(value, inner.left)
-    split.kept[name] = value.model_copy(update=inner.kept)
+    split.kept[name] = kept
     split.paths += [below, *inner.paths]
+
+
+def _says_nothing(node: Node) -> bool:
+    """Whether there is nothing in a node but what is said of it."""
+    return all(
+        value in (None, ()) for name, value in node.__dict__.items() if name not in {"source", "spelling", "kind"}
+    )
 
 
 def _is_endless(value: object) -> bool:
@@ -131,14 +142,11 @@ def _split_opaque(split: Split, node: Node, *, own_element: bool) -> None:
     """Carriers stay, and so do other tools' elements and attributes where the node is an element of URDF too."""
     if not node.opaque:
         return
-    stays = [part for part in node.opaque if _is_ours(part) or (own_element and _is_foreign(part))]
-    leaves = tuple(part for part in node.opaque if part not in stays)
+    stays = [part for part in node.opaque if is_ours(part) or (own_element and _is_foreign(part))]
+    staying = set(map(id, stays))  # to compare each with each would take the square of their number
+    leaves = tuple(part for part in node.opaque if id(part) not in staying)
     if leaves:
         split.left["opaque"], split.kept["opaque"] = leaves, tuple(stays)
-
-
-def _is_ours(part: Opaque) -> bool:
-    return _qualified(part).startswith(f"{{{NAMESPACE}}}")
 
 
 def _is_foreign(part: Opaque) -> bool:

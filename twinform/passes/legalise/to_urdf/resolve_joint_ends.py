@@ -5,7 +5,7 @@ from typing import ClassVar
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Joint, Model
 from twinform.ir.frames import WORLD, FrameGraph
-from twinform.passes.legalise.joint_ends import named_ends, report_self_joint, resolve_ends
+from twinform.passes.legalise.joint_ends import ENDS, named_ends, report_self_joint, resolve_ends
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 
@@ -39,4 +39,6 @@ def _resolve(joint: Joint, links: set[str], graph: FrameGraph, keeper: Keeper) -
         report_self_joint(joint, resolved, keeper.notes)
         return joint
     message = f"joint {joint.name!r} connects the links that {named_ends(pieces)} moves with"
-    return keeper.keep(resolved, pieces, rules.JOINT_END, message, joint.location)
+    keeper.account(rules.JOINT_END, message, joint.location, sum(piece.weight for piece in pieces))
+    ends = {piece.element.name: piece.element.text for piece in pieces if piece.element}
+    return keeper.mark(resolved, ENDS, attributes=ends)

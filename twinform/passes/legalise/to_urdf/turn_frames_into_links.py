@@ -5,8 +5,9 @@ from typing import ClassVar
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Frame, Joint, Link, Model, Pose, count_parts
 from twinform.ir.frames import MODEL, FrameGraph
-from twinform.passes.legalise.marks import made_fields, mark_made
-from twinform.passes.legalise.nodes import piece, unique_name
+from twinform.passes.legalise.marks import MADE, is_made, mark_made, without_mark
+from twinform.passes.legalise.nodes import unique_name
+from twinform.passes.legalise.notation import FRAME, POSE, pose_attributes
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 
@@ -27,7 +28,7 @@ class TurnFramesIntoLinks(ToUrdfPass):
             return model
         taken = {node.name for node in (*model.links, *model.joints, *model.frames)}
         if not model.links:
-            model = model.model_copy(update={"links": (mark_made(Link(name=unique_name(model.name, taken)), "."),)})
+            model = model.model_copy(update={"links": (mark_made(Link(name=unique_name(model.name, taken))),)})
             taken.add(model.links[0].name)
         graph = FrameGraph(model)
         links, joints = list(model.links), list(model.joints)
@@ -35,21 +36,21 @@ class TurnFramesIntoLinks(ToUrdfPass):
             joint = unique_name(f"{frame.name}_joint", taken)
             taken.add(joint)
             body = graph.body(frame.name, kind="frame")
-            links.append(_link(frame, keeper))
+            links.append(_link(frame, body, keeper))
             made = Joint(name=joint, type="fixed", parent=body, child=frame.name, source=frame.source)
-            joints.append(mark_made(made, "."))
+            joints.append(mark_made(made))
         return model.model_copy(update={"links": tuple(links), "joints": tuple(joints), "frames": ()})
 
 
-def _link(frame: Frame, keeper: Keeper) -> Link:
+def _link(frame: Frame, body: str, keeper: Keeper) -> Link:
     pose = frame.pose or Pose()
     if not pose.relative_to:
         pose = pose.model_copy(update={"relative_to": frame.attached_to or MODEL})
-    made = Link(name=frame.name, pose=pose, source=frame.source, opaque=frame.opaque)
-    if made_fields(frame):  # it stands for a nested model, which is accounted for
-        return made
+    link = Link(name=frame.name, pose=pose, source=frame.source, opaque=frame.opaque)
+    if is_made(frame):  # it stands for a nested model, which is accounted for
+        return keeper.mark(without_mark(link, MADE), FRAME, attributes={"attached_to": None}, always=True)
     message = f"frame {frame.name!r} becomes a link without mass"
-    made = mark_made(made.model_copy(update={"opaque": ()}), ".")
-    return keeper.keep(
-        made, [piece(frame, "frame")], rules.FRAME_MADE_LINK, message, frame.location, count_parts(frame)
-    )
+    keeper.account(rules.FRAME_MADE_LINK, message, frame.location, count_parts(frame))
+    holder = frame.attached_to or MODEL
+    link = keeper.mark(link, FRAME, attributes={"attached_to": None if holder == body else holder}, always=True)
+    return keeper.mark(link, POSE, attributes=pose_attributes(frame.pose)) if pose_attributes(frame.pose) else link

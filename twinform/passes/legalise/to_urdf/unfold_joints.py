@@ -9,8 +9,8 @@ from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Axis, Joint, Link, Model, Opaque, Pose, count_parts
 from twinform.passes.legalise.carrier import carry, is_carrier, to_element, unpack
 from twinform.passes.legalise.chain_carriers import split_axes
-from twinform.passes.legalise.joint_chains import CHAINS, PITCHES, TWO_AXES, metres_per_radian, part_mark, type_mark
-from twinform.passes.legalise.marks import mark_made
+from twinform.passes.legalise.joint_chains import CHAIN, CHAINS, PART, PITCHES, TWO_AXES, metres_per_radian
+from twinform.passes.legalise.marks import with_mark
 from twinform.passes.legalise.nodes import text_piece, unique_name
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.joint_steps import Step, ball, screw, two_axes
@@ -89,23 +89,20 @@ def _free_name(name: str, taken: set[str]) -> str:
 
 
 def _part(made: Joint, joint: Joint, keeper: Keeper) -> Joint:
-    if not keeper.carriers:
-        return made
-    return made.model_copy(update={"opaque": (part_mark(joint.name), *made.opaque)})
+    return with_mark(made, PART, attributes={"joint": joint.name}) if keeper.carriers else made
 
 
 def _between(name: str, joint: Joint, keeper: Keeper) -> Link:
     """A link without mass where the joint is."""
-    marks = (part_mark(joint.name),) if keeper.carriers else ()
-    link = Link(name=name, pose=Pose(relative_to=joint.name), source=joint.source, opaque=marks)
-    return mark_made(link, ".")
+    link = Link(name=name, pose=Pose(relative_to=joint.name), source=joint.source)
+    return with_mark(link, PART, attributes={"joint": joint.name}) if keeper.carriers else link
 
 
 def _last(joint: Joint, parent: str | None, step: Step, opaque: tuple[Opaque, ...], keeper: Keeper) -> Joint:
     """The joint that keeps the name, the child and the place."""
-    marks = (type_mark(joint),) if keeper.carriers else ()
-    update = {"type": step.type, "parent": parent, "axis": step.axis, "opaque": (*marks, *opaque)}
-    return joint.model_copy(update={**dict.fromkeys(("axis2", *PITCHES)), **update})
+    update = {"type": step.type, "parent": parent, "axis": step.axis, "opaque": opaque}
+    last = joint.model_copy(update={**dict.fromkeys(("axis2", *PITCHES)), **update})
+    return with_mark(last, CHAIN, attributes={"type": joint.type}) if keeper.carriers else last
 
 
 def _account(joint: Joint, keeper: Keeper) -> Joint:
@@ -139,12 +136,13 @@ def _keep_axis(joint: Joint, keeper: Keeper) -> Joint:
 
 
 def _follow(joint: Joint, first: dict[str, str]) -> Joint:
-    """The joint with its mimic of the first axis of a joint with two, now of the first joint of the chain."""
+    """The joint with its mimic of one axis of a joint with two, now of the first or last joint of the chain."""
     axis = joint.axis
     mimic = axis.mimic if axis else None
-    if axis is None or mimic is None or mimic.joint not in first or mimic.axis == "axis2":
+    if axis is None or mimic is None or mimic.joint not in first:
         return joint
-    mimic = mimic.model_copy(update={"joint": first[mimic.joint]})
+    leader = mimic.joint if mimic.axis == "axis2" else first[mimic.joint]
+    mimic = mimic.model_copy(update={"joint": leader, "axis": None})
     return joint.model_copy(update={"axis": axis.model_copy(update={"mimic": mimic})})
 
 

@@ -1,27 +1,27 @@
 """Parts of URDF that travelled through SDF in carriers stand where they stood."""
 
+from collections.abc import Callable
+from functools import partial
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Notes
-from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Color, Element, Material, Model, Node, Opaque, Visual, map_children
-from twinform.passes.legalise.carrier import is_carrier, unpack
+from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
+from twinform.ir import Link, Model, Node, Opaque, map_children
+from twinform.ir.frames import WORLD
+from twinform.passes.legalise.carrier import is_carrier, is_dangling, unpack
 from twinform.passes.legalise.model_pass import ModelPass
-from twinform.schemas import Context, element_xml, reader, table
+from twinform.passes.legalise.urdf_pieces import misfit
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
-_STAYS = frozenset({"joint", "link"})
-"""Elements that became something else in SDF, so that putting them back beside it would say it twice."""
-
 
 class UnpackUrdf(ModelPass):
-    """Put what came from a URDF file back into the robot.
+    """Put what SDF could not say, and carriers of URDF hold, back into the robot.
 
-    Changes: 1. transmissions, ros2_control, safety limits and the like become what they were; 2. so do shared
-    materials; 3. a visual has its own `<material>` again, if that still means the colour that the visual has.
-    Never touches: renamed joints, frames and floating joints, whose carriers stay.
-    Diagnostics: `stale-carrier` for a material that no longer fits.
+    Changes: 1. transmissions, ros2_control, safety limits, parts that other tools read and the like stand where they
+    stood; 2. the link `world` has its body again.
+    Never touches: what the model says by now; what names a link or joint that is gone.
+    Diagnostics: `stale-carrier` for these.
     """
 
     name: ClassVar[str] = "unpack-urdf"
@@ -30,57 +30,53 @@ class UnpackUrdf(ModelPass):
         """The model without carriers of what URDF can say."""
         if notes.has_errors:
             return model
-        carried = [piece.element for part in model.opaque if is_carrier(part, "urdf") for piece in unpack(part)]
-        materials = tuple(
-            _material(element) for element in carried if element is not None and element.name == "material"
-        )
-        shared = {material.name: material.color for material in materials}
-        model = map_children(model, lambda node: _unpack(node, shared, notes))
-        kept = tuple(part for part in _native(model) if part.element is None or part.element.name != "material")
-        return model.model_copy(update={"opaque": kept, "materials": (*model.materials, *materials)})
+        model = map_children(model, lambda node: _unpack(node, notes))
+        return _unpacked(_with_world(model), partial(misfit, node=model), notes)
 
 
-def _unpack(node: Node, shared: dict[str | None, Color | None], notes: Notes) -> Node:
-    node = map_children(node, lambda child: _unpack(child, shared, notes))
+def _unpack(node: Node, notes: Notes) -> Node:
+    node = map_children(node, lambda child: _unpack(child, notes))
+    return _unpacked(node, lambda piece: misfit(piece, node), notes)
+
+
+def _unpacked(node: AnyNode, misfit: Callable[[Opaque], str], notes: Notes) -> AnyNode:
+    """The node with its opaque parts, those of URDF out of their carriers; `misfit` says why one cannot come out."""
     if not any(is_carrier(part, "urdf") for part in node.opaque):
         return node
-    if isinstance(node, Visual):
-        node = _with_material(node, shared, notes)
-    return node.model_copy(update={"opaque": _native(node)})
+    opaque: list[Opaque] = []
+    for part in node.opaque:
+        for piece in unpack(part) if is_carrier(part, "urdf") else (part,):
+            why = misfit(piece) if piece is not part and not is_dangling(part) else ""
+            if why:
+                message = f"{piece.name} of {_called(node)} does not come back: {why}"
+                notes.report(STALE_CARRIER, message, part.location_in(node), found=piece.name)
+            else:
+                opaque.append(piece)
+    return node.model_copy(update={"opaque": tuple(opaque)})
 
 
-def _native(node: Node) -> tuple[Opaque, ...]:
-    """The opaque parts of a node, those of URDF out of their carriers where they can be."""
-    return tuple(
-        piece
-        for part in node.opaque
-        for piece in (unpack(part) if is_carrier(part, "urdf") and _fits(part) else (part,))
-    )
+def _called(node: Node) -> str:
+    name = getattr(node, "name", None)
+    return f"{type(node).__name__.lower()} {name!r}" if name else f"an {type(node).__name__.lower()}"
 
 
-def _fits(part: Opaque) -> bool:
-    pieces = unpack(part)
-    names = {piece.element.name for piece in pieces if piece.element}
-    return not names & _STAYS and not any(piece.attribute and piece.attribute[0] == "name" for piece in pieces)
-
-
-def _with_material(visual: Visual, shared: dict[str | None, Color | None], notes: Notes) -> Visual:
-    """The visual with the material that it had; a colour that was edited since wins over the carried one."""
-    for part in visual.opaque:
-        pieces = [piece.element for piece in unpack(part) if piece.element] if is_carrier(part, "urdf") else []
-        if [piece.name for piece in pieces] != ["material"]:
-            continue
-        rest = tuple(other for other in visual.opaque if other is not part)
-        visual = visual.model_copy(update={"opaque": rest})
-        material = _material(pieces[0])
-        color = material.color or shared.get(material.name)
-        if color == (visual.material.color if visual.material else None):
-            return visual.model_copy(update={"material": material})
-        message = f"visual {visual.name!r} had the material {material.name!r}, and has another colour now"
-        notes.report(rules.STALE_CARRIER, message, visual.location, found=material.name)
-    return visual
-
-
-def _material(element: Element) -> Material:
-    context = Context(Notes(), "", "urdf", table("urdf").newest)
-    return Material.model_validate(reader("urdf", context.version).read(element_xml(element), context, "material"))
+def _with_world(model: Model) -> Model:
+    """The model whose link `world`, if it has one, has the body that was carried."""
+    index = next((i for i, link in enumerate(model.links) if link.name == WORLD), None)
+    bodies = {
+        part: piece
+        for part in model.opaque
+        if is_carrier(part, "urdf")
+        for piece in unpack(part)
+        if piece.element is not None and piece.element.name == "link" and piece.element.get("name") == WORLD
+    }
+    if index is None or not bodies:
+        return model
+    part, body = next(iter(bodies.items()))
+    children = tuple(Opaque(element=child) for child in body.element.children) if body.element else ()
+    attributes = body.element.attributes if body.element else ()
+    children += tuple(Opaque(attribute=pair) for pair in attributes if pair[0] != "name")
+    world: Link = model.links[index].model_copy(update={"opaque": (*model.links[index].opaque, *children)})
+    links = (*model.links[:index], world, *model.links[index + 1 :])
+    kept = tuple(each for each in model.opaque if each is not part)
+    return model.model_copy(update={"links": links, "opaque": kept})

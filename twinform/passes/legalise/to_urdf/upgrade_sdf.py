@@ -5,6 +5,7 @@ from typing import ClassVar
 from twinform.diagnostics import Notes
 from twinform.ir import Document
 from twinform.passes.base import Pass
+from twinform.passes.legalise.provenance import with_mixed_words
 from twinform.passes.legalise.sdf_versions import raise_words
 
 
@@ -19,9 +20,12 @@ class UpgradeSdf(Pass):
 
     name: ClassVar[str] = "upgrade-sdf"
     carriers: bool = True
+    mixed: bool = False
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The document in new words; it still declares its version, for the way back."""
+        if self.carriers and self.mixed:
+            document = document.model_copy(update={"models": tuple(map(with_mixed_words, document.models))})
         for step in raise_words(document.version, carriers=self.carriers):
             document = step.run(document, notes)
         return document

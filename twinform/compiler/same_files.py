@@ -1,0 +1,46 @@
+"""Whether two paths lead to one file: by symbolic links, hard links, or names that some file systems take for one."""
+
+import os
+import stat
+import unicodedata
+from collections.abc import Hashable, Iterator
+from contextlib import suppress
+from pathlib import Path
+
+
+def identities(path: Path) -> Iterator[Hashable]:
+    """What tells a file from all others: where its path really leads, and the number that the file system gives it.
+
+    Pipes and devices, such as /dev/null, have none: what is written into them replaces nothing.
+    """
+    status = None
+    with suppress(OSError, ValueError):
+        status = path.stat()
+    if status is None or stat.S_ISREG(status.st_mode):
+        yield os.path.realpath(path)
+    if status is not None and stat.S_ISREG(status.st_mode):
+        yield (status.st_dev, status.st_ino)
+
+
+def folded(path: Path) -> Hashable:
+    """The same for paths that some file systems take for one, as they do with `Arm.sdf` and `arm.sdf`."""
+    return unicodedata.normalize("NFC", os.path.realpath(path)).casefold()
+
+
+def is_below(path: Path, folder: Path) -> bool:
+    """Whether a path really leads into a folder, whatever symbolic links are on the way."""
+    return Path(os.path.realpath(path)).is_relative_to(os.path.realpath(folder))
+
+
+def is_nothing(path: Path) -> bool:
+    """Whether it is the device that forgets, into which any number of things may be written."""
+    return os.path.realpath(path) == os.devnull
+
+
+def is_stream(path: Path) -> bool:
+    """Whether it is a pipe or device, such as /dev/null, which a file must never take the place of."""
+    try:
+        mode = path.stat().st_mode
+    except (OSError, ValueError):
+        return False
+    return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))

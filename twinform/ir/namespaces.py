@@ -1,0 +1,15 @@
+"""The prefixes of documents that become one."""
+
+from collections.abc import Iterable
+
+Namespaces = tuple[tuple[str, str], ...]
+"""Prefixes, each with its namespace; the empty prefix is the default."""
+
+
+def joined(first: Namespaces, others: Iterable[Namespaces]) -> Namespaces:
+    """Those of the first, and of the others what has no prefix yet; a prefix stays what it was first."""
+    found, known = dict(first), {uri for _, uri in first}
+    for prefix, uri in (pair for each in others for pair in each):
+        if prefix and uri not in known and found.setdefault(prefix, uri) == uri:
+            known.add(uri)
+    return tuple(found.items())

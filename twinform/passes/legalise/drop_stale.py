@@ -1,0 +1,94 @@
+"""The last look at carriers and marks of the other format: what found no use does not travel on."""
+
+from dataclasses import dataclass, field
+from typing import ClassVar, TypeVar
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
+from twinform.ir import Document, Format, Model, Node, Opaque, map_children
+from twinform.passes.legalise.carrier import NAMESPACE, PREFIX, SOURCE, has_ours, is_carrier, is_memory
+from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.legalise.provenance import came_from, without_provenance
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+
+_IN_URDF = frozenset(
+    {
+        "sdf", "offset", "pose", "frame", "axis", "axis2", "ends", "colors", "scripts", "mimic", "continuous", "geared",
+        "chain", "part", "computed-mass", "nested", "mixed", "scoped-name",
+    }
+)  # fmt: skip
+"""What a URDF holds for the reverse conversion; none of it means anything in SDF."""
+_IN_SDF = frozenset({"urdf", "material", "shared-material", "unnamed", "floating", "link", "unsaid", "look"})
+"""What an SDF file holds for the reverse conversion."""
+
+
+class DropStale(ModelPass):
+    """Drop the carriers and marks of the other format that fit nothing in the model any more.
+
+    Changes: 1. a carrier whose part was deleted, renamed or contradicted by an edit goes; 2. so does all that versions
+    before 0.2 remembered of the source. What the file says stays.
+    Never touches: what the reverse conversion of the result will read.
+    Diagnostics: `stale-carrier` for each, and one for all that is remembered.
+    """
+
+    name: ClassVar[str] = "drop-stale"
+    to: Format
+
+    def run(self, document: Document, notes: Notes) -> Document:
+        """The document without stale carriers, and without the prefix of ours where there are none at all."""
+        document = super().run(document, notes)
+        if (PREFIX, NAMESPACE) not in document.namespaces or any(map(has_ours, document.models)):
+            return document
+        others = tuple(pair for pair in document.namespaces if pair != (PREFIX, NAMESPACE))
+        return document.model_copy(update={"namespaces": others})
+
+    def run_model(self, model: Model, notes: Notes) -> Model:
+        """The model without stale carriers."""
+        if self.to is Format.URDF and came_from(model, self.to):  # for SDF the last pass needs it
+            model = without_provenance(model)
+        kinds = frozenset(f"{{{NAMESPACE}}}{kind}" for kind in (_IN_URDF if self.to is Format.SDF else _IN_SDF))
+        dropping = _Dropping(kinds)
+        model = dropping.without(model)
+        dropping.report(notes)
+        return model
+
+
+@dataclass(frozen=True, slots=True)
+class _Dropping:
+    """One run over one model; `dropped` is what was stale, and in what."""
+
+    kinds: frozenset[str]
+    dropped: list[tuple[Opaque, Node]] = field(default_factory=list[tuple[Opaque, Node]])
+
+    def without(self, node: AnyNode) -> AnyNode:
+        """The node without stale carriers, on it and in it."""
+        parts = node.opaque
+        kept = tuple([part for part in parts if not self._is_stale(part)]) if parts else parts
+        if len(kept) != len(parts):
+            node = node.model_copy(update={"opaque": kept})
+            self.dropped.extend((part, node) for part in parts if self._is_stale(part))
+        return map_children(node, self.without)
+
+    def _is_stale(self, part: Opaque) -> bool:
+        return (part.element is not None and part.element.name in self.kinds) or is_memory(part)
+
+    def report(self, notes: Notes) -> None:
+        """A warning for each, or one for all that an older version wrote, at `<tf:source>` if there is one."""
+        memory = [pair for pair in self.dropped if is_memory(pair[0])]
+        if memory:
+            part, node = next((pair for pair in memory if is_carrier(pair[0], SOURCE)), memory[0])
+            message = "what an older version remembered of the source is ignored, as the file says what it says"
+            notes.report(STALE_CARRIER, message, part.location_in(node), found=part.name)
+            return
+        for part, node in self.dropped:
+            notes.report(STALE_CARRIER, _message(part, node), part.location_in(node), found=part.name)
+
+
+def _message(part: Opaque, node: Node) -> str:
+    kind = part.element.name.partition("}")[2] if part.element else ""
+    name = getattr(node, "name", None)
+    holder = f"{type(node).__name__.lower()} {name!r}" if name else f"a {type(node).__name__.lower()}"
+    held = ", ".join(f"<{child.name}>" for child in part.element.children) if part.element else ""
+    return f"<tf:{kind}> in {holder}{f' holds {held} and' if held else ''} does not fit what the file says now"

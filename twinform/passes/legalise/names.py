@@ -1,0 +1,93 @@
+"""Names that a conversion had to change, and the marks that give them back.
+
+    <tf:name instead_of="arm_joint">arm</tf:name>                    in SDF
+    <tf:scoped-name instead_of="arm__hand">arm::hand</tf:name>       in URDF
+
+A mark says which name it stands behind: where that was edited since, the edit counts.
+"""
+
+from collections.abc import Iterator
+from typing import ClassVar
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
+from twinform.ir import Format, Frame, Joint, Link, Model
+from twinform.passes.legalise.marks import find_mark, with_mark, without_mark
+from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.legalise.provenance import came_from
+from twinform.passes.structure.renaming import renamed_model
+from twinform.passes.structure.scopes import Part, scope_of
+
+NAME = "name"
+"""The mark on a link, joint, frame or shape of SDF with the name that it has in URDF."""
+SCOPED_NAME = "scoped-name"
+"""The mark on a link, joint or frame of URDF with the name, such as `arm::hand`, that it has in SDF."""
+Names = dict[tuple[Part, str], str]
+"""New names by the kind of what is renamed and its old name."""
+_FIELDS: dict[Part, str] = {"link": "links", "joint": "joints", "frame": "frames"}
+
+
+def renamed(model: Model, names: Names, format_: Format) -> Model:
+    """The model by new names, and all that names them by these."""
+    scope = scope_of(model, lambda part, name: names.get((part, name), name), deep=False)
+    return renamed_model(model, scope, format_, Notes())
+
+
+def with_old_names(model: Model, names: Names) -> Model:
+    """The model of URDF with marks on what was renamed; it has the new names by now."""
+    old = {(part, new): name for (part, name), new in names.items()}
+
+    def marked(part: Part, node: Link | Joint | Frame) -> Link | Joint | Frame:
+        name = old.get((part, node.name))
+        return node if name is None else with_mark(node, SCOPED_NAME, name, {"instead_of": node.name})
+
+    update = {field: tuple(marked(part, node) for node in getattr(model, field)) for part, field in _FIELDS.items()}
+    return model.model_copy(update=update)
+
+
+class RestoreNames(ModelPass):
+    """Give links, joints and frames the names that they had in the source.
+
+    Changes: a name behind which a mark stands becomes the one that the mark says, and all that names it follows. With
+    `apart`, a joint may have the name of a link, as in URDF and in SDF before 1.7.
+    Never touches: a name that was edited since, or where another part has the old name by now.
+    Diagnostics: `stale-carrier` for these.
+    """
+
+    name: ClassVar[str] = "restore-names"
+    to: Format
+    apart: bool = False
+
+    def run_model(self, model: Model, notes: Notes) -> Model:
+        """The model by its old names."""
+        kind = SCOPED_NAME if self.to is Format.SDF and not self.apart else NAME
+        back = kind == SCOPED_NAME or came_from(model, self.to)
+        marked = list(_marked(model, kind)) if back else []
+        if not marked:
+            return model
+        names: Names = {}
+        taken = {self._key(part, node.name) for part, field in _FIELDS.items() for node in getattr(model, field)}
+        for part, node, now, old in marked:
+            if now != node.name or self._key(part, old) in taken:
+                why = "has another name now" if now != node.name else "would share that name with another"
+                message = f"{part} {node.name!r} was called {old!r}, and {why}"
+                notes.report(STALE_CARRIER, message, node.location, found=old)
+                continue
+            taken.add(self._key(part, old))
+            names[part, node.name] = old
+        update = {
+            field: tuple(without_mark(node, kind) for node in getattr(model, field)) for field in _FIELDS.values()
+        }
+        return renamed(model.model_copy(update=update), names, self.to)
+
+    def _key(self, part: Part, name: str) -> tuple[Part, str]:
+        return (part if self.to is Format.URDF or self.apart else "", name)
+
+
+def _marked(model: Model, kind: str) -> Iterator[tuple[Part, Link | Joint | Frame, str, str]]:
+    """What has a mark: its kind, itself, the name that the mark stands behind and the one that it gives back."""
+    for part, field in _FIELDS.items():
+        for node in getattr(model, field):
+            found = find_mark(node, kind)
+            if found is not None and found.text:
+                yield part, node, found.get("instead_of") or "", found.text

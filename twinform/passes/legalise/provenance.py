@@ -1,0 +1,48 @@
+"""What a model was converted from: a mark on it, which the reverse conversion reads.
+
+<tf:from format="sdf" version="1.9"/>
+<tf:from format="sdf" version="1.6" mixed="true"/>      whose file has words that 1.6 does not have
+"""
+
+from twinform.ir import Document, Format, Model
+from twinform.passes.legalise.marks import find_mark, with_mark, without_mark
+
+_FROM = "from"
+_MIXED = "mixed"
+
+
+def with_provenance(model: Model, document: Document) -> Model:
+    """The model, marked as converted from the format and version of a document."""
+    attributes = {"format": document.format.value, "version": document.version or "1.0"}
+    mixed = "true" if find_mark(model, _MIXED) is not None else None
+    return with_mark(without_mark(model, _MIXED), _FROM, attributes={**attributes, "mixed": mixed})
+
+
+def with_mixed_words(model: Model) -> Model:
+    """The model, marked as one whose file has words that its version does not have."""
+    return with_mark(model, _MIXED)
+
+
+def without_provenance(model: Model) -> Model:
+    """The model without the mark."""
+    return without_mark(model, _FROM)
+
+
+def came_from(model: Model, format_: Format) -> bool:
+    """Whether a model was converted from a format."""
+    found = find_mark(model, _FROM)
+    return found is not None and found.get("format") == format_.value
+
+
+def has_mixed_words(document: Document) -> bool:
+    """Whether the file that the only model of a document was converted from has words of other versions too."""
+    found = find_mark(document.models[0], _FROM) if len(document.models) == 1 else None
+    return found is not None and found.get("mixed") == "true"
+
+
+def source_version(document: Document, format_: Format) -> str | None:
+    """The version of a format that the only model of a document was converted from; None where it was not."""
+    if len(document.models) != 1 or not came_from(document.models[0], format_):
+        return None
+    found = find_mark(document.models[0], _FROM)
+    return found.get("version") if found else None

@@ -1,0 +1,34 @@
+"""The `reference` of a mimic, which URDF has no word for: it is part of the offset there."""
+
+import math
+
+from twinform.ir import Axis, Joint
+from twinform.passes.legalise.marks import find_mark, without_mark
+from twinform.passes.legalise.to_urdf.map_joints import MIMIC
+
+
+def with_reference(joint: Joint) -> Joint | None:
+    """The joint whose mimic has the `reference` that a mark says; None where there is no mimic, or it says no number.
+
+    multiplier (leader - reference) + offset is what URDF says as multiplier leader + offset.
+    """
+    found = find_mark(joint, MIMIC)
+    if found is None:
+        return joint
+    axis: Axis | None = joint.axis
+    reference = _number(found.get("reference"))
+    if axis is None or axis.mimic is None or reference is None:
+        return None
+    factor = 1.0 if axis.mimic.multiplier is None else axis.mimic.multiplier
+    offset = (axis.mimic.offset or 0.0) + factor * reference if reference else axis.mimic.offset
+    mimic = axis.mimic.model_copy(update={"reference": reference, "offset": offset or None})
+    made: Axis = axis.model_copy(update={"mimic": mimic})
+    return without_mark(joint, MIMIC).model_copy(update={"axis": made})
+
+
+def _number(text: str | None) -> float | None:
+    try:
+        number = float(text or "")
+    except ValueError:
+        return None
+    return number if math.isfinite(number) else None

@@ -1,0 +1,275 @@
+"""Poses as the SDF file had them that a URDF was converted from."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import ClassVar, TypeVar
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules import to_urdf as rules
+from twinform.ir import Axis, Element, Format, Frame, Joint, Link, Model, Node, Pose, map_children
+from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph, Kind
+from twinform.ir.node import Vector3
+from twinform.ir.transform import Transform, rounded
+from twinform.passes.legalise.element_poses import ElementPoses
+from twinform.passes.legalise.joint_ends import ENDS
+from twinform.passes.legalise.marks import MADE, find_mark, is_made, without_mark
+from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.legalise.notation import NESTED, OFFSET, POSE, as_marked, read_offset
+from twinform.passes.legalise.provenance import came_from
+from twinform.passes.legalise.rebasing import AnyPosed, Base, Posed, Rebasing
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+_AXES = ("axis", "axis2")
+_BASE = "\0"
+"""Behind the name of a link it calls the frame that the link had in SDF; alone, the frame that the model had."""
+SCOPE = "::"
+_Z: Vector3 = (0.0, 0.0, 1.0)
+
+
+class RestoreFrames(ModelPass):
+    """Write poses as SDF wrote them, in a model that came from there: each in its frame and notation, nothing moves.
+
+    Changes: 1. a link has the frame that a mark gives it, and all that is in it, or was added to it since, is posed in
+    that frame; 2. links are posed in the model's frame, joints in their child's, frames in what they are attached to,
+    or each in the frame that a mark names; 3. an axis is expressed in the frame that a mark names; 4. the ends of a
+    joint are the frames that a mark names, if they still move with these links.
+    Never touches: models that did not come from SDF.
+    Diagnostics: `stale-carrier` for marks whose frames are gone, or go round in a circle since an edit.
+    """
+
+    name: ClassVar[str] = "restore-frames"
+
+    def run_model(self, model: Model, notes: Notes) -> Model:
+        """The model in the terms of its SDF file."""
+        if not came_from(model, Format.SDF):
+            return self._with_offsets(model, notes)
+        model = _without_made_root(model)
+        try:
+            made = _Restoring(model, notes).run()
+            if next(FrameGraph(made).problems(), None) is None:
+                return made
+            message = f"the frames in which poses of {model.name!r} were written go round in a circle by now"
+            notes.report(rules.STALE_CARRIER, message, model.location, found=model.name)
+            return _Restoring(_without_frames(model), notes).run()
+        except FrameError as error:
+            error.report(notes)
+            return model
+
+    def _with_offsets(self, model: Model, notes: Notes) -> Model:
+        """A model of URDF whose links have other frames in the SDF file that it came back from."""
+        if all(find_mark(link, OFFSET) is None for link in model.links):
+            return model
+        try:
+            return _Restoring(model, notes, as_urdf=True).run()
+        except FrameError as error:
+            error.report(notes)
+            return model
+
+
+@dataclass(slots=True)
+class _Restoring:
+    """One run over one model. `frames` are the names by which the graph knows the frames that SDF has.
+
+    With `as_urdf`, poses stay in the frames in which a conversion from URDF writes them.
+    """
+
+    model: Model
+    notes: Notes
+    as_urdf: bool = False
+    frames: dict[str, Base] = field(default_factory=dict[str, Base])
+
+    def run(self) -> Model:
+        helpers = tuple(self._helpers())
+        posed = {"frames": (*self.model.frames, *helpers), "placement_frame": None}  # as yet the root is where it says
+        graph = FrameGraph(self.model.model_copy(update=posed))
+        self.frames = {helper.name.removesuffix(_BASE) or MODEL: (helper.name, "frame") for helper in helpers}
+        model = self.model.model_copy(
+            update={
+                "links": tuple(self._link(link, graph) for link in self.model.links),
+                "joints": tuple(self._joint(joint, graph) for joint in self.model.joints),
+                "frames": tuple(self._frame(frame, graph) for frame in self.model.frames),
+            }
+        )
+        placement = self._placement(graph)
+        name, kind = self._in_frame(placement) if placement else self._base(MODEL, "model")
+        placed = graph.pose(name, WORLD, kind=kind, base="world")
+        pose = as_marked(placed, find_mark(model, POSE), None)
+        model = model.model_copy(update={"pose": pose, "placement_frame": placement})
+        return without_mark(model, OFFSET, POSE)
+
+    def _placement(self, graph: FrameGraph) -> str | None:
+        """The frame of the model that its pose is for, if it names one that is there."""
+        name = self.model.placement_frame
+        if name and not graph.knows(self._in_frame(name)[0]):
+            self._stale(f"there is no frame {name!r} any more, by which {self.model.name!r} was placed", self.model)
+            return None
+        return name
+
+    def _helpers(self) -> Iterator[Frame]:
+        """A frame for each one that SDF has elsewhere than URDF."""
+        own = self._offset(self.model)
+        if own is not None:  # as yet the model is where its root is
+            yield Frame(name=_BASE, pose=own.to_pose())
+        for link in self.model.links:
+            offset = self._offset(link)
+            if offset is not None:
+                yield Frame(name=link.name + _BASE, attached_to=link.name, pose=offset.to_pose())
+
+    def _offset(self, node: Link | Model) -> Transform | None:
+        found = find_mark(node, OFFSET)
+        if found is None:
+            return None
+        try:
+            return read_offset(found)
+        except ValueError as error:
+            self._stale(f"the offset of {node.name!r} says nothing: {error}", node)
+            return None
+
+    def _stale(self, message: str, node: Node) -> None:
+        self.notes.report(rules.STALE_CARRIER, message, node.location)
+
+    def _base(self, name: str, kind: Kind) -> Base:
+        return self.frames.get(name, (name, kind))
+
+    def _in_frame(self, name: str) -> Base:
+        return self._base(name, "frame")
+
+    def _written_in(self, node: Node, graph: FrameGraph, usual: str) -> str | None:
+        """The frame that a mark on a node names; None for the usual one."""
+        found = find_mark(node, POSE)
+        name = found.get("relative_to") if found else None
+        if not name:
+            return None
+        if name == WORLD or not graph.knows(self._in_frame(name)[0]):
+            self._stale(f"there is no frame {name!r} any more, in which a pose was written", node)
+            return None
+        return name
+
+    def _own_pose(self, node: Link | Joint | Frame, kind: Kind, usual: str, graph: FrameGraph) -> Pose | None:
+        """The pose of a node in the frame that it is to be written in."""
+        written_in = self._written_in(node, graph, usual)
+        (name, own), (base, held) = self._base(node.name, kind), self._in_frame(written_in or usual)
+        placed = graph.pose(name, base, kind=own, base=held if base != WORLD else "world")
+        return as_marked(placed, find_mark(node, POSE), written_in)
+
+    def _link(self, link: Link, graph: FrameGraph) -> Link:
+        base = self._base(link.name, "link")
+        inside = self._rebasing(graph, link.name, "link", base).link(link)
+        usual = around(link.name, graph)
+        if self.as_urdf:
+            usual = (link.pose and link.pose.relative_to) or MODEL
+        pose = self._own_pose(link, "link", usual, graph)
+        if usual != MODEL and not (pose and pose.relative_to):  # until it stands in that model, if it is in one
+            pose = (pose or Pose()).model_copy(update={"relative_to": usual})
+        inertial = link.inertial if link.inertial and link.inertial.auto else inside.inertial
+        return without_mark(inside.model_copy(update={"pose": pose, "inertial": inertial}), OFFSET, POSE)
+
+    def _rebasing(self, graph: FrameGraph, name: str, kind: Kind, base: Base) -> Rebasing:
+        def write(holder: AnyPosed, _tag: str, transform: Transform) -> AnyPosed:
+            return self._write(graph, base, holder, transform)
+
+        elements = ElementPoses(graph, name, base, _nothing_beside, kind, self._in_frame)
+        return Rebasing(graph, name, kind, base, elements, write, _is_left)
+
+    def _write(self, graph: FrameGraph, base: Base, holder: AnyPosed, transform: Transform) -> AnyPosed:
+        written_in = self._written_in(holder, graph, "")
+        if written_in is not None:
+            name, kind = self._in_frame(written_in)
+            transform = graph.pose(base[0], name, kind=base[1], base=kind).compose(transform)
+        pose = as_marked(transform, find_mark(holder, POSE), written_in)
+        return without_mark(holder.model_copy(update={"pose": pose}), POSE)
+
+    def _joint(self, joint: Joint, graph: FrameGraph) -> Joint:
+        base: Base = (joint.name, "joint")
+        inside = self._rebasing(graph, joint.name, "joint", base).joint(joint)
+        ends = self._ends(joint, graph)
+        usual = str(ends.get("child", joint.child or WORLD))
+        if self.as_urdf and joint.pose and joint.pose.relative_to:
+            usual = joint.pose.relative_to
+        pose = self._own_pose(joint, "joint", usual, graph)
+        if self.as_urdf:
+            pose = (pose or Pose()).model_copy(update={"relative_to": usual})
+        update: dict[str, object] = {**ends, "pose": pose}
+        for name in _AXES:
+            update[name] = self._axis(joint, name, graph)
+        return without_mark(inside.model_copy(update=update), POSE, ENDS, *_AXES)
+
+    def _ends(self, joint: Joint, graph: FrameGraph) -> dict[str, object]:
+        """The frames at the ends of a joint, as far as they still move with its links."""
+        found = find_mark(joint, ENDS)
+        ends: dict[str, object] = {}
+        for end in ("parent", "child"):
+            name, link = found.get(end) if found else None, getattr(joint, end)
+            if name is None:
+                continue
+            if graph.knows(name) and graph.body(name, kind="frame") == link:
+                ends[end] = name
+            else:
+                self._stale(f"the {end} of joint {joint.name!r} was {name!r}, which does not move with {link!r}", joint)
+        return ends
+
+    def _axis(self, joint: Joint, field: str, graph: FrameGraph) -> Axis | None:
+        axis: Axis | None = getattr(joint, field)
+        found = find_mark(joint, field)
+        name = found.get("expressed_in") if found else None
+        if axis is None or not name:
+            return axis
+        base, kind = self._in_frame(name)
+        if not graph.knows(base):
+            self._stale(f"there is no frame {name!r} any more, in which the axis of {joint.name!r} was written", joint)
+            return axis
+        turn = graph.pose(joint.name, base, kind="joint", base=kind)
+        return axis.model_copy(update={"xyz": rounded(turn.rotate(axis.xyz or _Z)), "expressed_in": name})
+
+    def _frame(self, frame: Frame, graph: FrameGraph) -> Frame:
+        if find_mark(frame, NESTED) is None:
+            pose = self._own_pose(frame, "frame", frame.attached_to or around(frame.name, graph), graph)
+        else:  # a model is posed in the one around it
+            usual = around(frame.name.removesuffix(f"{SCOPE}{MODEL}"), graph)
+            pose = self._own_pose(frame, "frame", usual, graph) or Pose()
+            pose = pose.model_copy(update={"relative_to": pose.relative_to or usual})
+        return without_mark(frame.model_copy(update={"pose": pose}), POSE)
+
+
+def around(name: str, graph: FrameGraph) -> str:
+    """The frame of the model that something of this name is in: a nested one, if the name is scoped."""
+    scope = name.rpartition(SCOPE)[0]
+    own = f"{scope}{SCOPE}{MODEL}"
+    return own if scope and graph.knows(own) else MODEL
+
+
+def _nothing_beside(_message: str, _pose: Pose) -> tuple[Element, ...]:
+    return ()
+
+
+def _is_left(holder: Posed) -> bool:
+    """Whether a pose may stay as it is where its frame does."""
+    return find_mark(holder, POSE) is None and not (holder.pose and holder.pose.relative_to)
+
+
+def _without_made_root(model: Model) -> Model:
+    """The model without the link that was made because URDF needs one, if that still holds nothing."""
+    link = model.links[0] if len(model.links) == 1 else None
+    if link is None or not is_made(link):
+        return model
+    held = link.visuals or link.collisions or link.sensors or link.lights or len(link.opaque) > 1
+    if held or model.joints or (link.inertial and link.inertial.mass):  # it is a link like others by now
+        return model.model_copy(update={"links": (without_mark(link, MADE),)})
+    frames = (_off_root(frame, link.name) for frame in model.frames)
+    return model.model_copy(update={"links": (), "frames": tuple(frames), "canonical_link": None})
+
+
+def _off_root(frame: Frame, root: str) -> Frame:
+    """The frame in the model's, if it was in the link that stood for that."""
+    pose = frame.pose
+    if pose is not None and pose.relative_to == root:
+        pose = pose.model_copy(update={"relative_to": None})
+    return frame.model_copy(
+        update={"attached_to": None if frame.attached_to == root else frame.attached_to, "pose": pose}
+    )
+
+
+def _without_frames(node: AnyNode) -> AnyNode:
+    """The node without what marks say of the frames in which it was written, on it and in it."""
+    return map_children(without_mark(node, POSE, ENDS, *_AXES), _without_frames)

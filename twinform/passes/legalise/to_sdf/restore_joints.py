@@ -1,0 +1,70 @@
+"""Joints as the SDF file had them that a URDF was converted from."""
+
+from typing import ClassVar
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
+from twinform.ir import Axis, Format, Joint, Limit, Model
+from twinform.passes.legalise.marks import MADE, find_mark, without_mark
+from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.legalise.provenance import came_from
+from twinform.passes.legalise.to_sdf.mimic_references import with_reference
+from twinform.passes.legalise.to_urdf.map_joints import CONTINUOUS, MIMIC, UNBOUNDED
+
+_AXES = ("axis", "axis2")
+_NUMBERS = ("lower", "upper", "effort", "velocity")
+
+
+class RestoreJoints(ModelPass):
+    """Write joints as SDF wrote them, in a model that came from there.
+
+    Changes: 1. limits of 1e16 and beyond, which stand for none, go; 2. a joint without limits that a mark calls
+    `continuous` is so; 3. the offset of a mimic is shared with the `reference` that a mark says.
+    Never touches: models that did not come from SDF.
+    Diagnostics: `stale-carrier`.
+    """
+
+    name: ClassVar[str] = "restore-joints"
+
+    def run_model(self, model: Model, notes: Notes) -> Model:
+        """The model with joints of its SDF file."""
+        if not came_from(model, Format.SDF):
+            return model
+        return model.model_copy(update={"joints": tuple(_restored(joint, notes) for joint in model.joints)})
+
+
+def _restored(joint: Joint, notes: Notes) -> Joint:
+    joint = _with_reference(without_mark(joint, MADE), notes)
+    axes = {name: axis for name in _AXES if (axis := getattr(joint, name)) is not None and axis.limit is not None}
+    if axes:
+        joint = joint.model_copy(update={name: _without_infinities(axis) for name, axis in axes.items()})
+    return _continuous(joint, notes)
+
+
+def _without_infinities(axis: Axis) -> Axis:
+    limit = axis.limit or Limit()
+    update = {name: None for name in _NUMBERS if abs(getattr(limit, name) or 0.0) >= UNBOUNDED}
+    bare = limit.model_copy(update=update) if update else limit
+    return axis.model_copy(update={"limit": None if bare == Limit() else bare})
+
+
+def _continuous(joint: Joint, notes: Notes) -> Joint:
+    if find_mark(joint, CONTINUOUS) is None:
+        return joint
+    joint = without_mark(joint, CONTINUOUS)
+    limit = joint.axis.limit if joint.axis and joint.axis.limit else Limit()
+    if joint.type == "revolute" and limit.lower is None and limit.upper is None:
+        return joint.model_copy(update={"type": "continuous"})
+    message = f"joint {joint.name!r} was continuous, and has another type or limits now"
+    notes.report(STALE_CARRIER, message, joint.location, found=joint.type)
+    return joint
+
+
+def _with_reference(joint: Joint, notes: Notes) -> Joint:
+    made = with_reference(joint)
+    if made is not None:
+        return made
+    found = find_mark(joint, MIMIC)
+    message = f"joint {joint.name!r} does not mimic any more, or its reference is no number"
+    notes.report(STALE_CARRIER, message, joint.location, found=(found and found.get("reference")) or "")
+    return without_mark(joint, MIMIC)

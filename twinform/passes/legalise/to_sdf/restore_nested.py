@@ -1,0 +1,160 @@
+"""Nested models as the SDF file had them that a URDF was converted from."""
+
+from typing import ClassVar, TypeVar
+
+from twinform.diagnostics import Notes, Severity
+from twinform.diagnostics.rules.to_urdf import NESTED_MODEL, STALE_CARRIER
+from twinform.ir import Axis, Element, Format, Frame, Joint, Link, Model, Node, Opaque, Pose
+from twinform.ir.frames import MODEL, FrameGraph
+from twinform.ir.transform import Transform
+from twinform.passes.legalise.marks import find_mark
+from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.legalise.names import renamed
+from twinform.passes.legalise.nodes import map_poses
+from twinform.passes.legalise.notation import NESTED
+from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb
+from twinform.passes.legalise.sdf_versions.carriers import Terms
+from twinform.passes.legalise.sdf_versions.nest_models import nest
+from twinform.passes.legalise.to_sdf.restore_frames import SCOPE
+from twinform.schemas import parse_version, table
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+_OWN = f"{SCOPE}{MODEL}"
+
+
+class NameScopes(ModelPass):
+    """Call the frames that stand for nested models as SDF calls them: `inner` becomes `inner::__model__`.
+
+    Changes: these frames, and what names them.
+    Never touches: other frames.
+    Diagnostics: `nested-model` where such a frame was fixed to a link outside of its model.
+    """
+
+    name: ClassVar[str] = "name-scopes"
+
+    def run_model(self, model: Model, notes: Notes) -> Model:
+        """The model with the frames of nested models by their scoped names."""
+        own = [frame for frame in model.frames if find_mark(frame, NESTED) is not None]
+        if not own:
+            return model
+        for frame in own:
+            _report_outside(frame, model, notes)
+        return renamed(model, {("frame", frame.name): f"{frame.name}{_OWN}" for frame in own}, Format.SDF)
+
+
+def _report_outside(frame: Frame, model: Model, notes: Notes) -> None:
+    """The frame of a nested model moves with a link of that model, if it has any."""
+    links = {link.name for link in model.links}
+    holder = frame.attached_to or ""
+    own = [name for name in links if name.startswith(frame.name + SCOPE)]
+    if own and holder in links and holder not in own:
+        message = f"link {frame.name!r} is the frame of a nested model in SDF, and is fixed to {holder!r} outside of it"
+        notes.report(NESTED_MODEL, message, frame.location, found=holder, severity=Severity.ERROR)
+
+
+class RestoreNested(ModelPass):
+    """Put links, joints and frames with scoped names back into the models that SDF had inside the model.
+
+    Changes: 1. `inner::link` is `link` in the model `inner`, and so on; 2. the model has again what else it said.
+    Never touches: names without a scope, so what was added or renamed since stays where it is.
+    Diagnostics: `stale-carrier` where what a nested model said does not fit it.
+    """
+
+    name: ClassVar[str] = "restore-nested"
+
+    def run_model(self, model: Model, notes: Notes) -> Model:
+        """The model with the models in it."""
+        said = {frame.name.removesuffix(_OWN): found for frame in model.frames if (found := find_mark(frame, NESTED))}
+        if not said:
+            return model
+        nested = nest(model, Notes())
+        models = tuple(_with_rest(inner, inner.name, said, notes) for inner in nested.models)
+        return _tidy(nested.model_copy(update={"models": models}))
+
+
+def _with_rest(model: Model, path: str, said: dict[str, Element], notes: Notes) -> Model:
+    """A nested model with what it said besides its links, joints, frames and pose; and so those in it."""
+    models = tuple(_with_rest(inner, f"{path}{SCOPE}{inner.name}", said, notes) for inner in model.models)
+    model = model.model_copy(update={"models": models})
+    found = said.get(path)
+    if found is None:
+        return model
+    pieces = (
+        *(Opaque(attribute=pair) for pair in found.attributes),
+        *(Opaque(element=child) for child in found.children),
+    )
+    try:
+        whole = absorb(model.model_copy(update={"canonical_link": None}), pieces, Terms(), _NEWEST)
+        return _placed(_with_known_links(whole))
+    except CarrierError as error:
+        message = f"what nested model {path!r} said does not fit it any more: {error}"
+        notes.report(STALE_CARRIER, message, model.location, found=path)
+        return model
+
+
+_NEWEST = parse_version(table("sdf").versions[-1])
+
+
+def _with_known_links(model: Model) -> Model:
+    """The model without a canonical link or a placement frame that is gone."""
+    graph = FrameGraph(model)
+    update = {
+        field: None
+        for field in ("canonical_link", "placement_frame")
+        if (name := getattr(model, field)) is not None and not graph.knows(name)
+    }
+    return model.model_copy(update=update) if update else model
+
+
+def _placed(model: Model) -> Model:
+    """The model posed by its placement frame, if it has one; it was posed by its own."""
+    if model.placement_frame is None:
+        return model
+    inside = FrameGraph(model).pose(model.placement_frame, MODEL, kind="frame", base="model")
+    around = model.pose.relative_to if model.pose else None
+    return model.model_copy(update={"pose": Transform.from_pose(model.pose).compose(inside).to_pose(around)})
+
+
+def _tidy(model: Model) -> Model:
+    """The model without names that go without saying: its own frame, and that of a model by its full name."""
+
+    def pose(written: Pose) -> Pose:
+        return written.model_copy(update={"relative_to": _short(written.relative_to)})
+
+    model = model.model_copy(
+        update={
+            "models": tuple(_tidy(inner) for inner in model.models),
+            "links": tuple(_posed(map_poses(link, pose)) for link in model.links),
+            "joints": tuple(_tidy_joint(map_poses(joint, pose)) for joint in model.joints),
+            "frames": tuple(_tidy_frame(map_poses(frame, pose)) for frame in model.frames),
+        }
+    )
+    return _posed(map_poses(model, pose))
+
+
+def _posed(node: AnyNode) -> AnyNode:
+    """The node without a pose that says nothing, or a frame that is the usual one."""
+    pose: Pose | None = node.__dict__["pose"]
+    if pose is None:
+        return node
+    own = pose.relative_to == MODEL and isinstance(node, Link | Model)
+    pose = pose.model_copy(update={"relative_to": None}) if own else pose
+    return node.model_copy(update={"pose": None if pose == Pose() else pose})
+
+
+def _short(name: str | None) -> str | None:
+    return name.removesuffix(_OWN) if name and name != MODEL else name
+
+
+def _tidy_joint(joint: Joint) -> Joint:
+    def tidy(axis: Axis | None) -> Axis | None:
+        return axis and axis.model_copy(update={"expressed_in": _short(axis.expressed_in)})
+
+    ends = {end: _short(getattr(joint, end)) for end in ("parent", "child")}
+    return joint.model_copy(update={**ends, "axis": tidy(joint.axis), "axis2": tidy(joint.axis2)})
+
+
+def _tidy_frame(frame: Frame) -> Frame:
+    attached = _short(frame.attached_to)
+    return frame.model_copy(update={"attached_to": None if attached == MODEL else attached})

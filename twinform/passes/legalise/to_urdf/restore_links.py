@@ -1,0 +1,167 @@
+"""Links and joints as the URDF file had them that an SDF file was converted from."""
+
+from collections.abc import Container, Iterator
+from typing import ClassVar, TypeVar
+
+from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
+from twinform.ir import Collision, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual
+from twinform.ir.frames import MODEL, WORLD, FrameGraph
+from twinform.passes.legalise.carrier import carry
+from twinform.passes.legalise.marks import find_mark, without_mark
+from twinform.passes.legalise.notation import LINK
+from twinform.passes.legalise.to_sdf.joints import FLOATING
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass
+from twinform.passes.legalise.to_urdf.keeper import Keeper
+
+Placed = TypeVar("Placed", Visual, Collision, Sensor, Light)
+
+_HELD = ("visuals", "collisions", "sensors", "lights")
+
+
+class RestoreLinks(ToUrdfPass):
+    """Make links and joints again of what was a massless link on a fixed joint, or on a floating one.
+
+    Changes: 1. a frame that is marked as a link is one, and the frame that it is attached to its joint; 2. what the
+    link below holds in this frame is the link's; 3. a link that a mark calls free hangs from its joint again.
+    Never touches: a frame that is not attached to its joint any more; it is made a link like others.
+    Diagnostics: `stale-carrier` for these, and for a floating joint whose parent is gone or whose link has a joint.
+    """
+
+    name: ClassVar[str] = "restore-links"
+
+    def run_model(self, model: Model, keeper: Keeper) -> Model:
+        """The model with links and joints in the place of frames."""
+        if any(find_mark(frame, LINK) is not None for frame in model.frames):
+            model = _with_links(model, keeper)
+        if any(find_mark(link, FLOATING) is not None for link in model.links):
+            model = _with_floating_joints(model, keeper)
+        return model
+
+
+def _with_links(model: Model, keeper: Keeper) -> Model:
+    pairs = dict(_pairs(model, keeper))
+    graph = FrameGraph(model)
+    mounts = {mount.name for mount in pairs.values()}
+    held_by = {name: graph.body(name, kind="frame") for name in pairs}
+    links = [_emptied(link, {name for name in pairs if held_by[name] == link.name}) for link in model.links]
+    joints = list(model.joints)
+    for name, mount in pairs.items():
+        frame = next(each for each in model.frames if each.name == name)
+        holder = _holder(mount, pairs, graph)
+        pose = (mount.pose or Pose()).model_copy(
+            update={"relative_to": (mount.pose and mount.pose.relative_to) or mount.attached_to or MODEL}
+        )
+        joints.append(
+            Joint(
+                name=mount.name, type="fixed", parent=holder, child=name, pose=pose, opaque=mount.opaque,
+                source=mount.source,
+            )
+        )  # fmt: skip
+        own = (frame.pose or Pose()).model_copy(update={"relative_to": mount.name})
+        bare = Link(name=name, pose=own, opaque=without_mark(frame, LINK).opaque)
+        holders = [link for link in model.links if link.name == held_by[name]]
+        links.append(_filled(bare.model_copy(update={"source": frame.source}), holders))
+    frames = tuple(
+        without_mark(frame, LINK) for frame in model.frames if frame.name not in pairs and frame.name not in mounts
+    )
+    return model.model_copy(update={"links": tuple(links), "joints": tuple(joints), "frames": frames})
+
+
+def _pairs(model: Model, keeper: Keeper) -> Iterator[tuple[str, Frame]]:
+    """Each frame that is a link, by its name, with the one that is its joint."""
+    frames = {frame.name: frame for frame in model.frames}
+    taken: set[str] = set()
+    for frame in model.frames:
+        if find_mark(frame, LINK) is None:
+            continue
+        mount = frames.get(frame.attached_to or "")
+        if (
+            mount is None
+            or mount.name in taken
+            or find_mark(mount, LINK) is not None
+            or (frame.pose and frame.pose.relative_to not in {None, mount.name})
+        ):
+            message = f"frame {frame.name!r} was a link on a fixed joint, and is not attached to that joint any more"
+            keeper.notes.report(STALE_CARRIER, message, frame.location, found=frame.name)
+            continue
+        taken.add(mount.name)
+        yield frame.name, mount
+
+
+def _holder(mount: Frame, pairs: dict[str, Frame], graph: FrameGraph) -> str:
+    """The parent of the joint: what it is attached to, if that is or becomes a link."""
+    name = mount.attached_to or MODEL
+    joints = {joint.name: link for link, joint in pairs.items()}
+    if name in pairs:
+        return name
+    return joints.get(name) or graph.body(name, kind="link")
+
+
+def _is_in(node: Placed, names: Container[str]) -> bool:
+    return node.pose is not None and (node.pose.relative_to or "") in names
+
+
+def _emptied(link: Link, frames: set[str]) -> Link:
+    """The link without what it holds for one of the frames that move with it."""
+    if not frames:
+        return link
+    update: dict[str, object] = {
+        field: tuple(each for each in getattr(link, field) if not _is_in(each, frames)) for field in _HELD
+    }
+    update["opaque"] = tuple(part for part in link.opaque if _frame_of(part) not in frames)
+    return link.model_copy(update=update)
+
+
+def _filled(link: Link, holders: list[Link]) -> Link:
+    """The link with what others hold for it."""
+    own = {link.name}
+    update: dict[str, object] = {}
+    for field in _HELD:
+        held = [each for other in holders for each in getattr(other, field) if _is_in(each, own)]
+        update[field] = tuple(_in_own_frame(each) for each in held)
+    parts = [part for other in holders for part in other.opaque if _frame_of(part) == link.name]
+    update["opaque"] = (*link.opaque, *map(_part_in_own_frame, parts))
+    return link.model_copy(update=update)
+
+
+def _in_own_frame(node: Placed) -> Placed:
+    pose = node.pose.model_copy(update={"relative_to": None}) if node.pose else None
+    return node.model_copy(update={"pose": None if pose == Pose() else pose})
+
+
+def _frame_of(part: Opaque) -> str | None:
+    """The frame in which an element without a typed form, such as a projector, is posed."""
+    pose = part.element.find("pose") if part.element else None
+    return pose.get("relative_to") if pose else None
+
+
+def _part_in_own_frame(part: Opaque) -> Opaque:
+    element = part.element
+    pose = element.find("pose") if element else None
+    if element is None or pose is None:
+        return part
+    bare = pose.model_copy(update={"attributes": tuple(pair for pair in pose.attributes if pair[0] != "relative_to")})
+    children = tuple(bare if child is pose else child for child in element.children)
+    return part.model_copy(update={"element": element.model_copy(update={"children": children})})
+
+
+def _with_floating_joints(model: Model, keeper: Keeper) -> Model:
+    held = {joint.child for joint in model.joints}
+    known = {WORLD, *(link.name for link in model.links)}
+    taken = {joint.name for joint in model.joints}
+    joints = list(model.joints)
+    for link in model.links:
+        found = find_mark(link, FLOATING)
+        if found is None:
+            continue
+        name, parent = found.get("joint") or "", found.get("parent") or ""
+        if not name or name in taken or parent not in known or link.name in held:
+            message = f"link {link.name!r} hung from {parent!r} by the floating joint {name!r}, and cannot any more"
+            keeper.notes.report(STALE_CARRIER, message, link.location, found=name)
+            continue
+        taken.add(name)
+        joint = Joint(name=name, type="floating", parent=parent, child=link.name, pose=Pose(relative_to=link.name))
+        rest = [Opaque(element=child) for child in found.children]
+        joints.append(carry(joint.model_copy(update={"source": link.source}), rest, "urdf"))
+    links = tuple(without_mark(link, FLOATING) for link in model.links)
+    return model.model_copy(update={"links": links, "joints": tuple(joints)})

@@ -1,0 +1,84 @@
+"""What a conversion to SDF had to write out, and URDF leaves unsaid."""
+
+from typing import ClassVar, TypeVar
+
+from twinform.diagnostics import Notes
+from twinform.ir import Collision, Format, Inertial, Link, Model, Visual
+from twinform.passes.legalise.marks import find_mark, without_mark
+from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.legalise.names import NAME
+from twinform.passes.legalise.provenance import came_from
+from twinform.passes.legalise.to_sdf.bodies import UNSAID
+from twinform.passes.legalise.to_sdf.name_shapes import UNNAMED
+
+Shape = TypeVar("Shape", Visual, Collision)
+
+_MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+
+
+class RestoreShapes(ModelPass):
+    """Leave out the names and the inertias that a conversion to SDF made, in a model that came from URDF.
+
+    Changes: 1. a visual or collision whose name a mark lists has none, and one whose name was taken has it again; 2. an
+    inertial of no mass goes, as URDF means that by saying nothing.
+    Never touches: names that were edited since; models that did not come from URDF.
+    Diagnostics: none.
+    """
+
+    name: ClassVar[str] = "restore-shapes"
+
+    def run_model(self, model: Model, notes: Notes) -> Model:
+        """The model without what was made."""
+        if not came_from(model, Format.URDF):
+            return model
+        found = find_mark(model, UNNAMED)
+        made = frozenset(line.strip() for line in (found.text or "").splitlines()) if found else frozenset[str]()
+        links = tuple(_link(link, made) for link in model.links)
+        return without_mark(model.model_copy(update={"links": links}), UNNAMED)
+
+
+def _link(link: Link, made: frozenset[str]) -> Link:
+    update: dict[str, object] = {}
+    for field in ("visuals", "collisions"):
+        shapes = getattr(link, field)
+        usual = f"{link.name}_{field[:-1]}"
+        unnamed = tuple(_unnamed(shape, made, usual) for shape in shapes)
+        if any(new is not old for new, old in zip(unnamed, shapes, strict=True)):
+            update[field] = unnamed
+    inertial = _as_said(link.inertial) if link.inertial else None
+    if inertial is not link.inertial or (inertial and _is_nothing(inertial)):
+        update["inertial"] = None if inertial and _is_nothing(inertial) else inertial
+    return link.model_copy(update=update) if update else link
+
+
+def _unnamed(shape: Shape, made: frozenset[str], usual: str) -> Shape:
+    if shape.name in made and shape.name.startswith(usual):  # it is not in another link by now
+        return shape.model_copy(update={"name": None})
+    found = find_mark(shape, NAME)
+    if found is None:
+        return shape
+    shape = without_mark(shape, NAME)
+    return shape.model_copy(update={"name": found.text or ""}) if found.get("instead_of") == shape.name else shape
+
+
+def _as_said(inertial: Inertial) -> Inertial:
+    """The inertial without a mass or moments of nothing that URDF left out."""
+    found = find_mark(inertial, UNSAID)
+    if found is None:
+        return inertial
+    names = (found.text or "").split()
+    inertial = without_mark(inertial, UNSAID)
+    if "mass" in names and not inertial.mass:
+        inertial = inertial.model_copy(update={"mass": None})
+    if "inertia" in names and not any(_moments(inertial)):
+        inertial = inertial.model_copy(update={"inertia": None})
+    return inertial
+
+
+def _moments(inertial: Inertial) -> list[float | None]:
+    return [getattr(inertial.inertia, name) for name in _MOMENTS] if inertial.inertia else []
+
+
+def _is_nothing(inertial: Inertial) -> bool:
+    """Whether it says mass and inertia of nothing, and no more."""
+    return not inertial.mass and not any(_moments(inertial)) and inertial.pose is None and not inertial.opaque

@@ -1,0 +1,85 @@
+"""What all visuals of a link say alike and URDF has no word for, in a `<visual>` in a `<gazebo>` element."""
+
+from typing import ClassVar
+
+from twinform.ir import Element, GazeboExtension, Link, Material, Model, Visual
+from twinform.passes.legalise.carrier import to_element
+from twinform.passes.legalise.gazebo_tags import LINK_TAGS
+from twinform.passes.legalise.marks import find_mark, without_mark
+from twinform.passes.legalise.material_marks import LOOK
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass
+from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.legalise.to_urdf.remainder import take_remainder, urdf_words
+
+_OF_MATERIALS = frozenset({"material"})
+_IN_FRAMES = frozenset({"pose", "geometry"})
+
+
+class ShareVisuals(ToUrdfPass):
+    """Say by a `<visual>` in a `<gazebo>` element what all visuals of a link have alike.
+
+    Changes: 1. plugins, transparency, shadows and the like of all visuals of a link, which Gazebo puts into each of
+    them; 2. their material, where a conversion from URDF found it there.
+    Never touches: what differs between them, and other parts of a material, in place of which Gazebo would put these.
+    Diagnostics: none.
+    """
+
+    name: ClassVar[str] = "share-visuals"
+
+    def run_model(self, model: Model, keeper: Keeper) -> Model:
+        """The model with shared parts of visuals in extensions."""
+        links: list[Link] = []
+        extensions = list(model.extensions)
+        for link in model.links:
+            kept, content = _shared(link)
+            links.append(kept)
+            if content:
+                blob = Element(name="visual", children=tuple(content))
+                extensions.append(GazeboExtension(reference=link.name, content=(blob,), source=link.source))
+        if all(new is old for new, old in zip(links, model.links, strict=True)):
+            return model
+        return model.model_copy(update={"links": tuple(links), "extensions": tuple(extensions)})
+
+
+def _shared(link: Link) -> tuple[Link, list[Element]]:
+    """The link without what its visuals have alike, and that."""
+    look = find_mark(link, LOOK) is not None
+    link = without_mark(link, LOOK)
+    if not link.visuals:
+        return link, []
+    content: list[Element] = []
+    visuals = link.visuals
+    if look and _have_one_material(visuals):
+        content += to_element(Visual(name="", material=visuals[0].material), "visual", "sdf").children
+        visuals = tuple(visual.model_copy(update={"material": None}) for visual in visuals)
+    parts = [_rest(visual) for visual in visuals]
+    if parts[0] and all(part == parts[0] for part in parts[1:]):
+        content += parts[0]
+        visuals = tuple(_without_rest(visual) for visual in visuals)
+    return (link if visuals is link.visuals else link.model_copy(update={"visuals": visuals})), content
+
+
+def _have_one_material(visuals: tuple[Visual, ...]) -> bool:
+    first = visuals[0].material
+    plain = first is not None and first.name is None and first.color is None and first != Material()
+    return plain and all(visual.material == first for visual in visuals[1:])
+
+
+def _rest(visual: Visual) -> tuple[Element, ...]:
+    """What only SDF has words for, besides materials."""
+    bare = visual.model_copy(update={"material": None, "pose": None, "geometry": None})
+    _, pieces, _ = take_remainder(bare, "visual", urdf_words("link", "visual"))
+    elements = tuple(piece.element for piece in pieces if piece.element and not piece.at)
+    if len(elements) != len(pieces) or any(_is_special(element) for element in elements):
+        return ()
+    return elements
+
+
+def _is_special(element: Element) -> bool:
+    """Whether Gazebo or we would take it for something else in an extension."""
+    return element.name.startswith("{") or element.name in LINK_TAGS or element.name in _OF_MATERIALS | _IN_FRAMES
+
+
+def _without_rest(visual: Visual) -> Visual:
+    kept, _, _ = take_remainder(visual.model_copy(update={"material": None}), "visual", urdf_words("link", "visual"))
+    return kept.model_copy(update={"material": visual.material})

@@ -1,0 +1,27 @@
+"""URIs of SDF as URDF has them."""
+
+from typing import TypeVar
+
+from twinform.diagnostics.rules import to_urdf as rules
+from twinform.ir import Collision, Visual
+from twinform.passes.legalise.marks import find_mark, without_mark
+from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.legalise.uri_schemes import GAZEBO, package_uri, scheme_of
+
+Shape = TypeVar("Shape", Visual, Collision)
+
+
+def urdf_uri(shape: Shape, kind: str, written: str, keeper: Keeper) -> tuple[Shape, str]:
+    """A URI in a visual or collision for ROS, and the shape with a mark if SDF would have another scheme for it.
+
+    `kind` is the mark's. One that came from URDF with the scheme of Gazebo keeps that.
+    """
+    mark = find_mark(shape, kind)
+    shape = without_mark(shape, kind)
+    if mark is not None and mark.get("scheme") == scheme_of(written) == GAZEBO:
+        return shape, written
+    uri, lost = package_uri(written)
+    if lost:
+        keeper.account(rules.SDF_ONLY, f"{written!r} has the scheme that model:// becomes", shape.location, 1)
+        shape = keeper.mark(shape, kind, attributes={"scheme": scheme_of(written)})
+    return shape, uri

@@ -1,0 +1,66 @@
+"""Pieces of URDF that travel in SDF: what they name, and whether they still fit there."""
+
+from collections.abc import Iterator
+
+from twinform.ir import Element, Joint, Link, Model, Node, Opaque
+from twinform.passes.legalise.gazebo_tags import LINK_TAGS
+
+_ABOUT_JOINTS = frozenset({"transmission", "ros2_control"})
+_OF_AN_AXIS = frozenset({"axis", "limit", "dynamics", "mimic"})
+_WITHOUT_AXIS = frozenset({"fixed", "floating", "planar"})
+_ENDS = frozenset({"lower", "upper"})
+_ENDLESS = frozenset({"continuous"})
+
+
+def joints_of(element: Element) -> Iterator[str]:
+    """The joints that an element at the level of the robot is about."""
+    if element.name in _ABOUT_JOINTS:
+        yield from (child.get("name") or "" for child in element.children if child.name == "joint")
+
+
+def misfit(piece: Opaque, node: Node) -> str:
+    """Why a piece cannot stand in a node as that is by now; empty where it can. The node says things as URDF does."""
+    if isinstance(node, Model):
+        return _misfit_of_model(piece, node)
+    return _misfit_of_joint(piece, node) if isinstance(node, Joint) else ""
+
+
+def _misfit_of_joint(piece: Opaque, joint: Joint) -> str:
+    attribute = piece.attribute[0] if piece.attribute else ""
+    if piece.at == "limit" and (joint.axis is None or not joint.axis.limit):
+        return "the joint has no limits any more"
+    if piece.at == "limit" and attribute in _ENDS and joint.type not in _ENDLESS:
+        return f"the joint is {joint.type} and has limits of its own"
+    if piece.element and not piece.at and piece.element.name in _OF_AN_AXIS and joint.type not in _WITHOUT_AXIS:
+        return f"the joint is {joint.type} and says so itself"
+    return ""
+
+
+def _would_act(element: Element, link: Link) -> bool:
+    """Whether a tag about shapes, which travelled because there were none, would change those of a link."""
+    tag = LINK_TAGS.get(element.name)
+    about_collisions = element.name == "collision" or (tag is not None and tag.target in {"surface", "collision"})
+    about_visuals = element.name == "visual" or (tag is not None and tag.target == "visual")
+    return (about_collisions and bool(link.collisions)) or (about_visuals and bool(link.visuals))
+
+
+def _misfit_of_model(piece: Opaque, model: Model) -> str:
+    """What an element at the level of the robot names and what is gone."""
+    element = piece.element
+    if element is None:
+        return ""
+    if element.name == "link":
+        return "the robot has no such link any more"
+    if element.name == "material":
+        return "it says nothing that URDF understands"
+    names = {joint.name for joint in model.joints}
+    names |= {each.get("name") or "" for one in model.extensions for each in one.content if each.name == "joint"}
+    reference = element.get("reference") if element.name == "gazebo" else None
+    if reference and reference not in names and all(link.name != reference for link in model.links):
+        return f"there is no link or joint {reference!r}"
+    link = next((each for each in model.links if reference and each.name == reference), None)
+    idle = next((each.name for each in element.children if link and _would_act(each, link)), None)
+    if idle is not None:
+        return f"<{idle}> had nothing to act on in link {reference!r}, and would have by now"
+    gone = next((name for name in joints_of(element) if name not in names), None)
+    return "" if gone is None else f"there is no joint {gone!r}"

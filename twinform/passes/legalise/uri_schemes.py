@@ -1,0 +1,31 @@
+"""`package://`, where ROS looks for files, and `model://`, where Gazebo does.
+
+A mark says which scheme a URI had where the reverse conversion would write another:
+
+    <tf:mesh scheme="package"/>   <tf:texture scheme="package"/>
+"""
+
+ROS, GAZEBO = "package", "model"
+MESH_SCHEME, TEXTURE_SCHEME = "mesh", "texture"
+"""The marks on a visual or collision."""
+
+
+def package_uri(uri: str) -> tuple[str, bool]:
+    """A URI of SDF as URDF has it, and whether the reverse conversion would write another one."""
+    return with_scheme(uri, ROS, GAZEBO), scheme_of(uri) == ROS
+
+
+def model_uri(uri: str) -> tuple[str, bool]:
+    """A URI of URDF as SDF has it, and whether the reverse conversion would write another one."""
+    return with_scheme(uri, GAZEBO, ROS), scheme_of(uri) == GAZEBO
+
+
+def with_scheme(uri: str, scheme: str, instead_of: str) -> str:
+    """The URI with a scheme in the place of another, if it has that one."""
+    old = f"{instead_of}://"
+    return f"{scheme}://{uri[len(old) :]}" if uri.startswith(old) else uri
+
+
+def scheme_of(uri: str | None) -> str:
+    """What stands before `://`; empty where nothing does."""
+    return (uri or "").partition("://")[0] if "://" in (uri or "") else ""
