@@ -6,11 +6,14 @@ from collections import Counter
 from collections.abc import Iterable
 from itertools import groupby
 
+from benchmarks.astray import COLUMNS as COLUMNS_OF_ASTRAY
+from benchmarks.astray import by_place
 from benchmarks.known import known
 from benchmarks.markdown import table, write
-from tests.corpus.examine import MOST_ROBOTS, SDF_VERSION, Examined, examine
+from tests.corpus.examine import Examined, examine
 from tests.corpus.examine_xacro import Expanded, examine_xacro
 from tests.corpus.files import CORPUS, MISSING, ROOT, CorpusFile, Kind, corpus_files, models, xacro_files
+from tests.corpus.there_and_back import MOST_ROBOTS, SDF_VERSION
 from twinform.testing.workers import Failure, run
 
 PAGE = ROOT / "docs" / "reference" / "corpus.md"
@@ -29,8 +32,10 @@ models the first {MOST_ROBOTS}, one by one; includes only where there are no oth
 format and version. *Identical* means that a comparison of XML trees, which knows nothing of the compiler, finds the
 text equal to the file but for white space, comments, the spelling of numbers and the order of unlike siblings.
 *Unaccounted* are elements and attributes that `convert --audit` finds neither in the result nor in the ledger. *Home*
-means that the result of the conversion was converted back, and that the document of the source came out of it: equal in
-the IR, in the version that it had.
+means that the result of the conversion was converted back, to the version of the source, and that it is the same robot
+by `twinform diff` and has the same [normal form](../explanation/there_and_back.md) as the source: every name, attribute
+and text that is not the spelling of a default is back, and nothing else has come along. Of a world, the source is the
+model alone, with what it includes.
 
 Files that others accept and that are refused here, and accepted ones that are not converted, each have their reason in
 `benchmarks/corpus_known.toml`; one without is a broken promise.
@@ -108,9 +113,7 @@ def _sections(outcomes: list[Outcome], macros: list[Expanded], seconds: float) -
     yield "## Files accepted and not converted\n\n" + _not_converted(found)
     yield "## Files refused that another reader accepts\n\n" + _stricter_than_others(outcomes)
     yield "## Files not identical\n\n" + _listed((one.name, one.difference) for one in found if one.difference)
-    yield "## Files converted that do not come home\n\n" + _listed(
-        (one.name, one.astray) for one in found if one.astray
-    )
+    yield "## What does not come home, by kind\n\n" + _not_home(found)
     yield "## Broken promises\n\n" + _listed(_faults(outcomes, macros))
 
 
@@ -202,6 +205,12 @@ def _stricter_than_others(outcomes: list[Outcome]) -> str:
         rows = [(one.name, ", ".join(one.refused_by), known().why_refused(one.name) or _UNEXPLAINED) for one in refused]
         parts.append(table(["file", "rule", "why that is right"], rows) if rows else "")
     return "\n\n".join(part.strip() for part in parts if part)
+
+
+def _not_home(found: list[Examined]) -> str:
+    rows = by_place((one.name, one.astray) for one in found)
+    more = f"\n{len(rows) - MOST_SHOWN} more.\n" if len(rows) > MOST_SHOWN else ""
+    return table(COLUMNS_OF_ASTRAY, rows[:MOST_SHOWN]) + more if rows else "Nothing."
 
 
 def _listed(rows: Iterable[tuple[str, str]]) -> str:

@@ -19,8 +19,9 @@ from lxml import etree
 
 import twinform
 from benchmarks.markdown import table, write
-from tests.corpus.examine import robots, rules_of
+from tests.corpus.examine import rules_of
 from tests.corpus.files import CORPUS, MISSING, ROOT, CorpusFile, Kind, corpus_files
+from tests.corpus.there_and_back import robots
 from twinform.testing.oracles.libsdformat import MISSING as NO_LIBRARY
 from twinform.testing.oracles.libsdformat import available
 from twinform.testing.oracles.libsdformat.library import RobotRow, describe

@@ -10,8 +10,8 @@ from lxml import etree
 
 import twinform
 from benchmarks.mapping_rows import Place, Row, places
-from tests.corpus.examine import robots
 from tests.corpus.files import ROOT
+from tests.corpus.there_and_back import robots
 from twinform.compiler.audit import bare_path, fates
 from twinform.diagnostics import Diagnostic, Entry, Location, Severity
 from twinform.ir import Document, Format

@@ -17,8 +17,9 @@ from typing import Literal
 import twinform
 from benchmarks.markdown import table, write
 from benchmarks.sdf_printing import available, printed
-from tests.corpus.examine import robots, rules_of
+from tests.corpus.examine import rules_of
 from tests.corpus.files import CORPUS, MISSING, ROOT, CorpusFile, Kind, models
+from tests.corpus.there_and_back import robots
 from twinform.compiler.audit import audit
 from twinform.compiler.compare.comparison import Difference
 

@@ -8,14 +8,12 @@ from statistics import median
 from twinform.compiler.driver import plan
 from twinform.compiler.emitting import serialised, written_version
 from twinform.compiler.loading import garbage_collection_paused
-from twinform.compiler.memory import remember
 from twinform.compiler.parsing import parse
 from twinform.compiler.sdf import back_end
 from twinform.compiler.urdf import front_end
 from twinform.diagnostics import Notes
 from twinform.ir import Document
 from twinform.ir.verify import verify
-from twinform.passes import NO_ASSETS
 from twinform.schemas import Context, libxml2_errors
 
 
@@ -57,7 +55,7 @@ def _convert(text: bytes, sdf_version: str, stages: Stages) -> None:
         context = Context(notes, notes.file, "urdf", (1, 0), clean=clean, simple=simple)
         data = front_end.lower(root, context)
     with stages.time("pydantic"):
-        document = source = Document.model_validate({**data})
+        document = Document.model_validate({**data})
     with stages.time("verify"):
         verify(document, notes)
     with stages.time("legalisation passes"):
@@ -70,6 +68,4 @@ def _convert(text: bytes, sdf_version: str, stages: Stages) -> None:
     with stages.time("XSD of the output"):
         libxml2_errors(root, "sdf", version)
     with stages.time("serialise"):
-        made = serialised(root, document)
-    with stages.time("the way back, and what it does not find"):
-        remember(source, made.encode(), NO_ASSETS)
+        serialised(root, document)

@@ -7,16 +7,12 @@ import pytest
 import twinform
 from benchmarks.mapping_measure import CASES, measured, ways
 from benchmarks.mapping_rows import FORMATS, FormatName, rows
-from tests.corpus.examine import robots
-from tests.corpus.ir_difference import first_difference as first_ir_difference
+from tests.corpus.there_and_back import robots
 from tests.oracles.xml_trees import first_difference
 from twinform.compiler.audit import audit
-from twinform.compiler.emitting import emit
-from twinform.compiler.memory.document import forget
-from twinform.diagnostics import Fate, Notes, Severity
+from twinform.diagnostics import Fate, Severity
 from twinform.ir import Document, Format
-from twinform.passes.legalise.sdf_versions.comparison import comparable
-from twinform.passes.legalise.to_urdf.select_model import SelectModel
+from twinform.testing.round_trips import RoundTrip
 
 
 def _name(path: Path) -> str:
@@ -86,13 +82,12 @@ def test_the_other_format_drops_nothing_of_a_robot(path: Path) -> None:
 
 
 @pytest.mark.parametrize("path", _FILES, ids=_name)
-def test_the_way_home_gives_the_same_ir(path: Path) -> None:
+def test_it_comes_home_from_the_other_format_as_it_was(path: Path) -> None:
     document = _read(path)
-    home = _home(path)
-    for robot in robots(document) if home == "sdf" else [None]:
-        there = twinform.convert(path, to="urdf" if home == "sdf" else "sdf", model=robot)
-        back = twinform.convert(there.text.encode(), to=home)
-        assert first_ir_difference(comparable(_alone(document, robot)), comparable(forget(back.document))) is None
+    for robot in robots(document):
+        there = twinform.convert(path, to="urdf" if _home(path) == "sdf" else "sdf", model=robot)
+        trip = RoundTrip.of(path, document, model=robot)
+        assert [one.message for one in trip.astray(trip.back(there.text))] == []
 
 
 @pytest.mark.parametrize("path", _OLD_WORDS, ids=_name)
@@ -123,13 +118,6 @@ def test_the_audit_does_not_take_a_whole_file_for_carried() -> None:
     assert made.source is not None
     counted = audit(made.source, made.text, made.ledger)
     assert (counted.expressed, counted.carried) == (made.ledger.expressed, made.ledger.count(Fate.CARRIED))
-
-
-def _alone(document: Document, robot: str | None) -> Document:
-    """What has to come back: the document, or the text of the one model of it that was chosen."""
-    if robot is None:
-        return document
-    return twinform.loads(emit(SelectModel(model=robot).run(document, Notes()), Notes()))
 
 
 def _home(path: Path) -> FormatName:

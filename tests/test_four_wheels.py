@@ -104,8 +104,15 @@ def test_limits_that_are_not_written_are_not_zero() -> None:
 def test_joint_types_stay_what_they_are() -> None:
     types = {joint.attrib["name"]: joint.attrib["type"] for joint in _urdf("four_wheels.urdf").iterfind("joint")}
     assert len(set(types.values())) >= 3
-    for converted in (_sdf("four_wheels.urdf"), _urdf_again("four_wheels.urdf")):
-        assert {joint.attrib["name"]: joint.attrib["type"] for joint in converted.iterfind(".//joint[@type]")} == types
+    again = _urdf_again("four_wheels.urdf")
+    assert {joint.attrib["name"]: joint.attrib["type"] for joint in again.iterfind("joint")} == types
+    # what turns without an end is revolute without limits in SDF
+    in_sdf = {name: "revolute" if kind == "continuous" else kind for name, kind in types.items()}
+    made = _sdf("four_wheels.urdf")
+    assert {joint.attrib["name"]: joint.attrib["type"] for joint in made.iterfind(".//joint[@type]")} == in_sdf
+    endless = [joint for joint in made.iterfind(".//joint[@type]") if types[joint.attrib["name"]] == "continuous"]
+    assert len(endless) == 4
+    assert all(joint.find("axis/limit/lower") is None and joint.find("axis/limit/upper") is None for joint in endless)
 
 
 def test_colours_named_and_inline_are_written() -> None:
@@ -146,7 +153,8 @@ def test_axes_are_those_that_were_meant() -> None:
         assert _numbers(_one(_joint(_sdf("four_wheels.urdf"), name), "axis/xyz").text) == axis
     again = _one(_joint(_urdf_again("four_wheels.urdf"), "front_right_wheel_joint"), "axis")
     assert _numbers(again.get("xyz")) == axes["front_right_wheel_joint"]
-    assert _joint(_urdf_again("four_wheels.urdf"), "left_lid_joint").find("axis") is None  # nor had the source one
+    lid = _one(_joint(_urdf_again("four_wheels.urdf"), "left_lid_joint"), "axis")
+    assert _numbers(lid.get("xyz")) == [1, 0, 0]  # the default, which the source leaves out
 
 
 def test_a_fixed_joint_has_no_axis() -> None:

@@ -30,7 +30,6 @@ WITHOUT_CASE = {
     "unbridged-topic": "unit/passes/plugins/test_bridge.py",
     "unreadable-mesh": "unit/passes/test_meshes.py",
     "unused-argument": "unit/compiler/test_xacro.py",
-    "unwritten-file": "unit/passes/plugins/test_bridge.py",
     "wheels-not-measured": "unit/passes/plugins/test_add_plugin.py",
     "xacro-message": "unit/compiler/test_xacro.py",
     "xacro-missing": "unit/compiler/test_xacro.py",

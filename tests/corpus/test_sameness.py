@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 import twinform
-from tests.corpus.examine import robots
 from tests.corpus.files import ROOT, CorpusFile, Kind, chunks
+from tests.corpus.there_and_back import robots
 
 _EVERY = 10
 """One file of so many is tried; `make sameness` tries all."""

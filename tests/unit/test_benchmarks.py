@@ -9,10 +9,12 @@ import pytest
 
 import twinform
 from benchmarks import robots
+from benchmarks.astray import by_place
 from benchmarks.known import Known
 from benchmarks.markdown import table
 from benchmarks.mutants import is_assertion, is_wording
 from tests.oracles import urdfdom
+from twinform.testing.round_trips import Astray
 from twinform.testing.workers import Failure, run
 
 
@@ -113,3 +115,11 @@ def test_mutants_that_change_what_is_zipped_take_more(after: str):
 def test_the_type_of_a_cast_is_an_assertion(after: str) -> None:
     assert is_assertion(('-x = f(cast("Node", old or ()), 1)', f"+x = f(cast({after}, old or ()), 1)"))
     assert not is_assertion(('-x = f(cast("Node", old or ()), 1)', f"+x = f(cast({after}, old and ()), 1)"))
+
+
+def test_what_is_astray_is_counted_by_kind_and_place_whatever_it_is_called():
+    lost = [Astray("missing", f"/robot/link[@name='{name}']/@type", f"{name} is not back") for name in "abc"]
+    assert by_place([("y", lost[1:]), ("x", [*lost[:1], Astray("order", "/robot/joint[2]", "order")])]) == [
+        (2, 3, "missing", "/robot/link/@type", "x: a is not back"),
+        (1, 1, "order", "/robot/joint", "x: order"),
+    ]

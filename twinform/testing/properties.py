@@ -3,6 +3,7 @@
 A model is a document, a path, or the text or bytes of a file.
 """
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Literal
 
@@ -15,6 +16,9 @@ from twinform.diagnostics.reporters import REPORTERS, Findings
 from twinform.ir import Document
 from twinform.ir.verify import verify
 from twinform.passes import Pass
+from twinform.testing.edits import Edit, apply_all
+from twinform.testing.edits.judging import judge_edits, unedited
+from twinform.testing.round_trips import RoundTrip
 
 Model = Document | Path | str | bytes
 Language = Literal["urdf", "sdf", "json"]
@@ -31,27 +35,51 @@ def assert_valid(model: Model, *, strict: bool = False) -> Document:
 
 
 def assert_round_trip(model: Model, *, via: Language | None = None, sdf_version: str | None = None) -> None:
-    """There and back is the same document: written and read, or through the other format and home.
+    """There and back: written and read it is the same document; through the other format the same robot and words.
 
-    `sdf_version` is the version of SDF to go through.
+    Through the other format, every name, attribute and text that is not the spelling of a default is back, and nothing
+    else has come along: `twinform.normal_form`. `sdf_version` is the version of SDF to go through.
     """
     document = assert_valid(model)
-    text, _ = _text(model if not isinstance(model, Path) or model.suffix == ".xacro" else document)
-    if via is None or via == document.format:
-        again = assert_valid(_emitted(document))
-    elif via == "json":
-        again = assert_valid(_converted(text, "json"))
-    else:
-        there = _converted(text, via, sdf_version if via == "sdf" else None)
-        assert_valid(there)
-        again = assert_valid(_converted(there.encode(), document.format.value))
-    assert again == document, f"the document is another one {'once read again' if via is None else f'after {via}'}"
+    source, _ = _text(model if not isinstance(model, Path) or model.suffix == ".xacro" else document)
+    if via in (None, "json", document.format.value):
+        again = assert_valid(_converted(source, "json") if via == "json" else _emitted(document))
+        assert again == document, f"the document is another one {'once read again' if via != 'json' else 'after json'}"
+        return
+    there = _converted(source, via, sdf_version if via == "sdf" else None)
+    assert_valid(there)
+    trip = RoundTrip.of(source, document)
+    try:
+        astray = [one.message for one in trip.astray(trip.back(there))]
+    except CompileError as error:
+        raise AssertionError(f"it does not come back from {via}:\n{_report('', error.diagnostics)}") from error
+    assert not astray, f"it does not come back from {via} as it was:\n" + "\n".join(astray[:20])
 
 
 def assert_same_robot(one: Model, other: Model) -> None:
     """Two models describe the same robot, of whatever formats."""
     found = diff(_text(one)[0], _text(other)[0]).differences
     assert not found, "they are not the same robot:\n" + "\n".join(each.message for each in found[:20])
+
+
+def assert_edits_win(model: Model, edits: Iterable[Edit], *, sdf_version: str | None = None) -> None:
+    """What stands in a file is what counts: a model is converted, edited, and converted on.
+
+    The edited file and its result are the same robot, also for those who do not know our carriers, or the edited file
+    is refused by an error with a line.
+    """
+    text, _ = _text(model)
+    is_urdf = assert_valid(model).format == "urdf"
+    there = _converted(text, "sdf" if is_urdf else "urdf", sdf_version if is_urdf else None)
+    assert_edits_of_a_file_win(there.encode(), edits)
+
+
+def assert_edits_of_a_file_win(converted: bytes, edits: Iterable[Edit]) -> None:
+    """The same of a file that was converted before."""
+    every = tuple(edits)
+    verdict = judge_edits(unedited(converted), every, apply_all(every, converted))
+    said = "\n".join(map(str, every))
+    assert not verdict.is_fault, "\n".join((f"{verdict.outcome} after {said}:", *verdict.differences[:20]))
 
 
 def assert_pass_contract(step: Pass, model: Model, *, idempotent: bool = False) -> Document:

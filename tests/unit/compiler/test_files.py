@@ -7,7 +7,7 @@ import pytest
 from click.testing import CliRunner
 
 from twinform.cli import main
-from twinform.compiler import write_atomically
+from twinform.compiler import write_all_atomically, write_atomically
 
 _GOOD = '<robot name="r"><link name="a"/></robot>'
 _BAD = '<robot name="r"><link name="a"/><link name="a"/></robot>'
@@ -25,14 +25,6 @@ def test_a_bad_file_leaves_the_output_untouched(tmp_path: Path) -> None:
     assert result.exit_code == 1
     assert out.read_text() == "as it was"
     assert _names(tmp_path) == ["bad.urdf", "out.sdf"]
-
-
-def test_output_may_be_the_input(tmp_path: Path) -> None:
-    file = tmp_path / "robot.urdf"
-    file.write_text(_GOOD)
-    result = CliRunner().invoke(main, ["convert", str(file), "--to", "urdf", "-o", str(file)])
-    assert result.exit_code == 0
-    assert '<link name="a"/>' in file.read_text()
 
 
 @pytest.mark.parametrize("call", ["fsync", "fdopen"])
@@ -86,3 +78,71 @@ def test_a_file_in_the_way_of_a_folder_is_an_error_that_names_what_is_written(tm
     (tmp_path / "models").write_text("a file")
     with pytest.raises(OSError, match=r"a file stands where its folder would be.*robot\.sdf"):
         write_atomically(tmp_path / "models" / "robot.sdf", "new")
+
+
+def _three(folder: Path) -> dict[Path, str]:
+    """Texts for a file that is there, one in a new folder, and one more that is there."""
+    (folder / "a.sdf").write_text("old a")
+    (folder / "c.sdf").write_text("old c")
+    (folder / "c.sdf").chmod(0o640)
+    return {folder / "a.sdf": "a", folder / "new/b.sdf": "b", folder / "c.sdf": "c"}
+
+
+def _is_as_it_was(folder: Path) -> bool:
+    texts = [(folder / name).read_text() for name in ("a.sdf", "c.sdf")]
+    return texts == ["old a", "old c"] and _names(folder) == ["a.sdf", "c.sdf"]
+
+
+def test_several_files_are_written_together(tmp_path: Path) -> None:
+    texts = _three(tmp_path)
+    write_all_atomically(texts)
+    assert {path: path.read_text() for path in texts} == texts
+    assert (tmp_path / "c.sdf").stat().st_mode & 0o777 == 0o640
+    assert _names(tmp_path) == ["a.sdf", "c.sdf", "new"]
+    assert _names(tmp_path / "new") == ["b.sdf"]
+
+
+@pytest.mark.parametrize(
+    "fault", [OSError(28, "No space left on device"), KeyboardInterrupt()], ids=["full", "stopped"]
+)
+@pytest.mark.parametrize("links", [True, False], ids=["links", "no links"])
+@pytest.mark.parametrize("last", ["a.sdf", "b.sdf", "c.sdf"])
+def test_a_move_that_fails_takes_the_others_back(
+    last: str, links: bool, fault: BaseException, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    texts, real, moved = _three(tmp_path), Path.replace, list[str]()
+
+    def replace(path: Path, target: Path) -> Path:
+        if target.name == last and last not in moved:  # what is put back comes by here too
+            moved.append(last)
+            raise fault
+        return real(path, target)
+
+    def no_link(*_: object) -> None:
+        raise OSError(1, "Operation not permitted")
+
+    monkeypatch.setattr(Path, "replace", replace)
+    if not links:
+        monkeypatch.setattr(os, "link", no_link)
+    with pytest.raises(type(fault)):
+        write_all_atomically(texts)
+    assert moved == [last]
+    assert _is_as_it_was(tmp_path)
+
+
+def test_what_fails_before_the_moves_leaves_nothing(tmp_path: Path) -> None:
+    def fail() -> None:
+        assert _names(tmp_path / "new") != []  # all is written by now
+        raise OSError(28, "No space left on device")
+
+    with pytest.raises(OSError, match="No space"):
+        write_all_atomically(_three(tmp_path), fail)
+    assert _is_as_it_was(tmp_path)
+
+
+def test_a_link_that_leads_to_itself_is_an_error_in_words(tmp_path: Path) -> None:
+    link = tmp_path / "round.sdf"
+    link.symlink_to(link)
+    with pytest.raises(OSError, match=r"a symbolic link that leads to itself.*round\.sdf"):
+        write_atomically(link, "new")
+    assert link.is_symlink()

@@ -179,7 +179,7 @@ def test_a_file_of_fuel_comes_from_the_cache(folder: Path, monkeypatch: pytest.M
 def test_urdf_is_made_of_an_included_model(folder: Path) -> None:
     path = _world(folder, "<include><uri>outer.sdf</uri></include>")
     links = [link.name for link in twinform.convert(path, to="urdf").document.models[0].links]
-    assert {"base", "arm::upper", "arm::lower"} <= set(links)
+    assert {"base", "arm__upper", "arm__lower"} <= set(links)
 
 
 def test_for_one_model_the_others_need_not_be_there(folder: Path) -> None:

@@ -10,8 +10,8 @@ from twinform.diagnostics import Notes
 from twinform.ir import Axis, Joint, Link, Mimic, Model, Pose
 from twinform.ir.frames import FrameGraph
 from twinform.ir.node import Vector3
-from twinform.passes.legalise.gearboxes import Relation, UngearedError, relation
-from twinform.passes.legalise.marks import made_fields, mark_made
+from twinform.passes.legalise.gearboxes import GEARED, Relation, UngearedError, relation
+from twinform.passes.legalise.marks import find_mark, mark_made, with_mark
 from twinform.passes.legalise.to_sdf.fold_gearboxes import FoldGearboxes
 
 ROBOT = """<sdf version='1.11'><model name='m'><link name='body'/><link name='motor'/>
@@ -136,7 +136,7 @@ def test_a_mimic_that_was_edited_is_marked_as_made_no_more():
     assert stale.location.path == "/robot[@name='m']/joint[@name='axle']"
     assert stale.location.line > 0
     assert mimics(made) == {"axle": Mimic(joint="drive", multiplier=-5.0)}
-    assert made_fields(joints(made)["axle"]) == ()
+    assert find_mark(joints(made)["axle"], GEARED) is None
     assert mimics(back(twinform.convert(made.text.encode(), to="urdf").text)) == mimics(made)
 
 
@@ -170,8 +170,8 @@ def test_the_mark_of_the_mimic_goes_and_every_other_stays(multiplier: float | No
     axle = turning("axle", "wheel", (0, 1, 0), Mimic(joint="drive", multiplier=multiplier))
     drive = turning("drive", "motor", (0, 0, 1))
     notes = Notes()
-    made = FoldGearboxes().run_model(geared(drive, mark_made(axle, "pose", "axis.mimic")), notes)
-    assert made.joints == (drive, mark_made(turning("axle", "wheel", (0, 1, 0), left), "pose"), GEARS)
+    made = FoldGearboxes().run_model(geared(drive, with_mark(mark_made(axle), GEARED)), notes)
+    assert made.joints == (drive, mark_made(turning("axle", "wheel", (0, 1, 0), left)), GEARS)
     assert [(each.rule.name, each.found) for each in notes.diagnostics] == ([("stale-carrier", "axle")] if left else [])
 
 

@@ -8,7 +8,8 @@ import twinform
 from twinform.compiler import Conversion
 from twinform.diagnostics import Fate
 from twinform.ir import Joint, Model
-from twinform.passes.legalise.marks import MADE
+from twinform.passes.legalise.joint_chains import CHAIN, PART
+from twinform.passes.legalise.marks import MADE, is_mark
 
 ROBOT = """<sdf version='1.11'><model name='m'>
 <link name='a'/><link name='b'><pose>1 0 2 0.1 0.2 0.3</pose></link><link name='c'><pose>0 0 3 0 0 0</pose></link>
@@ -21,6 +22,8 @@ TWO_AXES = """
 <limit><lower>-1</lower><upper>2</upper><effort>3</effort><velocity>4</velocity></limit></axis>
 <axis2><xyz>0 0.6 0.8</xyz><limit><lower>-0.5</lower><upper>0.25</upper><effort>5</effort><velocity>6</velocity></limit>
 </axis2>"""
+MIMICS = """<axis><xyz>1 0 0</xyz></axis><axis2><xyz>0 1 0</xyz>
+<mimic joint='k'><multiplier>2</multiplier><offset>0.25</offset><reference>0.5</reference></mimic></axis2>"""
 DAMPED = "<axis><xyz>0 1 0</xyz><dynamics><damping>0.25</damping></dynamics></axis>"
 Z = "<axis><xyz>0 0 1</xyz></axis>"
 PHYSICS = "<physics><ode><cfm_damping>1</cfm_damping></ode></physics>"
@@ -29,6 +32,7 @@ SENSOR = "<sensor name='ft' type='force_torque'><update_rate>30</update_rate></s
 JOINTS = [
     ("universal", TWO_AXES),
     ("universal", TWO_AXES + PHYSICS + SENSOR),
+    ("universal", MIMICS),
     ("revolute2", TWO_AXES),
     ("revolute2", "<axis><xyz>0 0 1</xyz></axis><axis2><xyz>0 0 1</xyz></axis2>"),
     ("ball", ""),
@@ -171,16 +175,20 @@ EDITS = [
     (
         "universal",
         TWO_AXES,
-        'tf:made="." tf:part_of="j"/>',
-        'tf:part_of="j"><inertial><mass value="1"/></inertial></link>',
+        '<link name="j_axis_link">',
+        '<link name="j_axis_link"><inertial><mass value="1"/></inertial>',
     ),
     ("universal", TWO_AXES, 'type="revolute"', 'type="prismatic"'),
-    ("universal", TWO_AXES, 'tf:type="universal"', 'tf:type="piston"'),
+    ("universal", TWO_AXES, '<tf:chain type="universal"/>', '<tf:chain type="piston"/>'),
+    ("universal", TWO_AXES, '<tf:part joint="j"/>', '<tf:part joint="k"/>'),
+    ("universal", TWO_AXES, '<tf:part joint="j"/>', ""),
     ("ball", "", '<axis xyz="0 1 0"/>', '<axis xyz="0 1 1"/>'),
     ("ball", DAMPED, '<dynamics damping="0.25"/>', '<dynamics damping="0.5"/>'),
     ("screw", Z, '<mimic joint="j" ', '<mimic joint="k" '),
     ("screw", Z, "<mimic ", '<mimic offset="1" '),
     ("screw", Z, '<axis xyz="0 0 1"/>', '<axis xyz="0 1 0"/>'),
+    ("ball", DAMPED, "<damping>0.25</damping>", "<damping>a lot</damping>"),
+    ("universal", MIMICS, '<tf:mimic reference="0.5"/>', '<tf:mimic reference="half"/>'),
 ]
 
 
@@ -192,8 +200,8 @@ def test_an_edited_chain_stays_as_it_stands(kind: str, inside: str, old: str, ne
     assert "stale-carrier" in rules(made)
     again = robot(made.text)
     assert len(again.joints) == (4 if kind == "ball" else 3)
-    parts = [part for node in (*again.links, *again.joints) for part in node.opaque if part.attribute]
-    assert not [part.attribute for part in parts if part.name.endswith("part_of") or part.attribute == (MADE, ".")]
+    parts = [part for node in (*again.links, *again.joints) for part in node.opaque]
+    assert not [part for part in parts if is_mark(part, PART) or is_mark(part, CHAIN) or is_mark(part, MADE)]
 
 
 @pytest.mark.parametrize(
@@ -202,11 +210,15 @@ def test_an_edited_chain_stays_as_it_stands(kind: str, inside: str, old: str, ne
         (*EDITS[0], "joint 'j' is not where the others are"),
         (*EDITS[1], "link 'j_axis_link' has a body"),
         (*EDITS[2], "joint 'j_axis' does not turn"),
-        (*EDITS[4], "joint 'j_y' does not turn freely about (0.0, 1.0, 0.0)"),
-        (*EDITS[5], "its joints are damped unlike each other"),
-        (*EDITS[6], "joint 'j_slide' does not follow 'j'"),
-        (*EDITS[7], "joint 'j_slide' does not follow 'j'"),
-        (*EDITS[8], "it slides along another axis than it turns about"),
+        (*EDITS[4], "what is above 'j' is not of the chain"),
+        (*EDITS[5], "what is above 'j' is not of the chain"),
+        (*EDITS[6], "joint 'j_y' does not turn freely about (0.0, 1.0, 0.0)"),
+        (*EDITS[7], "its joints are damped unlike each other"),
+        (*EDITS[8], "joint 'j_slide' does not follow 'j'"),
+        (*EDITS[9], "joint 'j_slide' does not follow 'j'"),
+        (*EDITS[10], "it slides along another axis than it turns about"),
+        (*EDITS[11], "<damping> is 'a lot'; expected a number"),
+        (*EDITS[12], "joint 'j' does not mimic as it did"),
         (
             "universal",
             TWO_AXES,

@@ -115,7 +115,6 @@ def read(text: str, definition: str, *, simple: bool = False) -> dict[str, objec
         "tolerated": [[str(element.tag), what] for element, what in context.tolerated],
         "structural": context.structural,
         "header": context.header,
-        "namespaces": [list(each) for each in sorted(context.namespaces)],
         "aside": context.aside,
     }
 

@@ -1,4 +1,4 @@
-"""Rules: unbridged-topic, unwritten-file."""
+"""Rules: unbridged-topic."""
 
 import json
 from pathlib import Path
@@ -170,13 +170,15 @@ def test_the_text_is_yaml() -> None:
     assert values["direction"] == "GZ_TO_ROS"
 
 
-def test_the_pass_writes_the_file_and_changes_nothing(tmp_path: Path) -> None:
-    document, file = alone(plugins=plugin("diff-drive")), tmp_path / "bridge.yaml"
-    notes = Notes()
-    assert BridgeConfig(file=str(file)).run(document, notes) is document
-    assert file.read_text(encoding="utf-8").count("ros_topic_name") == 5
-    BridgeConfig(file=str(tmp_path / "no/such/folder.yaml")).run(document, notes)
-    assert [(each.rule.name, each.is_error) for each in notes.diagnostics] == [("unwritten-file", True)]
+def test_the_pass_makes_the_text_and_writes_and_changes_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    document, notes = alone(plugins=plugin("diff-drive")), Notes()
+    assert BridgeConfig(file="config/bridge.yaml").run(document, notes) is document
+    assert [each.path for each in notes.companions] == ["config/bridge.yaml"]
+    assert notes.companions[0].text.count("ros_topic_name") == 5
+    assert not any(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("release", ["fortress", "harmonic", "jetty"])

@@ -21,9 +21,18 @@ from .models import BOX, EVERYTHING, LINK, arm, convert, joint, link, lower, rea
             "//joint/tf:sdf[@at='axis/limit' or not(@at)]//dissipation/text()",
             ["3"],
         ),
-        (link(visual(BOX + "<transparency>0.5</transparency>")), "//visual/tf:sdf/transparency/text()", ["0.5"]),
-        (link("<pose>1 2 3 0 0 0</pose>"), "//link/tf:sdf/pose/text()", ["1 2 3 0 0 0"]),
-        (LINK, "/robot/tf:sdf[@at='/sdf']/@value", ["1.11"]),
+        (
+            link(visual(BOX + "<transparency>0.5</transparency>") + visual(BOX, "w")),
+            "//visual[@name='v']/tf:sdf/transparency/text()",
+            ["0.5"],
+        ),
+        (
+            LINK + link("<pose>1 2 3 0 0 0</pose>", "b") + joint("fixed", "<pose>0 0 -1 0 0 0</pose>"),
+            "//link[@name='b']/tf:offset/@*",
+            ["0 0 1"],
+        ),
+        (link("<pose>1 2 3 0 0 0</pose>"), "/robot/tf:offset/@* | //link/tf:*", ["-1 -2 -3"]),
+        (LINK, "/robot/tf:from/@*", ["sdf", "1.11"]),
     ],
 )
 def test_a_part_of_sdf_is_said_in_urdf(text: str, path: str, expected: list[str]) -> None:
@@ -40,7 +49,8 @@ def test_without_carriers_nothing_of_ours_is_left_and_the_ledger_says_dropped() 
 
 
 def test_carriers_unpack_to_the_pieces_as_they_were() -> None:
-    document, notes = read(link(visual(BOX + "<transparency>0.5</transparency><foo:bar xmlns:foo='urn:f'/>"))), Notes()
+    inside = BOX + "<transparency>0.5</transparency><foo:bar xmlns:foo='urn:f'/>"
+    document, notes = read(link(visual(inside) + visual(BOX, "w"))), Notes()
     made = Pipeline(to_urdf()).run(document, notes).models[0].links[0].visuals[0]
     pieces = [piece for part in made.opaque if is_carrier(part, "sdf") for piece in unpack(part)]
     assert [piece.name for piece in pieces] == ["<transparency>"]
@@ -49,7 +59,7 @@ def test_carriers_unpack_to_the_pieces_as_they_were() -> None:
     ]
 
 
-def test_a_model_that_needs_nothing_but_urdf_has_no_carriers_but_the_version() -> None:
+def test_a_model_that_needs_nothing_but_urdf_says_only_where_it_is_from() -> None:
     root = convert(
         link(
             "<inertial><mass>1</mass><inertia><ixx>1</ixx><ixy>0</ixy><ixz>0</ixz>"
@@ -62,8 +72,9 @@ def test_a_model_that_needs_nothing_but_urdf_has_no_carriers_but_the_version() -
             "<upper>1</upper><effort>1</effort><velocity>1</velocity></limit></axis>",
         )
     )
-    assert said(root, "//tf:sdf/@at") == ["/sdf"]
-    assert said(root, "/robot/joint/@tf:made | /robot/link/@tf:made") == []
+    assert said(root, "//tf:from/@*") == ["sdf", "1.11"]
+    assert said(root, "//tf:pose/@*") == ["j", "a"]  # the frames of both poses, which go without saying in URDF
+    assert len(said(root, "//tf:*")) == 3
 
 
 def values(root: XmlElement) -> set[str]:
@@ -74,5 +85,5 @@ def values(root: XmlElement) -> set[str]:
 
 def test_no_value_vanishes() -> None:
     source = etree.fromstring(f"<sdf version='1.11'><model name='m'>{EVERYTHING}</model></sdf>")
-    # without limits revolute is continuous, and the frame of a nested model is called as the model is
-    assert values(source) - values(convert(EVERYTHING)) == {"revolute", "__model__"}
+    # without limits revolute is continuous, and URDF has radians
+    assert values(source) - values(convert(EVERYTHING)) == {"revolute", "90"}

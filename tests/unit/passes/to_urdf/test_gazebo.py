@@ -2,7 +2,7 @@
 
 import pytest
 
-from .models import COLLISION, LINK, arm, convert, joint, link, said
+from .models import BOX, COLLISION, LINK, arm, convert, joint, link, said, visual
 
 
 @pytest.mark.parametrize(
@@ -25,7 +25,12 @@ from .models import COLLISION, LINK, arm, convert, joint, link, said
             ["3"],
         ),
         # what Gazebo reads
-        (link("<gravity>false</gravity>"), "//gazebo[@reference='a']/gravity/text()", ["false"]),
+        (link("<gravity>false</gravity>"), "//gazebo[@reference='a']/turnGravityOff/text()", ["true"]),
+        (
+            link(visual(BOX + "<transparency>0.5</transparency>")),
+            "//gazebo[@reference='a']/visual/transparency/text() | //visual/tf:*",
+            ["0.5"],
+        ),
         (
             link("<velocity_decay><linear>1</linear></velocity_decay>"),
             "//gazebo[@reference='a']/velocity_decay/linear/text()",
@@ -55,7 +60,7 @@ from .models import COLLISION, LINK, arm, convert, joint, link, said
                 "b",
             )
             + joint("fixed"),
-            "//sensor/pose[not(ancestor::tf:sdf)]/text() | //sensor/tf:sdf/pose/@relative_to",
+            "//sensor/pose/text() | //sensor/tf:pose/@*",
             ["-1 0 1 0 0 0", "a"],
         ),
         (
@@ -66,8 +71,8 @@ from .models import COLLISION, LINK, arm, convert, joint, link, said
                 "b",
             )
             + joint("fixed"),
-            "//sensor/camera/pose/text() | //sensor/camera/tf:sdf/pose/text()",
-            ["-1 0 1 0 0 0", "0 0 1 0 0 0"],
+            "//sensor/camera/pose/text() | //sensor/camera/tf:pose/@*",
+            ["-1 0 1 0 0 0", "a"],
         ),
         (
             LINK

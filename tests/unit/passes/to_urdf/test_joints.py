@@ -10,7 +10,7 @@ from .models import LINK, arm, convert, joint, link, lower, read, said
     [
         # inertials: SDF's defaults are written
         (LINK, "//mass/@value | //inertia/@*", ["1", "1", "0", "0", "1", "0", "1"]),
-        (LINK, "//inertial/@tf:made", ["."]),
+        (LINK, "//inertial/tf:*", []),
         (
             link("<inertial><mass>2</mass><inertia><ixx>3</ixx></inertia></inertial>"),
             "//mass/@value | //inertia/@*",

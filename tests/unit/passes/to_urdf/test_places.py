@@ -27,7 +27,7 @@ from .models import BOX, INNER, LINK, convert, joint, link, said, visual
         (link(visual("<pose degrees='true'>0 0 0 180 0 0</pose>" + BOX)), "//origin/@rpy", ["3.141592653589793 0 0"]),
         # frames
         (LINK + "<frame name='f' attached_to='a'><pose>1 0 0 0 0 0</pose></frame>", "//joint/origin/@xyz", ["1 0 0"]),
-        (LINK + "<frame name='f'/>", "//joint/@name | //link[@name='f']/*[not(self::tf:sdf)]", ["f_joint"]),
+        (LINK + "<frame name='f'/>", "//joint/@name | //link[@name='f']/*[not(self::tf:frame)]", ["f_joint"]),
         (
             LINK + "<frame name='f'/><joint name='f_joint' type='fixed'><parent>world</parent><child>a</child></joint>",
             "//joint/@name",
@@ -54,16 +54,19 @@ def test_a_part_of_sdf_is_said_in_urdf(text: str, path: str, expected: list[str]
 def test_the_frame_of_an_older_pose_is_honoured_and_carried_as_it_was() -> None:
     text = link("<pose>1 0 0 0 0 0</pose>") + link("<pose frame='a'>1 0 0 0 0 0</pose>", "b") + joint("fixed")
     root = convert(text, "1.6")
-    assert said(root, "//joint/origin/@xyz | //link[@name='b']/tf:sdf/pose/@*") == ["a", "1 0 0"]
+    assert said(root, "//joint/origin/@xyz | //link[@name='b']/tf:pose/@*") == ["a", "1 0 0"]
 
 
-def test_nested_models_come_up_with_scoped_names() -> None:
+def test_nested_models_come_up_with_names_of_their_scope() -> None:
     root = convert(LINK + INNER + "<joint name='o' type='fixed'><parent>a</parent><child>inner::l</child></joint>")
-    assert said(root, "/robot/link/@name") == ["a", "inner::l", "inner::k", "inner", "inner::f"]
-    assert said(root, "/robot/joint[@name='inner::j']/*/@link") == ["inner::l", "inner::k"]
+    assert said(root, "/robot/link/@name") == ["a", "inner__l", "inner__k", "inner", "inner__f"]
+    assert said(root, "/robot/joint[@name='inner__j']/*/@link") == ["inner__l", "inner__k"]
     assert said(root, "/robot/joint[@name='o']/origin/@xyz") == ["0 0 1"]
-    assert said(root, "/robot/joint[child/@link='inner::f']/parent/@link") == ["inner::k"]
-    assert said(root, "//tf:sdf/model/static/text()") == ["false"]
+    assert said(root, "/robot/joint[child/@link='inner__f']/parent/@link") == ["inner__k"]
+    assert said(root, "//link[@name='inner']/tf:nested/static/text()") == ["false"]
+    marks = said(root, "//tf:scoped-name/text()")
+    assert marks == ["inner::l", "inner::k", "inner::f", "inner::j"]
+    assert said(root, "//tf:scoped-name/@instead_of") == [name.replace("::", "__") for name in marks]
 
 
 def test_joints_between_frames_connect_their_links() -> None:
@@ -72,7 +75,7 @@ def test_joints_between_frames_connect_their_links() -> None:
     root = convert(text)
     assert said(root, "/robot/joint[@name='j']/*/@link") == ["a", "b"]
     assert said(root, "/robot/joint[@name='j']/origin/@xyz") == ["0 0 1"]
-    assert said(root, "/robot/joint[@name='j']/tf:sdf/*/text()") == ["f", "g"]
+    assert said(root, "/robot/joint[@name='j']/tf:ends/@*") == ["f", "g"]
 
 
 def test_a_link_that_is_posed_by_the_joint_that_is_cut_stays_where_it_is() -> None:

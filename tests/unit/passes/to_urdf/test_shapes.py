@@ -46,23 +46,23 @@ from .models import BOX, convert, link, read, said, visual
         ),
         (
             link(visual(BOX + "<material><diffuse>1 0 0 1</diffuse><ambient>1 0 0 1</ambient></material>")),
-            "//visual/tf:sdf",
+            "//visual/tf:*",
             [],
         ),
         (
             link(visual(BOX + "<material><diffuse>1 0 0</diffuse></material>")),
-            "//color/@rgba | //tf:sdf/diffuse/text()",
-            ["1 0 0 1", "1 0 0"],
+            "//color/@rgba | //tf:colors/@*",
+            ["1 0 0 1", "", "1 0 0 1"],
         ),
         (
             link(visual(BOX + "<material><diffuse>2 -1 0.5 7</diffuse></material>")),
-            "//color/@rgba | //tf:sdf/diffuse/text()",
-            ["1 0 0.5 1", "2 -1 0.5 7"],
+            "//color/@rgba | //tf:colors/@*",
+            ["1 0 0.5 1", "", "2 -1 0.5 7", "1 0 0.5 1"],
         ),
         (
             link(visual(BOX + "<material><ambient>1.5 1 -0.5</ambient></material>")),
-            "//color/@rgba | //tf:sdf/ambient/text()",
-            ["1 1 0 1", "1.5 1 -0.5"],
+            "//color/@rgba | //tf:colors/@*",
+            ["1 1 0 1", "1.5 1 -0.5", "", "1 1 0 1"],
         ),
         (
             link(visual(BOX + "<material><specular>1 0 0 1</specular></material>")),

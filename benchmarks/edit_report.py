@@ -1,0 +1,188 @@
+"""What `make edits` found, as a page and in a few lines."""
+
+import re
+import tomllib
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from benchmarks.edit_jobs import MOST_BYTES, Done, Tried, Way
+from benchmarks.judging import DRAKE
+from benchmarks.markdown import table, write
+from twinform.testing import oracles
+from twinform.testing.edits.judging import Outcome
+from twinform.testing.oracles.comparison import chained, renamed
+from twinform.testing.oracles.looking import look, versus
+from twinform.testing.oracles.robot import Robot, View
+from twinform.testing.workers import Failure, run
+
+KNOWN = Path(__file__).with_name("edits_known.toml")
+_TOLERANCE = 1e-9
+_WAYS = (Way.TO_SDF, Way.TO_URDF)
+INTRODUCTION = """# Edits win
+
+Made by `make edits`.
+
+Every model of the corpus that is accepted, and models that Hypothesis makes up, are converted; the converted file is
+edited as people edit files, or a built-in pass runs on it; and it is converted on, to the format that it came from. The
+robot of the edited file and that of the result have to be the same, by `twinform diff`: once as the edited file is, and
+once as those read it who do not know the carriers (the differences found so begin with *plainly*). An edit may instead
+be refused, by an error with a line. *Wrong* is everything else, *silent* what is wrong without so much as a warning.
+One in twenty of those that are the same is shown to Drake as well."""
+
+
+@dataclass(frozen=True, slots=True)
+class Drake:
+    """What Drake says of edited files and what became of them; `excused` are differences by their known reason."""
+
+    same: int = 0
+    unread: int = 0
+    faults: tuple[str, ...] = ()
+    excused: Mapping[str, int] = field(default_factory=dict[str, int])
+
+
+def is_fault(tried: Tried) -> bool:
+    """Whether an edit did not win."""
+    return tried.verdict.is_fault
+
+
+def drake_judged(done: list[Done], processes: int) -> Drake:
+    """The verdicts of Drake on the files that were kept for it."""
+    if not oracles.available(DRAKE):
+        return Drake()
+    pairs = {one.pair: one for each in done for one in each.tried if one.pair}
+    same, unread, faults, excused = 0, 0, list[str](), Counter[str]()
+    for pair, answer in run(_judged, list(pairs), seconds=60, processes=processes):
+        if isinstance(answer, Failure) or answer is None:
+            unread += 1
+        elif answer and (reason := _excuse(pair[0])):
+            excused[reason] += 1
+        elif answer:
+            faults.append(f"{pair[0].parent.name}: {pairs[pair].replay}: {answer}")
+        else:
+            same += 1
+    return Drake(same, unread, tuple(sorted(faults)), excused)
+
+
+def _excuse(edited: Path) -> str:
+    text = edited.read_text(encoding="utf-8")
+    known: list[dict[str, str]] = tomllib.loads(KNOWN.read_text(encoding="utf-8"))["drake"]
+    return next((each["reason"] for each in known if re.search(each["pattern"], text)), "")
+
+
+def _judged(pair: tuple[Path, Path]) -> str | None:
+    """What differs, nothing where nothing does, and None where Drake cannot read the edited file or what it was."""
+    edited, result = pair
+    try:
+        before = edited.with_stem("before")
+        unedited = versus(look(before, DRAKE), (before, result.with_stem("home")), (DRAKE, DRAKE))
+        source = look(edited, DRAKE)
+    except oracles.UnreadableError:
+        return None
+    if not unedited:
+        return None
+    try:
+        found = versus(source, pair, (DRAKE, DRAKE))
+    except oracles.UnreadableError as error:
+        return f"the result is not read: {error.cause}"
+    if not found:
+        return found.cause
+    if result.suffix == ".sdf" and unedited.alike is oracles.Alike.FRAMES:  # URDF has its links where their joints are
+        return _frames(source, result)
+    return ""
+
+
+def _frames(source: Robot, result: Path) -> str:
+    """Links whose frames are elsewhere, at the same joint positions."""
+    seen = look(result, DRAKE, View(reference=source.reference))
+    view = View(renamed(source, seen), source.reference, chained(source, seen))
+    seen = look(result, DRAKE, view)
+    if seen.reference != source.reference or chained(seen, source):
+        return ""
+    gaps = {
+        name: float(abs(before.poses[name] - after.poses[name]).max())
+        for before, after in zip(source.samples, seen.samples, strict=True)
+        for name in before.poses.keys() & after.poses.keys()
+    }
+    return "; ".join(f"frame of {name} is {gap:.2g} elsewhere" for name, gap in gaps.items() if gap > _TOLERANCE)
+
+
+def summary(done: list[Done], failures: list[str], drake: Drake) -> str:
+    """The table, and what else is to be known at once."""
+    tried = [one for each in done for one in each.tried]
+    differing, excused = sum(1 for each in done if each.differing), sum(drake.excused.values())
+    models = f"{len(done)} models, {differing} differ unedited; {len(tried)} edits and passes"
+    seen = f"{drake.same} same, {drake.unread} not read, {len(drake.faults)} different, {excused} excused"
+    return "\n".join((_table(tried), models, f"Drake: {seen}", *drake.faults[:20], *failures))
+
+
+def page(path: Path, done: list[Done], failures: list[str], drake: Drake, seed: int) -> None:
+    """Write the page."""
+    tried = [one for each in done for one in each.tried]
+    write(path, INTRODUCTION, *_sections(done, tried, failures, drake, seed))
+
+
+def _sections(done: list[Done], tried: list[Tried], failures: list[str], drake: Drake, seed: int) -> Iterator[str]:
+    used = [each for each in done if not each.left_out]
+    yield f"Seed {seed}: {len(used)} models, {len(tried)} edits and passes."
+    yield _table(tried)
+    yield f"Drake finds {drake.same} the same and {len(drake.faults)} different; {drake.unread} it does not read."
+    yield "## Wrong\n\n" + _faults(tried)
+    if drake.excused:
+        rows = sorted(drake.excused.items())
+        yield "Differences to Drake with a known cause:\n\n" + table(["cause", "edits"], rows)
+    if drake.faults:
+        yield "## Different in Drake\n\n" + "\n".join(f"- {fault}" for fault in drake.faults)
+    yield "## Refused, by rule\n\n" + _refusals(tried)
+    differing = [(each.name, "; ".join(each.differing[:3])) for each in used if each.differing]
+    yield "## Models that differ before any edit\n\n" + (table(["model", "what"], differing) if differing else "None.")
+    yield "## Models that were left out\n\n" + _left_out(done)
+    yield "## Broken promises\n\n" + ("\n".join(failures) or "None.")
+
+
+def _table(tried: Iterable[Tried]) -> str:
+    every = list(tried)
+    kinds = sorted({one.kind for one in every}, key=lambda kind: (kind.startswith("pass: "), kind))
+    rows = [
+        _row(way, kind, [one for one in every if one.way == way and one.kind == kind])
+        for way in _WAYS
+        for kind in kinds
+    ]
+    totals = [_row(way, "all", [one for one in every if one.way == way]) for way in _WAYS]
+    head = ["direction", "edit", "tried", "same", "same, warned", "refused", "wrong", "silent"]
+    return table(head, [row for row in (*rows, *totals) if row[2]])
+
+
+def _row(way: str, kind: str, found: list[Tried]) -> tuple[object, ...]:
+    counts = Counter(one.verdict.outcome for one in found)
+    wrong = counts[Outcome.WRONG] + counts[Outcome.SILENT]
+    return (
+        way, kind, len(found), counts[Outcome.SAME], counts[Outcome.WARNED], counts[Outcome.REFUSED], wrong,
+        counts[Outcome.SILENT],
+    )  # fmt: skip
+
+
+def _faults(tried: list[Tried]) -> str:
+    faults = [one for one in tried if is_fault(one)]
+    rows = [
+        (one.kind, one.verdict.outcome, f"`{one.replay}`", "; ".join(one.verdict.differences[:2])) for one in faults
+    ]
+    return (
+        table(["edit", "how", "again with `python -m benchmarks.edits --replay`", "what differs"], rows)
+        if rows
+        else "None."
+    )
+
+
+def _refusals(tried: list[Tried]) -> str:
+    counts = Counter(rule for one in tried if one.verdict.outcome is Outcome.REFUSED for rule in one.verdict.rules)
+    return table(["rule", "edits"], counts.most_common()) if counts else "None."
+
+
+def _left_out(done: list[Done]) -> str:
+    large = [(each.name, each.left_out) for each in done if each.left_out.startswith("too large")]
+    others = Counter(each.left_out for each in done if each.left_out and not each.left_out.startswith("too large"))
+    listed = table(["model", "why"], large) if large else ""
+    words = f"Converted files of more than {MOST_BYTES // 1000} kB are not edited:\n\n{listed}\n" if large else ""
+    return words + "\n" + (table(["why", "models"], others.most_common()) if others else "")

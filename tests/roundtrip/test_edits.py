@@ -1,0 +1,42 @@
+"""What stands in a file is what counts: edits of converted files, on models that Hypothesis makes up."""
+
+import pytest
+from hypothesis import given
+
+from tests.profile import examples
+from twinform.testing import Edit, assert_edits_of_a_file_win, strategies
+from twinform.testing.edits import apply_all
+
+_SETTINGS = examples(2)
+_FEW = examples(0.4)
+
+
+@_SETTINGS
+@given(strategies.edited_files(models=strategies.robots(max_links=4)))
+def test_an_edit_of_sdf_that_was_urdf_wins(edited: tuple[bytes, tuple[Edit, ...]]) -> None:
+    assert_edits_of_a_file_win(*edited)
+
+
+@_SETTINGS
+@given(strategies.edited_files(models=strategies.sdf_models(max_links=4)))
+def test_an_edit_of_urdf_that_was_sdf_wins(edited: tuple[bytes, tuple[Edit, ...]]) -> None:
+    assert_edits_of_a_file_win(*edited)
+
+
+@pytest.mark.parametrize("version", ["1.6", "1.8", "1.9"])
+def test_an_edit_of_older_sdf_wins(version: str) -> None:
+    @_FEW
+    @given(strategies.edited_files(models=strategies.robots(max_links=3), sdf_version=version))
+    def wins(edited: tuple[bytes, tuple[Edit, ...]]) -> None:
+        assert_edits_of_a_file_win(*edited)
+
+    wins()
+
+
+@_FEW
+@given(strategies.edited_files())
+def test_an_edit_that_is_printed_and_read_is_itself(edited: tuple[bytes, tuple[Edit, ...]]) -> None:
+    text, edits = edited
+    again = [Edit.from_text(str(edit)) for edit in edits]
+    assert again == list(edits)
+    assert apply_all(again, text) == apply_all(edits, text)

@@ -1,0 +1,43 @@
+"""Edits that once did not win: every file of `tests/cases/edits` is converted, edited as its comments say, and judged.
+
+A comment `edit:` has an edit of the converted file, `refused:` one that has to be an error, and `pass:` a pipeline that
+runs on it; each is tried on its own.
+"""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Literal
+
+import pytest
+
+import twinform
+from tests.corpus.files import ROOT
+from twinform.testing import Edit
+from twinform.testing.edits.judging import Outcome, judge, judge_edits, unedited
+from twinform.testing.edits.plainly import Plainly
+
+CASES = Path(__file__).parent / "cases" / "edits"
+_WISH = re.compile(r"<!-- (edit|refused|pass): (.*?) -->")
+
+
+def _cases() -> Iterator[object]:
+    for path in sorted(CASES.iterdir()):
+        for number, (kind, text) in enumerate(_WISH.findall(path.read_text(encoding="utf-8")), start=1):
+            yield pytest.param(path, kind, text, id=f"{path.name}:{number}")
+
+
+@pytest.mark.parametrize(("path", "kind", "text"), list(_cases()))
+def test_an_edit_wins(path: Path, kind: str, text: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+    to: Literal["sdf", "urdf"] = "sdf" if path.suffix == ".urdf" else "urdf"
+    made = twinform.convert(path, to=to).text.encode()
+    before = unedited(made)
+    if kind == "pass":
+        passed = twinform.convert(made, to=to, passes=text).text.encode()
+        verdict = judge(before, passed, plainly=Plainly.NONE if text.startswith("attach") else Plainly.SKELETON)
+    else:
+        edit = Edit.from_text(text)
+        verdict = judge_edits(before, [edit], edit.apply(made))
+    assert verdict.differences == ()
+    assert (verdict.outcome is Outcome.REFUSED) == (kind == "refused"), verdict.rules
