@@ -12,7 +12,7 @@ SYNCED := .venv/.synced
 ORACLES := .venv/.oracles
 DEMO := out/demo
 
-.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness equipment bench inertia lumping classic mapping verdicts prove coverage mutation fuzz clean
+.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness edits equipment bench inertia lumping classic mapping verdicts xacro prove coverage mutation fuzz clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -112,11 +112,17 @@ classic: $(SYNCED) ## every plugin of Gazebo Classic in the corpus migrated to g
 probes: $(ORACLES) ## what libsdformat makes of small URDF files beside what we make; writes docs/reference/probes.md
 	$(BIN)/python -m benchmarks.probes
 
+edits: $(ORACLES) ## 20,000 edits and passes on converted files, and what becomes of them; writes docs/reference/edits.md
+	$(BIN)/python -m benchmarks.edits --processes $(JOBS)
+
 equipment: $(SYNCED) ## sensors and plugins of SDF as libsdformat finds them in URDF; writes docs/reference/equipment.md
 	$(BIN)/python -m benchmarks.equipment
 
 verdicts: $(SYNCED) ## mutated corpus files before libsdformat 12 and urdfdom; writes docs/reference/verdicts.md
 	$(BIN)/python -m benchmarks.verdicts
+
+xacro: $(SYNCED) ## every xacro file of the corpus beside what the xacro command makes of it; writes docs/reference/xacro.md
+	$(BIN)/python -m benchmarks.xacro
 
 inertia: $(ORACLES) ## corpus robots that engines refuse for their inertias, mended; writes docs/reference/inertia.md
 	$(BIN)/python -m benchmarks.inertia

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from twinform.compiler import CompileError, Conversion, check, convert, load, loads, write_atomically
     from twinform.compiler.compare import Comparison, Difference, diff
+    from twinform.compiler.normal_form import Discrepancy, NormalForm, normal_form
     from twinform.diagnostics import Diagnostic, Ledger
     from twinform.ir import Document
 
@@ -25,18 +26,22 @@ __all__ = [
     "Conversion",
     "Diagnostic",
     "Difference",
+    "Discrepancy",
     "Document",
     "Ledger",
+    "NormalForm",
     "check",
     "convert",
     "diff",
     "load",
     "loads",
+    "normal_form",
     "write_atomically",
 ]
 
 _HOMES = {
     **dict.fromkeys(("Comparison", "Difference", "diff"), "twinform.compiler.compare"),
+    **dict.fromkeys(("Discrepancy", "NormalForm", "normal_form"), "twinform.compiler.normal_form"),
     **dict.fromkeys(("Diagnostic", "Ledger"), "twinform.diagnostics"),
     "Document": "twinform.ir",
 }
