@@ -1,19 +1,17 @@
 """What libsdformat 12, the reference parser of SDF, says of a file."""
 
-import hashlib
 import json
-import os
-import shutil
 import subprocess
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 from typing import NotRequired, TypedDict
 
+from twinform.testing.oracles.programs import Program
+
 MISSING = "libsdformat 12 is not here: it needs libsdformat-dev, pkg-config and g++"
 
-_SOURCE = Path(__file__).with_name("sdf_load.cpp")
+_PROGRAM = Program(Path(__file__).with_name("sdf_load.cpp"), ("sdformat12",))
 
 
 class _Error(TypedDict):
@@ -102,19 +100,16 @@ class Reading:
     console: str = ""
 
 
-@cache
 def available() -> bool:
     """Whether the library and the tools to build against it are installed."""
-    if not (shutil.which("pkg-config") and shutil.which("g++")):
-        return False
-    return subprocess.run(["pkg-config", "--exists", "sdformat12"], check=False).returncode == 0
+    return _PROGRAM.can_be_built()
 
 
 def judge(paths: Iterable[Path]) -> dict[Path, Reading]:
     """The verdict on each file. A file on which the library crashes or hangs gets an error of its own."""
     waiting = [Path(path).resolve() for path in paths]
     names = "".join(f"{path}\n" for path in waiting).encode()
-    done = subprocess.run([str(_program())], input=names, stdout=subprocess.PIPE, check=True)
+    done = subprocess.run([str(_PROGRAM.built())], input=names, stdout=subprocess.PIPE, check=True)
     rows: list[_Row] = [json.loads(line) for line in done.stdout.decode(errors="replace").splitlines()]
     return {path: _reading(row) for path, row in zip(waiting, rows, strict=True)}
 
@@ -125,7 +120,7 @@ def describe(path: Path) -> RobotRow:
     Raises:
         RuntimeError: the library has errors for the file, or there is no model in it.
     """
-    command = [str(_program()), "--robots", str(path)]
+    command = [str(_PROGRAM.built()), "--robots", str(path)]
     done = subprocess.run(command, stdout=subprocess.PIPE, check=True)
     row: _Row = json.loads(done.stdout.decode(errors="replace"))
     if errors := _reading(row).errors:
@@ -138,27 +133,3 @@ def describe(path: Path) -> RobotRow:
 def _reading(row: _Row) -> Reading:
     errors = tuple(f"{error['code']}: {error['message']}" for error in row["errors"])
     return Reading(row["ok"], errors, row["console"])
-
-
-@cache
-def _program() -> Path:
-    program = _folder() / f"sdf_load-{hashlib.sha256(_SOURCE.read_bytes()).hexdigest()[:12]}"
-    if not program.exists():
-        _build(program)
-    return program
-
-
-def _folder() -> Path:
-    cache = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    return Path(cache) / "twinform" / "oracles"
-
-
-def _build(program: Path) -> None:
-    program.parent.mkdir(parents=True, exist_ok=True)
-    flags = subprocess.run(
-        ["pkg-config", "--cflags", "--libs", "sdformat12"], capture_output=True, text=True, check=True
-    ).stdout.split()
-    # two test processes may build at the same time: each builds its own, and the last one wins
-    own = program.with_name(f"{program.name}.{os.getpid()}")
-    subprocess.run(["g++", "-O1", "-std=c++17", str(_SOURCE), "-o", str(own), *flags], check=True)
-    own.replace(program)
