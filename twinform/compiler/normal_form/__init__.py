@@ -10,8 +10,9 @@ text of the source that is not the spelling of a default is back, and nothing el
 What counts, and what does not:
 
 * An element is known by its tag and its name, in URDF's `<gazebo>` by its reference; else by its place among its like.
-  The order of siblings does not count, as readers find them by their names; those without one are told by it. Several
-  `<gazebo>` of one reference are one.
+  The order of siblings does not count, as readers find them by their names; those without one are told by it.
+* Several `<gazebo>` of one reference are one, and a tag in them, such as `<mu1>`, is what it means in SDF. What they
+  say twice in the same words is said once.
 * Values are of the types of the facts tables. Numbers are equal to a share of 1e-9, truths whatever way they are
   spelled; a limit of 1e16 and beyond is none. A pose is a rigid transform. URIs, names and other texts are taken
   literally.

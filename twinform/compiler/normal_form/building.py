@@ -3,8 +3,9 @@
 from functools import cache
 
 from twinform.compiler.compare.values import Numbers, Place, Value, Words
-from twinform.compiler.normal_form.gazebo import extension_rows, tag_value
-from twinform.compiler.normal_form.part import TEXT, Part, text_of
+from twinform.compiler.normal_form.gazebo import POOLED, Path, extension_rows, tag_paths, tag_value
+from twinform.compiler.normal_form.part import TEXT, Key, Part, text_of
+from twinform.compiler.normal_form.pooling import add_once, pool, tag_part
 from twinform.compiler.normal_form.values import (
     NOWHERE_ELSE,
     literally,
@@ -13,6 +14,7 @@ from twinform.compiler.normal_form.values import (
     urdf_pose,
     value_of,
 )
+from twinform.ir.frames import MODEL
 from twinform.ir.transform import Transform
 from twinform.schemas import Fact, Version, XmlElement, rows_by_name, table
 
@@ -27,6 +29,11 @@ _ENDLESS = 1e16
 _MODEL = "model"
 _CANONICAL = "@canonical_link"
 """The link that the frame of a model in SDF is attached to: without a word, the first one."""
+_POSED_IN_MODEL = frozenset({"link", "model"})
+"""What is posed in the frame of the model around it, if its pose names no other."""
+_FRAMES = frozenset({"parent", "child", "@attached_to", "@relative_to", "@expressed_in"})
+"""What names a frame of SDF, for which the name of a model in the model stands as well."""
+_OF_MODEL = f"::{MODEL}"
 _EXTENSION = "gazebo"
 _ORIGIN = "origin"
 _POSE = "pose"
@@ -65,7 +72,7 @@ class Builder:
 
     def _fill(self, made: Part, element: XmlElement, fact: Fact) -> None:
         rows = self._rows_of(fact)
-        self._attributes(made, element, rows)
+        self._attributes(made, element, fact, rows)
         if fact.name == _MODEL and (first := element.find("link")) is not None:
             made.values.setdefault(_CANONICAL, Words(first.get("name") or ""))
         if fact.name == _ORIGIN and self.format == "urdf":
@@ -83,15 +90,17 @@ class Builder:
             found = self._rows[id(fact)] = rows_by_name(fact.rows, self.version)
         return found
 
-    def _attributes(self, made: Part, element: XmlElement, rows: Rows) -> None:
+    def _attributes(self, made: Part, element: XmlElement, fact: Fact, rows: Rows) -> None:
         for name, text in element.items():
+            if fact.type == _POSE and name == "frame" and not text:
+                continue  # which meant nothing in the versions that had it
             row = None if (element.tag, name) in _HAS_TO_BE_THERE else rows.get(f"@{name}")
-            value = self._value(str(text), row) if row else literally(str(text))
-            if value is not None:
+            value = self._value(_frame(str(text), f"@{name}"), row) if row else literally(str(text))
+            if value is not None and not (text == MODEL and _is_in_model(element, fact, f"@{name}")):
                 made.values[f"@{name}"] = value
 
     def _text(self, made: Part, element: XmlElement, fact: Fact) -> None:
-        text = text_of(element)
+        text = _frame(text_of(element), str(element.tag))
         value = self._value(text, fact) if fact.type else literally(text)
         if text and value is not None:
             made.values[TEXT] = value
@@ -99,10 +108,13 @@ class Builder:
     def _value(self, text: str, row: Fact) -> Value | None:
         """What a text says, if that is no default; where there may be no text, the empty one is as good as none."""
         value = value_of(text, row, self.format)
-        default = self._default_of(row)
-        if default is not None:
-            return None if same(value, default) or _is_endless(value, default) else value
+        if row.default is not None:
+            return None if self._is_default(value, row) else value
         return value if text or row.required else None
+
+    def _is_default(self, value: Value, row: Fact) -> bool:
+        default = self._default_of(row)
+        return default is not None and (same(value, default) or _is_endless(value, default))
 
     def _default_of(self, row: Fact) -> Value | None:
         if row.default is None:
@@ -155,15 +167,42 @@ class Builder:
             made.values[TEXT] = literally(text)
         sdf = builder("sdf", table("sdf").newest)
         for child in element:
-            found = tag_value(child)
-            if found is not None:
-                name, value = found
-                part = Part(child, values={f"@{name}": literally(str(text)) for name, text in child.items()})
-                part.values.pop("@value", None)
-                part.values[TEXT] = value
-                made.children[made.next_key(name, "")] = part
+            paths, found = tag_paths(child), tag_value(child)
+            if found is not None and paths:
+                for path in paths:
+                    sdf.say(made, path, child, found[1])
+            elif found is not None:
+                add_once(made, found[0], tag_part(child, found[1]))
+            elif child.tag in POOLED:
+                pool(made, str(child.tag), sdf.part(child, extension_rows()[str(child.tag)]))
             else:
                 sdf.child(made, child, extension_rows().get(str(child.tag)))
+
+    def say(self, made: Part, path: Path, tag: XmlElement, value: Value) -> None:
+        """Take in a tag of an extension as what it means: a value at a path of what SDF has there."""
+        rows, row = extension_rows(), None
+        for step in path:
+            row = rows[step]
+            rows = self._rows_of(self.table.resolve(row))
+        part = tag_part(tag, None if row and self._is_default(value, row) else value)
+        if part.says_nothing:
+            return
+        for step in path[:-1]:
+            made = made.children.setdefault(Key(step, "", 1), Part(tag))
+        add_once(made, path[-1], part)
+
+
+def _frame(text: str, name: str) -> str:
+    """The text of an element or attribute; of one that names the frame of a model, the name of that model."""
+    return text.removesuffix(_OF_MODEL) if name in _FRAMES else text
+
+
+def _is_in_model(element: XmlElement, fact: Fact, name: str) -> bool:
+    """Whether an attribute names the frame that goes without saying if it is the model's."""
+    if fact.type == _POSE:
+        holder = element.getparent()
+        return name == "@relative_to" and holder is not None and holder.tag in _POSED_IN_MODEL
+    return fact.name == "frame" and name == "@attached_to"
 
 
 @cache

@@ -1,5 +1,6 @@
 """The content of URDF's `<gazebo>`: tags of its own, and beside them what SDF has in links, joints and models."""
 
+from collections.abc import Iterator
 from functools import cache
 
 from twinform.compiler.compare.values import Value, Words
@@ -13,6 +14,12 @@ _HOLDERS = ("model", "joint", "link")
 _FIELDS = frozenset({"gravity", "self_collide"})
 """Truths of a link in SDF that tags say too."""
 _MATERIAL = "material"
+POOLED = frozenset({"visual", "collision", "axis", "physics"})
+"""Elements that add to what is there: all visuals and collisions of the link, the axis and physics of the joint."""
+
+Path = tuple[str, ...]
+_IN_AXIS: Path = ("axis", "dynamics")
+_DAMPING: tuple[Path, ...] = (("velocity_decay", "linear"), ("velocity_decay", "angular"))
 
 
 def tag_value(element: XmlElement) -> tuple[str, Value] | None:
@@ -30,6 +37,37 @@ def tag_value(element: XmlElement) -> tuple[str, Value] | None:
         return tag.field or name, parsed_value(tag.read(text))
     except ValueError:
         return tag.field or name, Words(text)
+
+
+def tag_paths(element: XmlElement) -> tuple[Path, ...]:
+    """Where SDF says what one of the extension's own tags does, if that is not at the top of a link, joint or model."""
+    tag = None if len(element) else _TAGS.get(str(element.tag))
+    if tag is None:
+        return ()
+    if tag.field == "velocity_decay":
+        return _DAMPING
+    places: dict[str, Path] = {
+        "surface": ("collision", "surface", *_surface_paths().get(tag.field, ())),
+        "collision": ("collision", tag.field),
+        "dynamics": (*_IN_AXIS, tag.field),
+        "physics": ("physics", *tag.field.split("/")),
+    }
+    return (places[tag.target],) if tag.target in places else ()
+
+
+@cache
+def _surface_paths() -> dict[str, Path]:
+    """Where a `<surface>` has the values of the IR's fields."""
+    sdf = table("sdf")
+
+    def paths(row: Fact, above: Path) -> Iterator[tuple[str, Path]]:
+        for name, inner in rows_by_name(row.rows, sdf.newest).items():
+            if inner.type and inner.place:
+                yield inner.place, (*above, name)
+            elif inner.place:
+                yield from paths(inner, (*above, name))
+
+    return dict(paths(sdf.definitions["surface"], ()))
 
 
 def _read(type_: str, text: str) -> Value:

@@ -215,9 +215,9 @@ DIFFERENT: dict[str, tuple[str, str, list[str]]] = {
     "text that is in the way": (link("stray"), link(""), ["missing /robot[@name='r']/link[@name='l'] 'stray'"]),
     # <gazebo>
     "a tag of an extension": (
-        robot('<gazebo reference="l"><mu1>1</mu1></gazebo>'),
-        robot('<gazebo reference="l"><mu2>1</mu2></gazebo>'),
-        ["missing /robot[@name='r']/gazebo/mu1 <mu1>1", "added /robot[@name='r']/gazebo/mu2 <mu2>1"],
+        robot('<gazebo reference="l"><mu1>3</mu1></gazebo>'),
+        robot('<gazebo reference="l"><mu2>3</mu2></gazebo>'),
+        ["missing /robot[@name='r']/gazebo/mu1 <mu1>3", "added /robot[@name='r']/gazebo/mu2 <mu2>3"],
     ),
     "another word for the other truth": (
         robot('<gazebo reference="l"><turnGravityOff>true</turnGravityOff></gazebo>'),
@@ -225,8 +225,8 @@ DIFFERENT: dict[str, tuple[str, str, list[str]]] = {
         ["changed /robot[@name='r']/gazebo/turnGravityOff 'true' -> 'true'"],
     ),
     "an extension of another link": (
-        robot('<gazebo reference="a"><mu1>1</mu1></gazebo>'),
-        robot('<gazebo reference="b"><mu1>1</mu1></gazebo>'),
+        robot('<gazebo reference="a"><mu1>3</mu1></gazebo>'),
+        robot('<gazebo reference="b"><mu1>3</mu1></gazebo>'),
         [
             """missing /robot[@name='r']/gazebo <gazebo reference="a">""",
             """added /robot[@name='r']/gazebo <gazebo reference="b">""",
@@ -234,13 +234,34 @@ DIFFERENT: dict[str, tuple[str, str, list[str]]] = {
     ),
     "a word that is no truth": (
         robot('<gazebo reference="l"><mu1>slippery</mu1></gazebo>'),
-        robot('<gazebo reference="l"><mu1>1</mu1></gazebo>'),
-        ["changed /robot[@name='r']/gazebo/mu1 'slippery' -> '1'"],
+        robot('<gazebo reference="l"><mu1>3</mu1></gazebo>'),
+        ["changed /robot[@name='r']/gazebo/mu1 'slippery' -> '3'"],
     ),
     "a tag twice": (
-        robot('<gazebo reference="l"><mu1>1</mu1><mu1>2</mu1></gazebo>'),
+        robot('<gazebo reference="l"><mu1>3</mu1><mu1>2</mu1></gazebo>'),
         robot('<gazebo reference="l"><mu1>2</mu1></gazebo>'),
-        ["changed /robot[@name='r']/gazebo/mu1[1] '1' -> '2'", "missing /robot[@name='r']/gazebo/mu1[2] <mu1>2"],
+        ["changed /robot[@name='r']/gazebo/mu1[1] '3' -> '2'", "missing /robot[@name='r']/gazebo/mu1[2] <mu1>2"],
+    ),
+    "a tag and what it means, with another value": (
+        robot('<gazebo reference="j"><stopErp>0.3</stopErp></gazebo>'),
+        robot('<gazebo reference="j"><physics><ode><limit><erp>0.4</erp></limit></ode></physics></gazebo>'),
+        ["changed /robot[@name='r']/gazebo/stopErp '0.3' -> '0.4'"],
+    ),
+    "one of two elements for all visuals": (
+        robot(
+            '<gazebo reference="l"><visual><transparency>0.5</transparency></visual>'
+            '<visual><transparency>0.6</transparency><plugin name="p" filename="f"/></visual></gazebo>'
+        ),
+        robot('<gazebo reference="l"><visual><transparency>0.5</transparency></visual></gazebo>'),
+        [
+            "missing /robot[@name='r']/gazebo/visual[2]/transparency <transparency>0.6",
+            "missing /robot[@name='r']/gazebo/visual[2]/plugin[@name='p'] <plugin name=\"p\" filename=\"f\"/>",
+        ],
+    ),
+    "another number for one of the two dampings": (
+        robot('<gazebo reference="l"><dampingFactor>0.1</dampingFactor></gazebo>'),
+        robot('<gazebo reference="l"><velocity_decay><linear>0.1</linear></velocity_decay></gazebo>'),
+        ["missing /robot[@name='r']/gazebo/dampingFactor <dampingFactor>0.1"],
     ),
 }
 

@@ -51,6 +51,19 @@ ALIKE = {
         robot('<link name="a"/><link name="b"/>'),
         robot('<link name="b"/><link name="a"/>'),
     ),
+    # names of frames
+    "the frame of the model, for a link": (
+        sdf_link('<pose relative_to="__model__">1 0 0 0 0 0</pose>'),
+        sdf_link("<pose>1 0 0 0 0 0</pose>"),
+    ),
+    "the frame of the model, for a model in it": (
+        sdf('<model name="n"><pose relative_to="__model__">1 0 0 0 0 0</pose></model>'),
+        sdf('<model name="n"><pose>1 0 0 0 0 0</pose></model>'),
+    ),
+    "the frame of a model by the model's name": (
+        sdf('<joint name="j" type="fixed"><parent>n::__model__</parent><child>l</child></joint>'),
+        sdf('<joint name="j" type="fixed"><parent>n</parent><child>l</child></joint>'),
+    ),
     # defaults
     "the canonical link that is the first one": (
         sdf('<link name="a"/><link name="b"/><link name="c"/>'),
@@ -117,6 +130,43 @@ ALIKE = {
     "a field that has a tag": (
         robot('<gazebo reference="l"><turnGravityOff>true</turnGravityOff><selfCollide>1</selfCollide></gazebo>'),
         robot('<gazebo reference="l"><gravity>false</gravity><self_collide>true</self_collide></gazebo>'),
+    ),
+    "tags and what they mean in SDF": (
+        robot(
+            '<gazebo reference="l"><mu1>0.5</mu1><minDepth>0.1</minDepth><maxContacts>3</maxContacts>'
+            "<collision><surface><friction><ode><mu2>0.6</mu2></ode></friction></surface></collision></gazebo>"
+        ),
+        robot(
+            '<gazebo reference="l"><collision><max_contacts>3</max_contacts><surface>'
+            "<friction><ode><mu>0.5</mu><mu2>0.6</mu2></ode></friction>"
+            "<contact><ode><min_depth>0.1</min_depth></ode></contact></surface></collision></gazebo>"
+        ),
+    ),
+    "tags of joints and what they mean in SDF": (
+        robot(
+            '<gazebo reference="j"><stopCfm>0.1</stopCfm><provideFeedback>yes</provideFeedback>'
+            "<springStiffness>2</springStiffness></gazebo>"
+        ),
+        robot(
+            '<gazebo reference="j"><physics><provide_feedback>1</provide_feedback></physics>'
+            "<axis><dynamics><spring_stiffness>2</spring_stiffness></dynamics></axis>"
+            "<physics><ode><limit><cfm>0.1</cfm></limit></ode></physics></gazebo>"
+        ),
+    ),
+    "a tag for two values": (
+        robot('<gazebo reference="l"><dampingFactor>0.1</dampingFactor></gazebo>'),
+        robot(
+            '<gazebo reference="l"><velocity_decay><linear>0.1</linear><angular>0.1</angular></velocity_decay></gazebo>'
+        ),
+    ),
+    "a tag of a default": (robot('<gazebo reference="l"><mu1>1</mu1></gazebo>'), robot("")),
+    "one thing said twice": (
+        robot('<gazebo reference="l"><mu1>0.5</mu1><mu1>0.50</mu1></gazebo>'),
+        robot('<gazebo reference="l"><mu1>0.5</mu1></gazebo>'),
+    ),
+    "the model that a frame is attached to": (
+        sdf('<link name="l"/><frame name="f" attached_to="__model__"/>'),
+        sdf('<link name="l"/><frame name="f"/>'),
     ),
     "SDF in an extension": (
         robot('<gazebo><sensor name="s" type="imu"><pose>0 0 0 0 0 0</pose><always_on>1</always_on></sensor></gazebo>'),
