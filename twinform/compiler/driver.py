@@ -18,6 +18,7 @@ from twinform.ir import Document, Format
 from twinform.ir.verify import verify
 from twinform.passes import Pass, Pipeline, Watch, parse_pipeline
 from twinform.passes.legalise.candidates import name_once_expanded, wanted_includes
+from twinform.passes.legalise.sdf_versions import has_early_frames
 from twinform.schemas import Engine, XmlElement, table
 
 
@@ -125,10 +126,24 @@ def fulfil(
             wanted = None if order.expand_includes else wanted_includes(checked.document, order.model)
             before, checked = checked, expand(checked, how, wanted=wanted, carriers=order.carriers)
             order = replace(order, model=name_once_expanded(before.document, checked.document, order.model))
-        order = replace(order, mixed=checked.mixed or any(each.rule is OUTSIDE_VERSION for each in checked.diagnostics))
+        order = replace(order, mixed=_has_mixed_words(checked))
         if checked.document is None or not (checked.accepted or (order.passes and _may_be_mended(checked))):
             raise CompileError(checked.diagnostics, unreadable=checked.unreadable)
         return _run(checked, checked.document, order, how, watch=watch)
+
+
+def _has_mixed_words(checked: Checked) -> bool:
+    """Whether files have words that their version does not have, or frames where those have no meaning yet."""
+    outside = any(map(_is_outside_version, checked.diagnostics))
+    return checked.mixed or outside or (checked.document is not None and has_early_frames(checked.document))
+
+
+def _is_outside_version(found: Diagnostic) -> bool:
+    """Whether it is a word that the version of the file does not have; that of SDF in an extension of URDF is open."""
+    path = found.location.path
+    return found.rule is OUTSIDE_VERSION and not (
+        path.startswith("/robot") and ("/gazebo[" in path or "/gazebo/" in path)
+    )
 
 
 def _known(version: str | None) -> str | None:

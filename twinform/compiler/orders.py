@@ -52,5 +52,5 @@ class Order:
         version = self.sdf_version or own or before or DEFAULT_SDF_VERSION
         known: dict[str, UrdfVersion] = {each: each for each in URDF_VERSIONS}
         urdf = self.urdf_version or known.get(before or "", "1.0")
-        back = version == before and has_mixed_words(source)
+        back = (version if format_ is Format.SDF else urdf) == before and has_mixed_words(source)
         return Target(format_, version, urdf, self.carriers, self.model, back, self.mixed)

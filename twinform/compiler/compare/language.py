@@ -12,14 +12,17 @@ from twinform.compiler.includes import expand
 from twinform.compiler.loading import Checked, Reading, read
 from twinform.compiler.uris import LocalAssets
 from twinform.diagnostics import Notes
-from twinform.ir import Document, Format
+from twinform.ir import Document, Format, Model
 from twinform.ir.frames import FrameError
 from twinform.passes import Assets, Pass, Pipeline
 from twinform.passes.legalise.candidates import candidates, name_once_expanded, wanted_includes
+from twinform.passes.legalise.names import RestoreNames
 from twinform.passes.legalise.sdf_versions import raise_words
 from twinform.passes.legalise.to_sdf import to_sdf
 from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
+from twinform.passes.legalise.to_urdf.restore_links import without_loose_floating
 from twinform.passes.legalise.to_urdf.select_model import SelectModel
+from twinform.passes.legalise.token_mass import without_tokens
 from twinform.schemas import table
 
 
@@ -64,6 +67,8 @@ def _robots(
     said = Pipeline(_into_words_of_sdf(document)).with_files(assets).run(document, notes)
     if notes.has_errors:
         return
+    if document.format is Format.SDF:  # names that a model of URDF had, as far as these are unlike others
+        said = RestoreNames(to=Format.URDF, unique=True).run(said, Notes())
     names = list(dict.fromkeys(one.full_name for one in candidates(said)))
     called = Counter(one.model.name for one in candidates(said))
     for name in [None] if len(names) == 1 else names if model is None else [model]:
@@ -71,9 +76,15 @@ def _robots(
         if notes.has_errors:
             return
         chosen = UniqueNames().run(chosen, Notes())  # before 1.7 a joint and a link could share theirs
+        chosen = chosen.model_copy(update={"models": tuple(map(_comparable, chosen.models))})
         source = document.models[0] if document.format is Format.URDF else chosen.models[0]
         robot = describe(chosen.models[0], source, document.format, checked.origins)
         yield (robot.name if called[robot.name] == 1 or name is None else name), robot
+
+
+def _comparable(model: Model) -> Model:
+    """The model without what conversions put there because a target cannot do without."""
+    return without_tokens(without_loose_floating(model))
 
 
 def _into_words_of_sdf(document: Document) -> tuple[Pass, ...]:

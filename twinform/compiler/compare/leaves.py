@@ -12,6 +12,7 @@ from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import NAMESPACE, from_xml
 from twinform.passes.legalise.element_poses import read_pose
 from twinform.passes.legalise.gazebo_tags import SCRIPT_URI
+from twinform.passes.legalise.sdf_versions.name_the_nameless import plugin_stem
 from twinform.schemas import Fact, XmlElement, table
 
 CARRIED = f"{{{NAMESPACE}}}carried"
@@ -140,6 +141,8 @@ def _keyed(element: XmlElement, rows: dict[str, Fact]) -> Iterator[tuple[str, Xm
         if row is not None and not row.repeats:
             yield child.tag, child
             continue
+        if row is not None and not name and child.tag == "plugin":
+            name = plugin_stem(child.get("filename"))
         key = f"{child.tag}[{name}]" if row is not None and name else child.tag
         yield numbered(key, seen), child
 

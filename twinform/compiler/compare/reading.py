@@ -16,7 +16,7 @@ from twinform.passes.legalise.carrier import NAMESPACE, from_xml
 from twinform.passes.legalise.marks import find_mark
 from twinform.passes.legalise.names import NAME
 from twinform.passes.legalise.to_sdf.joints import FLOATING
-from twinform.passes.legalise.urdf_pieces import joints_of
+from twinform.passes.legalise.urdf_pieces import WITHOUT_AXIS, joints_of
 from twinform.schemas import XmlElement, table, writer
 
 _PARTS: Mapping[type[Node], Mapping[str, str]] = {
@@ -137,7 +137,9 @@ class Reading:
                 if name not in _NOT_OF_THE_ROBOT and path not in _IGNORED_LIMITS:
                     walk.enter_free(_text_element(piece.get("value") or ""), path)
                 leaves |= walk.found
-            elif str(piece.tag) not in _NOT_OF_THE_ROBOT and not (isinstance(node, Joint) and _is_idle(piece, node)):
+            elif str(piece.tag) not in _NOT_OF_THE_ROBOT and not (
+                isinstance(node, Joint) and _is_idle(at, piece, node)
+            ):
                 walk = Walk(self.resolve, lambda _: where)
                 named = isinstance(node, Model) and not _is_foreign(piece)
                 if isinstance(node, Model) and _is_about_nothing(piece, node):
@@ -190,9 +192,11 @@ def _old_name(node: Joint | Frame) -> str | None:
     return (find_mark(node, NAME) or _NOTHING).text
 
 
-def _is_idle(piece: XmlElement, joint: Joint) -> bool:
-    """Whether it is about an axis that the joint does not have."""
-    return piece.tag in _OF_AN_AXIS and (joint.axis is None or joint.type == "fixed")
+def _is_idle(at: str, piece: XmlElement, joint: Joint) -> bool:
+    """Whether it is about an axis that the joint does not have, or says itself."""
+    if piece.tag not in _OF_AN_AXIS:
+        return False
+    return joint.axis is None or joint.type == "fixed" or (not at and joint.type not in WITHOUT_AXIS)
 
 
 def _inner(node: Node, path: str) -> Iterator[tuple[str, Node]]:

@@ -39,6 +39,16 @@ MASSLESS_LINK = Rule(
     better="Give it an inertia; `fill-inertia` can do that from its shapes.",
     references="sdformat issue 199",
 )
+TOKEN_MASS = Rule(
+    name="tiny-mass",
+    severity=Severity.INFO,
+    finds="A link of URDF without mass that stays a link in SDF, such as a root, or one that moves.",
+    matters="Zero is no mass for the engines of Gazebo: DART aborts where such a link moves, and Bullet holds it where "
+    "it is, with the robot on it. 1e-12 kg and 1e-14 kg m^2 make no difference to the robot.",
+    example="`base_footprint`, the root of many mobile robots.",
+    better="Nothing needs doing for a link that carries others; one at the end of a chain should have the mass that it "
+    "has in reality.",
+)
 FRAME_LINK = Rule(
     name="frame-link",
     severity=Severity.INFO,

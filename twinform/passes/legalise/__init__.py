@@ -14,7 +14,7 @@ class Target:
     """What a conversion is to make.
 
     `carriers` says whether parts that the target cannot say travel along; `model` names the one of several models that
-    becomes a URDF; `mixed` says that the SDF may have words that its version does not have, as its source had, and
+    becomes a URDF; `mixed` says that the file may have words that its version does not have, as its source had, and
     `mixed_source` that the file at hand is such a one.
     """
 
@@ -39,9 +39,15 @@ def legalisation(source: Format, version: str | None, target: Target) -> tuple[P
     if target.format is Format.SDF:
         from twinform.passes.legalise.to_sdf import to_sdf  # noqa: PLC0415 - see above
 
-        return to_sdf(target.sdf_version, carriers=target.carriers, mixed=target.mixed)
+        return to_sdf(
+            target.sdf_version, carriers=target.carriers, mixed=target.mixed, mixed_source=target.mixed_source
+        )
     from twinform.passes.legalise.to_urdf import to_urdf  # noqa: PLC0415 - see above
 
     return to_urdf(
-        model=target.model, urdf_version=target.urdf_version, carriers=target.carriers, mixed=target.mixed_source
+        model=target.model,
+        urdf_version=target.urdf_version,
+        carriers=target.carriers,
+        mixed=target.mixed,
+        mixed_source=target.mixed_source,
     )

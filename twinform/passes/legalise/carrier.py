@@ -28,6 +28,11 @@ SOURCE = "source"
 DANGLING: Attributes = (("dangling", "true"),)
 """What a carrier says about a piece that named what was not there, so that this is no sign of an edit."""
 
+OVERRULED: Attributes = (("overruled", "true"),)
+"""What a carrier says about a tag behind which another one of the same field stood."""
+SECOND: Attributes = (("index", "1"),)
+"""What a carrier says about a piece that stood beside another one of its kind, and is no rest of that."""
+
 AnyNode = TypeVar("AnyNode", bound=Node)
 
 
@@ -50,6 +55,11 @@ def is_carrier(part: Opaque, dialect: str) -> bool:
 def is_dangling(part: Opaque) -> bool:
     """Whether what a carrier holds named a part that was not there."""
     return part.element is not None and part.element.get("dangling") is not None
+
+
+def is_overruled(part: Opaque) -> bool:
+    """Whether a carrier holds a tag behind which another one of the same field stood."""
+    return part.element is not None and part.element.get("overruled") is not None
 
 
 def is_ours(part: Opaque) -> bool:

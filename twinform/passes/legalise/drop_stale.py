@@ -20,7 +20,9 @@ _IN_URDF = frozenset(
     }
 )  # fmt: skip
 """What a URDF holds for the reverse conversion; none of it means anything in SDF."""
-_IN_SDF = frozenset({"urdf", "material", "shared-material", "unnamed", "floating", "link", "unsaid", "look"})
+_IN_SDF = frozenset(
+    {"urdf", "material", "shared-material", "unnamed", "floating", "link", "unsaid", "look", "extension"}
+)
 """What an SDF file holds for the reverse conversion."""
 
 

@@ -38,6 +38,8 @@ class ElementPoses:
     kind: Kind = "link"
     frame: Callable[[str], tuple[str, Kind]] = _as_named
     """The frame that a mark names, where marks say in which frame a pose is to be written."""
+    stays: frozenset[str] = frozenset()
+    """Frames that poses may go on naming."""
 
     def parts(self, parts: tuple[Opaque, ...], *, still: bool) -> tuple[Opaque, ...]:
         """The opaque parts of the link: their poses are in the link's frame, or in the one that they name."""
@@ -70,6 +72,8 @@ class ElementPoses:
         if mark is not None:
             return self._as_marked(element, children, mark, holder, pose, moves=moves)
         if pose is not None and not moves and _frame_of(pose) in _own_frames(element):  # of SDF 1.5 and 1.6
+            return element.model_copy(update={"children": children})
+        if pose is not None and _frame_of(pose) in self.stays:
             return element.model_copy(update={"children": children})
         names_frame = pose is not None and _frame_of(pose) is not None
         if not names_frame and not (moves and (pose is not None or element.name in _posed())):

@@ -7,6 +7,7 @@ A mark never repeats what the target says; it holds the rest, so that it stays t
     <tf:offset xyz="0 0 0.1" rpy="0 0 0"/>       the frame that the source had, in the frame that stands here
     <tf:pose relative_to="base"/>                the frame, and the notation, in which the source wrote this pose
     <tf:axis expressed_in="base"/>               the frame in which the source wrote this axis
+    <tf:extension/>                              the source says this joint in a `<gazebo>` element
 
 Other marks stand beside what uses them: `joint_chains.py`, `to_sdf/shared_materials.py` and so on. They are elements
 and never attributes: other readers skip foreign elements, and some fail on foreign attributes.
@@ -20,6 +21,8 @@ from twinform.passes.legalise.carrier import NAMESPACE
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
+EXTENSION = "extension"
+"""The mark on a joint of SDF that URDF says in a `<gazebo>` element."""
 MADE = "made"
 """The mark on a link, joint or frame that was not in the source."""
 

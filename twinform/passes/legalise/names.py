@@ -14,7 +14,8 @@ from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Format, Frame, Joint, Link, Model
 from twinform.passes.legalise.marks import find_mark, with_mark, without_mark
 from twinform.passes.legalise.model_pass import ModelPass
-from twinform.passes.legalise.provenance import came_from
+from twinform.passes.legalise.notation import NESTED
+from twinform.passes.legalise.provenance import came_from, wrote_scopes
 from twinform.passes.structure.renaming import renamed_model
 from twinform.passes.structure.scopes import Part, scope_of
 
@@ -50,13 +51,16 @@ class RestoreNames(ModelPass):
 
     Changes: a name behind which a mark stands becomes the one that the mark says, and all that names it follows. With
     `apart`, a joint may have the name of a link, as in URDF and in SDF before 1.7.
-    Never touches: a name that was edited since, or where another part has the old name by now.
+    Never touches: a name that was edited since, or where another part has the old name by now, or the scope in it is
+    that of no nested model any more.
     Diagnostics: `stale-carrier` for these.
     """
 
     name: ClassVar[str] = "restore-names"
     to: Format
     apart: bool = False
+    unique: bool = False
+    """Whether no two parts may share a name, also in URDF: one of them is called as in SDF."""
 
     def run_model(self, model: Model, notes: Notes) -> Model:
         """The model by its old names."""
@@ -67,9 +71,22 @@ class RestoreNames(ModelPass):
             return model
         names: Names = {}
         taken = {self._key(part, node.name) for part, field in _FIELDS.items() for node in getattr(model, field)}
+        scopes = _scopes(model)
+        sensed = {each.reference for each in model.extensions if any(one.name == "sensor" for one in each.content)}
         for part, node, now, old in marked:
-            if now != node.name or self._key(part, old) in taken:
-                why = "has another name now" if now != node.name else "would share that name with another"
+            why = None
+            if self.unique and part == "joint" and now == node.name and self._key(part, old) in taken:
+                names[part, node.name] = f"{old.strip('_')}_joint"
+                continue
+            if now != node.name:
+                why = "has another name now"
+            elif self._key(part, old) in taken:
+                why = "would share that name with another"
+            elif node.name in sensed and any(old == link.name for link in model.links):
+                why = "has a sensor now, which would be one of the link of that name"
+            elif kind == SCOPED_NAME and not (wrote_scopes(model) or scopes.issuperset(_scopes_in(old))):
+                why = "is in a nested model of which nothing tells any more"
+            if why:
                 message = f"{part} {node.name!r} was called {old!r}, and {why}"
                 notes.report(STALE_CARRIER, message, node.location, found=old)
                 continue
@@ -81,7 +98,20 @@ class RestoreNames(ModelPass):
         return renamed(model.model_copy(update=update), names, self.to)
 
     def _key(self, part: Part, name: str) -> tuple[Part, str]:
-        return (part if self.to is Format.URDF or self.apart else "", name)
+        return (part if (self.to is Format.URDF or self.apart) and not self.unique else "", name)
+
+
+def _scopes(model: Model) -> set[str]:
+    """The names of the models that were in this one, as far as frames still stand for them."""
+    own = [frame for frame in model.frames if find_mark(frame, NESTED) is not None]
+    marks = [(find_mark(frame, SCOPED_NAME), frame.name) for frame in own]
+    return {(mark.text or "") if mark else name for mark, name in marks}
+
+
+def _scopes_in(name: str) -> set[str]:
+    """The models that a scoped name is in: `a` and `a::b` of `a::b::link`."""
+    parts = name.split("::")[:-1]
+    return {"::".join(parts[: count + 1]) for count in range(len(parts))}
 
 
 def _marked(model: Model, kind: str) -> Iterator[tuple[Part, Link | Joint | Frame, str, str]]:

@@ -6,8 +6,12 @@
 
 from twinform.ir import Document, Format, Model
 from twinform.passes.legalise.marks import find_mark, with_mark, without_mark
+from twinform.schemas import parse_version, table
 
-_FROM = "from"
+_SCOPES = (1, 8)
+"""Since this version `::` in a name says that it is in a nested model."""
+FROM = "from"
+"""The mark on a model with the format and the version that it was converted from."""
 _MIXED = "mixed"
 
 
@@ -15,7 +19,7 @@ def with_provenance(model: Model, document: Document) -> Model:
     """The model, marked as converted from the format and version of a document."""
     attributes = {"format": document.format.value, "version": document.version or "1.0"}
     mixed = "true" if find_mark(model, _MIXED) is not None else None
-    return with_mark(without_mark(model, _MIXED), _FROM, attributes={**attributes, "mixed": mixed})
+    return with_mark(without_mark(model, _MIXED), FROM, attributes={**attributes, "mixed": mixed})
 
 
 def with_mixed_words(model: Model) -> Model:
@@ -25,18 +29,26 @@ def with_mixed_words(model: Model) -> Model:
 
 def without_provenance(model: Model) -> Model:
     """The model without the mark."""
-    return without_mark(model, _FROM)
+    return without_mark(model, FROM)
 
 
 def came_from(model: Model, format_: Format) -> bool:
     """Whether a model was converted from a format."""
-    found = find_mark(model, _FROM)
+    found = find_mark(model, FROM)
     return found is not None and found.get("format") == format_.value
+
+
+def wrote_scopes(model: Model) -> bool:
+    """Whether a model was converted from SDF before 1.8, where `::` may stand in any name."""
+    found = find_mark(model, FROM)
+    version = (found and found.get("version")) or ""
+    known = came_from(model, Format.SDF) and version in table("sdf").versions
+    return known and parse_version(version) < _SCOPES
 
 
 def has_mixed_words(document: Document) -> bool:
     """Whether the file that the only model of a document was converted from has words of other versions too."""
-    found = find_mark(document.models[0], _FROM) if len(document.models) == 1 else None
+    found = find_mark(document.models[0], FROM) if len(document.models) == 1 else None
     return found is not None and found.get("mixed") == "true"
 
 
@@ -44,5 +56,5 @@ def source_version(document: Document, format_: Format) -> str | None:
     """The version of a format that the only model of a document was converted from; None where it was not."""
     if len(document.models) != 1 or not came_from(document.models[0], format_):
         return None
-    found = find_mark(document.models[0], _FROM)
+    found = find_mark(document.models[0], FROM)
     return found.get("version") if found else None

@@ -7,9 +7,11 @@ from twinform.passes.legalise.gazebo_tags import LINK_TAGS
 
 _ABOUT_JOINTS = frozenset({"transmission", "ros2_control"})
 _OF_AN_AXIS = frozenset({"axis", "limit", "dynamics", "mimic"})
-_WITHOUT_AXIS = frozenset({"fixed", "floating", "planar"})
+WITHOUT_AXIS = frozenset({"fixed", "floating", "planar"})
 _ENDS = frozenset({"lower", "upper"})
 _ENDLESS = frozenset({"continuous"})
+BALLS = frozenset({"ball", "spherical"})
+"""What dialects of URDF call the ball joint of SDF."""
 
 
 def joints_of(element: Element) -> Iterator[str]:
@@ -22,16 +24,35 @@ def misfit(piece: Opaque, node: Node) -> str:
     """Why a piece cannot stand in a node as that is by now; empty where it can. The node says things as URDF does."""
     if isinstance(node, Model):
         return _misfit_of_model(piece, node)
+    if isinstance(node, Link):
+        return _misfit_of_link(piece)
     return _misfit_of_joint(piece, node) if isinstance(node, Joint) else ""
+
+
+def _misfit_of_link(piece: Opaque) -> str:
+    """An inertial travels if it weighs nothing, where the link is a frame in SDF."""
+    mass = piece.element.find("mass") if piece.element and piece.element.name == "inertial" else None
+    said = (mass.get("value") if mass else None) or "0"
+    return "" if is_zero(said) else f"a frame of SDF has no mass, and it says {said}"
+
+
+def is_zero(text: str) -> bool:
+    """Whether a text is a number that is zero."""
+    try:
+        return float(text) == 0
+    except ValueError:
+        return False
 
 
 def _misfit_of_joint(piece: Opaque, joint: Joint) -> str:
     attribute = piece.attribute[0] if piece.attribute else ""
+    if attribute == "type" and not piece.at and joint.type not in BALLS:
+        return f"the joint is {joint.type} by now"
     if piece.at == "limit" and (joint.axis is None or not joint.axis.limit):
         return "the joint has no limits any more"
     if piece.at == "limit" and attribute in _ENDS and joint.type not in _ENDLESS:
         return f"the joint is {joint.type} and has limits of its own"
-    if piece.element and not piece.at and piece.element.name in _OF_AN_AXIS and joint.type not in _WITHOUT_AXIS:
+    if piece.element and not piece.at and piece.element.name in _OF_AN_AXIS and joint.type not in WITHOUT_AXIS:
         return f"the joint is {joint.type} and says so itself"
     return ""
 

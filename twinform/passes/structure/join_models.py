@@ -5,10 +5,13 @@ from typing import NamedTuple
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import edits as rules
-from twinform.ir import Include, Joint, Link, Material, Model, Node, Opaque, Pose, Visual
+from twinform.ir import Element, Include, Joint, Link, Material, Model, Node, Opaque, Pose, Visual
 from twinform.ir.frames import WORLD
 from twinform.ir.node import Vector3
 from twinform.passes.includes.merge import merge_into_model
+from twinform.passes.legalise.marks import without_mark
+from twinform.passes.legalise.notation import OFFSET, POSE
+from twinform.passes.legalise.provenance import FROM
 from twinform.passes.structure.root_links import without_world
 
 
@@ -41,7 +44,7 @@ def root_of(model: Model) -> str | None:
 
 def join_urdf(model: Model, guest: Model, mount: Mount, notes: Notes) -> Model:
     """A robot with another one attached; the same robot after an error, which the notes have."""
-    guest = without_world(guest)
+    guest = _without_place(without_world(guest))
     if any(joint.child == mount.held for joint in guest.joints):
         message = f"link {mount.held!r} of the attached robot hangs from another one; `reroot` makes it the root"
         notes.report(rules.UNKNOWN_NAME, message, guest.location, found=mount.held)
@@ -83,6 +86,20 @@ def join_sdf(model: Model, guest: Model, mount: Mount, notes: Notes) -> Model:
         return model
     joint = Joint(name=mount.joint, type="fixed", parent=mount.to, child=mount.held, source=guest.source)
     return merged.model_copy(update={"joints": (*merged.joints, joint)})
+
+
+def _without_place(guest: Model) -> Model:
+    """A robot of URDF without what it says of itself as a whole: where it stands, and what it was converted from."""
+    extensions = (
+        each if each.reference else each.model_copy(update={"content": _other_than_pose(each.content)})
+        for each in guest.extensions
+    )
+    kept = tuple(each for each in extensions if each.reference or each.content or each.opaque)
+    return without_mark(guest.model_copy(update={"extensions": kept}), FROM, OFFSET, POSE)
+
+
+def _other_than_pose(content: tuple[Element, ...]) -> tuple[Element, ...]:
+    return tuple(each for each in content if each.name != "pose")
 
 
 def _clash(model: Model, guest: Model, mount: Mount, notes: Notes, kinds: Iterable[tuple[str, str]]) -> bool:

@@ -36,8 +36,9 @@ class Scope:
     def find(self, kind: Kind, name: str) -> str | None:
         """The new name of what a name stands for in this model, which may be in a nested one; None for nothing here."""
         first, separator, rest = name.partition("::")
-        if not separator:
-            return self._find_own(kind, name)
+        whole = self._find_own(kind, name)  # before 1.8, or once it is flattened, a name may have colons in it
+        if whole is not None or not separator:
+            return whole
         if first in self.inner:
             inside = rest if rest == MODEL else self.inner[first].find(kind, rest)
             return None if inside is None else f"{self.own['model'].get(first, first)}::{inside}"
@@ -46,8 +47,7 @@ class Scope:
         if first == self.name:  # Gazebo calls things by the model's name too
             inside = self.find(kind, rest)
             return None if inside is None else f"{first}::{inside}"
-        # before 1.8 a name may have colons in it, and a frame stands for a model that was flattened
-        return self._find_own(kind, name) or self._find_own("frame", name.removesuffix(f"::{MODEL}"))
+        return self._find_own("frame", name.removesuffix(f"::{MODEL}"))  # which stands for a model that was flattened
 
     def follow(self, kind: Kind, name: str | None) -> str | None:
         """The new name for an old one; what names nothing of this model stays as it is."""

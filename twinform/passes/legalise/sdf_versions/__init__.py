@@ -1,7 +1,9 @@
 """From one version of SDF to another, step by step."""
 
 from twinform.passes.base import Pass
+from twinform.passes.legalise.sdf_versions.base import known_version
 from twinform.passes.legalise.sdf_versions.leave_out import LeaveOut
+from twinform.passes.legalise.sdf_versions.place_absolutely import has_early_frames
 from twinform.passes.legalise.sdf_versions.put_back import PutBack
 from twinform.passes.legalise.sdf_versions.rename_states import RenameStates
 from twinform.passes.legalise.sdf_versions.set_version import SetVersion
@@ -11,6 +13,7 @@ from twinform.schemas import Version, parse_version, print_version, table
 
 __all__ = [
     "change_version",
+    "has_early_frames",
     "known_version",
     "lower_meaning",
     "lower_version",
@@ -49,11 +52,14 @@ def raise_version(declared: str | None, asked: str, *, carriers: bool = True) ->
     return (*forward(old, new), back, *after, LeaveOut(version=asked, carriers=carriers))
 
 
-def raise_words(declared: str | None, *, carriers: bool = True) -> tuple[Pass, ...]:
-    """The same for the newest version, with the file's own names and with the parts that only older versions have."""
+def raise_words(declared: str | None, *, carriers: bool = True, mixed: bool = False) -> tuple[Pass, ...]:
+    """The same for the newest version, with the file's own names and with the parts that only older versions have.
+
+    `mixed` says that the file has words of newer versions too.
+    """
     old, newest = known_version(declared), table("sdf").versions[-1]
     back = PutBack(version=newest, source=old, carriers=carriers)
-    return (*forward(parse_version(old), parse_version(newest), names=False), back)
+    return (*forward(parse_version(old), parse_version(newest), names=False, mixed=mixed), back)
 
 
 def raise_for_merging(declared: str, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
@@ -75,9 +81,3 @@ def lower_version(declared: str | None, asked: str, *, carriers: bool = True) ->
 def lower_meaning(asked: str) -> tuple[Pass, ...]:
     """The passes for what means something else in an older version; newer words stay."""
     return tuple(meaning_back(parse_version(table("sdf").versions[-1]), parse_version(asked)))
-
-
-def known_version(declared: str | None) -> str:
-    """The version that a file is read as: the newest where it declares none that exists."""
-    versions = table("sdf").versions
-    return declared if declared in versions else versions[-1]

@@ -12,7 +12,7 @@ from twinform.ir.frames import FrameError
 from twinform.passes.base import Pass
 from twinform.passes.legalise.nodes import map_elements
 from twinform.passes.legalise.sdf_versions.carriers import Keeper
-from twinform.schemas import Version, parse_version
+from twinform.schemas import Version, parse_version, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -105,3 +105,9 @@ def map_inside(element: Element, change: Callable[[Element], Element]) -> Elemen
 def is_foreign(element: Element) -> bool:
     """Whether it is of another namespace, such as that of the carriers."""
     return element.name[0] == "{"
+
+
+def known_version(declared: str | None) -> str:
+    """The version that a file is read as: the newest where it declares none that exists."""
+    versions = table("sdf").versions
+    return declared if declared in versions else versions[-1]

@@ -40,11 +40,15 @@ def _namer(version: Version, notes: Notes) -> Callable[[Node], Node]:
         if isinstance(node, Light) and not node.name and version >= _LIGHTS:
             return _called("light", "light", node, taken, notes)
         if isinstance(node, Plugin) and node.name is None and version <= _PLUGINS:
-            stem = PurePosixPath(node.filename or "").stem.removeprefix("lib") or "plugin"
-            return _called("plugin", stem, node, taken, notes)
+            return _called("plugin", plugin_stem(node.filename), node, taken, notes)
         return node
 
     return name
+
+
+def plugin_stem(filename: str | None) -> str:
+    """What a plugin without a name is called: like its file."""
+    return PurePosixPath(filename or "").stem.removeprefix("lib") or "plugin"
 
 
 def _called(kind: str, wish: str, node: Node, taken: set[str], notes: Notes) -> Node:

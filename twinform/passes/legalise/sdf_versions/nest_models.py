@@ -1,6 +1,7 @@
 """Since 1.8 a name like `arm::hand` is that of a hand in a nested model."""
 
 from dataclasses import dataclass, field
+from functools import partial
 from typing import ClassVar
 
 from twinform.diagnostics import Fate, Notes
@@ -58,8 +59,9 @@ class _Inner:
         return bool(name) and (name or "").startswith(self.prefix)
 
     def joint_is_inside(self, joint: Joint) -> bool:
-        ends = (joint.parent, joint.child)
-        return all(end == WORLD or self.holds(end) for end in ends)
+        leaders = (axis.mimic.joint for axis in (joint.axis, joint.axis2) if axis and axis.mimic)
+        ends = all(end == WORLD or self.holds(end) for end in (joint.parent, joint.child))
+        return ends and all(self.holds(leader) for leader in leaders)
 
     def pose(self, pose: Pose) -> Pose:
         if not self.holds(pose.relative_to):
@@ -67,47 +69,58 @@ class _Inner:
         return pose.model_copy(update={"relative_to": self.strip(pose.relative_to)})
 
 
-def nest(model: Model, notes: Notes) -> Model:
-    """The model with nested models of what has scoped names in it."""
+def nest(model: Model, notes: Notes, among: frozenset[str] | None = None) -> Model:
+    """The model with nested models of what has scoped names in it.
+
+    `among` are the full names of the models that there are to be; None makes one of every scope.
+    """
     named = (*model.links, *model.joints, *model.frames, *model.models)
     if not any(_SCOPE in node.name for node in named):
         return model
     graph = FrameGraph(model)
-    inner = {name: _Inner(name) for node in named if (name := _first(node.name))}
+    first = partial(_first, among)
+    inner = {name: _Inner(name) for node in named if (name := first(node.name))}
     links, joints, frames = list[Link](), list[Joint](), list[Frame]()
     for link in model.links:
-        (inner[name].links if (name := _first(link.name)) else links).append(link)
+        (inner[name].links if (name := first(link.name)) else links).append(link)
     for joint in model.joints:
-        name = _first(joint.name)
+        name = first(joint.name)
         if name and inner[name].joint_is_inside(joint):
             inner[name].joints.append(joint)
         else:
             joints.append(joint.model_copy(update={"name": joint.name.replace(_SCOPE, "_")}) if name else joint)
     for frame in model.frames:
-        name = _first(frame.name)
+        name = first(frame.name)
         if not name:
             frames.append(frame)
         elif frame.name == f"{name}{_SCOPE}{MODEL}":
             inner[name].own = frame
         else:
             inner[name].frames.append(frame)
-    models = [nested for nested in model.models if not _first(nested.name)]
+    models = [nested for nested in model.models if not first(nested.name)]
     for nested in model.models:
-        if name := _first(nested.name):
+        if name := first(nested.name):
             inner[name].models.append(nested)
-    made = [_model(each, model, graph, notes) for each in inner.values() if each.holds_anything]
+    made = [_model(each, model, graph, notes, _within(each, among)) for each in inner.values() if each.holds_anything]
     there = tuple(_merged(nested, made) for nested in models)
     new = tuple(nested for nested in made if nested.name not in {each.name for each in models})
     update = {"links": tuple(links), "joints": tuple(joints), "frames": tuple(frames), "models": (*there, *new)}
     return model.model_copy(update=update)
 
 
-def _first(name: str) -> str:
+def _first(among: frozenset[str] | None, name: str) -> str:
     """The model that a scoped name begins with."""
-    return name.partition(_SCOPE)[0] if _SCOPE in name else ""
+    if among is None:
+        return name.partition(_SCOPE)[0] if _SCOPE in name else ""
+    return min((path for path in among if name.startswith(path + _SCOPE)), key=len, default="")
 
 
-def _model(inner: _Inner, around: Model, graph: FrameGraph, notes: Notes) -> Model:
+def _within(inner: _Inner, among: frozenset[str] | None) -> frozenset[str] | None:
+    """The models that are to be in a nested one, by their names in that."""
+    return among and frozenset(path.removeprefix(inner.prefix) for path in among if inner.holds(path))
+
+
+def _model(inner: _Inner, around: Model, graph: FrameGraph, notes: Notes, among: frozenset[str] | None) -> Model:
     own, base = inner.own, MODEL
     pose = canonical = None
     if own is not None:
@@ -132,7 +145,7 @@ def _model(inner: _Inner, around: Model, graph: FrameGraph, notes: Notes) -> Mod
     message = f"{len(nested.links)} links, {len(nested.joints)} joints and {len(nested.frames)} frames of model "
     message += f"{around.name!r} are in its nested model {inner.name!r}"
     notes.account(Fate.APPROXIMATED, rules.OTHER_WORDS, message, nested.location, 0)
-    return nest(nested, notes)
+    return nest(nested, notes, among)
 
 
 def _link(link: Link, inner: _Inner, base: str, graph: FrameGraph) -> Link:
@@ -157,7 +170,8 @@ def _frame(frame: Frame, inner: _Inner, base: str, graph: FrameGraph) -> Frame:
     around = (pose.relative_to if pose else None) or frame.attached_to
     if not inner.holds(around):
         pose = graph.pose(frame.name, base, kind="frame", base="frame").to_pose(MODEL)
-    attached = inner.strip(frame.attached_to) if held else None
+    held_by = frame.attached_to if held else graph.body(frame.name, kind="frame")
+    attached = inner.strip(held_by) if inner.holds(held_by) else None
     update = {
         "name": inner.strip(frame.name),
         "attached_to": attached,
@@ -185,6 +199,9 @@ def _joint(joint: Joint, inner: _Inner, graph: FrameGraph) -> Joint:
 
 def _axis(joint: Joint, axis: Axis | None, inner: _Inner, graph: FrameGraph) -> Axis | None:
     """The axis with the name of its frame, or turned into the joint where that is outside."""
+    if axis is not None and axis.mimic is not None:
+        leader = axis.mimic.model_copy(update={"joint": inner.strip(axis.mimic.joint)})
+        axis = axis.model_copy(update={"mimic": leader})
     if axis is None or not axis.expressed_in:
         return axis
     if inner.holds(axis.expressed_in):

@@ -10,6 +10,8 @@ from twinform.ir import (
     Collision,
     Document,
     Element,
+    Format,
+    Frame,
     Include,
     Inertial,
     Joint,
@@ -22,15 +24,16 @@ from twinform.ir import (
     Visual,
     World,
     count_parts,
+    walk,
 )
 from twinform.ir.frames import MODEL, WORLD, FrameGraph, Kind
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import to_element
 from twinform.passes.legalise.element_poses import ElementPoses
 from twinform.passes.legalise.nodes import pose_piece
-from twinform.passes.legalise.sdf_versions.base import VersionPass, map_worlds
+from twinform.passes.legalise.sdf_versions.base import VersionPass, known_version, map_worlds
 from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms, version_carriers
-from twinform.schemas import Version
+from twinform.schemas import Version, parse_version
 
 Posed = TypeVar("Posed", Visual, Collision, Sensor, Light, Inertial, Include, Link, Joint, Model)
 Holder = TypeVar("Holder", Model, World)
@@ -41,6 +44,12 @@ _PLACEMENT: Version = (1, 8)
 """Since this version a model may say which of its frames its pose is about."""
 _ORIGIN = (0.0, 0.0, 0.0)
 _IN_LINKS = ("visuals", "collisions", "sensors", "lights")
+
+
+def has_early_frames(document: Document) -> bool:
+    """Whether a document of a version before 1.7 has frames, which may stand in 1.5 and 1.6 and mean nothing there."""
+    early = document.format is Format.SDF and parse_version(known_version(document.version)) < _NAMES
+    return early and any(isinstance(node, Frame) for node in walk(document))
 
 
 class PlaceAbsolutely(VersionPass):

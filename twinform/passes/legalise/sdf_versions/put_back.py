@@ -6,6 +6,7 @@ from typing import ClassVar, TypeVar
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Document, Element, Model, Node, Opaque, World, map_children, walk
+from twinform.ir.verify.joints import verify_mimics
 from twinform.passes.legalise.carrier import NAMESPACE
 from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb, says_already
 from twinform.passes.legalise.sdf_versions.base import VersionPass, is_foreign
@@ -25,7 +26,7 @@ class PutBack(VersionPass):
     version (`source`) still means what the carriers were made from is proved by repetition: the restored model is said
     in its words once more, and has to say what the file says. Where it does not, because the file was edited, the model
     or world stays as it is, and its carriers with it.
-    Diagnostics: `stale-carrier`.
+    Diagnostics: `stale-carrier`; `unknown-leader` where what a joint mimics is gone.
     """
 
     name: ClassVar[str] = "put-back"
@@ -49,7 +50,11 @@ class PutBack(VersionPass):
         except CarrierError as error:
             _report_unfit(node, called, error, keeper.notes)
             return node
-        if made is node or self._means_the_same(made, node):
+        if made is node:
+            return made
+        if isinstance(made, Model):
+            verify_mimics(made.joints, keeper.notes)
+        if self._means_the_same(made, node):
             return made
         message = f"{called} was edited since parts of it were left out for SDF {self.source}"
         keeper.notes.report(rules.STALE_CARRIER, message, node.location, found=called)

@@ -29,17 +29,18 @@ Crosses = Callable[[int], bool]
 """Whether a minor version, with which something came, lies between the two."""
 
 
-def forward(old: Version, new: Version, *, names: bool = True) -> Iterator[Pass]:
+def forward(old: Version, new: Version, *, names: bool = True, mixed: bool = False) -> Iterator[Pass]:
     """The passes from an older version to a newer one, each where its version is crossed.
 
-    `names` says whether names become what newer versions want: unlike each other, and without scopes in them.
+    `names` says whether names become what newer versions want: unlike each other, and without scopes in them; `mixed`
+    whether the file has newer words already.
     """
     crosses: Crosses = lambda minor: old < (1, minor) <= new  # noqa: E731 - a word for the lines below
-    yield from _to_named_frames(crosses, print_version(new), old, names=names)
+    yield from _to_named_frames(crosses, print_version(new), old, names=names, mixed=mixed)
     yield from _from_named_frames(crosses, print_version(new), names=names)
 
 
-def _to_named_frames(crosses: Crosses, version: str, old: Version, *, names: bool) -> Iterator[Pass]:
+def _to_named_frames(crosses: Crosses, version: str, old: Version, *, names: bool, mixed: bool) -> Iterator[Pass]:
     if crosses(4):
         yield MoveTimeSteps(version=version)
     if crosses(5):
@@ -51,7 +52,7 @@ def _to_named_frames(crosses: Crosses, version: str, old: Version, *, names: boo
     if crosses(7):
         yield NamePoseFrames(version=version)
     if crosses(5) or crosses(7):
-        yield NameAxisFrames(version=version, source_before_1_5=old < (1, 5))
+        yield NameAxisFrames(version=version, source_before_1_5=old < (1, 5), both=mixed)
     if crosses(7) and names:
         yield ClearNames(version=version)
 

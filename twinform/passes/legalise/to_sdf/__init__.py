@@ -32,8 +32,12 @@ _ONE_SCOPE = (1, 7)
 """Since this version all names in a model are unlike each other."""
 
 
-def to_sdf(version: str, *, carriers: bool, mixed: bool = False) -> tuple[Pass, ...]:
-    """The passes that make SDF of a version out of a URDF document; `mixed` lets it have words of newer ones."""
+def to_sdf(version: str, *, carriers: bool, mixed: bool = False, mixed_source: bool = False) -> tuple[Pass, ...]:
+    """The passes that make SDF of a version out of a URDF document.
+
+    `mixed` lets it have words of newer versions, and `mixed_source` says that the URDF has some.
+    """
+    before_named_frames = parse_version(version) < _ONE_SCOPE
     return (
         CarryUrdf(carriers=carriers),  # before anything of SDF comes in
         FoldGazebo(carriers=carriers),
@@ -54,11 +58,11 @@ def to_sdf(version: str, *, carriers: bool, mixed: bool = False) -> tuple[Pass, 
         MeshUris(carriers=carriers),
         RestoreNames(to=Format.SDF),
         NameScopes(),
-        RestoreFrames(),
+        RestoreFrames(old_words=mixed and before_named_frames),
         RestoreNested(),
         DropStale(to=Format.SDF),
         DeclareQuaternions(),
         *(lower_meaning(version) if mixed else lower_version(None, version, carriers=carriers)),
-        *([RestoreNames(to=Format.SDF, apart=True)] if parse_version(version) < _ONE_SCOPE else []),
-        RetargetSdf(version=version, carriers=carriers),
+        *([RestoreNames(to=Format.SDF, apart=True)] if before_named_frames else []),
+        RetargetSdf(version=version, carriers=carriers, mixed=mixed_source),
     )

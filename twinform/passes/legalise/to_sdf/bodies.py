@@ -3,28 +3,36 @@
 from collections import defaultdict
 from typing import ClassVar
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf
 from twinform.ir import Format, Inertia, Inertial, Link, Model
 from twinform.passes.legalise.marks import with_mark
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.provenance import came_from
 from twinform.passes.legalise.to_sdf.frame_links import is_massless
+from twinform.passes.legalise.token_mass import MOMENTS, TOKEN, TOKEN_MASS, TOKEN_MOMENT
 
 _NO_INERTIA = Inertia(ixx=0.0, ixy=0.0, ixz=0.0, iyy=0.0, iyz=0.0, izz=0.0)
 _NONE = Inertial(mass=0.0, inertia=_NO_INERTIA)
 
+_MASS = ("mass", f"{TOKEN_MASS:g} kg")
+_INERTIA = ("inertia", f"{TOKEN_MOMENT:g} kg m^2")
+
 UNSAID = "unsaid"
-"""The mark on an inertial of SDF that lists what URDF leaves out: `<tf:unsaid>inertia</tf:unsaid>`."""
+"""The mark on an inertial of SDF that lists what URDF leaves out: `<tf:unsaid>inertia</tf:unsaid>`, or all `inertial`.
+
+Where URDF says zero, and a token stands in SDF, it is `zero-mass` and `zero-inertia`.
+"""
 
 
 class UrdfBodies(ModelPass):
     """Write out what URDF means by saying nothing about a link's mass, and name the root.
 
-    Changes: 1. a link without inertial, mass or inertia gets one of zero: SDF would give it 1 kg or 1 kg m^2; 2.
-    `canonical_link` names the root where another link comes first.
-    Never touches: an inertial that is written.
-    Diagnostics: `massless-link` for a link that moves although nothing fixed to it has mass.
+    Changes: 1. a link without mass gets a token of 1e-12 kg, one without inertia 1e-14 kg m^2: engines abort without,
+    or hold it; 2. in a static model they get zeros, where SDF would give them 1 kg and 1 kg m^2; 3. `canonical_link`
+    names the root where another link comes first.
+    Never touches: mass and inertia that are written and not zero.
+    Diagnostics: `massless-link` for a link that moves although nothing fixed to it has mass; the ledger has each token.
     """
 
     name: ClassVar[str] = "urdf-bodies"
@@ -33,7 +41,7 @@ class UrdfBodies(ModelPass):
     def run_model(self, model: Model, notes: Notes) -> Model:
         """The model with a mass for every link."""
         self._report_massless(model, notes)
-        links = tuple(_with_inertial(link, carriers=self.carriers) for link in model.links)
+        links = tuple(self._body(link, model, notes) for link in model.links)
         children = {joint.child for joint in model.joints}
         root = next((link.name for link in links if link.name not in children), None)
         update: dict[str, object] = {"links": links}
@@ -41,6 +49,18 @@ class UrdfBodies(ModelPass):
         if root is not None and not usual and model.canonical_link is None:
             update["canonical_link"] = root
         return model.model_copy(update=update)
+
+    def _body(self, link: Link, model: Model, notes: Notes) -> Link:
+        if model.static:
+            return _with_inertial(link, carriers=self.carriers)
+        lacks = [*(_MASS if _has_no_mass(link) else ()), *(_INERTIA if _has_no_inertia(link) else ())]
+        if not lacks:
+            return link
+        # what the source says of it is nothing, or is said by a mark
+        message = f"link {link.name!r} has no {' or '.join(lacks[::2])}, and gets {' and '.join(lacks[1::2])}"
+        where = link.inertial.location if link.inertial else link.location.at("inertial")
+        notes.account(Fate.APPROXIMATED, to_sdf.TOKEN_MASS, message, where, weight=0)
+        return _with_token(link, carriers=self.carriers)
 
     def _report_massless(self, model: Model, notes: Notes) -> None:
         """A link that moves, and to which only massless links are fixed."""
@@ -56,6 +76,34 @@ class UrdfBodies(ModelPass):
             if link.name in moved and not _reaches(link.name, fixed, massive):
                 message = f"link {link.name!r} moves but has no mass, nor has anything fixed to it"
                 notes.report(to_sdf.MASSLESS_LINK, message, link.location)
+
+
+def _has_no_mass(link: Link) -> bool:
+    inertial = link.inertial or Inertial()
+    return not inertial.auto and not inertial.mass
+
+
+def _has_no_inertia(link: Link) -> bool:
+    inertial = link.inertial or Inertial()
+    moments = [getattr(inertial.inertia, name) for name in MOMENTS] if inertial.inertia else []
+    return not inertial.auto and not any(moments)
+
+
+def _with_token(link: Link, *, carriers: bool) -> Link:
+    """A link with a token of the mass and the inertia that it does not have."""
+    said = link.inertial
+    if said is None:
+        return link.model_copy(update={"inertial": with_mark(TOKEN, UNSAID, "inertial") if carriers else TOKEN})
+    update: dict[str, object] = {}
+    words: list[str] = []
+    if _has_no_mass(link):
+        update["mass"] = TOKEN.mass
+        words.append("mass" if said.mass is None else "zero-mass")
+    if _has_no_inertia(link):
+        update["inertia"] = TOKEN.inertia
+        words.append("inertia" if said.inertia is None else "zero-inertia")
+    made = said.model_copy(update=update)
+    return link.model_copy(update={"inertial": with_mark(made, UNSAID, " ".join(words)) if carriers else made})
 
 
 def _with_inertial(link: Link, *, carriers: bool) -> Link:

@@ -23,13 +23,11 @@ from twinform.ir import (
 from twinform.passes.legalise.carrier import DANGLING, carry, is_carrier, is_ours, unpack
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.provenance import came_from
-from twinform.passes.legalise.urdf_pieces import joints_of
+from twinform.passes.legalise.urdf_pieces import BALLS, joints_of
 from twinform.schemas import Fact, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
-_BALLS = frozenset({"ball", "spherical"})
-"""What dialects of URDF call the ball joint of SDF."""
 _IN_BOTH = (Model, Link, Joint, Visual, Collision, Inertial)
 """Nodes that are an element in both formats, in which other tools' parts stand as they are."""
 _ONCE = frozenset({"axis", "limit", "dynamics", "mimic"})
@@ -61,7 +59,7 @@ class CarryUrdf(ModelPass):
         if isinstance(node, GazeboExtension):  # the next pass knows what may stand in it
             return node
         node = map_children(node, lambda child: self._sweep(child, notes, back))
-        if isinstance(node, Joint) and node.type in _BALLS:
+        if isinstance(node, Joint) and node.type in BALLS:
             message = f"{node.type} joint {node.name!r} is one of a dialect of URDF"
             kept = [Opaque(attribute=("type", node.type))]
             ball = self._swept(node.model_copy(update={"type": "ball"}), notes, back)
@@ -117,7 +115,7 @@ def _with_doubt(part: Opaque, joints: Container[str]) -> Opaque:
 
 def _unpacked(part: Opaque) -> tuple[Opaque, ...]:
     """What is in a carrier of SDF, if the model does not say it already in words of its own; else the carrier."""
-    pieces = unpack(part) if is_carrier(part, "sdf") else ()
+    pieces = unpack(part) if is_carrier(part, "sdf") and part.element and part.element.get("index") is None else ()
     fit = all(piece.element and not piece.at and piece.element.name not in _typed_in_sdf() for piece in pieces)
     return pieces if pieces and fit else (part,)
 

@@ -8,10 +8,10 @@ from typing import Any, ClassVar, TypeVar
 from twinform.diagnostics import Fate, Location, Notes, Rule, Severity
 from twinform.diagnostics.rules import structure, to_sdf
 from twinform.ir import Element, Format, GazeboExtension, Joint, Link, Model, Node, Opaque
-from twinform.passes.legalise.carrier import DANGLING, Attributes, pack
+from twinform.passes.legalise.carrier import DANGLING, OVERRULED, Attributes, pack
 from twinform.passes.legalise.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
-from twinform.passes.legalise.marks import with_mark
-from twinform.passes.legalise.material_marks import LOOK
+from twinform.passes.legalise.marks import EXTENSION, with_mark
+from twinform.passes.legalise.material_marks import with_look
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.provenance import came_from
 from twinform.passes.legalise.to_sdf.gazebo_content import read_content
@@ -22,7 +22,7 @@ from twinform.passes.legalise.to_sdf.gazebo_fields import (
     set_model_fields,
     set_visual,
 )
-from twinform.passes.legalise.to_sdf.gazebo_merging import merge
+from twinform.passes.legalise.to_sdf.gazebo_merging import merge, written
 from twinform.passes.legalise.to_sdf.gazebo_parts import with_axis, with_mass
 from twinform.passes.legalise.to_sdf.gazebo_sorting import Blob, Sorter, is_part_of_axis, lacks_shapes, place_of
 
@@ -63,6 +63,7 @@ class _Fold:
         self.robot = model
         self.notes = notes
         self.carriers = carriers
+        self.marks = carriers and not came_from(model, Format.SDF)  # how URDF says it does not matter at home
         self.links = {link.name for link in model.links}
         self.joints = {joint.name for joint in model.joints}
         self.kept: list[Opaque] = []
@@ -134,9 +135,12 @@ class _Fold:
         return model.model_copy(
             update={
                 "links": (*model.links[:links], *map(with_mass, model.links[links:])),
-                "joints": (*model.joints[:joints], *map(with_axis, model.joints[joints:])),
+                "joints": (*model.joints[:joints], *map(self._extension, model.joints[joints:])),
             }
         )
+
+    def _extension(self, joint: Joint) -> Joint:
+        return with_mark(with_axis(joint), EXTENSION) if self.marks else with_axis(joint)
 
     def _sort(
         self,
@@ -159,6 +163,8 @@ class _Fold:
                 continue
             message = ", ".join(f"<{element.name}>" for element in elements)
             self._keep(extension, elements, to_sdf.URDF_ONLY, f"{message} has nothing to do here: no link is merged")
+        for element, extension, message in sorter.overruled:
+            self._keep(extension, [element], to_sdf.GAZEBO_CONFLICT, message, OVERRULED)
         for extension, elements in sorter.without_use:
             names = ", ".join(f"<{element.name}>" for element in elements)
             message = f"{names} is about shapes, and link {extension.reference!r} has none of the kind"
@@ -202,8 +208,8 @@ class _Fold:
         extra = read_content(blob.kind, link.name, self.robot.name, [inside], self.notes)
         replaced: list[str] = []
         shapes = getattr(link, field)
-        if self.carriers and blob.kind == "visual" and "material" in extra and not any(s.material for s in shapes):
-            link = with_mark(link, LOOK)
+        if self.marks and blob.kind == "visual" and extra.get("material"):
+            link = with_look(link, written(extra["material"]))
         changed = tuple(merge(shape, extra, replaced, replace=True) for shape in shapes)
         for name in dict.fromkeys(replaced):
             self._conflict(link, name, "the one in <gazebo>", blob.where)

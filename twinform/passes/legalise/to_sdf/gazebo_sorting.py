@@ -25,7 +25,19 @@ class _Value(NamedTuple):
     tag: Tag
     value: object
     element: Element
-    where: Location
+    extension: GazeboExtension
+
+    @property
+    def where(self) -> Location:
+        return place_of(self.element, self.extension)
+
+
+class Overruled(NamedTuple):
+    """A tag behind which another one says the same field."""
+
+    element: Element
+    extension: GazeboExtension
+    message: str
 
 
 def place_of(element: Element, extension: GazeboExtension) -> Location:
@@ -72,6 +84,7 @@ class Sorter:
         self._unfit = unfit
         self._idle = idle
         self._read: dict[tuple[str, str], _Value] = {}
+        self.overruled: list[Overruled] = []
         self.blobs: list[Blob] = []
         self.rest: list[GazeboExtension] = []
         self.misplaced: list[tuple[GazeboExtension, list[Element]]] = []
@@ -107,7 +120,7 @@ class Sorter:
             elif tag.target == "ignored":
                 ignored.append(element)
             else:
-                self._value(tag, element, place_of(element, extension))
+                self._value(tag, element, extension)
         self.rest.append(_with(extension, rest))
         sorted_out = ((self.misplaced, misplaced), (self.ignored, ignored), (self.without_use, without_use))
         for place, elements in sorted_out:
@@ -133,7 +146,8 @@ class Sorter:
         source = above and Source(above.file, where.line, above, element.name)
         self.blobs.append(Blob(element.name, element.children, extension.model_copy(update={"source": source}), where))
 
-    def _value(self, tag: Tag, element: Element, where: Location) -> None:
+    def _value(self, tag: Tag, element: Element, extension: GazeboExtension) -> None:
+        where = place_of(element, extension)
         self._extra_attributes(element, where, ("value",))
         text = value_text(element)
         try:
@@ -147,7 +161,7 @@ class Sorter:
             expected = "true or false"
             warning = Severity.ERROR if self._notes.strict else Severity.WARNING
             self._notes.report(structure.INVALID_VALUE, message, where, found=text, expected=expected, severity=warning)
-        self._set(_Value(tag, value, element, where))
+        self._set(_Value(tag, value, element, extension))
 
     def _set(self, read: _Value) -> None:
         """The last one counts, as in libsdformat."""
@@ -159,7 +173,7 @@ class Sorter:
             self._notes.report(
                 to_sdf.GAZEBO_CONFLICT, message, read.where, found=value_text(read.element), related=related
             )
-            self._notes.account(Fate.DROPPED, to_sdf.GAZEBO_CONFLICT, message, before.where, before.element.weight)
+            self.overruled.append(Overruled(before.element, before.extension, message))
         self._read[key] = read
 
     def _extra_attributes(self, element: Element, where: Location, known: tuple[str, ...]) -> None:

@@ -3,11 +3,11 @@
 import math
 from typing import NamedTuple
 
-from twinform.ir import Axis, Inertia, Inertial, Joint, Link, Pose
+from twinform.ir import Axis, Joint, Link, Pose
 from twinform.ir.node import Vector3
+from twinform.passes.legalise.token_mass import TOKEN
 
 _X = (1.0, 0.0, 0.0)
-NO_MASS = Inertial(mass=0.0, inertia=Inertia(ixx=0.0, ixy=0.0, ixz=0.0, iyy=0.0, iyz=0.0, izz=0.0))
 
 
 class Chain(NamedTuple):
@@ -21,7 +21,7 @@ def planar_chain(joint: Joint, names: tuple[str, str, str, str]) -> Chain:
     """The chain of a planar joint of URDF; `names` are for the sliding joints and their links, in turns.
 
     All three axes are in the joint's frame, whose x and y span the plane where its normal is z. The links between have
-    no mass, so that the robot weighs what it weighed.
+    a token of mass, so that engines move them and the robot weighs what it weighed.
     """
     normal = (joint.axis.xyz if joint.axis else None) or _X
     along, across = _plane(normal)
@@ -54,8 +54,8 @@ def planar_chain(joint: Joint, names: tuple[str, str, str, str]) -> Chain:
         }
     )
     links = (
-        Link(name=first_link, pose=Pose(relative_to=first), inertial=NO_MASS, source=source),
-        Link(name=second_link, pose=Pose(relative_to=second), inertial=NO_MASS, source=source),
+        Link(name=first_link, pose=Pose(relative_to=first), inertial=TOKEN, source=source),
+        Link(name=second_link, pose=Pose(relative_to=second), inertial=TOKEN, source=source),
     )
     return Chain(links, (slide, shift, turn))
 

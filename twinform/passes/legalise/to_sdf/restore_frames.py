@@ -17,6 +17,8 @@ from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.notation import NESTED, OFFSET, POSE, as_marked, read_offset
 from twinform.passes.legalise.provenance import came_from
 from twinform.passes.legalise.rebasing import AnyPosed, Base, Posed, Rebasing
+from twinform.passes.legalise.to_urdf.express_axes import OLD_WORD
+from twinform.passes.legalise.token_mass import has_token_mass
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -39,6 +41,8 @@ class RestoreFrames(ModelPass):
     """
 
     name: ClassVar[str] = "restore-frames"
+    old_words: bool = False
+    """Whether the model's frame is called by the word before 1.7 where a mark says so."""
 
     def run_model(self, model: Model, notes: Notes) -> Model:
         """The model in the terms of its SDF file."""
@@ -46,12 +50,12 @@ class RestoreFrames(ModelPass):
             return self._with_offsets(model, notes)
         model = _without_made_root(model)
         try:
-            made = _Restoring(model, notes).run()
+            made = _Restoring(model, notes, old_words=self.old_words).run()
             if next(FrameGraph(made).problems(), None) is None:
                 return made
             message = f"the frames in which poses of {model.name!r} were written go round in a circle by now"
             notes.report(rules.STALE_CARRIER, message, model.location, found=model.name)
-            return _Restoring(_without_frames(model), notes).run()
+            return _Restoring(_without_frames(model), notes, old_words=self.old_words).run()
         except FrameError as error:
             error.report(notes)
             return model
@@ -77,6 +81,7 @@ class _Restoring:
     model: Model
     notes: Notes
     as_urdf: bool = False
+    old_words: bool = False
     frames: dict[str, Base] = field(default_factory=dict[str, Base])
 
     def run(self) -> Model:
@@ -212,7 +217,8 @@ class _Restoring:
     def _axis(self, joint: Joint, field: str, graph: FrameGraph) -> Axis | None:
         axis: Axis | None = getattr(joint, field)
         found = find_mark(joint, field)
-        name = found.get("expressed_in") if found else None
+        old = found is not None and found.get(OLD_WORD) == "true"
+        name = (found and found.get("expressed_in")) or (MODEL if old else None)
         if axis is None or not name:
             return axis
         base, kind = self._in_frame(name)
@@ -220,7 +226,8 @@ class _Restoring:
             self._stale(f"there is no frame {name!r} any more, in which the axis of {joint.name!r} was written", joint)
             return axis
         turn = graph.pose(joint.name, base, kind="joint", base=kind)
-        return axis.model_copy(update={"xyz": rounded(turn.rotate(axis.xyz or _Z)), "expressed_in": name})
+        frame = {OLD_WORD: True} if old and self.old_words else {"expressed_in": name}
+        return axis.model_copy(update={"xyz": rounded(turn.rotate(axis.xyz or _Z)), **frame})
 
     def _frame(self, frame: Frame, graph: FrameGraph) -> Frame:
         if find_mark(frame, NESTED) is None:
@@ -254,7 +261,8 @@ def _without_made_root(model: Model) -> Model:
     if link is None or not is_made(link):
         return model
     held = link.visuals or link.collisions or link.sensors or link.lights or len(link.opaque) > 1
-    if held or model.joints or (link.inertial and link.inertial.mass):  # it is a link like others by now
+    weighs = link.inertial and link.inertial.mass and not has_token_mass(link.inertial)
+    if held or model.joints or weighs:  # it is a link like others by now
         return model.model_copy(update={"links": (without_mark(link, MADE),)})
     frames = (_off_root(frame, link.name) for frame in model.frames)
     return model.model_copy(update={"links": (), "frames": tuple(frames), "canonical_link": None})

@@ -43,9 +43,14 @@ def _restored(joint: Joint, notes: Notes) -> Joint:
 
 def _without_infinities(axis: Axis) -> Axis:
     limit = axis.limit or Limit()
-    update = {name: None for name in _NUMBERS if abs(getattr(limit, name) or 0.0) >= UNBOUNDED}
+    update = {name: None for name in _NUMBERS if _sign(name) * (getattr(limit, name) or 0.0) >= UNBOUNDED}
     bare = limit.model_copy(update=update) if update else limit
     return axis.model_copy(update={"limit": None if bare == Limit() else bare})
+
+
+def _sign(name: str) -> int:
+    """On which side a number that limits nothing is: of a lower limit far below."""
+    return -1 if name == "lower" else 1
 
 
 def _continuous(joint: Joint, notes: Notes) -> Joint:

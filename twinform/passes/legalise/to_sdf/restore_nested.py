@@ -1,11 +1,13 @@
 """Nested models as the SDF file had them that a URDF was converted from."""
 
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Notes, Severity
 from twinform.diagnostics.rules.to_urdf import NESTED_MODEL, STALE_CARRIER
 from twinform.ir import Axis, Element, Format, Frame, Joint, Link, Model, Node, Opaque, Pose
-from twinform.ir.frames import MODEL, FrameGraph
+from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.marks import find_mark
 from twinform.passes.legalise.model_pass import ModelPass
@@ -21,6 +23,7 @@ from twinform.schemas import parse_version, table
 AnyNode = TypeVar("AnyNode", bound=Node)
 
 _OWN = f"{SCOPE}{MODEL}"
+Short = Callable[[str | None], str | None]
 
 
 class NameScopes(ModelPass):
@@ -58,7 +61,8 @@ class RestoreNested(ModelPass):
 
     Changes: 1. `inner::link` is `link` in the model `inner`, and so on; 2. the model has again what else it said.
     Never touches: names without a scope, so what was added or renamed since stays where it is.
-    Diagnostics: `stale-carrier` where what a nested model said does not fit it.
+    Diagnostics: `stale-carrier` where what a nested model said does not fit it, `nested-model` where a frame of one
+    moves with a link outside of it by now.
     """
 
     name: ClassVar[str] = "restore-nested"
@@ -68,9 +72,28 @@ class RestoreNested(ModelPass):
         said = {frame.name.removesuffix(_OWN): found for frame in model.frames if (found := find_mark(frame, NESTED))}
         if not said:
             return model
-        nested = nest(model, Notes())
-        models = tuple(_with_rest(inner, inner.name, said, notes) for inner in nested.models)
-        return _tidy(nested.model_copy(update={"models": models}))
+        try:
+            _report_frames_outside(model, said, notes)
+            nested = nest(model, Notes(), frozenset(said))
+            models = tuple(_with_rest(inner, inner.name, said, notes) for inner in nested.models)
+            return _tidy(nested.model_copy(update={"models": models}))
+        except FrameError as error:
+            error.report(notes)
+            return model
+
+
+def _report_frames_outside(model: Model, said: Iterable[str], notes: Notes) -> None:
+    """A frame in a nested model moves with a link of that model."""
+    graph = FrameGraph(model)
+    links = {link.name for link in model.links}
+    for frame in model.frames:
+        scope = next((path + SCOPE for path in said if frame.name.startswith(path + SCOPE)), "")
+        if frame.name.endswith(_OWN) or not any(scope and name.startswith(scope) for name in links):
+            continue
+        body = graph.body(frame.name, kind="frame")
+        if body in links and not body.startswith(scope):
+            message = f"frame {frame.name!r} is in a nested model, and is fixed to {body!r} outside of it"
+            notes.report(NESTED_MODEL, message, frame.location, found=body, severity=Severity.ERROR)
 
 
 def _with_rest(model: Model, path: str, said: dict[str, Element], notes: Notes) -> Model:
@@ -118,16 +141,17 @@ def _placed(model: Model) -> Model:
 
 def _tidy(model: Model) -> Model:
     """The model without names that go without saying: its own frame, and that of a model by its full name."""
+    short = partial(_short, frozenset(_inside(model)))
 
     def pose(written: Pose) -> Pose:
-        return written.model_copy(update={"relative_to": _short(written.relative_to)})
+        return written.model_copy(update={"relative_to": short(written.relative_to)})
 
     model = model.model_copy(
         update={
             "models": tuple(_tidy(inner) for inner in model.models),
             "links": tuple(_posed(map_poses(link, pose)) for link in model.links),
-            "joints": tuple(_tidy_joint(map_poses(joint, pose)) for joint in model.joints),
-            "frames": tuple(_tidy_frame(map_poses(frame, pose)) for frame in model.frames),
+            "joints": tuple(_tidy_joint(map_poses(joint, pose), short) for joint in model.joints),
+            "frames": tuple(_tidy_frame(map_poses(frame, pose), short) for frame in model.frames),
         }
     )
     return _posed(map_poses(model, pose))
@@ -143,18 +167,27 @@ def _posed(node: AnyNode) -> AnyNode:
     return node.model_copy(update={"pose": None if pose == Pose() else pose})
 
 
-def _short(name: str | None) -> str | None:
-    return name.removesuffix(_OWN) if name and name != MODEL else name
+def _inside(model: Model) -> Iterator[str]:
+    """The full names of the models in a model."""
+    for inner in model.models:
+        yield inner.name
+        yield from (f"{inner.name}{SCOPE}{path}" for path in _inside(inner))
 
 
-def _tidy_joint(joint: Joint) -> Joint:
+def _short(models: frozenset[str], name: str | None) -> str | None:
+    """A name; that of a model for its own frame."""
+    short = name and name.removesuffix(_OWN)
+    return short if short in models else name
+
+
+def _tidy_joint(joint: Joint, short: Short) -> Joint:
     def tidy(axis: Axis | None) -> Axis | None:
-        return axis and axis.model_copy(update={"expressed_in": _short(axis.expressed_in)})
+        return axis and axis.model_copy(update={"expressed_in": short(axis.expressed_in)})
 
-    ends = {end: _short(getattr(joint, end)) for end in ("parent", "child")}
+    ends = {end: short(getattr(joint, end)) for end in ("parent", "child")}
     return joint.model_copy(update={**ends, "axis": tidy(joint.axis), "axis2": tidy(joint.axis2)})
 
 
-def _tidy_frame(frame: Frame) -> Frame:
-    attached = _short(frame.attached_to)
+def _tidy_frame(frame: Frame, short: Short) -> Frame:
+    attached = short(frame.attached_to)
     return frame.model_copy(update={"attached_to": None if attached == MODEL else attached})

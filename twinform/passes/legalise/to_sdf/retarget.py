@@ -8,7 +8,13 @@ from twinform.passes.base import Pass
 from twinform.passes.legalise.carrier import NAMESPACE, PREFIX, has_ours
 from twinform.passes.legalise.marks import without_mark
 from twinform.passes.legalise.notation import BODY
-from twinform.passes.legalise.provenance import came_from, source_version, with_provenance, without_provenance
+from twinform.passes.legalise.provenance import (
+    came_from,
+    source_version,
+    with_mixed_words,
+    with_provenance,
+    without_provenance,
+)
 from twinform.schemas import table
 
 
@@ -23,6 +29,7 @@ class RetargetSdf(Pass):
     name: ClassVar[str] = "retarget-sdf"
     version: str
     carriers: bool = True
+    mixed: bool = False
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The document in terms of SDF."""
@@ -43,4 +50,7 @@ class RetargetSdf(Pass):
         if came_from(model, Format.SDF):
             links = tuple(without_mark(link, BODY) for link in model.links)
             return without_provenance(model.model_copy(update={"links": links}))
-        return with_provenance(without_provenance(model), document) if self.carriers else model
+        if not self.carriers:
+            return model
+        model = without_provenance(model)
+        return with_provenance(with_mixed_words(model) if self.mixed else model, document)

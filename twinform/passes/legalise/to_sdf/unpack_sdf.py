@@ -69,10 +69,15 @@ def _is_blank_pose(carrier: Opaque) -> bool:
 
 
 def _is_overruled(carrier: Opaque, node: Node) -> bool:
-    """Whether URDF says otherwise by leaving something out: limits of a joint that turns, or a whole material."""
+    """Whether URDF says otherwise by leaving something out.
+
+    Limits of a joint that turns, a whole material, or the first of two things, of which the carrier has the second.
+    """
     at = (carrier.element.get("at") or "") if carrier.element else ""
     if isinstance(node, Joint):
         named = {piece.element.name for piece in unpack(carrier) if piece.element}
+        if carrier.element and carrier.element.get("index") is not None:
+            return not named <= {part.element.name for part in node.opaque if part.element}
         return at == "axis/limit" and node.type != "continuous" and bool(named & _ENDS)
     return isinstance(node, Visual) and at.startswith("material") and not _has_look(node.material)
 

@@ -35,15 +35,21 @@ __all__ = ["UrdfVersion", "to_urdf"]
 
 
 def to_urdf(
-    *, model: str | None = None, urdf_version: UrdfVersion = "1.0", carriers: bool = True, mixed: bool = False
+    *,
+    model: str | None = None,
+    urdf_version: UrdfVersion = "1.0",
+    carriers: bool = True,
+    mixed: bool = False,
+    mixed_source: bool = False,
 ) -> tuple[Pass, ...]:
     """The passes that make URDF of the model of this name, or of the only one.
 
-    `mixed` says that the SDF has words that its version does not have.
+    `mixed` lets it have shapes of newer versions, and `mixed_source` says that the SDF has words of other ones.
     """
+    shapes: UrdfVersion = "1.2" if mixed else urdf_version
     return (
         SelectModel(model=model),
-        UpgradeSdf(carriers=carriers, mixed=mixed),
+        UpgradeSdf(carriers=carriers, mixed=mixed_source),
         GatherImuNoise(version=table("sdf").versions[-1], marked=True),
         FlattenModels(carriers=carriers),
         FoldPlanarJoints(carriers=carriers),
@@ -58,7 +64,7 @@ def to_urdf(
         UnfoldJoints(carriers=carriers),
         MapJoints(carriers=carriers, urdf_version=urdf_version),
         RebaseLinks(carriers=carriers),
-        MapGeometry(carriers=carriers, urdf_version=urdf_version),  # what it carries is where it will be
+        MapGeometry(carriers=carriers, urdf_version=shapes),  # what it carries is where it will be
         ShareVisuals(carriers=carriers),
         MapMaterials(carriers=carriers),
         MapSurfaces(carriers=carriers),

@@ -6,7 +6,7 @@ from twinform.diagnostics import Fate
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Joint, Link, Model, count_parts
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
-from twinform.passes.legalise.marks import mark_made
+from twinform.passes.legalise.marks import EXTENSION, find_mark, mark_made, without_mark
 from twinform.passes.legalise.nodes import unique_name
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.cut_joints import cut_joints
@@ -17,9 +17,11 @@ class BuildTree(ToUrdfPass):
     """Cut loops and connect what is not connected.
 
     Changes: 1. of several joints with one child, and of joints that close a circle, the first ones in the file stay;
-    each of the others becomes a `<joint>` in a `<gazebo>` element, with its pose in the child's frame of URDF; 2. a
+    each of the others becomes a `<joint>` in a `<gazebo>` element, with its pose in the child's frame of URDF, and so
+    does one that a conversion from URDF found there, if it is not all that holds a link; 2. a
     root beside the first one hangs from it by a `floating` joint. The first root is `world` where a joint has it as its
-    parent, else the one that the canonical link hangs from; 3. in a static model every root is fixed to `world`.
+    parent, else the one that the canonical link hangs from; 3. in a static model every root is fixed to `world`, but
+    not the first one of a model that came from URDF, where `<static>` says so.
     Never touches: gearboxes, which hold no link.
     Diagnostics: `cut-loop`; in the ledger `cut-loop` and `hung-root`.
     """
@@ -31,14 +33,19 @@ class BuildTree(ToUrdfPass):
         tree = Tree([link.name for link in model.links])
         kept: list[Joint] = []
         cut: list[Joint] = []
+        extensions: list[Joint] = []
+        marked = [joint for joint in model.joints if find_mark(joint, EXTENSION)]
         for joint in model.joints:
-            (kept if joint.type == "gearbox" or tree.add(joint) else cut).append(joint)
+            if find_mark(joint, EXTENSION) is None:
+                (kept if joint.type == "gearbox" or tree.add(joint) else cut).append(joint)
+        for joint in (without_mark(joint, EXTENSION) for joint in marked):  # what nothing else holds needs it
+            (kept if joint.parent != WORLD and tree.add(joint) else extensions).append(joint)
         for joint in cut:
             _report_cut(joint, tree.parent_joint.get(joint.child or ""), keeper)
-        if cut:
-            model = cut_joints(model, kept, cut, tree.parent_joint)
+        if cut or extensions:
+            model = cut_joints(model, kept, [*extensions, *cut], tree.parent_joint)
         roots = [link for link in model.links if link.name not in tree.parent_joint]
-        first = _first_root(model, tree)
+        first = _first_root(model, tree, keeper)
         return _hang(model, [link for link in roots if link.name != first], first, keeper)
 
 
@@ -71,8 +78,8 @@ class Tree:
         return name
 
 
-def _first_root(model: Model, tree: Tree) -> str:
-    if model.static or any(joint.parent == WORLD for joint in tree.parent_joint.values()):
+def _first_root(model: Model, tree: Tree, keeper: Keeper) -> str:
+    if (model.static and not keeper.back) or any(joint.parent == WORLD for joint in tree.parent_joint.values()):
         return WORLD
     return tree.root(FrameGraph(model).body(MODEL, kind="model"))
 

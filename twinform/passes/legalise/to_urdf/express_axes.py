@@ -5,7 +5,7 @@ from typing import ClassVar
 from twinform.diagnostics.rules import model as model_rules
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Axis, Joint, Model
-from twinform.ir.frames import FrameGraph
+from twinform.ir.frames import MODEL, FrameGraph
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 
@@ -14,6 +14,8 @@ _AXES = {
     **dict.fromkeys(("universal", "revolute2", "gearbox"), ("axis", "axis2")),
 }
 """The axes that mean something, by the type of the joint."""
+OLD_WORD = "use_parent_model_frame"
+"""What the mark on an axis says where the file called the model's frame so, and has newer words elsewhere."""
 _DEFAULT = (0.0, 0.0, 1.0)
 """SDF's axis where none is written; URDF's is 1 0 0."""
 
@@ -53,8 +55,12 @@ def _express(joint: Joint, field: str, graph: FrameGraph, keeper: Keeper) -> Joi
         return joint if made is axis else joint.model_copy(update={field: made})
     turn = graph.pose(axis.expressed_in, joint.name, kind="frame", base="joint")
     x, y, z = turn.rotate(axis.xyz or _DEFAULT)
-    made = axis.model_copy(update={"xyz": (x + 0.0, y + 0.0, z + 0.0), "expressed_in": None})
+    xyz = (x + 0.0, y + 0.0, z + 0.0)
+    made = axis.model_copy(update={"xyz": xyz, "expressed_in": None, OLD_WORD: None})
     turned = joint.model_copy(update={field: made})
     message = f"the {field} of joint {joint.name!r} is expressed in {axis.expressed_in!r}"
     keeper.account(rules.AXIS_FRAME, message, axis.location, 2)
-    return keeper.mark(turned, field, attributes={"expressed_in": axis.expressed_in})
+    word: dict[str, str | None] = {"expressed_in": axis.expressed_in}
+    if axis.use_parent_model_frame:
+        word = {OLD_WORD: "true", "expressed_in": None if axis.expressed_in == MODEL else axis.expressed_in}
+    return keeper.mark(turned, field, attributes=word)

@@ -4,9 +4,10 @@ from collections.abc import Iterable, Iterator
 from functools import cache
 from typing import ClassVar
 
+from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Dynamics, Element, GazeboExtension, Joint, Link, Model, Opaque
 from twinform.ir.frames import WORLD
-from twinform.passes.legalise.carrier import to_element
+from twinform.passes.legalise.carrier import SECOND, to_element
 from twinform.passes.legalise.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
 from twinform.passes.legalise.marks import is_made
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
@@ -55,7 +56,7 @@ class ExtendGazebo(ToUrdfPass):
         if keeper.back:  # what URDF lets libsdformat merge, it may merge again
             with_mass = set[str]()
         for joint in model.joints:
-            content, left = _joint_content(joint, names, with_mass)
+            content, left = _joint_content(joint, names, with_mass, keeper)
             joints.append(left)
             extensions.extend(_extension(joint, content))
         extensions.extend(_model_extensions(model))
@@ -118,12 +119,12 @@ def _truths(link: Link) -> Iterator[Element]:
             yield Element(name=tag, text="true" if value is same else "false")
 
 
-def _joint_content(joint: Joint, links: set[str], with_mass: set[str]) -> tuple[list[Element], Joint]:
+def _joint_content(joint: Joint, links: set[str], with_mass: set[str], keeper: Keeper) -> tuple[list[Element], Joint]:
     content: list[Element] = []
     if joint.type == "fixed" and joint.parent != WORLD and joint.child in with_mass and not is_made(joint):
         content.append(Element(name="preserveFixedJoint", text="true"))
     springs, joint = _springs(joint)
-    physics, joint = _physics(joint)
+    physics, joint = _physics(joint, keeper)
     content += [*springs, *physics]
     if joint.name in links:  # a reference would mean the link
         return content, joint
@@ -150,17 +151,24 @@ def _springs(joint: Joint) -> tuple[list[Element], Joint]:
     return content, joint.model_copy(update={"axis": axis.model_copy(update={"dynamics": dynamics})})
 
 
-def _physics(joint: Joint) -> tuple[list[Element], Joint]:
+def _physics(joint: Joint, keeper: Keeper) -> tuple[list[Element], Joint]:
+    """The tags that mean what the first `<physics>` of a joint says; others go into carriers that are not its rest."""
     content: list[Element] = []
     parts: list[Opaque] = []
+    again: list[Opaque] = []
     for part in joint.opaque:
-        if part.element is None or part.element.name != "physics" or part.at or content:
+        if part.element is None or part.element.name != "physics" or part.at:
             parts.append(part)
-            continue
-        left = _take_tags(part.element, "", content)
-        if left is not None:
-            parts.append(part.model_copy(update={"element": left}))
-    return content, joint.model_copy(update={"opaque": tuple(parts)}) if content else joint
+        elif content:
+            again.append(part)
+        else:
+            left = _take_tags(part.element, "", content)
+            parts += [] if left is None else [part.model_copy(update={"element": left})]
+    if not content:
+        return content, joint
+    joint = joint.model_copy(update={"opaque": tuple(parts)})
+    message = f"joint {joint.name!r} has a <physics> already"
+    return content, keeper.keep(joint, again, rules.SDF_ONLY, message, joint.location, about=SECOND)
 
 
 def _take_tags(element: Element, path: str, tags: list[Element]) -> Element | None:

@@ -50,6 +50,8 @@ def _keep(keeper: Keeper, frame: Frame, shell: Model) -> Frame:
     mark = said.model_copy(update={"name": f"{{{NAMESPACE}}}{NESTED}", "attributes": attributes})
     frame = frame.model_copy(update={"opaque": (*frame.opaque, Opaque(element=mark))})
     written = pose_attributes(shell.pose)
+    if "relative_to" in written and frame.pose:
+        written["relative_to"] = frame.pose.relative_to  # by its name in the outermost model
     return with_mark(frame, POSE, attributes=written) if written else frame
 
 

@@ -12,6 +12,7 @@ from twinform.passes.legalise.nodes import text_piece
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.passes.legalise.to_urdf.map_geometry import UrdfVersion
+from twinform.passes.legalise.urdf_pieces import BALLS
 from twinform.schemas import format_value
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -24,8 +25,6 @@ CONTINUOUS = "continuous"
 MIMIC = "mimic"
 """The mark on a mimic joint whose mimicry has a `reference` in SDF, the position of the leader that counts as zero."""
 _TYPES = frozenset({"fixed", "revolute", "continuous", "prismatic", "floating", "planar"})
-_DIALECT = frozenset({"ball", "spherical"})
-"""What a dialect of URDF calls a joint that came from there; another ball joint is a chain by now."""
 _FORCES = ("effort", "velocity")
 _NEEDS_STRENGTH = frozenset({"1.0", "1.1"})
 """The versions of URDF in which a limit says effort and velocity."""
@@ -53,7 +52,7 @@ class MapJoints(ToUrdfPass):
 
 def _map(joint: Joint, strength: float | None, keeper: Keeper) -> Joint:
     """The joint in URDF, which writes this for an effort or a velocity without a limit."""
-    if joint.type in _DIALECT:
+    if joint.type in BALLS:  # it came from a dialect of URDF; another one is a chain by now
         return joint
     if joint.type not in _TYPES:
         message = f"joint {joint.name!r} is {joint.type}, a type that URDF does not have"

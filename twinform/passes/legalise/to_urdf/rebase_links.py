@@ -5,14 +5,14 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import NOWHERE
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Element, Joint, Link, Model, Node, Pose, count_parts
+from twinform.ir import Element, Joint, Light, Link, Model, Node, Pose, Sensor, count_parts
 from twinform.ir.frames import MODEL, WORLD, FrameGraph, Kind
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.element_poses import ElementPoses
 from twinform.passes.legalise.joint_chains import part_of
 from twinform.passes.legalise.joint_ends import ENDS
 from twinform.passes.legalise.marks import find_mark, is_made, mark
-from twinform.passes.legalise.names import SCOPED_NAME
+from twinform.passes.legalise.names import NAME, SCOPED_NAME
 from twinform.passes.legalise.notation import FRAME, OFFSET, POSE, in_radians, offset_attributes, pose_attributes
 from twinform.passes.legalise.rebasing import AnyPosed, Base, Posed, Rebasing
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
@@ -25,9 +25,10 @@ class RebaseLinks(ToUrdfPass):
     """Move every link's frame onto the joint that carries it; nothing in the robot moves.
 
     Changes: 1. a joint's pose is relative to its parent link, a link's to its joint, with no offset; 2. the poses in a
-    link, of sensors and lights too, are relative to the moved frame, in radians where URDF writes them; 3. the root
-    link is the model's frame: the model's pose is the root's, or none where the root is `world`. Numbers stay as they
-    are where nothing moves. Marks say where the frames of links and model were, and in which frames poses were written.
+    link, of sensors and lights too, are relative to the moved frame, in radians where URDF writes them, but in a model
+    that came from URDF those of sensors and lights go on naming links; 3. the root link is the model's frame: the
+    model's pose is the root's, or none where the root is `world`. Numbers stay as they are where nothing moves. Marks
+    say where the frames of links and model were, and in which frames poses were written.
     Diagnostics: in the ledger `moved-frame` for every pose that is written in another way than it was.
     """
 
@@ -42,8 +43,10 @@ class RebaseLinks(ToUrdfPass):
             joint = carried_by.get(link.name)
             bases[link.name] = (link.name, "link") if joint is None else (joint, "joint")
         framed = frozenset(joint.child or "" for joint in model.joints if _is_of_frame(joint))
+        named = _unmoved(model, graph, bases) if keeper.back else frozenset[str]()
         links = tuple(
-            _Rebase(graph, link.name, bases[link.name], keeper, framed=framed).link(link) for link in model.links
+            _Rebase(graph, link.name, bases[link.name], keeper, framed=framed, named=named).link(link)
+            for link in model.links
         )
         joints = tuple(_place_joint(joint, graph, bases[joint.parent or WORLD], keeper) for joint in model.joints)
         roots = [link.name for link in model.links if link.name not in carried_by]
@@ -62,11 +65,18 @@ class _Rebase:
     kind: Kind = "link"
     framed: frozenset[str] = frozenset()
     """Links that are frames in SDF, which are accounted for as such."""
+    named: frozenset[str] = frozenset()
+    """Links that the poses of sensors and lights may go on naming, as in `<gazebo>`."""
 
     @property
     def poses(self) -> Rebasing:
-        elements = ElementPoses(self.graph, self.name, self.base, self._element, self.kind)
-        return Rebasing(self.graph, self.name, self.kind, self.base, elements, self._write, _is_plain)
+        elements = ElementPoses(self.graph, self.name, self.base, self._element, self.kind, stays=self.named)
+        return Rebasing(self.graph, self.name, self.kind, self.base, elements, self._write, self._stays)
+
+    def _stays(self, holder: Posed) -> bool:
+        """Whether URDF, or SDF in an extension of it, can write its pose as it is."""
+        named = holder.pose.relative_to if holder.pose and isinstance(holder, Sensor | Light) else None
+        return _is_plain(holder) or named in self.named
 
     def link(self, link: Link) -> Link:
         """The link and all in it in the frame of its joint."""
@@ -119,6 +129,16 @@ class _Rebase:
         attributes = pose_attributes(written)
         made = mark(POSE, attributes=attributes).element if attributes else None
         return (made,) if made and self.keeper.carriers and not self.keeper.back else ()
+
+
+def _unmoved(model: Model, graph: FrameGraph, bases: dict[str, Base]) -> frozenset[str]:
+    """The links that are where URDF has them, and are called so there."""
+    return frozenset(
+        link.name
+        for link in model.links
+        if find_mark(link, NAME) is None
+        and graph.pose(link.name, bases[link.name][0], base=bases[link.name][1]).is_identity
+    )
 
 
 def _scope_of(node: Node) -> str:

@@ -145,6 +145,18 @@ def _part_in_own_frame(part: Opaque) -> Opaque:
     return part.model_copy(update={"element": element.model_copy(update={"children": children})})
 
 
+def without_loose_floating(model: Model) -> Model:
+    """The model without marks of floating joints that cannot be made any more: what they hung from is gone."""
+    known = {WORLD, *(link.name for link in model.links), *(frame.name for frame in model.frames)}
+    loose = {
+        link.name for link in model.links if (mark := find_mark(link, FLOATING)) and mark.get("parent") not in known
+    }
+    if not loose:
+        return model
+    links = (without_mark(link, FLOATING) if link.name in loose else link for link in model.links)
+    return model.model_copy(update={"links": tuple(links)})
+
+
 def _with_floating_joints(model: Model, keeper: Keeper) -> Model:
     held = {joint.child for joint in model.joints}
     known = {WORLD, *(link.name for link in model.links)}

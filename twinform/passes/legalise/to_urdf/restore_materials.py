@@ -57,7 +57,8 @@ def _shared(model: Model, visuals: list[Visual]) -> dict[str, Material]:
         elif part.element is not None and is_mark(part, SHARED_MATERIAL) and looks[part.element.text or ""]:
             name = part.element.text or ""
             color, texture = looks[name].most_common(1)[0][0]
-            found[name] = Material(name=name, color=color, texture=texture)
+            if color or texture:
+                found[name] = Material(name=name, color=color, texture=texture)
     return found
 
 
@@ -73,7 +74,7 @@ def _material(element: Element) -> Material | None:
     notes = Notes()
     context = Context(notes, "", "urdf", table("urdf").newest)
     data = reader("urdf", context.version).read(element_xml(element), context, "material")
-    return None if notes.has_errors else Material.model_validate(data)
+    return Material.model_validate(data) if element.get("name") and not notes.has_errors else None
 
 
 def _own(visuals: list[Visual], shared: Mapping[str, Material]) -> dict[str, Look]:

@@ -3,24 +3,25 @@
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Notes
-from twinform.ir import Collision, Format, Inertial, Link, Model, Visual
+from twinform.ir import Collision, Format, Inertia, Inertial, Link, Model, Visual
 from twinform.passes.legalise.marks import find_mark, without_mark
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.names import NAME
 from twinform.passes.legalise.provenance import came_from
 from twinform.passes.legalise.to_sdf.bodies import UNSAID
 from twinform.passes.legalise.to_sdf.name_shapes import UNNAMED
+from twinform.passes.legalise.token_mass import MOMENTS, has_token_inertia, has_token_mass, is_token
 
 Shape = TypeVar("Shape", Visual, Collision)
 
-_MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+_NOTHING = Inertial(mass=0.0, inertia=Inertia().model_copy(update=dict.fromkeys(MOMENTS, 0.0)))
 
 
 class RestoreShapes(ModelPass):
     """Leave out the names and the inertias that a conversion to SDF made, in a model that came from URDF.
 
     Changes: 1. a visual or collision whose name a mark lists has none, and one whose name was taken has it again; 2. an
-    inertial of no mass goes, as URDF means that by saying nothing.
+    inertial of no mass goes, as URDF means that by saying nothing; 3. a token of mass and inertia goes likewise.
     Never touches: names that were edited since; models that did not come from URDF.
     Diagnostics: none.
     """
@@ -68,15 +69,22 @@ def _as_said(inertial: Inertial) -> Inertial:
         return inertial
     names = (found.text or "").split()
     inertial = without_mark(inertial, UNSAID)
-    if "mass" in names and not inertial.mass:
-        inertial = inertial.model_copy(update={"mass": None})
-    if "inertia" in names and not any(_moments(inertial)):
-        inertial = inertial.model_copy(update={"inertia": None})
-    return inertial
+    if "inertial" in names:
+        return _NOTHING if is_token(inertial) else inertial
+    update: dict[str, object] = {}
+    if "mass" in names and (not inertial.mass or has_token_mass(inertial)):
+        update["mass"] = None
+    if "zero-mass" in names and has_token_mass(inertial):
+        update["mass"] = 0.0
+    if "inertia" in names and (not any(_moments(inertial)) or has_token_inertia(inertial)):
+        update["inertia"] = None
+    if "zero-inertia" in names and has_token_inertia(inertial):
+        update["inertia"] = _NOTHING.inertia
+    return inertial.model_copy(update=update)
 
 
 def _moments(inertial: Inertial) -> list[float | None]:
-    return [getattr(inertial.inertia, name) for name in _MOMENTS] if inertial.inertia else []
+    return [getattr(inertial.inertia, name) for name in MOMENTS] if inertial.inertia else []
 
 
 def _is_nothing(inertial: Inertial) -> bool:

@@ -1,16 +1,19 @@
 """What all visuals of a link say alike and URDF has no word for, in a `<visual>` in a `<gazebo>` element."""
 
+from collections.abc import Iterator
 from typing import ClassVar
 
 from twinform.ir import Element, GazeboExtension, Link, Material, Model, Visual
 from twinform.passes.legalise.carrier import to_element
 from twinform.passes.legalise.gazebo_tags import LINK_TAGS
-from twinform.passes.legalise.marks import find_mark, without_mark
-from twinform.passes.legalise.material_marks import LOOK
+from twinform.passes.legalise.marks import without_mark
+from twinform.passes.legalise.material_marks import LOOK, look_of
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.passes.legalise.to_urdf.remainder import take_remainder, urdf_words
 
+_COLORS = ("ambient", "diffuse")
+_NOT_FIELDS = frozenset({"source", "spelling"})
 _OF_MATERIALS = frozenset({"material"})
 _IN_FRAMES = frozenset({"pose", "geometry"})
 
@@ -19,7 +22,7 @@ class ShareVisuals(ToUrdfPass):
     """Say by a `<visual>` in a `<gazebo>` element what all visuals of a link have alike.
 
     Changes: 1. plugins, transparency, shadows and the like of all visuals of a link, which Gazebo puts into each of
-    them; 2. their material, where a conversion from URDF found it there.
+    them; 2. what a conversion from URDF found there of their materials.
     Never touches: what differs between them, and other parts of a material, in place of which Gazebo would put these.
     Diagnostics: none.
     """
@@ -43,15 +46,16 @@ class ShareVisuals(ToUrdfPass):
 
 def _shared(link: Link) -> tuple[Link, list[Element]]:
     """The link without what its visuals have alike, and that."""
-    look = find_mark(link, LOOK) is not None
+    look = look_of(link)
     link = without_mark(link, LOOK)
     if not link.visuals:
         return link, []
     content: list[Element] = []
     visuals = link.visuals
-    if look and _have_one_material(visuals):
-        content += to_element(Visual(name="", material=visuals[0].material), "visual", "sdf").children
-        visuals = tuple(visual.model_copy(update={"material": None}) for visual in visuals)
+    shared = _shared_look(visuals, look)
+    if shared is not None:
+        content += to_element(Visual(name="", material=shared), "visual", "sdf").children
+        visuals = tuple(_without_look(visual, look) for visual in visuals)
     parts = [_rest(visual) for visual in visuals]
     if parts[0] and all(part == parts[0] for part in parts[1:]):
         content += parts[0]
@@ -59,10 +63,31 @@ def _shared(link: Link) -> tuple[Link, list[Element]]:
     return (link if visuals is link.visuals else link.model_copy(update={"visuals": visuals})), content
 
 
-def _have_one_material(visuals: tuple[Visual, ...]) -> bool:
-    first = visuals[0].material
-    plain = first is not None and first.name is None and first.color is None and first != Material()
-    return plain and all(visual.material == first for visual in visuals[1:])
+def _shared_look(visuals: tuple[Visual, ...], look: tuple[str, ...]) -> Material | None:
+    """What the materials of all visuals say alike in these fields, which are of SDF."""
+    looks = [_only(visual.material, look) for visual in visuals]
+    return looks[0] if looks[0] != Material() and all(one == looks[0] for one in looks[1:]) else None
+
+
+def _only(material: Material | None, look: tuple[str, ...]) -> Material:
+    return Material.model_validate({name: value for name, value in _said(material) if name in look})
+
+
+def _without_look(visual: Visual, look: tuple[str, ...]) -> Visual:
+    """The visual without these fields; of its two colors, one stands for both again, as in URDF."""
+    rest = {name: value for name, value in _said(visual.material) if name not in look}
+    color = rest.get("diffuse") or rest.get("ambient")
+    rest |= {name: color for name in _COLORS if color is not None and name in look}
+    material = visual.material and Material.model_validate({**rest, "source": visual.material.source})
+    return visual.model_copy(update={"material": None if not rest else material})
+
+
+def _said(material: Material | None) -> Iterator[tuple[str, object]]:
+    """The fields of SDF that a material has, and what they say."""
+    for name in Material.model_fields if material else ():
+        value = getattr(material, name)
+        if name not in _NOT_FIELDS and value not in (None, ()):
+            yield name, value
 
 
 def _rest(visual: Visual) -> tuple[Element, ...]:

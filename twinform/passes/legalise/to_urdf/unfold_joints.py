@@ -15,6 +15,8 @@ from twinform.passes.legalise.nodes import text_piece, unique_name
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.joint_steps import Step, ball, screw, two_axes
 from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.legalise.token_mass import TOKEN
+from twinform.passes.legalise.urdf_pieces import BALLS
 from twinform.schemas import format_value
 
 _STEPS = {"universal": two_axes, "revolute2": two_axes, "ball": ball, "screw": screw}
@@ -24,8 +26,6 @@ _WORDS = {
     "ball": "three turning joints",
     "screw": "a turning joint and a sliding one that mimics it",
 }
-_IN_URDF = frozenset({"ball", "spherical"})
-"""What dialects of URDF call a ball joint."""
 
 
 class UnfoldJoints(ToUrdfPass):
@@ -93,8 +93,8 @@ def _part(made: Joint, joint: Joint, keeper: Keeper) -> Joint:
 
 
 def _between(name: str, joint: Joint, keeper: Keeper) -> Link:
-    """A link without mass where the joint is."""
-    link = Link(name=name, pose=Pose(relative_to=joint.name), source=joint.source)
+    """A link where the joint is, with a token of mass, without which MuJoCo refuses the robot."""
+    link = Link(name=name, pose=Pose(relative_to=joint.name), inertial=TOKEN, source=joint.source)
     return with_mark(link, PART, attributes={"joint": joint.name}) if keeper.carriers else link
 
 
@@ -107,7 +107,9 @@ def _last(joint: Joint, parent: str | None, step: Step, opaque: tuple[Opaque, ..
 
 def _account(joint: Joint, keeper: Keeper) -> Joint:
     """Say what becomes of the joint; it carries what its chain has no words for."""
-    message = f"{joint.type} joint {joint.name!r} is {_WORDS[joint.type]} in URDF, with links without mass between"
+    message = (
+        f"{joint.type} joint {joint.name!r} is {_WORDS[joint.type]} in URDF, with links of next to no mass between"
+    )
     keeper.notes.report(rules.UNFOLDED_JOINT, message, joint.location.at("@type"), found=joint.type)
     fate = Fate.CARRIED if keeper.carriers else Fate.DROPPED
     account = partial(keeper.notes.account, rule=rules.UNFOLDED_JOINT, location=joint.location)
@@ -171,4 +173,4 @@ def _type_in_urdf(part: Opaque) -> str | None:
     """The type of a ball joint in a carrier of URDF."""
     pieces = unpack(part) if is_carrier(part, "urdf") else ()
     said = (piece.attribute[1] for piece in pieces if piece.attribute and piece.attribute[0] == "type" and not piece.at)
-    return next((kind for kind in said if kind in _IN_URDF), None)
+    return next((kind for kind in said if kind in BALLS), None)

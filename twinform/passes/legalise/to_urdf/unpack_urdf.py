@@ -8,8 +8,9 @@ from twinform.diagnostics import Notes
 from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Link, Model, Node, Opaque, map_children
 from twinform.ir.frames import WORLD
-from twinform.passes.legalise.carrier import is_carrier, is_dangling, unpack
+from twinform.passes.legalise.carrier import is_carrier, is_dangling, is_overruled, unpack
 from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.legalise.to_urdf.overruled_tags import with_overruled
 from twinform.passes.legalise.urdf_pieces import misfit
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -30,7 +31,7 @@ class UnpackUrdf(ModelPass):
         """The model without carriers of what URDF can say."""
         if notes.has_errors:
             return model
-        model = map_children(model, lambda node: _unpack(node, notes))
+        model = _with_overruled(map_children(model, lambda node: _unpack(node, notes)), notes)
         return _unpacked(_with_world(model), partial(misfit, node=model), notes)
 
 
@@ -53,6 +54,23 @@ def _unpacked(node: AnyNode, misfit: Callable[[Opaque], str], notes: Notes) -> A
             else:
                 opaque.append(piece)
     return node.model_copy(update={"opaque": tuple(opaque)})
+
+
+def _with_overruled(model: Model, notes: Notes) -> Model:
+    """The model with tags of extensions in front of those that overrule them, if these are still there."""
+    carriers = [part for part in model.opaque if is_carrier(part, "urdf") and is_overruled(part)]
+    if not carriers:
+        return model
+    model = model.model_copy(update={"opaque": tuple(part for part in model.opaque if part not in carriers)})
+    for part in carriers:
+        for piece in unpack(part):
+            more = with_overruled(model, piece.element) if piece.element else None
+            if more is None:
+                message = f"{piece.name} of {_called(model)} does not come back: nothing says otherwise any more"
+                notes.report(STALE_CARRIER, message, part.location_in(model), found=piece.name)
+            else:
+                model = more
+    return model
 
 
 def _called(node: Node) -> str:

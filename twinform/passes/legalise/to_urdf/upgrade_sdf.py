@@ -26,6 +26,6 @@ class UpgradeSdf(Pass):
         """The document in new words; it still declares its version, for the way back."""
         if self.carriers and self.mixed:
             document = document.model_copy(update={"models": tuple(map(with_mixed_words, document.models))})
-        for step in raise_words(document.version, carriers=self.carriers):
+        for step in raise_words(document.version, carriers=self.carriers, mixed=self.carriers and self.mixed):
             document = step.run(document, notes)
         return document

@@ -1,0 +1,42 @@
+"""Tags of `<gazebo>` elements that a later one of the same field overrules, put back in front of that one."""
+
+from twinform.ir import Element, GazeboExtension, Model
+from twinform.passes.legalise.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS, Tag
+
+_TAGS = MODEL_TAGS | JOINT_TAGS | LINK_TAGS
+_ELEMENTS = {"surface": "collision", "collision": "collision", "physics": "physics", "dynamics": "axis"}
+"""The SDF that says in an extension what tags of these targets do, and that counts after them."""
+
+
+def with_overruled(model: Model, extension: Element) -> Model | None:
+    """The model with the content of a `<gazebo>` back; None where nothing overrules it any more."""
+    reference = extension.get("reference")
+    for element in extension.children:
+        found = _with_tag(model.extensions, reference, element)
+        if found is None:
+            return None
+        model = model.model_copy(update={"extensions": found})
+    return model
+
+
+def _with_tag(
+    extensions: tuple[GazeboExtension, ...], reference: str | None, element: Element
+) -> tuple[GazeboExtension, ...] | None:
+    tag = _TAGS.get(element.name)
+    for index, one in enumerate(extensions):
+        if tag is None or (one.reference or None) != (reference or None):
+            continue
+        place = next((at for at, other in enumerate(one.content) if _overrules(other, tag)), None)
+        if place is not None:
+            content = (*one.content[:place], element, *one.content[place:])
+            return (*extensions[:index], one.model_copy(update={"content": content}), *extensions[index + 1 :])
+    return None
+
+
+def _overrules(other: Element, tag: Tag) -> bool:
+    """Whether another element of an extension sets the same field, and after the tag where it stands behind it."""
+    same = _TAGS.get(other.name)
+    if same is not None and not other.children:
+        return (same.target, same.field) == (tag.target, tag.field)
+    leaf = tag.field.rpartition("/")[2]
+    return other.name == _ELEMENTS.get(tag.target) and any(inner.name == leaf for inner in other.walk())

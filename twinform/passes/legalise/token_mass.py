@@ -1,0 +1,56 @@
+"""The mass that a link without mass gets, so that the engines of Gazebo can move it."""
+
+from twinform.ir import Inertia, Inertial, Model
+
+TOKEN_MASS = 1e-12
+"""In kg: DART aborts on a body that moves and has none, Bullet holds it where it is."""
+TOKEN_MOMENT = 1e-14
+"""In kg m^2, about each axis: ten times the least that MuJoCo takes."""
+TOKEN = Inertial(
+    mass=TOKEN_MASS,
+    inertia=Inertia(ixx=TOKEN_MOMENT, ixy=0.0, ixz=0.0, iyy=TOKEN_MOMENT, iyz=0.0, izz=TOKEN_MOMENT),
+)
+MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+
+
+def without_tokens(model: Model) -> Model:
+    """The model with nothing where links have a token: what is weighed and compared."""
+    links = tuple(
+        link.model_copy(update={"inertial": _without_token(link.inertial)}) if link.inertial else link
+        for link in model.links
+    )
+    models = tuple(map(without_tokens, model.models))
+    return model.model_copy(update={"links": links, "models": models})
+
+
+def _without_token(inertial: Inertial) -> Inertial:
+    update: dict[str, object] = {}
+    if has_token_mass(inertial):
+        update["mass"] = 0.0
+    if inertial.inertia is not None:
+        tokens = [name for name in MOMENTS if getattr(inertial.inertia, name) == TOKEN_MOMENT]
+        update["inertia"] = inertial.inertia.model_copy(update=dict.fromkeys(tokens, 0.0))
+    return inertial.model_copy(update=update) if update else inertial
+
+
+def has_token_mass(inertial: Inertial) -> bool:
+    """Whether the mass is the token."""
+    return inertial.mass == TOKEN_MASS
+
+
+def has_token_inertia(inertial: Inertial) -> bool:
+    """Whether the inertia is the token."""
+    return inertial.inertia is not None and all(
+        getattr(inertial.inertia, name) == getattr(TOKEN.inertia, name) for name in MOMENTS
+    )
+
+
+def is_token(inertial: Inertial | None) -> bool:
+    """Whether an inertial says the token at the origin of its link, and no more."""
+    return (
+        inertial is not None
+        and inertial.pose is None
+        and not inertial.opaque
+        and has_token_mass(inertial)
+        and has_token_inertia(inertial)
+    )
