@@ -3,7 +3,7 @@
 import hashlib
 import json
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from random import Random
 from typing import Literal
@@ -223,7 +223,8 @@ def _kept(model: _Model, text: bytes, tried: Tried, random: Random) -> Tried:
         place = _written(model, text, tried, "drake")
         edited, result = (".sdf", ".urdf") if model.job.is_urdf else (".urdf", ".sdf")
         pair = (place / f"edited{edited}", place / f"result{result}")
-    verdict = Verdict(tried.verdict.outcome, tried.verdict.differences[:8], tried.verdict.rules[:8])
+    few = {"differences": tried.verdict.differences[:8], "rules": tried.verdict.rules[:8]}
+    verdict = replace(tried.verdict, **few, result=None)
     return Tried(tried.name, tried.way, tried.kind, verdict, tried.replay, folder, pair)
 
 

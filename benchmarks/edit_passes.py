@@ -11,7 +11,6 @@ from tests.corpus.files import ROOT
 from twinform.testing.edits.scene import Scene, name_of
 
 _GUESTS = ("examples/crate/model.sdf", "examples/gripper.urdf", "benchmarks/edits_nested.sdf")
-_OUT = ROOT / "out" / "edits"
 _ALWAYS = {
     "balance-inertia": "balance-inertia{thickness=0.01}",
     "check-inertia": "check-inertia",
@@ -57,8 +56,7 @@ def _attach(scene: Scene, random: Random) -> str | None:
 
 
 def _bridge_config(_: Scene, __: Random) -> str:
-    _OUT.mkdir(parents=True, exist_ok=True)
-    return f"bridge-config{{file={_quoted(_OUT / 'bridge.yaml')}}}"
+    return "bridge-config{file=bridge.yaml}"
 
 
 def _rename(scene: Scene, random: Random) -> str | None:

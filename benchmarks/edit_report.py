@@ -7,9 +7,14 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from lxml import etree
+
 from benchmarks.edit_jobs import MOST_BYTES, Done, Tried, Way
 from benchmarks.judging import DRAKE
 from benchmarks.markdown import table, write
+from tests.corpus.files import ROOT
+from twinform.passes.legalise.carrier import NAMESPACE
+from twinform.passes.legalise.notation import OFFSET
 from twinform.testing import oracles
 from twinform.testing.edits.judging import Outcome
 from twinform.testing.oracles.comparison import chained, renamed
@@ -74,6 +79,8 @@ def _excuse(edited: Path) -> str:
 def _judged(pair: tuple[Path, Path]) -> str | None:
     """What differs, nothing where nothing does, and None where Drake cannot read the edited file or what it was."""
     edited, result = pair
+    if _root_is_elsewhere(edited):
+        return None
     try:
         before = edited.with_stem("before")
         unedited = versus(look(before, DRAKE), (before, result.with_stem("home")), (DRAKE, DRAKE))
@@ -91,6 +98,14 @@ def _judged(pair: tuple[Path, Path]) -> str | None:
     if result.suffix == ".sdf" and unedited.alike is oracles.Alike.FRAMES:  # URDF has its links where their joints are
         return _frames(source, result)
     return ""
+
+
+def _root_is_elsewhere(edited: Path) -> bool:
+    """Whether the root, in whose frame Drake gives all positions, has another frame in SDF."""
+    robot = etree.fromstring(edited.read_bytes())
+    children = {each.get("link") for each in robot.iterfind("joint/child")}
+    roots = (each for each in robot.iterfind("link") if each.get("name") not in children)
+    return any(each.find(f"{{{NAMESPACE}}}{OFFSET}") is not None for each in roots)
 
 
 def _frames(source: Robot, result: Path) -> str:
@@ -120,7 +135,8 @@ def summary(done: list[Done], failures: list[str], drake: Drake) -> str:
 def page(path: Path, done: list[Done], failures: list[str], drake: Drake, seed: int) -> None:
     """Write the page."""
     tried = [one for each in done for one in each.tried]
-    write(path, INTRODUCTION, *_sections(done, tried, failures, drake, seed))
+    sections = _sections(done, tried, failures, drake, seed)
+    write(path, INTRODUCTION, *(section.replace(f"{ROOT}/", "") for section in sections))
 
 
 def _sections(done: list[Done], tried: list[Tried], failures: list[str], drake: Drake, seed: int) -> Iterator[str]:
@@ -129,6 +145,10 @@ def _sections(done: list[Done], tried: list[Tried], failures: list[str], drake: 
     yield _table(tried)
     yield f"Drake finds {drake.same} the same and {len(drake.faults)} different; {drake.unread} it does not read."
     yield "## Wrong\n\n" + _faults(tried)
+    explained = Counter(reason for one in tried for reason in one.verdict.explained)
+    yield "Differences to the file without its carriers that do not count, by why:\n\n" + table(
+        ["why", "edits and passes with any"], explained.most_common()
+    )
     if drake.excused:
         rows = sorted(drake.excused.items())
         yield "Differences to Drake with a known cause:\n\n" + table(["cause", "edits"], rows)

@@ -5,14 +5,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple, Self
 
-from twinform.compiler import URDF_VERSIONS, UrdfVersion, check, convert
+from twinform.compiler import URDF_VERSIONS, UrdfVersion, convert
 from twinform.compiler.compare import diff
 from twinform.compiler.emitting import emit
+from twinform.compiler.includes import expand
+from twinform.compiler.loading import Reading, read
 from twinform.compiler.normal_form import normal_form
+from twinform.compiler.uris import SearchPath
 from twinform.diagnostics import Notes
 from twinform.ir import Document, Format
 from twinform.passes.includes import has_includes
-from twinform.passes.legalise.candidates import name_once_expanded
+from twinform.passes.legalise.candidates import name_once_expanded, wanted_includes
 from twinform.passes.legalise.to_urdf.select_model import SelectModel
 from twinform.schemas import table
 
@@ -49,9 +52,9 @@ class RoundTrip:
         """
         if _is_robot(document):
             text = source.read_bytes() if isinstance(source, Path) else source
-        else:
-            text = emit(_alone(source, document, model, paths), Notes()).encode()
-        return cls(text, document.format, document.version)
+            return cls(text, document.format, document.version)
+        alone = _alone(source, document, model, paths)
+        return cls(emit(alone, Notes()).encode(), alone.format, alone.version)
 
     def back(self, there: str) -> str:
         """What comes home of a text in the other format, in the version that the robot went in.
@@ -87,8 +90,10 @@ def _alone(source: Path | bytes, document: Document, model: str | None, paths: I
     alone = SelectModel(model=model).run(document, notes)
     if not notes.has_errors and not has_includes(alone):
         return alone
-    whole = check(source, expand_includes=True, paths=paths).document or document
-    return SelectModel(model=name_once_expanded(document, whole, model)).run(whole, Notes())
+    how = Reading(search=SearchPath.of(paths))
+    checked = read(source, how)
+    whole = expand(checked, how, wanted=wanted_includes(checked.document, model)).document or document
+    return SelectModel(model=name_once_expanded(checked.document, whole, model)).run(whole, Notes())
 
 
 def _urdf_version(version: str | None) -> UrdfVersion | None:

@@ -17,7 +17,7 @@ from twinform.compiler.compare import Difference, diff
 from twinform.diagnostics import Diagnostic, Severity
 from twinform.testing.edits.edit import Edit
 from twinform.testing.edits.mistakes import KIND as MISTAKE
-from twinform.testing.edits.plainly import Plainly, counts_plainly, plain_key, without_carriers
+from twinform.testing.edits.plainly import Plainly, explained, plain_key, without_carriers
 
 Language = Literal["urdf", "sdf"]
 Key = tuple[str | None, ...]
@@ -38,13 +38,15 @@ class Outcome(StrEnum):
 class Verdict:
     """What became of an edited file: the differences that the edit brought, or the rules that refuse it.
 
-    `result` is what it was converted to, None where it was not.
+    `result` is what it was converted to, None where it was not; `explained` says why differences to the file without
+    carriers do not count, if there are any.
     """
 
     outcome: Outcome
     differences: tuple[str, ...] = ()
     rules: tuple[str, ...] = ()
     result: str | None = None
+    explained: tuple[str, ...] = ()
 
     @property
     def is_fault(self) -> bool:
@@ -98,8 +100,10 @@ def judge(
         return Verdict(fault, (f"not compared: {type(error).__name__}: {error}",), warned, made.text)
     found = [each.message for each in said if _key(each) not in before.differing]
     news_plainly = [each for each in read if plain_key(each) not in before.differing_plainly]
-    found += [f"plainly: {each.message}" for each in news_plainly if counts_plainly(each, plainly, edited)]
-    return Verdict(fault if found else Outcome.WARNED if news else Outcome.SAME, tuple(found), warned, made.text)
+    reasons = [explained(each, plainly, edited) for each in news_plainly]
+    found += [f"plainly: {each.message}" for each, reason in zip(news_plainly, reasons, strict=True) if reason is None]
+    outcome = fault if found else Outcome.WARNED if news else Outcome.SAME
+    return Verdict(outcome, tuple(found), warned, made.text, tuple(sorted({reason for reason in reasons if reason})))
 
 
 def judge_edits(before: Converted, edits: Iterable[Edit], edited: bytes) -> Verdict:

@@ -6,6 +6,7 @@ was written.
 """
 
 import re
+from collections.abc import Callable
 from enum import Enum
 
 from lxml import etree
@@ -29,7 +30,12 @@ class Plainly(Enum):
 
 
 _OURS = f"{{{NAMESPACE}}}"
+_SCOPES_ANYWHERE = frozenset({"1.2", "1.3", "1.4", "1.5", "1.6", "1.7"})
+"""The versions of SDF in which `::` may stand in any name."""
 _NAME = re.compile(r"'[^']*'")
+_WITHOUT_LIKE = frozenset({"planar", "floating"})
+"""Joints of URDF that are a chain, or none, in SDF."""
+_UNIT = re.compile(r"(?<=[0-9]) [A-Za-z][A-Za-z0-9*/^]*$")
 _SKELETON = {"link": ("inertial",), "joint": ("parent", "child", "type", "pose", "axis/xyz"), "kinematics": ("",)}
 
 
@@ -51,46 +57,114 @@ def plain_key(found: Difference) -> tuple[str | None, ...]:
     aspect = _NAME.sub("", found.aspect)
     if found.group == "kinematics":
         return found.group, aspect
-    return found.group, aspect, *(_NAME.sub("", said.text or "") for said in (found.a, found.b))
+    return found.group, aspect, *(_value(said.text or "") for said in (found.a, found.b))
 
 
-def counts_plainly(found: Difference, plainly: Plainly, edited: bytes) -> bool:
-    """Whether a difference to the file without carriers counts."""
-    if plainly is Plainly.NONE or _is_empty_link(found, edited) or _is_marked_frame(found, edited):
-        return False
-    if _is_of_chain(found, edited):
-        return False
+def _value(text: str) -> str:
+    """What was said, without names and without the unit, which changes with the type of a joint."""
+    return _UNIT.sub("", _NAME.sub("", text))
+
+
+def explained(found: Difference, plainly: Plainly, edited: bytes) -> str | None:
+    """Why a difference to the file without carriers does not count; None where it does."""
+    if plainly is Plainly.NONE:
+        return "a carrier itself was edited, which is to count"
+    reason = next((reason for reason, applies in _EXPLAINED.items() if applies(found, edited)), None)
+    if reason:
+        return reason
     if plainly is Plainly.SKELETON:
-        return found.aspect.startswith(_SKELETON.get(found.group, ())) if found.aspect else False
+        in_skeleton = found.aspect and found.aspect.startswith(_SKELETON.get(found.group, ()))
+        return None if in_skeleton else "a pass may bring carriers: masses, joints and places count alone"
     if plainly is Plainly.ADDITIONS_TOO and found.group != "frame":
-        return True
-    return found.a.text is not None and not _is_without_links(found)
+        return None
+    return "only the result has it: carriers add to what the file says" if found.a.text is None else None
 
 
-def _is_without_links(found: Difference) -> bool:
+def _is_without_links(found: Difference, _: bytes) -> bool:
     """Whether it is a frame of a model that has no links: they are in the model, and in URDF in a link that is made."""
     return found.group == "frame" and (found.b.text or "").strip("'") == "__model__"
 
 
 def _is_marked_frame(found: Difference, edited: bytes) -> bool:
-    """Whether it is a link or a joint that a mark calls a frame, or made for one."""
-    if found.group != "frame" or found.aspect or found.b.text is not None:
+    """Whether it is a link or a joint that a mark calls a frame, or made for one, or a frame that a mark moves."""
+    if found.group != "frame" or (found.b.text is not None and not found.aspect):
         return False
-    marks = (f"{_OURS}frame", f"{_OURS}made")
-    named = (each for each in etree.fromstring(edited).iter("link", "joint") if each.get("name") == found.name)
+    root = etree.fromstring(edited)
+    _give_names_back(root)
+    marks = (f"{_OURS}offset",) if found.aspect.startswith("pose") else (f"{_OURS}frame", f"{_OURS}made")
+    named = (each for each in root.iter("link", "joint") if each.get("name") == found.name)
     return any(child.tag in marks for each in named for child in each)
 
 
 def _is_of_chain(found: Difference, edited: bytes) -> bool:
-    """Whether it is the last joint of a chain, which has the name of a joint of SDF and only its last axis."""
-    if found.group != "joint":
+    """Whether it is the last joint of a chain, which has the name of a joint of SDF and only its last axis.
+
+    Or a part of one that a planar joint of a nested model becomes, by another name.
+    """
+    if found.group not in {"joint", "link"}:
         return False
     root = etree.fromstring(edited)
+    others = (_scoped_name(each) for each in root.iter("joint") if each.get("type") in _WITHOUT_LIKE)
+    called = (found.name or "").replace("::", "__")
+    if any("::" in name and called.startswith(name.replace("::", "__").rpartition("__")[0]) for name in others):
+        return True
+    if found.group == "link":
+        return False
     if any(each.get("name") == found.name for each in root.iter("joint") if each.find(f"{_OURS}chain") is not None):
         return True
     # a joint of a nested model that has come apart has the name that it has outside of it
     scoped = (mark.text or "" for mark in root.iter(f"{_OURS}scoped-name"))
-    return found.a.text is None and any(name.replace("::", "_") == found.name for name in scoped)
+    apart = found.name if found.a.text is None else (found.name or "").replace("::", "_")
+    return not found.aspect and any(name.replace("::", "_") == apart for name in scoped)
+
+
+def _is_in_loop(found: Difference, edited: bytes) -> bool:
+    """Whether it is about joints, in a robot with loops: marks give names, and these choose the joints of the tree."""
+    return found.group in {"joint", "kinematics", "frame"} and etree.fromstring(edited).find("gazebo/joint") is not None
+
+
+def _is_named_otherwise(found: Difference, edited: bytes) -> bool:
+    """Whether it is a joint whose name in URDF stands in a mark."""
+    if found.group != "joint" or found.b.text is not None:
+        return False
+    named = (each for each in etree.fromstring(edited).iter("joint") if each.get("name") == found.name)
+    return any(mark.get("instead_of") == found.name for joint in named for mark in joint.iter(f"{_OURS}name"))
+
+
+def _moves_apart(found: Difference, edited: bytes) -> bool:
+    """Whether it is how a robot moves, with a joint that has another name in the other format.
+
+    Which joint is which is told by names. A joint of a model in the model that holds a link of another one is such.
+    """
+    if found.group != "kinematics":
+        return False
+    root = etree.fromstring(edited)
+    if any(joint.find(f"{_OURS}name") is not None for joint in root.iter("joint")):
+        return True
+    names = {str(link.get("name")): _scoped_name(link) for link in root.iterfind("link")}
+    for joint in root.iterfind("joint"):
+        scope, _, own = _scoped_name(joint).rpartition("::")
+        if scope and joint.get("type") == "planar":  # a chain in SDF
+            return True
+        ends = (_end(joint, "parent"), _end(joint, "child"))
+        if own and scope and any(end != "world" and not names.get(end, "").startswith(f"{scope}::") for end in ends):
+            return True
+    return False
+
+
+def _is_in_held(found: Difference, edited: bytes) -> bool:
+    """Whether it is where a frame is, in a robot that a joint holds at the world which a mark calls made."""
+    if found.group != "frame" or not found.aspect.startswith("pose"):
+        return False
+    joints = etree.fromstring(edited).iterfind("joint")
+    made = (each for each in joints if each.find(f"{_OURS}made") is not None)
+    return any(parent.get("link") == "world" for each in made for parent in each.iterfind("parent"))
+
+
+def _may_follow(found: Difference, edited: bytes) -> bool:
+    """Whether it is how the robot moves, where a mark says that a joint follows another one."""
+    mimics = etree.fromstring(edited).iter(f"{_OURS}version")
+    return found.group == "kinematics" and any(mark.find("mimic") is not None for mark in mimics)
 
 
 def _is_empty_link(found: Difference, edited: bytes) -> bool:
@@ -101,12 +175,30 @@ def _is_empty_link(found: Difference, edited: bytes) -> bool:
     return all(not len(each) for each in links)
 
 
+_EXPLAINED: dict[str, Callable[[Difference, bytes], bool]] = {
+    "a link that says nothing, which URDF has to have": _is_empty_link,
+    "a mark calls a link a frame, or says where its frame is": _is_marked_frame,
+    "a joint of several axes is a chain of joints in URDF": _is_of_chain,
+    "a joint has another name in the other format, and moves with another sample": _moves_apart,
+    "joints of a robot with loops, of which names choose the tree": _is_in_loop,
+    "a carrier says that a joint follows another": _may_follow,
+    "a joint that a mark calls made holds the robot at the world": _is_in_held,
+    "a frame of a model without links": _is_without_links,
+    "a joint has another name in URDF, which a link of SDF has": _is_named_otherwise,
+}
+"""Differences that the file has without its carriers because URDF cannot say it, by their reason."""
+
+
 def _give_names_back(root: XmlElement) -> None:
     """Call what is marked by its old name, everywhere: a name that had to change is no other part."""
     names: dict[str, str] = {}
+    nested = {_scoped_name(frame) for mark in root.iter(f"{_OURS}nested") if _is_frame(frame := mark.getparent(), root)}
+    free = any(mark.get("version") in _SCOPES_ANYWHERE for mark in root.iter(f"{_OURS}from"))
     for mark in root.iter(f"{_OURS}scoped-name"):
         holder = mark.getparent()
         if holder is not None and holder.get("name") == mark.get("instead_of") and mark.text:
+            if not free and (mark.text.rpartition("::")[0] or mark.text) not in nested:
+                continue  # of what it was in nothing tells any more
             names[str(mark.get("instead_of"))] = mark.text
     if not names:
         return
@@ -115,6 +207,30 @@ def _give_names_back(root: XmlElement) -> None:
             element.text = names[(element.text or "").strip()]
         for key, value in element.items():
             element.set(key, names.get(str(value), str(value)))
+
+
+def _scoped_name(holder: XmlElement | None) -> str:
+    """What a link is called in SDF."""
+    if holder is None:
+        return ""
+    name = holder.get("name") or ""
+    mark = holder.find(f"{_OURS}scoped-name")
+    return (mark.text or name) if mark is not None and mark.get("instead_of") == name else name
+
+
+def _is_frame(link: XmlElement | None, root: XmlElement) -> bool:
+    """Whether a link that stands for the frame of a model is still nothing else: fixed, and without a body."""
+    if link is None or link.find(f"{_OURS}frame") is None:
+        return False
+    if link.find("inertial/mass") is not None:
+        return False
+    held_by = (joint for joint in root.iterfind("joint") if _end(joint, "child") == link.get("name"))
+    return all(joint.get("type") == "fixed" for joint in held_by)
+
+
+def _end(joint: XmlElement, tag: str) -> str:
+    found = joint.find(tag)
+    return (found.get("link") or "") if found is not None else ""
 
 
 def _take_out(element: XmlElement) -> None:
