@@ -41,9 +41,12 @@ def came_from(model: Model, format_: Format) -> bool:
 def wrote_scopes(model: Model) -> bool:
     """Whether a model was converted from SDF before 1.8, where `::` may stand in any name."""
     found = find_mark(model, FROM)
-    version = (found and found.get("version")) or ""
-    known = came_from(model, Format.SDF) and version in table("sdf").versions
-    return known and parse_version(version) < _SCOPES
+    return came_from(model, Format.SDF) and may_write_scopes((found and found.get("version")) or "")
+
+
+def may_write_scopes(version: str) -> bool:
+    """Whether `::` may stand in any name in a version of SDF; in one that does not exist it may not."""
+    return version in table("sdf").versions and parse_version(version) < _SCOPES
 
 
 def has_mixed_words(document: Document) -> bool:

@@ -13,6 +13,7 @@ from lxml import etree
 
 from twinform.compiler.compare import Difference
 from twinform.passes.legalise.carrier import NAMESPACE
+from twinform.passes.legalise.provenance import may_write_scopes
 from twinform.schemas import XmlElement
 
 
@@ -30,11 +31,7 @@ class Plainly(Enum):
 
 
 _OURS = f"{{{NAMESPACE}}}"
-_SCOPES_ANYWHERE = frozenset({"1.2", "1.3", "1.4", "1.5", "1.6", "1.7"})
-"""The versions of SDF in which `::` may stand in any name."""
 _NAME = re.compile(r"'[^']*'")
-_WITHOUT_LIKE = frozenset({"planar", "floating"})
-"""Joints of URDF that are a chain, or none, in SDF."""
 _UNIT = re.compile(r"(?<=[0-9]) [A-Za-z][A-Za-z0-9*/^]*$")
 _SKELETON = {"link": ("inertial",), "joint": ("parent", "child", "type", "pose", "axis/xyz"), "kinematics": ("",)}
 
@@ -99,23 +96,27 @@ def _is_marked_frame(found: Difference, edited: bytes) -> bool:
 def _is_of_chain(found: Difference, edited: bytes) -> bool:
     """Whether it is the last joint of a chain, which has the name of a joint of SDF and only its last axis.
 
-    Or a part of one that a planar joint of a nested model becomes, by another name.
+    Or a part of one that a planar joint of a nested model becomes, or a joint by its name in the other format.
     """
     if found.group not in {"joint", "link"}:
         return False
     root = etree.fromstring(edited)
-    others = (_scoped_name(each) for each in root.iter("joint") if each.get("type") in _WITHOUT_LIKE)
-    called = (found.name or "").replace("::", "__")
-    if any("::" in name and called.startswith(name.replace("::", "__").rpartition("__")[0]) for name in others):
+    planar = (_scoped_name(each) for each in root.iter("joint") if each.get("type") == "planar")
+    if any("::" in name and _flat(found.name).startswith(_flat(name)) for name in planar):
         return True
     if found.group == "link":
-        return False
+        return found.aspect == "joint" and _flat(found.a.text) == _flat(found.b.text)
     if any(each.get("name") == found.name for each in root.iter("joint") if each.find(f"{_OURS}chain") is not None):
         return True
     # a joint of a nested model that has come apart has the name that it has outside of it
     scoped = (mark.text or "" for mark in root.iter(f"{_OURS}scoped-name"))
     apart = found.name if found.a.text is None else (found.name or "").replace("::", "_")
     return not found.aspect and any(name.replace("::", "_") == apart for name in scoped)
+
+
+def _flat(name: str | None) -> str:
+    """A name as URDF writes its scopes."""
+    return (name or "").replace("::", "__")
 
 
 def _is_in_loop(found: Difference, edited: bytes) -> bool:
@@ -193,7 +194,7 @@ def _give_names_back(root: XmlElement) -> None:
     """Call what is marked by its old name, everywhere: a name that had to change is no other part."""
     names: dict[str, str] = {}
     nested = {_scoped_name(frame) for mark in root.iter(f"{_OURS}nested") if _is_frame(frame := mark.getparent(), root)}
-    free = any(mark.get("version") in _SCOPES_ANYWHERE for mark in root.iter(f"{_OURS}from"))
+    free = any(may_write_scopes(str(mark.get("version"))) for mark in root.iter(f"{_OURS}from"))
     for mark in root.iter(f"{_OURS}scoped-name"):
         holder = mark.getparent()
         if holder is not None and holder.get("name") == mark.get("instead_of") and mark.text:
@@ -220,9 +221,7 @@ def _scoped_name(holder: XmlElement | None) -> str:
 
 def _is_frame(link: XmlElement | None, root: XmlElement) -> bool:
     """Whether a link that stands for the frame of a model is still nothing else: fixed, and without a body."""
-    if link is None or link.find(f"{_OURS}frame") is None:
-        return False
-    if link.find("inertial/mass") is not None:
+    if link is None or link.find(f"{_OURS}frame") is None or link.find("inertial/mass") is not None:
         return False
     held_by = (joint for joint in root.iterfind("joint") if _end(joint, "child") == link.get("name"))
     return all(joint.get("type") == "fixed" for joint in held_by)

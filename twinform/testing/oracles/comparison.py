@@ -6,13 +6,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from twinform.passes.legalise.token_mass import TOKEN_MASS
 from twinform.testing.oracles.lumping import lumped as weighed_together
 from twinform.testing.oracles.robot import Matrix, Robot, Sample
 from twinform.testing.oracles.verdict import Alike, Verdict
 
 TOLERANCE = 1e-9
-NOTHING = 1e-9
-"""A mass in kg, or a moment in kg m^2, that is none."""
+NOTHING = 10 * TOKEN_MASS
+"""A mass in kg, or a moment in kg m^2, that is none: a few tokens of links without mass."""
 _POSES = frozenset({"position", "rotation"})
 _SHOWN = 4
 
