@@ -20,7 +20,7 @@ from twinform.passes.legalise.names import RestoreNames
 from twinform.passes.legalise.sdf_versions import raise_words
 from twinform.passes.legalise.to_sdf import to_sdf
 from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
-from twinform.passes.legalise.to_urdf.restore_links import without_loose_floating
+from twinform.passes.legalise.to_urdf.floating_links import without_loose_floating
 from twinform.passes.legalise.to_urdf.select_model import SelectModel
 from twinform.passes.legalise.token_mass import without_tokens
 from twinform.schemas import table

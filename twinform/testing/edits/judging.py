@@ -16,8 +16,9 @@ from twinform.compiler import CompileError, convert
 from twinform.compiler.compare import Difference, diff
 from twinform.diagnostics import Diagnostic, Severity
 from twinform.testing.edits.edit import Edit
+from twinform.testing.edits.edited_file import EditedFile
 from twinform.testing.edits.mistakes import KIND as MISTAKE
-from twinform.testing.edits.plainly import Plainly, explained, plain_key, without_carriers
+from twinform.testing.edits.plainly import Plainly, explained, plain_key
 
 Language = Literal["urdf", "sdf"]
 Key = tuple[str | None, ...]
@@ -74,7 +75,7 @@ def unedited(text: bytes) -> Converted:
     """
     to: Language = "sdf" if etree.fromstring(text).tag == "robot" else "urdf"
     made = convert(text, to=to)
-    said, plainly = _compared(text, made.text)
+    said, plainly = _compared(EditedFile(text), made.text)
     differing, differing_plainly = frozenset(map(_key, said)), frozenset(map(plain_key, plainly))
     return Converted(text, to, made.text, differing, differing_plainly, _warnings(made.diagnostics))
 
@@ -94,13 +95,14 @@ def judge(
     warned = tuple(sorted(news))
     if must_be_refused:
         return Verdict(fault, ("it is not refused",), warned, made.text)
+    file = EditedFile(edited)
     try:
-        said, read = _compared(edited, made.text)
+        said, read = _compared(file, made.text)
     except Exception as error:  # noqa: BLE001 - likewise; a result that cannot be read is no result
         return Verdict(fault, (f"not compared: {type(error).__name__}: {error}",), warned, made.text)
     found = [each.message for each in said if _key(each) not in before.differing]
     news_plainly = [each for each in read if plain_key(each) not in before.differing_plainly]
-    reasons = [explained(each, plainly, edited) for each in news_plainly]
+    reasons = [explained(each, plainly, file) for each in news_plainly]
     found += [f"plainly: {each.message}" for each, reason in zip(news_plainly, reasons, strict=True) if reason is None]
     outcome = fault if found else Outcome.WARNED if news else Outcome.SAME
     return Verdict(outcome, tuple(found), warned, made.text, tuple(sorted({reason for reason in reasons if reason})))
@@ -120,9 +122,9 @@ def _plainly(edits: Iterable[Edit]) -> Plainly:
     return Plainly.ADDITIONS_TOO if any(kind.startswith("delete ") for kind in kinds) else Plainly.ALL
 
 
-def _compared(text: bytes, result: str) -> tuple[tuple[Difference, ...], tuple[Difference, ...]]:
+def _compared(file: EditedFile, result: str) -> tuple[tuple[Difference, ...], tuple[Difference, ...]]:
     made = result.encode()
-    return diff(text, made).differences, diff(without_carriers(text), made).differences
+    return diff(file.text, made).differences, diff(etree.tostring(file.plain), made).differences
 
 
 def _refused(error: CompileError) -> Verdict:

@@ -8,7 +8,7 @@ from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Collision, Element, Format, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.passes.legalise.carrier import carry, is_ours, to_element
-from twinform.passes.legalise.marks import find_mark, is_made, with_mark, without_mark
+from twinform.passes.legalise.marks import EXTENSION, find_mark, is_made, with_mark, without_mark
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.notation import FRAME, LINK, OFFSET, read_offset
 from twinform.passes.legalise.provenance import came_from
@@ -27,7 +27,7 @@ class FrameLinks(ModelPass):
     nearest link above that stays a link, and are posed in the link's frame as before. Joints below keep the link's name
     as their parent.
     Never touches: links with mass; a link fixed to the world, which has no link above; one whose joint has a sensor,
-    which would have no place.
+    which would have no place; one on a joint of SDF in a `<gazebo>` element, which may close a circle.
     Diagnostics: none; ledger entries under `frame-link` for what a frame cannot have.
     """
 
@@ -45,6 +45,7 @@ class FrameLinks(ModelPass):
             and joint.parent in links
             and joint.child in links
             and not joint.sensors
+            and find_mark(joint, EXTENSION) is None
             and is_massless(links[joint.child])
             and not (stays and (find_mark(links[joint.child], FRAME) is None or links[joint.child].inertial))
         }

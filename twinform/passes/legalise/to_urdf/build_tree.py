@@ -40,13 +40,9 @@ class BuildTree(ToUrdfPass):
                 (kept if joint.type == "gearbox" or tree.add(joint) else cut).append(joint)
         for joint in (without_mark(joint, EXTENSION) for joint in marked):  # what nothing else holds needs it
             (kept if joint.parent != WORLD and tree.add(joint) else extensions).append(joint)
-        loose = [joint for joint in cut if joint.type == "floating"]  # which holds nothing
-        cut = [joint for joint in cut if joint.type != "floating"]
-        for joint in loose:
-            _report_loose(joint, keeper)
         for joint in cut:
             _report_cut(joint, tree.parent_joint.get(joint.child or ""), keeper)
-        if cut or extensions or loose:
+        if cut or extensions:
             model = cut_joints(model, kept, [*extensions, *cut], tree.parent_joint)
         roots = [link for link in model.links if link.name not in tree.parent_joint]
         first = _first_root(model, tree, keeper)
@@ -86,12 +82,6 @@ def _first_root(model: Model, tree: Tree, keeper: Keeper) -> str:
     if (model.static and not keeper.back) or any(joint.parent == WORLD for joint in tree.parent_joint.values()):
         return WORLD
     return tree.root(FrameGraph(model).body(MODEL, kind="model"))
-
-
-def _report_loose(joint: Joint, keeper: Keeper) -> None:
-    message = f"floating joint {joint.name!r} lets go of link {joint.child!r}, which another joint holds"
-    keeper.notes.report(rules.CUT_LOOP, message, joint.location, found=joint.child)
-    keeper.notes.account(Fate.DROPPED, rules.CUT_LOOP, message, joint.location, count_parts(joint))
 
 
 def _report_cut(joint: Joint, closed: Joint | None, keeper: Keeper) -> None:

@@ -6,11 +6,10 @@ from typing import ClassVar, TypeVar
 from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Collision, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
-from twinform.passes.legalise.carrier import carry
 from twinform.passes.legalise.marks import find_mark, without_mark
 from twinform.passes.legalise.notation import LINK
-from twinform.passes.legalise.to_sdf.joints import FLOATING
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
+from twinform.passes.legalise.to_urdf.floating_links import with_floating_joints
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 
 Placed = TypeVar("Placed", Visual, Collision, Sensor, Light)
@@ -22,9 +21,10 @@ class RestoreLinks(ToUrdfPass):
     """Make links and joints again of what was a massless link on a fixed joint, or on a floating one.
 
     Changes: 1. a frame that is marked as a link is one, and the frame that it is attached to its joint; 2. what the
-    link below holds in this frame is the link's; 3. a link that a mark calls free hangs from its joint again.
+    link below holds in this frame is the link's, and a joint that
+    holds it holds the link below; 3. a link that a mark calls free hangs from its joint again.
     Never touches: a frame that is not attached to its joint any more; it is made a link like others.
-    Diagnostics: `stale-carrier` for these, and for a floating joint whose parent is gone or whose link has a joint.
+    Diagnostics: `stale-carrier` for these, and for a floating joint that fits the file no more.
     """
 
     name: ClassVar[str] = "restore-links"
@@ -33,9 +33,7 @@ class RestoreLinks(ToUrdfPass):
         """The model with links and joints in the place of frames."""
         if any(find_mark(frame, LINK) is not None for frame in model.frames):
             model = _with_links(model, keeper)
-        if any(find_mark(link, FLOATING) is not None for link in model.links):
-            model = _with_floating_joints(model, keeper)
-        return model
+        return with_floating_joints(model, keeper)
 
 
 def _with_links(model: Model, keeper: Keeper) -> Model:
@@ -44,7 +42,7 @@ def _with_links(model: Model, keeper: Keeper) -> Model:
     mounts = {mount.name for mount in pairs.values()}
     held_by = {name: graph.body(name, kind="frame") for name in pairs}
     links = [_emptied(link, {name for name in pairs if held_by[name] == link.name}) for link in model.links]
-    joints = list(model.joints)
+    joints: list[Joint] = []
     for name, mount in pairs.items():
         frame = next(each for each in model.frames if each.name == name)
         holder = _holder(mount, pairs, graph)
@@ -64,7 +62,18 @@ def _with_links(model: Model, keeper: Keeper) -> Model:
     frames = tuple(
         without_mark(frame, LINK) for frame in model.frames if frame.name not in pairs and frame.name not in mounts
     )
+    joints += [_holding_a_link(joint, held_by) for joint in model.joints]  # after those that hold what was a frame
     return model.model_copy(update={"links": tuple(links), "joints": tuple(joints), "frames": frames})
+
+
+def _holding_a_link(joint: Joint, held_by: dict[str, str]) -> Joint:
+    """The joint with the link as its child that a frame moves with: the frame's link has a joint already."""
+    body = held_by.get(joint.child or "")
+    if body in {None, joint.parent, MODEL, WORLD}:
+        return joint
+    pose = joint.pose or Pose()
+    pose = pose if pose.relative_to else pose.model_copy(update={"relative_to": joint.child})
+    return joint.model_copy(update={"child": body, "pose": pose})
 
 
 def _pairs(model: Model, keeper: Keeper) -> Iterator[tuple[str, Frame]]:
@@ -143,37 +152,3 @@ def _part_in_own_frame(part: Opaque) -> Opaque:
     bare = pose.model_copy(update={"attributes": tuple(pair for pair in pose.attributes if pair[0] != "relative_to")})
     children = tuple(bare if child is pose else child for child in element.children)
     return part.model_copy(update={"element": element.model_copy(update={"children": children})})
-
-
-def without_loose_floating(model: Model) -> Model:
-    """The model without marks of floating joints that cannot be made any more: what they hung from is gone."""
-    known = {WORLD, *(link.name for link in model.links), *(frame.name for frame in model.frames)}
-    loose = {
-        link.name for link in model.links if (mark := find_mark(link, FLOATING)) and mark.get("parent") not in known
-    }
-    if not loose:
-        return model
-    links = (without_mark(link, FLOATING) if link.name in loose else link for link in model.links)
-    return model.model_copy(update={"links": tuple(links)})
-
-
-def _with_floating_joints(model: Model, keeper: Keeper) -> Model:
-    held = {joint.child for joint in model.joints}
-    known = {WORLD, *(link.name for link in model.links)}
-    taken = {joint.name for joint in model.joints}
-    joints = list(model.joints)
-    for link in model.links:
-        found = find_mark(link, FLOATING)
-        if found is None:
-            continue
-        name, parent = found.get("joint") or "", found.get("parent") or ""
-        if not name or name in taken or parent not in known or link.name in held:
-            message = f"link {link.name!r} hung from {parent!r} by the floating joint {name!r}, and cannot any more"
-            keeper.notes.report(STALE_CARRIER, message, link.location, found=name)
-            continue
-        taken.add(name)
-        joint = Joint(name=name, type="floating", parent=parent, child=link.name, pose=Pose(relative_to=link.name))
-        rest = [Opaque(element=child) for child in found.children]
-        joints.append(carry(joint.model_copy(update={"source": link.source}), rest, "urdf"))
-    links = tuple(without_mark(link, FLOATING) for link in model.links)
-    return model.model_copy(update={"links": links, "joints": tuple(joints)})

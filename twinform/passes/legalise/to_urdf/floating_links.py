@@ -1,0 +1,77 @@
+"""Links of SDF that a mark says a floating joint of URDF leaves free."""
+
+from collections.abc import Iterator, Mapping
+
+from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
+from twinform.ir import Element, Joint, Link, Model, Opaque, Pose
+from twinform.ir.frames import WORLD, FrameError, FrameGraph
+from twinform.passes.legalise.carrier import carry
+from twinform.passes.legalise.marks import find_mark, without_mark
+from twinform.passes.legalise.to_sdf.joints import FLOATING
+from twinform.passes.legalise.to_urdf.keeper import Keeper
+
+
+def with_floating_joints(model: Model, keeper: Keeper) -> Model:
+    """The model with the floating joints that marks tell of; one that fits the file no more is a `stale-carrier`."""
+    if not _has_marks(model):
+        return model
+    joints = list(model.joints)
+    for link, mark, fits in _marked(model):
+        name, parent = mark.get("joint") or "", mark.get("parent") or ""
+        if not fits:
+            message = f"link {link.name!r} hung from {parent!r} by the floating joint {name!r}, and cannot any more"
+            keeper.notes.report(STALE_CARRIER, message, link.location, found=name)
+            continue
+        joint = Joint(name=name, type="floating", parent=parent, child=link.name, pose=Pose(relative_to=link.name))
+        rest = [Opaque(element=child) for child in mark.children]
+        joints.append(carry(joint.model_copy(update={"source": link.source}), rest, "urdf"))
+    links = tuple(without_mark(link, FLOATING) for link in model.links)
+    return model.model_copy(update={"links": links, "joints": tuple(joints)})
+
+
+def without_loose_floating(model: Model) -> Model:
+    """The model without the marks that fit the file no more."""
+    if not _has_marks(model):
+        return model
+    loose = {link.name for link, _, fits in _marked(model) if not fits}
+    links = (without_mark(link, FLOATING) if link.name in loose else link for link in model.links)
+    return model.model_copy(update={"links": tuple(links)})
+
+
+def _has_marks(model: Model) -> bool:
+    return any(find_mark(link, FLOATING) is not None for link in model.links)
+
+
+def _marked(model: Model) -> Iterator[tuple[Link, Element, bool]]:
+    """Each marked link, its mark, and whether the joint can be: a new name, a free link, a parent that is not below."""
+    graph = FrameGraph(model)
+    holders = {joint.child: joint.parent or WORLD for joint in model.joints if joint.child}
+    names = {joint.name for joint in model.joints}
+    for link in model.links:
+        mark = find_mark(link, FLOATING)
+        if mark is None:
+            continue
+        name, parent = mark.get("joint"), mark.get("parent")
+        fits = bool(name) and name not in names and link.name not in holders
+        fits = fits and parent is not None and not _hangs_from(link.name, parent, holders, graph)
+        if fits and name and parent:
+            names.add(name)
+            holders[link.name] = parent
+        yield link, mark, fits
+
+
+def _hangs_from(link: str, name: str, holders: Mapping[str, str], graph: FrameGraph) -> bool:
+    """Whether what is called `name` hangs from a link, or is nowhere."""
+    seen: set[str] = set()
+    while name != WORLD:
+        try:
+            name = graph.body(name, kind="link")
+        except FrameError:
+            return True
+        if name == link:
+            return True
+        if name in seen or name not in holders:
+            return False
+        seen.add(name)
+        name = holders[name]
+    return False

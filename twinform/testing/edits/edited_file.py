@@ -1,0 +1,109 @@
+"""An edited file as those read it who do not know our carriers, and what its marks say."""
+
+from functools import cached_property
+
+from lxml import etree
+
+from twinform.passes.legalise.carrier import NAMESPACE
+from twinform.passes.legalise.provenance import may_write_scopes
+from twinform.schemas import XmlElement
+
+OURS = f"{{{NAMESPACE}}}"
+
+
+class EditedFile:
+    """A file after its edits. Its trees are parsed when they are first asked for, and are not to be changed."""
+
+    def __init__(self, text: bytes) -> None:
+        self.text = text
+
+    @cached_property
+    def root(self) -> XmlElement:
+        """The tree as it stands in the file."""
+        return etree.fromstring(self.text)
+
+    @cached_property
+    def named(self) -> XmlElement:
+        """The tree with the names that marks tell."""
+        root = etree.fromstring(self.text)
+        _give_names_back(root)
+        return root
+
+    @cached_property
+    def plain(self) -> XmlElement:
+        """The tree without anything in our namespace, under the names that marks tell."""
+        root = etree.fromstring(self.text)
+        _give_names_back(root)
+        for element in list(root.iter(etree.Element)):
+            if str(element.tag).startswith(OURS):
+                _take_out(element)
+            for name in [str(key) for key in element.keys() if str(key).startswith(OURS)]:  # noqa: SIM118 - an element
+                del element.attrib[name]
+        etree.cleanup_namespaces(root)
+        return root
+
+    @cached_property
+    def holders(self) -> dict[str, XmlElement]:
+        """The joints of URDF by the link that they hold."""
+        return {end(joint, "child"): joint for joint in self.root.iterfind("joint")}
+
+    @cached_property
+    def parts(self) -> frozenset[str]:
+        """The names of the links and joints that are in a chain."""
+        parts = {
+            str(part.get("name")) for mark in self.root.iter(f"{OURS}part") if (part := mark.getparent()) is not None
+        }
+        return frozenset(parts | {str(last.get("name")) for last in self.marked("joint", "chain")})
+
+    def marked(self, tag: str, mark: str) -> list[XmlElement]:
+        """The elements with a mark."""
+        return [each for each in self.root.iter(tag) if each.find(f"{OURS}{mark}") is not None]
+
+
+def scoped_name(holder: XmlElement | None) -> str:
+    """What a link or joint of URDF is called in SDF."""
+    if holder is None:
+        return ""
+    name = holder.get("name") or ""
+    mark = holder.find(f"{OURS}scoped-name")
+    return (mark.text or name) if mark is not None and mark.get("instead_of") == name else name
+
+
+def end(joint: XmlElement, tag: str) -> str:
+    """The link at an end of a joint of URDF; empty where none is said."""
+    found = joint.find(tag)
+    return (found.get("link") or "") if found is not None else ""
+
+
+def _give_names_back(root: XmlElement) -> None:
+    """Call what is marked by its old name, everywhere: a name that had to change is no other part."""
+    names: dict[str, str] = {}
+    nested = {scoped_name(frame) for mark in root.iter(f"{OURS}nested") if _is_frame(frame := mark.getparent(), root)}
+    free = any(may_write_scopes(str(mark.get("version"))) for mark in root.iter(f"{OURS}from"))
+    for mark in root.iter(f"{OURS}scoped-name"):
+        holder = mark.getparent()
+        if holder is not None and holder.get("name") == mark.get("instead_of") and mark.text:
+            if not free and (mark.text.rpartition("::")[0] or mark.text) not in nested:
+                continue  # of what it was in nothing tells any more
+            names[str(mark.get("instead_of"))] = mark.text
+    if not names:
+        return
+    for element in root.iter(etree.Element):
+        if (element.text or "").strip() in names:
+            element.text = names[(element.text or "").strip()]
+        for key, value in element.items():
+            element.set(key, names.get(str(value), str(value)))
+
+
+def _is_frame(link: XmlElement | None, root: XmlElement) -> bool:
+    """Whether a link that stands for the frame of a model is still nothing else: fixed, and without a body."""
+    if link is None or link.find(f"{OURS}frame") is None or link.find("inertial/mass") is not None:
+        return False
+    held_by = (joint for joint in root.iterfind("joint") if end(joint, "child") == link.get("name"))
+    return all(joint.get("type") == "fixed" for joint in held_by)
+
+
+def _take_out(element: XmlElement) -> None:
+    parent = element.getparent()
+    if parent is not None:
+        parent.remove(element)
