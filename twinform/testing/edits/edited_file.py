@@ -96,11 +96,11 @@ def _give_names_back(root: XmlElement) -> None:
 
 
 def _is_frame(link: XmlElement | None, root: XmlElement) -> bool:
-    """Whether a link that stands for the frame of a model is still nothing else: fixed, and without a body."""
+    """Whether a link that stands for the frame of a model is still nothing else: fixed to a link, without a body."""
     if link is None or link.find(f"{OURS}frame") is None or link.find("inertial/mass") is not None:
         return False
-    held_by = (joint for joint in root.iterfind("joint") if end(joint, "child") == link.get("name"))
-    return all(joint.get("type") == "fixed" for joint in held_by)
+    held_by = [joint for joint in root.iterfind("joint") if end(joint, "child") == link.get("name")]
+    return bool(held_by) and all(joint.get("type") == "fixed" and end(joint, "parent") != "world" for joint in held_by)
 
 
 def _take_out(element: XmlElement) -> None:

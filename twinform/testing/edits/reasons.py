@@ -21,11 +21,21 @@ def _is_without_links(found: Difference, _: EditedFile) -> bool:
 
 def _is_marked_frame(found: Difference, edited: EditedFile) -> bool:
     """Whether it is a link or a joint that a mark calls a frame, or made for one, or a frame that a mark moves."""
-    if found.group != "frame" or (found.b.text is not None and not found.aspect):
+    placed = found.aspect.startswith("pose")
+    if found.group not in ({"frame", "link"} if placed else {"frame"}) or (
+        found.b.text is not None and not found.aspect
+    ):
         return False
-    marks = (f"{OURS}offset",) if found.aspect.startswith("pose") else (f"{OURS}frame", f"{OURS}made")
+    marks = (f"{OURS}offset",) if placed else (f"{OURS}frame", f"{OURS}made")
     named = (each for each in edited.named.iter("link", "joint") if each.get("name") == found.name)
     return any(child.tag in marks for each in named for child in each)
+
+
+def _ends_at_marked_link(found: Difference, edited: EditedFile) -> bool:
+    """Whether it is a joint that holds, or hangs from, a frame that a mark calls a link."""
+    if found.group != "joint" or found.aspect not in {"parent", "child"}:
+        return False
+    return (found.b.text or "").strip("'") in {frame.get("name") for frame in edited.marked("frame", "link")}
 
 
 def _stays_a_link(found: Difference, edited: EditedFile) -> bool:
@@ -85,11 +95,13 @@ def _is_in_loop(found: Difference, edited: EditedFile) -> bool:
 
 
 def _is_named_otherwise(found: Difference, edited: EditedFile) -> bool:
-    """Whether it is a joint whose name in URDF stands in a mark."""
-    if found.group != "joint" or found.b.text is not None:
+    """Whether it is a joint whose name in the other format stands in a mark, by its name here or by that one."""
+    if found.group != "joint" or found.aspect:
         return False
-    named = (each for each in edited.root.iter("joint") if each.get("name") == found.name)
-    return any(mark.get("instead_of") == found.name for joint in named for mark in joint.iter(f"{OURS}name"))
+    marks = [mark for joint in edited.marked("joint", "name") for mark in joint.iterfind(f"{OURS}name")]
+    if found.b.text is None:
+        return any(mark.get("instead_of") == found.name for mark in marks)
+    return any(mark.text in {found.name, (found.name or "").removesuffix("_joint")} for mark in marks)
 
 
 def _moves_apart(found: Difference, edited: EditedFile) -> bool:
@@ -141,13 +153,14 @@ _REASONS: dict[str, Callable[[Difference, EditedFile], bool]] = {
     "a link that says nothing, which URDF has to have": _is_empty_link,
     "a mark calls a link a frame, or says where its frame is": _is_marked_frame,
     "a link without mass on a fixed joint, which SDF had as a link": _stays_a_link,
+    "a mark calls a frame a link": _ends_at_marked_link,
     "a joint of several axes is a chain of joints in URDF": _is_of_chain,
     "a joint has another name in the other format, and moves with another sample": _moves_apart,
     "joints of a robot with loops, of which names choose the tree": _is_in_loop,
     "a carrier says that a joint follows another": _may_follow,
     "a joint that a mark calls made holds the robot at the world": _is_in_held,
     "a frame of a model without links": _is_without_links,
-    "a joint has another name in URDF, which a link of SDF has": _is_named_otherwise,
+    "a joint has another name in the other format, which a link has here": _is_named_otherwise,
     "a carrier says what URDF has no word for": _is_beyond_urdf,
 }
 """Differences that the file has without its carriers because URDF cannot say it, by their reason."""
