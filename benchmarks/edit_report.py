@@ -61,7 +61,7 @@ def drake_judged(done: list[Done], processes: int) -> Drake:
     for pair, answer in run(_judged, list(pairs), seconds=60, processes=processes):
         if isinstance(answer, Failure) or answer is None:
             unread += 1
-        elif answer and (reason := _excuse(pair[0])):
+        elif answer and (reason := _excuse(pair[0], answer)):
             excused[reason] += 1
         elif answer:
             faults.append(f"{pair[0].parent.name}: {pairs[pair].replay}: {answer}")
@@ -70,10 +70,12 @@ def drake_judged(done: list[Done], processes: int) -> Drake:
     return Drake(same, unread, tuple(sorted(faults)), excused)
 
 
-def _excuse(edited: Path) -> str:
+def _excuse(edited: Path, answer: str) -> str:
+    """The reason why Drake may answer so about an edited file, if it is a known one."""
     text = edited.read_text(encoding="utf-8")
     known: list[dict[str, str]] = tomllib.loads(KNOWN.read_text(encoding="utf-8"))["drake"]
-    return next((each["reason"] for each in known if re.search(each["pattern"], text)), "")
+    applies = (each for each in known if re.search(each["pattern"], text) and re.search(each.get("answer", ""), answer))
+    return next((each["reason"] for each in applies), "")
 
 
 def _judged(pair: tuple[Path, Path]) -> str | None:
