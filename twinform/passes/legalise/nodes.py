@@ -3,7 +3,7 @@
 from collections.abc import Callable, Container, Iterable
 from typing import TypeVar
 
-from twinform.ir import Element, Node, Opaque, Pose
+from twinform.ir import Element, Node, Opaque, Pose, map_kind
 from twinform.passes.legalise.carrier import to_element
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -34,24 +34,7 @@ def text_piece(name: str, text: str, at: str = "") -> Opaque:
 
 def map_poses(node: AnyNode, change: Callable[[Pose], Pose]) -> AnyNode:
     """The node with every pose in it changed; the same node where none is."""
-    update: dict[str, object] = {}
-    for field, value in node.__dict__.items():
-        if isinstance(value, Pose):
-            changed: object = change(value)
-        elif isinstance(value, Node):
-            changed = map_poses(value, change)
-        elif isinstance(value, tuple) and value and isinstance(value[0], Node):
-            changed = _map_each(value, change)  # pyright: ignore[reportUnknownArgumentType] - all of one kind
-        else:
-            continue
-        if changed is not value:
-            update[field] = changed
-    return node.model_copy(update=update) if update else node
-
-
-def _map_each(nodes: tuple[Node, ...], change: Callable[[Pose], Pose]) -> tuple[Node, ...]:
-    changed = tuple(map_poses(node, change) for node in nodes)
-    return changed if any(new is not old for new, old in zip(changed, nodes, strict=True)) else nodes
+    return map_kind(node, Pose, change)
 
 
 def map_elements(parts: Iterable[Opaque], change: Callable[[Element], Element]) -> tuple[Opaque, ...]:

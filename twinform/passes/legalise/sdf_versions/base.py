@@ -79,11 +79,6 @@ def map_worlds(document: Document, change: Callable[[World], World]) -> Document
     return document if same else document.model_copy(update={"worlds": worlds})
 
 
-def map_nodes(node: AnyNode, change: Callable[[Node], Node]) -> AnyNode:
-    """The node with every node below it changed, from the inside out; `node` itself is not."""
-    return map_children(node, lambda child: change(map_nodes(child, change)))
-
-
 def map_own_elements(node: AnyNode, change: Callable[[Element], Element]) -> AnyNode:
     """The node with its untyped elements changed; those of other namespaces and of carriers are left alone."""
     if not any(part.element for part in node.opaque):

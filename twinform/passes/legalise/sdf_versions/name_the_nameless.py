@@ -1,21 +1,20 @@
 """What may go without a name in one version must have one in another."""
 
-from collections.abc import Callable
 from pathlib import PurePosixPath
-from typing import ClassVar
+from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import sdf_versions as rules
-from twinform.ir import Document, Light, Node, Plugin
+from twinform.ir import Document, Light, Plugin, map_kind
 from twinform.passes.legalise.nodes import unique_name
-from twinform.passes.legalise.sdf_versions.base import VersionPass, map_nodes
+from twinform.passes.legalise.sdf_versions.base import VersionPass
 from twinform.passes.legalise.sdf_versions.carriers import Keeper
-from twinform.schemas import Version
 
 _LIGHTS = (1, 6)
 """Since this version a light has a name."""
 _PLUGINS = (1, 9)
 """Until this version a plugin has one."""
+Named = TypeVar("Named", Light, Plugin)
 
 
 class NameTheNameless(VersionPass):
@@ -30,20 +29,20 @@ class NameTheNameless(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with names."""
-        return map_nodes(document, _namer(self.number, keeper.notes))
+        taken: set[str] = set()
+        if self.number >= _LIGHTS:
+            document = map_kind(document, Light, lambda light: _named(light, taken, keeper.notes))
+        if self.number <= _PLUGINS:
+            document = map_kind(document, Plugin, lambda plugin: _named_by_file(plugin, taken, keeper.notes))
+        return document
 
 
-def _namer(version: Version, notes: Notes) -> Callable[[Node], Node]:
-    taken: set[str] = set()
+def _named(light: Light, taken: set[str], notes: Notes) -> Light:
+    return light if light.name else _called("light", "light", light, taken, notes)
 
-    def name(node: Node) -> Node:
-        if isinstance(node, Light) and not node.name and version >= _LIGHTS:
-            return _called("light", "light", node, taken, notes)
-        if isinstance(node, Plugin) and node.name is None and version <= _PLUGINS:
-            return _called("plugin", plugin_stem(node.filename), node, taken, notes)
-        return node
 
-    return name
+def _named_by_file(plugin: Plugin, taken: set[str], notes: Notes) -> Plugin:
+    return plugin if plugin.name is not None else _called("plugin", plugin_stem(plugin.filename), plugin, taken, notes)
 
 
 def plugin_stem(filename: str | None) -> str:
@@ -51,7 +50,7 @@ def plugin_stem(filename: str | None) -> str:
     return PurePosixPath(filename or "").stem.removeprefix("lib") or "plugin"
 
 
-def _called(kind: str, wish: str, node: Node, taken: set[str], notes: Notes) -> Node:
+def _called(kind: str, wish: str, node: Named, taken: set[str], notes: Notes) -> Named:
     name = unique_name(wish, taken)
     taken.add(name)
     message = f"a {kind} without a name is called {name!r}"

@@ -3,9 +3,9 @@
 from functools import partial
 from typing import ClassVar
 
-from twinform.ir import Document, Element, Node, Sensor
+from twinform.ir import Document, Element, Sensor, map_kind
 from twinform.passes.legalise.carrier import NAMESPACE
-from twinform.passes.legalise.sdf_versions.base import VersionPass, map_nodes, map_own_elements
+from twinform.passes.legalise.sdf_versions.base import VersionPass, map_own_elements
 from twinform.passes.legalise.sdf_versions.carriers import Keeper
 from twinform.passes.legalise.sdf_versions.element_paths import has, put, take
 
@@ -30,7 +30,7 @@ class SpreadImuNoise(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with noise on axes."""
-        return map_nodes(document, partial(_sensor, self.mark))
+        return map_kind(document, Sensor, partial(_sensor, self.mark))
 
 
 class GatherImuNoise(VersionPass):
@@ -50,7 +50,7 @@ class GatherImuNoise(VersionPass):
         def gather(element: Element) -> Element:
             return element if self.marked and element.find(_MARK) is None else gathered(element)
 
-        return map_nodes(document, lambda node: map_own_elements(node, gather) if isinstance(node, Sensor) else node)
+        return map_kind(document, Sensor, lambda sensor: map_own_elements(sensor, gather))
 
 
 def gathered(element: Element) -> Element:
@@ -81,8 +81,8 @@ def _common_noise(imu: Element, measured: str) -> Element | None:
     return first if same and plain and [name for name, _ in first.attributes] == ["type"] else None
 
 
-def _sensor(mark: bool, node: Node) -> Node:
-    return map_own_elements(node, partial(_imu, mark)) if isinstance(node, Sensor) else node
+def _sensor(mark: bool, sensor: Sensor) -> Sensor:
+    return map_own_elements(sensor, partial(_imu, mark))
 
 
 def _imu(mark: bool, element: Element) -> Element:
