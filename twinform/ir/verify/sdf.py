@@ -111,10 +111,15 @@ class _Verifier:
             self.notes.report(rules.WORLD_CHILD, message, joint.location.at("child"))
 
     def _link(self, link: Link, model: Model) -> None:
-        kinds = (("visual", link.visuals), ("collision", link.collisions), ("sensor", link.sensors))
+        kinds: Kinds = (
+            ("visual", link.visuals),
+            ("collision", link.collisions),
+            ("sensor", link.sensors),
+            ("light", link.lights),
+        )
         for kind, nodes in kinds:
             report_names(kind, [node for node in nodes if node.name is not None], self.notes)
-        self._reserved((*kinds, ("light", link.lights)))
+        self._reserved(kinds)
         self._siblings(link)
         verify_inertial(link, _DEFAULT_MOMENT, self.notes)
         verify_shapes(link, self.notes, geometry_is_required=False)
