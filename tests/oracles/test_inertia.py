@@ -43,7 +43,7 @@ def test_engines_take_what_they_refused(engine: str) -> None:
 def spatial_inertia(path: Path) -> Any:
     """The inertia of the whole robot with its joints at zero, about the origin of its root, to Drake."""
     tree: Any = importlib.import_module("pydrake.multibody.tree")
-    plant, bodies, _ = drake.parts(path)
+    plant, bodies, *_ = drake.parts(path)
     indices = [tree.BodyIndex(body.index()) for body in bodies.values()]
     found = plant.CalcSpatialInertia(plant.CreateDefaultContext(), plant.GetFrameByName("base"), indices)
     return found.CopyToFullMatrix6()

@@ -1,5 +1,6 @@
 """An edited file as those read it who do not know our carriers, and what its marks say."""
 
+from collections.abc import Mapping
 from functools import cached_property
 
 from lxml import etree
@@ -48,6 +49,20 @@ class EditedFile:
         return {end(joint, "child"): joint for joint in self.root.iterfind("joint")}
 
     @cached_property
+    def rigid(self) -> dict[str, str]:
+        """The link that each link is fixed to, if to any; a joint that closes a circle is left out."""
+        held: dict[str, str] = {}
+        for joint in self.root.iter("joint"):
+            child = end(joint, "child")
+            if joint.get("type") == "fixed" and child not in held and not _leads_to(child, end(joint, "parent"), held):
+                held[child] = end(joint, "parent")
+        return held
+
+    def are_fixed(self, one: str, other: str) -> bool:
+        """Whether fixed joints hold two links to each other."""
+        return _top(one, self.rigid) == _top(other, self.rigid)
+
+    @cached_property
     def parts(self) -> frozenset[str]:
         """The names of the links and joints that are in a chain."""
         parts = {
@@ -70,9 +85,22 @@ def scoped_name(holder: XmlElement | None) -> str:
 
 
 def end(joint: XmlElement, tag: str) -> str:
-    """The link at an end of a joint of URDF; empty where none is said."""
+    """The link at an end of a joint; empty where none is said."""
     found = joint.find(tag)
-    return (found.get("link") or "") if found is not None else ""
+    return (found.get("link") or (found.text or "").strip()) if found is not None else ""
+
+
+def _top(name: str, held: Mapping[str, str]) -> str:
+    while name in held:
+        name = held[name]
+    return name
+
+
+def _leads_to(wanted: str, name: str, held: Mapping[str, str]) -> bool:
+    """Whether a link is the other one, or fixed to it."""
+    while name in held and name != wanted:
+        name = held[name]
+    return name == wanted
 
 
 def _give_names_back(root: XmlElement) -> None:
@@ -83,7 +111,7 @@ def _give_names_back(root: XmlElement) -> None:
     for mark in root.iter(f"{OURS}scoped-name"):
         holder = mark.getparent()
         if holder is not None and holder.get("name") == mark.get("instead_of") and mark.text:
-            if not free and (mark.text.rpartition("::")[0] or mark.text) not in nested:
+            if not free and not nested.issuperset(_scopes_in(mark.text) or {mark.text}):
                 continue  # of what it was in nothing tells any more
             names[str(mark.get("instead_of"))] = mark.text
     if not names:
@@ -93,6 +121,12 @@ def _give_names_back(root: XmlElement) -> None:
             element.text = names[(element.text or "").strip()]
         for key, value in element.items():
             element.set(key, names.get(str(value), str(value)))
+
+
+def _scopes_in(name: str) -> set[str]:
+    """The models that a scoped name is in: `a` and `a::b` of `a::b::link`."""
+    *scopes, _ = name.split("::")
+    return {"::".join(scopes[: count + 1]) for count in range(len(scopes))}
 
 
 def _is_frame(link: XmlElement | None, root: XmlElement) -> bool:

@@ -138,6 +138,13 @@ def _may_follow(found: Difference, edited: EditedFile) -> bool:
     return found.group == "kinematics" and any(mark.find("mimic") is not None for mark in mimics)
 
 
+def _moves_alike(found: Difference, edited: EditedFile) -> bool:
+    """Whether it is to which of several links a frame is attached that are fixed to each other."""
+    if found.group != "frame" or found.aspect != "attached_to":
+        return False
+    return edited.are_fixed(*((said.text or "").strip("'") for said in (found.a, found.b)))
+
+
 def _is_empty_link(found: Difference, edited: EditedFile) -> bool:
     """Whether it is a link that says nothing but its name: URDF has to have one, so it is made."""
     if found.group != "link" or found.aspect or found.b.text is not None:
@@ -159,6 +166,7 @@ _REASONS: dict[str, Callable[[Difference, EditedFile], bool]] = {
     "joints of a robot with loops, of which names choose the tree": _is_in_loop,
     "a carrier says that a joint follows another": _may_follow,
     "a joint that a mark calls made holds the robot at the world": _is_in_held,
+    "a frame is attached to one of several links that are fixed to each other": _moves_alike,
     "a frame of a model without links": _is_without_links,
     "a joint has another name in the other format, which a link has here": _is_named_otherwise,
     "a carrier says what URDF has no word for": _is_beyond_urdf,

@@ -85,6 +85,9 @@ def _scales(samples: Sequence[Sample]) -> Mapping[str, float]:
     values: dict[str, list[float | Matrix]] = {
         "gravity": [force for sample in samples for force in sample.gravity.values()],
         "position": [pose[:3, 3] for sample in samples for pose in sample.poses.values()],
+        "frame position": [
+            pose[:3, 3] for sample in samples for pose in (*sample.poses.values(), *sample.frames.values())
+        ],
         "mass": [body.mass for body in bodies],
         "centre of mass": [body.centre for body in bodies],
         "inertia": [body.inertia for body in bodies],
@@ -101,11 +104,21 @@ def _deviations(first: Robot, second: Robot, before: Sample, after: Sample) -> I
         gap = np.abs(before.poses[name] - after.poses[name])
         yield _Deviation("position", float(gap[:3, 3].max()), f"link {name}")
         yield _Deviation("rotation", float(gap[:3, :3].max()), f"link {name}")
+    yield from _frames(before, after)
     for name in _massive(before) & _massive(after):
         one, other, where = before.bodies[name], after.bodies[name], f"link {name}"
         yield _Deviation("mass", abs(one.mass - other.mass), where)
         yield _Deviation("centre of mass", float(np.abs(one.centre - other.centre).max()), where)
         yield _Deviation("inertia", float(np.abs(one.inertia - other.inertia).max()), where)
+
+
+def _frames(before: Sample, after: Sample) -> Iterator[_Deviation]:
+    """How far what is a frame in one of the two is from where the other has it, as a frame or as a link."""
+    ours, theirs = {**before.poses, **before.frames}, {**after.poses, **after.frames}
+    for name in (before.frames.keys() | after.frames.keys()) & ours.keys() & theirs.keys():
+        gap = np.abs(ours[name] - theirs[name])
+        yield _Deviation("frame position", float(gap[:3, 3].max()), f"frame {name}")
+        yield _Deviation("frame rotation", float(gap[:3, :3].max()), f"frame {name}")
 
 
 def _massive(sample: Sample) -> set[str]:

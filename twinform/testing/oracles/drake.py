@@ -23,14 +23,14 @@ def read(path: Path, view: View) -> Robot:
     Raises:
         Exception: Drake cannot read it; it has no narrower type for that.
     """
-    plant, bodies, joints = parts(path)
+    plant, bodies, joints, frames = parts(path)
     found = {view.names.get(name, name): joint for name, joint in joints.items()}
     moving = {name: joint for name, joint in found.items() if is_simple(joint) and name not in view.still}
     reference = view.reference if view.reference in bodies else root(bodies, joints)
     origin = _pose(plant, plant.CreateDefaultContext(), bodies[reference]) if reference != WORLD else np.eye(4)
     plant.mutable_gravity_field().set_gravity_vector(origin[:3, :3] @ np.array([0.0, 0.0, -GRAVITY]))
     samples = (
-        _sample(plant, bodies, moving, origin, lambda name, number=number: position(name, number))
+        _sample(plant, bodies, moving, frames, origin, lambda name, number=number: position(name, number))
         for number in range(view.count)
     )
     return Robot(
@@ -50,8 +50,8 @@ def is_simple(joint: Any) -> bool:
     return joint.num_velocities() == 1 and joint.type_name() in {"revolute", "prismatic"}
 
 
-def parts(path: Path) -> tuple[Any, Parts, Parts]:
-    """The plant of the first model of a file, and its bodies and joints; without shapes, so that no mesh is missed.
+def parts(path: Path) -> tuple[Any, Parts, Parts, Parts]:
+    """The plant of the first model of a file, its bodies, joints and frames; without shapes, so that no mesh is missed.
 
     Joints that mimic others are free: Drake reads that in URDF, and in SDF only from an element of its own.
     """
@@ -62,10 +62,13 @@ def parts(path: Path) -> tuple[Any, Parts, Parts]:
     for constraint in plant.GetConstraintIds():
         plant.RemoveConstraint(constraint)
     plant.Finalize()
-    index = importlib.import_module("pydrake.multibody.tree").BodyIndex
-    bodies = _named(plant, (plant.get_body(index(number)) for number in range(plant.num_bodies())), prefix)
+    tree = importlib.import_module("pydrake.multibody.tree")
+    bodies = _named(plant, (plant.get_body(tree.BodyIndex(number)) for number in range(plant.num_bodies())), prefix)
     joints = _named(plant, (plant.get_joint(number) for number in plant.GetJointIndices()), prefix)
-    return plant, bodies, joints
+    every = _named(plant, (plant.get_frame(tree.FrameIndex(number)) for number in range(plant.num_frames())), prefix)
+    made = {f"{name}_{end}" for name in joints for end in ("parent", "child")}  # which Drake has for itself
+    frames = {name: frame for name, frame in every.items() if name not in bodies and name not in made}
+    return plant, bodies, joints, frames
 
 
 def root(bodies: Parts, joints: Parts) -> str:
@@ -102,7 +105,9 @@ def _limits(joint: Any) -> dict[str, float]:
     }
 
 
-def _sample(plant: Any, bodies: Parts, joints: Parts, origin: Matrix, place: Callable[[str], float]) -> Sample:
+def _sample(
+    plant: Any, bodies: Parts, joints: Parts, frames: Parts, origin: Matrix, place: Callable[[str], float]
+) -> Sample:
     context = plant.CreateDefaultContext()
     positions = plant.GetPositions(context)
     for name, joint in joints.items():
@@ -118,6 +123,7 @@ def _sample(plant: Any, bodies: Parts, joints: Parts, origin: Matrix, place: Cal
         bodies={name: body for name, body in weighed if body is not None},
         mass_matrix=plant.CalcMassMatrix(context)[np.ix_(speeds, speeds)],
         gravity={name: float(forces[speed]) for name, speed in zip(joints, speeds, strict=True)},
+        frames={name: back @ frame.CalcPoseInWorld(context).GetAsMatrix4() for name, frame in frames.items()},
     )
 
 

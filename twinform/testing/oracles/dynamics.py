@@ -74,7 +74,7 @@ def _trajectory(path: Path, view: View, seconds: float) -> Trajectory:
 
 
 def _simulated(path: Path, view: View, seconds: float) -> Trajectory:
-    plant, bodies, found = drake.parts(path)
+    plant, bodies, found, _ = drake.parts(path)
     named = {view.names.get(name, name): joint for name, joint in found.items() if drake.is_simple(joint)}
     joints = {name: joint for name, joint in named.items() if name not in view.still}
     loose = {name: body for name, body in bodies.items() if body.is_floating_base_body()}

@@ -42,13 +42,15 @@ class Body:
 class Sample:
     """A robot at one set of joint positions; links without mass have a pose and no body.
 
-    The mass matrix has the order of the robot's joints; gravity is the generalized force of it, by joint.
+    The mass matrix has the order of the robot's joints; gravity is the generalized force of it, by joint. `frames` are
+    poses of what is no link to the engine, where it has such.
     """
 
     poses: Mapping[str, Matrix]
     bodies: Mapping[str, Body]
     mass_matrix: Matrix
     gravity: Mapping[str, float]
+    frames: Mapping[str, Matrix] = field(default_factory=dict[str, Matrix])
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -193,7 +193,7 @@ class _Restoring:
         if self.as_urdf and joint.pose and joint.pose.relative_to:
             usual = joint.pose.relative_to
         pose = self._own_pose(joint, "joint", usual, graph)
-        if self.as_urdf:
+        if self.as_urdf and not (pose and pose.relative_to):
             pose = (pose or Pose()).model_copy(update={"relative_to": usual})
         update: dict[str, object] = {**ends, "pose": pose}
         for name in _AXES:

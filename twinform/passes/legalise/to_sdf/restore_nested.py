@@ -9,7 +9,7 @@ from twinform.diagnostics.rules.to_urdf import NESTED_MODEL, STALE_CARRIER
 from twinform.ir import Axis, Element, Format, Frame, Joint, Link, Model, Node, Opaque, Pose
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.marks import find_mark
+from twinform.passes.legalise.marks import find_mark, without_mark
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.names import renamed
 from twinform.passes.legalise.nodes import map_poses
@@ -29,21 +29,40 @@ Short = Callable[[str | None], str | None]
 class NameScopes(ModelPass):
     """Call the frames that stand for nested models as SDF calls them: `inner` becomes `inner::__model__`.
 
-    Changes: these frames, and what names them.
+    Changes: these frames, and what names them. One whose model has nothing in it any more, because names were changed,
+    is a frame like others.
     Never touches: other frames.
-    Diagnostics: `nested-model` where such a frame was fixed to a link outside of its model.
+    Diagnostics: `nested-model` where such a frame was fixed to a link outside of its model; `stale-carrier` where
+    nothing is in the model.
     """
 
     name: ClassVar[str] = "name-scopes"
 
     def run_model(self, model: Model, notes: Notes) -> Model:
         """The model with the frames of nested models by their scoped names."""
+        model = _without_hollow(model, notes)
         own = [frame for frame in model.frames if find_mark(frame, NESTED) is not None]
         if not own:
             return model
         for frame in own:
             _report_outside(frame, model, notes)
         return renamed(model, {("frame", frame.name): f"{frame.name}{_OWN}" for frame in own}, Format.SDF)
+
+
+def _without_hollow(model: Model, notes: Notes) -> Model:
+    """The model without marks of nested models that nothing is in, and of which nothing more is said."""
+    named = [node.name for node in (*model.links, *model.joints, *model.frames)]
+    frames: list[Frame] = []
+    for frame in model.frames:
+        found = find_mark(frame, NESTED)
+        prefix = frame.name + SCOPE
+        if found is None or found.attributes or found.children or any(name.startswith(prefix) for name in named):
+            frames.append(frame)
+            continue
+        message = f"nothing is called {prefix!r} and more, so that {frame.name!r} is a frame and no model"
+        notes.report(STALE_CARRIER, message, frame.location, found=frame.name)
+        frames.append(without_mark(frame, NESTED))
+    return model.model_copy(update={"frames": tuple(frames)})
 
 
 def _report_outside(frame: Frame, model: Model, notes: Notes) -> None:
