@@ -1,6 +1,7 @@
 """Parts that know where they were written."""
 
-from typing import Annotated
+from collections.abc import Mapping
+from typing import Annotated, Any, Self
 
 from pydantic import BaseModel, ConfigDict, Field, SkipValidation
 from pydantic.json_schema import SkipJsonSchema
@@ -21,6 +22,21 @@ class Sourced(BaseModel):
     def location(self) -> Location:
         """Where it was read; nowhere for what a pass made."""
         return self.source.location if self.source else NOWHERE
+
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """The same part with other values, which are not validated.
+
+        A frozen part has nothing private and no extra fields, so that there is less to copy than pydantic looks for;
+        conversions make most of their parts so.
+        """
+        if deep or not update:
+            return super().model_copy(update=update, deep=deep)
+        made = object.__new__(type(self))
+        object.__setattr__(made, "__dict__", {**self.__dict__, **update})
+        object.__setattr__(made, "__pydantic_fields_set__", self.__pydantic_fields_set__ | update.keys())
+        object.__setattr__(made, "__pydantic_extra__", None)
+        object.__setattr__(made, "__pydantic_private__", None)
+        return made
 
     def __eq__(self, other: object) -> bool:
         if self.__class__ is not other.__class__:

@@ -42,7 +42,9 @@ def walk(node: Node) -> Iterator[Node]:
     while stack:
         current = stack.pop()
         yield current
-        stack.extend(reversed(list(children_of(current))))
+        if inside := [*children_of(current)]:
+            inside.reverse()
+            stack += inside
 
 
 def map_children(node: AnyNode, change: Callable[[Node], Node]) -> AnyNode:

@@ -15,6 +15,7 @@ from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import NAMESPACE, from_xml
 from twinform.passes.legalise.marks import find_mark
 from twinform.passes.legalise.names import NAME
+from twinform.passes.legalise.sdf_versions.name_the_nameless import plugin_stem
 from twinform.passes.legalise.to_sdf.joints import FLOATING
 from twinform.passes.legalise.urdf_pieces import WITHOUT_AXIS, joints_of
 from twinform.schemas import XmlElement, table, writer
@@ -83,9 +84,8 @@ class Reading:
             walk.enter_free(xml, "")
         else:
             walk.enter(xml, definition(tag), frame)
-        name = xml.get("name") or ""
         walk.found.pop("@name", None)
-        return Part(tag, name, walk.found, where, carried=xml.get(CARRIED) is not None)
+        return Part(tag, _name(xml), walk.found, where, carried=xml.get(CARRIED) is not None)
 
     def _part(self, node: Node, tag: str, frame: Transform) -> Part:
         xml = _xml(node, tag)
@@ -98,7 +98,7 @@ class Reading:
             walk.enter(xml, definition(tag), frame)
         walk.found.pop("@name", None)
         said, _ = self._of_urdf(xml, node)
-        return Part(tag, xml.get("name") or "", {**walk.found, **said}, places(""))
+        return Part(tag, _name(xml), {**walk.found, **said}, places(""))
 
     def _own(
         self,
@@ -213,6 +213,12 @@ def _text_element(text: str) -> XmlElement:
     made = etree.Element("value")
     made.text = text
     return made
+
+
+def _name(xml: XmlElement) -> str:
+    """What a part is called: a plugin without a name like its file, as versions of SDF call it that want one."""
+    name = xml.get("name") or ""
+    return plugin_stem(xml.get("filename")) if xml.tag == "plugin" and not name else name
 
 
 def _xml(node: Node, tag: str) -> XmlElement:

@@ -80,11 +80,8 @@ def is_memory(part: Opaque) -> bool:
 
 def has_ours(node: Node) -> bool:
     """Whether a carrier or mark is anywhere in a node."""
-    return any(
-        part.element is not None and any(inner.name.startswith(_OURS) for inner in part.element.walk())
-        for each in walk(node)
-        for part in each.opaque
-    ) or any(
+    marked = (part.element for each in walk(node) if each.opaque for part in each.opaque if part.element)
+    return any(inner.name.startswith(_OURS) for element in marked for inner in element.walk()) or any(
         inner.name.startswith(_OURS)
         for extension in getattr(node, "extensions", ())
         for each in extension.content

@@ -7,6 +7,8 @@ from twinform.testing.edits.edited_file import OURS, EditedFile, end, scoped_nam
 
 _BEYOND_URDF = frozenset({"axis/initial_position"})
 """What SDF says of a joint, and no word of URDF."""
+_COLORS = frozenset({"ambient", "diffuse", "script"})
+"""What SDF says of a material, and URDF too."""
 
 
 def reason(found: Difference, edited: EditedFile) -> str | None:
@@ -153,7 +155,13 @@ def _is_empty_link(found: Difference, edited: EditedFile) -> bool:
 
 
 def _is_beyond_urdf(found: Difference, edited: EditedFile) -> bool:
-    return edited.root.tag == "robot" and found.group == "joint" and found.aspect in _BEYOND_URDF
+    """Whether it is a word of SDF that URDF does not have, or a material that has nothing but such words."""
+    if edited.root.tag != "robot":
+        return False
+    if found.group == "link" and found.aspect.startswith("visual ") and found.aspect.endswith("/material"):
+        carried = [look for visual in edited.marked("visual", "sdf") for look in visual.iterfind(f"{OURS}sdf/material")]
+        return found.a.text is None and any(all(word.tag not in _COLORS for word in look) for look in carried)
+    return found.group == "joint" and found.aspect in _BEYOND_URDF
 
 
 _REASONS: dict[str, Callable[[Difference, EditedFile], bool]] = {

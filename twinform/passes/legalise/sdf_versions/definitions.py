@@ -36,7 +36,7 @@ _DEFINITIONS: dict[type[Node], str] = {
 
 def definition_of(node: Node) -> str | None:
     """The definition of a node; None for one that only a row of another definition describes, such as a limit."""
-    kind = getattr(node, "kind", None)
+    kind = node.__dict__.get("kind")
     if kind is not None:
         return None if isinstance(node, Empty) else f"{kind}_shape"
     return _DEFINITIONS.get(type(node))

@@ -16,6 +16,9 @@ Words = dict[str, Union["Words", None]]
 
 _IDENTITY = frozenset({"name", "type", "kind"})
 _ABOUT = frozenset({"source", "spelling", "opaque"})
+_APART = _IDENTITY | _ABOUT
+_NONE: tuple[()] = ()
+"""There is only one empty tuple."""
 
 
 @dataclass(slots=True)
@@ -88,7 +91,7 @@ def take_remainder(node: AnyNode, tag: str, words: Words) -> tuple[AnyNode, list
 def _split(node: Node, words: Words, path: str, *, own_element: bool) -> Split:
     split = Split()
     for name, value in node.__dict__.items():
-        if name in _ABOUT or name in _IDENTITY or value is None or value == ():
+        if value is None or value is _NONE or name in _APART:
             continue
         if name not in words:
             split.left[name], split.kept[name] = value, _blank(node, name)
@@ -104,7 +107,7 @@ def _split(node: Node, words: Words, path: str, *, own_element: bool) -> Split:
 
 
 def _split_inner(split: Split, name: str, value: Node, words: Words, path: str) -> None:
-    kind = getattr(value, "kind", None)
+    kind = value.__dict__.get("kind")
     if kind is not None:
         found = words.get(str(kind))
         if found is None:
@@ -133,9 +136,9 @@ def _says_nothing(node: Node) -> bool:
 
 
 def _is_endless(value: object) -> bool:
-    if isinstance(value, float):
-        return not math.isfinite(value)
-    return isinstance(value, tuple) and any(map(_is_endless, value))  # pyright: ignore[reportUnknownArgumentType] - any
+    if isinstance(value, tuple):
+        return any(map(_is_endless, value))  # pyright: ignore[reportUnknownArgumentType] - any
+    return isinstance(value, float) and not math.isfinite(value)
 
 
 def _split_opaque(split: Split, node: Node, *, own_element: bool) -> None:
