@@ -1,6 +1,7 @@
 """What libsdformat 12, the reference parser of SDF, says of a file."""
 
 import json
+import os
 import subprocess
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -20,11 +21,16 @@ class _Error(TypedDict):
 
 
 class ShapeRow(TypedDict):
-    """A visual or collision; its pose is as it is written, a position and a quaternion."""
+    """A visual or collision: its pose as it is written and in its link, a position and a quaternion each.
+
+    `geometry` is the number that the library has for its shape.
+    """
 
     kind: str
     name: str
     pose: list[float]
+    place: list[float]
+    geometry: int
 
 
 class LinkRow(TypedDict):
@@ -69,6 +75,7 @@ class PluginRow(TypedDict):
 class RobotRow(TypedDict):
     """A model, in its own frame."""
 
+    name: str
     pose: list[float]
     static: bool
     links: list[LinkRow]
@@ -85,6 +92,7 @@ class _Row(TypedDict):
     errors: list[_Error]
     console: str
     robot: NotRequired[RobotRow]
+    models: NotRequired[list[RobotRow]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,6 +136,25 @@ def describe(path: Path) -> RobotRow:
     if "robot" not in row:
         raise RuntimeError("there is no model in it")
     return row["robot"]
+
+
+def models_of(path: Path, folders: Iterable[Path] = ()) -> tuple[Reading, list[RobotRow]]:
+    """What is said of a file, and all models of it, those of its worlds too; none where it is not read.
+
+    Includes are looked up beside the file, and then in the folders.
+    """
+    path = path.resolve()
+    places = os.pathsep.join(str(folder.resolve()) for folder in (path.parent, *folders))
+    done = subprocess.run(
+        [str(_PROGRAM.built()), "--models", str(path)],
+        stdout=subprocess.PIPE,
+        check=True,
+        cwd=path.parent,
+        env={**os.environ, "SDF_PATH": places},
+    )
+    row: _Row = json.loads(done.stdout.decode(errors="replace"))
+    reading = _reading(row)
+    return reading, row.get("models", []) if reading.ok else []
 
 
 def _reading(row: _Row) -> Reading:

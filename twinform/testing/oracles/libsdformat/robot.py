@@ -20,8 +20,8 @@ def read(path: Path, view: View) -> Robot:
         RuntimeError: libsdformat has errors for it.
     """
     found = describe(path)
-    links = [_link(row) for row in found["links"]]
-    joints = [_joint(row) for row in found["joints"]]
+    links = [link_of(row) for row in found["links"]]
+    joints = [joint_of(row) for row in found["joints"]]
     if found["static"]:
         joints += _held(links, joints)
     seen = robot("libsdformat", links, joints, pose_matrix(found["pose"]), view)
@@ -36,13 +36,15 @@ def _held(links: list[Link], joints: list[Joint]) -> list[Joint]:
     return [Joint(link.name, Motion.FIXED, WORLD, link.name, link.pose, np.zeros(3), {}) for link in roots]
 
 
-def _link(row: LinkRow) -> Link:
+def link_of(row: LinkRow) -> Link:
+    """A link in the frame of its model."""
     xx, yy, zz, xy, xz, yz = row["moments"]
     inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     return Link(row["name"], pose_matrix(row["pose"]), row["mass"], pose_matrix(row["centre"]), inertia)
 
 
-def _joint(row: JointRow) -> Joint:
+def joint_of(row: JointRow) -> Joint:
+    """A joint in the frame of its model."""
     limits = {name: limit(value) for name, value in row.get("limits", {}).items()}
     return Joint(
         row["name"],

@@ -1,6 +1,7 @@
 // Loads files with libsdformat 12 and says what it thinks of each, one JSON object per line.
 // File names come from the arguments, or from standard input, one per line. After `--robots` the first model of each
-// file is described too, with the models in it: poses in the frame of that model, and everything in SI units.
+// file is described too, with the models in it: poses in the frame of that model, and everything in SI units. After
+// `--models` all models of the root and of the worlds are.
 //
 // The description of the format, which takes longer to read than most files, is read once. Every file is loaded by a
 // fork of the process, so that one on which the library crashes or hangs spoils no other.
@@ -16,6 +17,7 @@
 #include <sdf/sdf.hh>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -73,7 +75,9 @@ Pose3d resolved(const sdf::SemanticPose &semantic, const std::string &frame) {
 template <typename Shape>
 void describe_shape(const char *kind, const Shape &shape, const char *&separator) {
   std::cout << separator << "{\"kind\": \"" << kind << "\", \"name\": " << quoted(shape.Name())
-            << ", \"pose\": " << written(shape.RawPose()) << "}";
+            << ", \"pose\": " << written(shape.RawPose())
+            << ", \"place\": " << written(resolved(shape.SemanticPose(), ""))
+            << ", \"geometry\": " << (shape.Geom() == nullptr ? 0 : static_cast<int>(shape.Geom()->Type())) << "}";
   separator = ", ";
 }
 
@@ -182,9 +186,14 @@ void describe_plugins(const sdf::ElementPtr &element, const char *&separator) {
   }
 }
 
-const sdf::Model *first_model(const sdf::Root &root) {
-  if (root.Model() != nullptr) return root.Model();
-  return root.WorldCount() == 0 ? nullptr : root.WorldByIndex(0)->ModelByIndex(0);
+std::vector<const sdf::Model *> models_of(const sdf::Root &root) {
+  std::vector<const sdf::Model *> found;
+  if (root.Model() != nullptr) found.push_back(root.Model());
+  for (uint64_t i = 0; i < root.WorldCount(); ++i) {
+    const sdf::World &world = *root.WorldByIndex(i);
+    for (uint64_t k = 0; k < world.ModelCount(); ++k) found.push_back(world.ModelByIndex(k));
+  }
+  return found;
 }
 
 // the place of a model in its world, which is where the file has it unless it is relative to something there
@@ -193,23 +202,39 @@ Pose3d in_world(const sdf::Model &model) {
   return model.SemanticPose().Resolve(pose).empty() ? pose : model.RawPose();
 }
 
-void describe(const sdf::Root &root) {
-  const sdf::Model *model = first_model(root);
-  if (model == nullptr) return;
+void describe(const sdf::Model &model) {
   const char *separator = "";
-  std::cout << ", \"robot\": {\"pose\": " << written(in_world(*model))
-            << ", \"static\": " << (model->Static() ? "true" : "false") << ", \"links\": [";
-  describe_links(*model, "", Pose3d::Zero, separator);
+  std::cout << "{\"name\": " << quoted(model.Name()) << ", \"pose\": " << written(in_world(model))
+            << ", \"static\": " << (model.Static() ? "true" : "false") << ", \"links\": [";
+  describe_links(model, "", Pose3d::Zero, separator);
   separator = "";
   std::cout << "], \"joints\": [";
-  describe_joints(*model, "", Pose3d::Zero, separator);
+  describe_joints(model, "", Pose3d::Zero, separator);
   separator = "";
   std::cout << "], \"sensors\": [";
-  describe_sensors(*model, Pose3d::Zero, separator);
+  describe_sensors(model, Pose3d::Zero, separator);
   separator = "";
   std::cout << "], \"plugins\": [";
-  describe_plugins(model->Element(), separator);
+  describe_plugins(model.Element(), separator);
   std::cout << "]}";
+}
+
+// what is described of a file: nothing, its first model, or all
+enum class Described { NOTHING, FIRST, ALL };
+
+void describe(const sdf::Root &root, const Described what) {
+  const std::vector<const sdf::Model *> models = models_of(root);
+  if (what == Described::FIRST && !models.empty()) {
+    std::cout << ", \"robot\": ";
+    describe(*models.front());
+  }
+  if (what != Described::ALL) return;
+  std::cout << ", \"models\": [";
+  for (size_t i = 0; i < models.size(); ++i) {
+    if (i > 0) std::cout << ", ";
+    describe(*models[i]);
+  }
+  std::cout << "]";
 }
 
 std::string error(const int code, const std::string &message) {
@@ -228,7 +253,7 @@ sdf::Errors load(const std::string &path, const sdf::SDFPtr &description, sdf::R
   return errors;
 }
 
-void judge(const std::string &path, const sdf::SDFPtr &description, const bool robots) {
+void judge(const std::string &path, const sdf::SDFPtr &description, const Described what) {
   sdf::Root root;
   const sdf::Errors errors = load(path, description, root);
   std::cout << "\"ok\": " << (errors.empty() ? "true" : "false") << ", \"errors\": [";
@@ -238,7 +263,7 @@ void judge(const std::string &path, const sdf::SDFPtr &description, const bool r
     separator = ", ";
   }
   std::cout << "]";
-  if (robots) describe(root);
+  describe(root, what);
 }
 
 // what was written to a file that is only in memory
@@ -254,14 +279,14 @@ int memory(const char *name) {
 }
 
 // its verdict, as members of a JSON object, from a process of its own; `console` has what it writes beside
-std::string verdict(const std::string &path, const sdf::SDFPtr &description, const bool robots, const int console) {
+std::string verdict(const std::string &path, const sdf::SDFPtr &description, const Described what, const int console) {
   const int answer = memory("answer");
   const pid_t child = fork();
   if (child == 0) {
     alarm(SECONDS_PER_FILE);
     dup2(answer, STDOUT_FILENO);
     dup2(console, STDERR_FILENO);
-    judge(path, description, robots);
+    judge(path, description, what);
     std::cout.flush();
     _exit(0);
   }
@@ -274,23 +299,28 @@ std::string verdict(const std::string &path, const sdf::SDFPtr &description, con
   return "\"ok\": false, \"errors\": [" + error(0, "libsdformat " + how) + "]";
 }
 
-void answer(const std::string &path, const sdf::SDFPtr &description, const bool robots) {
+void answer(const std::string &path, const sdf::SDFPtr &description, const Described what) {
   const int console = memory("console");
-  const std::string text = verdict(path, description, robots, console);
+  const std::string text = verdict(path, description, what, console);
   std::cout << "{\"path\": " << quoted(path) << ", " << text << ", \"console\": " << quoted(contents(console)) << "}"
             << std::endl;
   close(console);
 }
 
+Described asked(const std::string &word) {
+  if (word == "--robots") return Described::FIRST;
+  return word == "--models" ? Described::ALL : Described::NOTHING;
+}
+
 }  // namespace
 
 int main(int count, char **arguments) {
-  const bool robots = count > 1 && std::string(arguments[1]) == "--robots";
-  const int first = robots ? 2 : 1;
+  const Described what = asked(count > 1 ? arguments[1] : "");
+  const int first = what == Described::NOTHING ? 1 : 2;
   const sdf::SDFPtr description(new sdf::SDF());
   sdf::init(description);
-  for (int i = first; i < count; ++i) answer(arguments[i], description, robots);
+  for (int i = first; i < count; ++i) answer(arguments[i], description, what);
   std::string path;
-  while (count == first && std::getline(std::cin, path)) answer(path, description, robots);
+  while (count == first && std::getline(std::cin, path)) answer(path, description, what);
   return 0;
 }

@@ -1,0 +1,183 @@
+"""One world taken apart and put together again: is it the same world, and does Gazebo see the same?
+
+It is split into files, these are put together with `--expand-includes`, `twinform diff` compares the models and this
+file what else is in the world, and libsdformat 12 reads the source and the split world.
+"""
+
+import math
+import shutil
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+
+from lxml import etree
+
+import twinform
+from tests.corpus.examine import rules_of
+from twinform.compiler import Order, Reading, split
+from twinform.compiler.uris import SearchPath
+from twinform.diagnostics import Severity
+from twinform.ir import Document, World
+from twinform.ir.frames import WORLD, FrameGraph, Kind
+from twinform.ir.transform import Transform
+from twinform.testing.oracles import libsdformat
+from twinform.testing.oracles.libsdformat.library import models_of
+from twinform.testing.oracles.libsdformat.worlds import differences
+
+_NEAR = 1e-9
+
+
+class Together(StrEnum):
+    """What `diff` says of the world that was put together again."""
+
+    SAME = "the same"
+    DIFFERENT = "different"
+    REFUSED = "refused, with a reason"
+    CRASH = "crash"
+
+
+class Loaded(StrEnum):
+    """What libsdformat 12 says of the split world."""
+
+    SAME = "loads, the same"
+    OTHER = "loads, another world"
+    NOT = "does not load"
+    NEITHER = "nor does the source load"
+    UNASKED = "not asked"
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """One world; `cause` is the first difference, or the rules by which it was refused."""
+
+    name: str
+    together: Together
+    loaded: Loaded = Loaded.UNASKED
+    cause: str = ""
+    urdf: int = 0
+    sdf: int = 0
+    reasons: tuple[str, ...] = ()
+
+    @property
+    def fault(self) -> bool:
+        """Whether the promise is broken."""
+        return self.together in {Together.DIFFERENT, Together.CRASH} or self.loaded in {Loaded.OTHER, Loaded.NOT}
+
+
+def judge(name: str, path: Path, folders: tuple[Path, ...], out: Path) -> Outcome | None:
+    """Take one world apart and put it together in the folder `out`; nothing where there is no model in the file.
+
+    No exception comes out of it.
+    """
+    checked = twinform.check(path)
+    if checked.document is None or not checked.accepted or not _has_models(checked.document):
+        return None
+    shutil.rmtree(out, ignore_errors=True)
+    out.mkdir(parents=True)
+    try:
+        return _judged(name, path, (path.parent, *folders), out)
+    except Exception as error:  # noqa: BLE001 - every exception is a fault to report
+        return Outcome(name, Together.CRASH, cause=f"{type(error).__name__}: {error}")
+
+
+def _has_models(document: Document) -> bool:
+    return bool(document.models or any(world.models for world in document.worlds))
+
+
+def _judged(name: str, path: Path, folders: tuple[Path, ...], out: Path) -> Outcome:
+    source = _source(path, folders, out / "source")
+    reading = Reading(search=SearchPath.of(folders))
+    try:
+        found = split(Order(to="urdf"), source, reading)
+    except twinform.CompileError as error:
+        return Outcome(name, Together.REFUSED, cause=", ".join(rules_of(error.diagnostics)))
+    (out / "split").mkdir()
+    for file, text in found.files.items():
+        (out / "split" / file).write_text(text, encoding="utf-8")
+    world = out / "split" / list(found.files)[-1]
+    cause = next(_changes(source, world, folders), "")
+    loaded, seen = _loaded(source, world, folders)
+    return Outcome(
+        name,
+        Together.DIFFERENT if cause else Together.SAME,
+        loaded,
+        cause or seen,
+        urdf=sum(file.endswith(".urdf") for file in found.files),
+        sdf=len(found.files) - 1 - sum(file.endswith(".urdf") for file in found.files),
+        reasons=tuple(
+            sorted({each.message for each in found.diagnostics if each.rule.name == "sdf-in-split" and each.severity is Severity.WARNING})
+        ),
+    )
+
+
+def _source(path: Path, folders: tuple[Path, ...], out: Path) -> Path:
+    """The file, or, where the files of its includes are not here, the file without includes."""
+    with suppress(twinform.CompileError):
+        twinform.convert(path, to="sdf", expand_includes=True, paths=folders)
+        return path
+    root = etree.parse(path, etree.XMLParser(recover=True)).getroot()
+    for include in list(root.iter("include")):
+        parent = include.getparent()
+        if parent is not None:
+            parent.remove(include)
+    out.mkdir()
+    made = out / path.name
+    made.write_bytes(etree.tostring(root))
+    return made
+
+
+def _changes(source: Path, world: Path, folders: tuple[Path, ...]) -> Iterator[str]:
+    """What is not as it was once all is in one file again."""
+    before = twinform.convert(source, to="sdf", expand_includes=True, paths=folders)
+    after = twinform.convert(world, to="sdf", expand_includes=True, paths=folders)
+    found = twinform.diff(before.text.encode(), after.text.encode())
+    for each in found.differences:
+        yield each.message.replace(found.a, "source").replace(found.b, "result")
+    for one, other in zip(before.document.worlds, after.document.worlds, strict=True):
+        yield from _changes_around(one, other)
+
+
+def _changes_around(before: World, after: World) -> Iterator[str]:
+    """What differs in a world beside its models."""
+    one, other = FrameGraph(before), FrameGraph(after)
+    for field, kind in (("frames", "frame"), ("joints", "joint")):
+        names = [node.name for node in getattr(before, field)]
+        if names != [node.name for node in getattr(after, field)]:
+            yield f"world {before.name!r} has other {field}"
+            continue
+        yield from (f"{kind} {name!r} moved" for name in names if not _near(_at(one, name, kind), _at(other, name, kind)))
+    ends = [(one.body(joint.parent or WORLD), one.body(joint.child or WORLD)) for joint in before.joints]
+    if ends != [(other.body(joint.parent or WORLD), other.body(joint.child or WORLD)) for joint in after.joints]:
+        yield "joints of the world have other ends"
+    for light in before.lights:
+        same = next((each for each in after.lights if each.name == light.name), None)
+        placed = same and other.resolve(same.pose, WORLD, WORLD)
+        if placed is None or not _near(one.resolve(light.pose, WORLD, WORLD), placed):
+            yield f"light {light.name!r} moved"
+    for field in ("name", "gravity", "plugins"):
+        if getattr(before, field) != getattr(after, field):
+            yield f"{field} of the world changed"
+
+
+def _at(graph: FrameGraph, name: str, kind: Kind) -> Transform:
+    return graph.pose(name, WORLD, kind=kind, base="world")
+
+
+def _near(one: Transform, other: Transform) -> bool:
+    numbers = zip((*one.translation, *one.rotation), (*other.translation, *other.rotation), strict=True)
+    return all(math.isclose(here, there, rel_tol=_NEAR, abs_tol=_NEAR) for here, there in numbers)
+
+
+def _loaded(source: Path, world: Path, folders: tuple[Path, ...]) -> tuple[Loaded, str]:
+    if not libsdformat.available():
+        return Loaded.UNASKED, ""
+    before, models = models_of(source, folders)
+    if not before.ok:
+        return Loaded.NEITHER, ""
+    after, again = models_of(world, folders)
+    if not after.ok:
+        return Loaded.NOT, after.errors[0]
+    cause = next(differences(models, again), "")
+    return (Loaded.OTHER, cause) if cause else (Loaded.SAME, "")
