@@ -16,9 +16,9 @@ from lxml import etree
 
 import twinform
 from tests.corpus.examine import rules_of
-from twinform.compiler import Order, Reading, split
+from twinform.compiler import Language, Order, Reading, split
+from twinform.compiler.surroundings import folders_around
 from twinform.compiler.uris import SearchPath
-from twinform.diagnostics import Severity
 from twinform.ir import Document, World
 from twinform.ir.frames import WORLD, FrameGraph, Kind
 from twinform.ir.transform import Transform
@@ -35,6 +35,7 @@ class Together(StrEnum):
     SAME = "the same"
     DIFFERENT = "different"
     REFUSED = "refused, with a reason"
+    UNKNOWN = "not comparable"
     CRASH = "crash"
 
 
@@ -66,7 +67,7 @@ class Outcome:
         return self.together in {Together.DIFFERENT, Together.CRASH} or self.loaded in {Loaded.OTHER, Loaded.NOT}
 
 
-def judge(name: str, path: Path, folders: tuple[Path, ...], out: Path) -> Outcome | None:
+def judge(name: str, path: Path, folders: tuple[Path, ...], out: Path, to: Language = "urdf") -> Outcome | None:
     """Take one world apart and put it together in the folder `out`; nothing where there is no model in the file.
 
     No exception comes out of it.
@@ -77,7 +78,7 @@ def judge(name: str, path: Path, folders: tuple[Path, ...], out: Path) -> Outcom
     shutil.rmtree(out, ignore_errors=True)
     out.mkdir(parents=True)
     try:
-        return _judged(name, path, (path.parent, *folders), out)
+        return _judged(name, path, _around(path, folders), out, to)
     except Exception as error:  # noqa: BLE001 - every exception is a fault to report
         return Outcome(name, Together.CRASH, cause=f"{type(error).__name__}: {error}")
 
@@ -86,18 +87,27 @@ def _has_models(document: Document) -> bool:
     return bool(document.models or any(world.models for world in document.worlds))
 
 
-def _judged(name: str, path: Path, folders: tuple[Path, ...], out: Path) -> Outcome:
+def _around(path: Path, folders: tuple[Path, ...]) -> tuple[Path, ...]:
+    """Where the includes of a file are looked up, also from elsewhere."""
+    near = folders_around(path)
+    return (*near, *(folder / "models" for folder in near), *folders)
+
+
+def _judged(name: str, path: Path, folders: tuple[Path, ...], out: Path, to: Language) -> Outcome:
     source = _source(path, folders, out / "source")
     reading = Reading(search=SearchPath.of(folders))
     try:
-        found = split(Order(to="urdf"), source, reading)
+        found = split(Order(to=to), source, reading)
     except twinform.CompileError as error:
         return Outcome(name, Together.REFUSED, cause=", ".join(rules_of(error.diagnostics)))
     (out / "split").mkdir()
     for file, text in found.files.items():
         (out / "split" / file).write_text(text, encoding="utf-8")
     world = out / "split" / list(found.files)[-1]
-    cause = next(_changes(source, world, folders), "")
+    try:
+        cause = next(_changes(source, world, folders), "")
+    except MissingError as error:
+        return Outcome(name, Together.UNKNOWN, cause=str(error))
     loaded, seen = _loaded(source, world, folders)
     return Outcome(
         name,
@@ -107,18 +117,18 @@ def _judged(name: str, path: Path, folders: tuple[Path, ...], out: Path) -> Outc
         urdf=sum(file.endswith(".urdf") for file in found.files),
         sdf=len(found.files) - 1 - sum(file.endswith(".urdf") for file in found.files),
         reasons=tuple(
-            sorted({each.message for each in found.diagnostics if each.rule.name == "sdf-in-split" and each.severity is Severity.WARNING})
+            sorted({each.message for each in found.diagnostics if each.rule.name == "kept-as-sdf"})
         ),
     )
 
 
 def _source(path: Path, folders: tuple[Path, ...], out: Path) -> Path:
-    """The file, or, where the files of its includes are not here, the file without includes."""
+    """The file, or, where the files of its includes are not here, the file without those of its worlds."""
     with suppress(twinform.CompileError):
-        twinform.convert(path, to="sdf", expand_includes=True, paths=folders)
+        _expanded(path, folders)
         return path
     root = etree.parse(path, etree.XMLParser(recover=True)).getroot()
-    for include in list(root.iter("include")):
+    for include in [*root.iterfind("include"), *root.iterfind("world/include")]:
         parent = include.getparent()
         if parent is not None:
             parent.remove(include)
@@ -128,10 +138,21 @@ def _source(path: Path, folders: tuple[Path, ...], out: Path) -> Path:
     return made
 
 
+class MissingError(Exception):
+    """The source has includes whose files are not here."""
+
+
+def _expanded(path: Path, folders: tuple[Path, ...]) -> twinform.Conversion:
+    return twinform.convert(path, to="sdf", expand_includes=True, paths=folders)
+
+
 def _changes(source: Path, world: Path, folders: tuple[Path, ...]) -> Iterator[str]:
     """What is not as it was once all is in one file again."""
-    before = twinform.convert(source, to="sdf", expand_includes=True, paths=folders)
-    after = twinform.convert(world, to="sdf", expand_includes=True, paths=folders)
+    try:
+        before = _expanded(source, folders)
+    except twinform.CompileError as error:
+        raise MissingError(error.diagnostics[0].message) from error
+    after = _expanded(world, folders)
     found = twinform.diff(before.text.encode(), after.text.encode())
     for each in found.differences:
         yield each.message.replace(found.a, "source").replace(found.b, "result")

@@ -126,16 +126,20 @@ def fulfil(
             wanted = None if order.expand_includes else wanted_includes(checked.document, order.model)
             before, checked = checked, expand(checked, how, wanted=wanted, carriers=order.carriers)
             order = replace(order, model=name_once_expanded(before.document, checked.document, order.model))
-        order = replace(order, mixed=_has_mixed_words(checked))
+        order = replace(order, mixed=has_mixed_words(checked))
         if checked.document is None or not (checked.accepted or (order.passes and _may_be_mended(checked))):
             raise CompileError(checked.diagnostics, unreadable=checked.unreadable)
         return _run(checked, checked.document, order, how, watch=watch)
 
 
-def _has_mixed_words(checked: Checked) -> bool:
+def has_mixed_words(checked: Checked) -> bool:
     """Whether files have words that their version does not have, or frames where those have no meaning yet."""
-    outside = any(map(_is_outside_version, checked.diagnostics))
-    return checked.mixed or outside or (checked.document is not None and has_early_frames(checked.document))
+    return checked.mixed or bool(mixed_words(checked)) or (checked.document is not None and has_early_frames(checked.document))
+
+
+def mixed_words(checked: Checked) -> frozenset[str]:
+    """The words in files that the versions of these do not have."""
+    return frozenset(each.found for each in checked.diagnostics if _is_outside_version(each) and each.found)
 
 
 def _is_outside_version(found: Diagnostic) -> bool:
@@ -174,7 +178,7 @@ def _run(
         verify(changed, notes)
     text = ""
     if not notes.has_errors:
-        document, text = _written(changed, order, notes, watch, fit=checked.mixed)
+        document, text = written(changed, order, notes, watch, kept=mixed_words(checked) if checked.mixed else None)
     if notes.has_errors:
         raise CompileError(tuple(notes.diagnostics))
     lost = sum(entry.weight for entry in notes.entries)
@@ -182,13 +186,20 @@ def _run(
     return Conversion(text, document, tuple(notes.diagnostics), ledger, checked.tree, tuple(notes.companions))
 
 
-def _written(document: Document, order: Order, notes: Notes, watch: Watch | None, *, fit: bool) -> tuple[Document, str]:
-    """What a document becomes, and its text."""
+def written(
+    document: Document, order: Order, notes: Notes, watch: Watch | None, *, kept: frozenset[str] | None
+) -> tuple[Document, str]:
+    """What a document becomes, and its text.
+
+    One that was put together from several files has words that are `kept` although its version does not have them: the
+    files had them too. It is None where there was one file.
+    """
     if order.to == "json":
         return document, document.model_dump_json(indent=2, exclude_defaults=True) + "\n"
     legal = order.legalisation(document)
-    fit = (fit or bool(len(legal))) and not order.target(document, Format(order.to)).mixed
-    return emit_legal(document, legal, notes, watch, fit=fit)
+    fit = (kept is not None or bool(len(legal))) and not order.target(document, Format(order.to)).mixed
+    kept = frozenset() if len(legal) or kept is None else kept
+    return emit_legal(document, legal, notes, watch, fit=fit, kept=kept)
 
 
 def _may_be_mended(checked: Checked) -> bool:

@@ -1,7 +1,7 @@
 """From a document to validated text."""
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Set
 from dataclasses import replace
 
 from lxml import etree
@@ -33,21 +33,27 @@ _BACK_ENDS: dict[Format, Callable[[Document, Version, dict[str | None, str]], Xm
 }
 
 
-def emit(document: Document, notes: Notes, *, fit: bool = False) -> str:
+def emit(document: Document, notes: Notes, *, fit: bool = False, kept: Set[str] = frozenset()) -> str:
     """The text of a document in its own format and version, and errors in the notes where its schema refuses it.
 
     Where the document was not read in this version, `fit` leaves out what other versions have and this one has not, and
-    accounts for it.
+    accounts for it; but not the names that are `kept`, which the files that it was made of had so too.
     """
-    return serialised(valid_tree(document, notes, fit=fit), document)
+    return serialised(valid_tree(document, notes, fit=fit, kept=kept), document)
 
 
 def emit_legal(
-    document: Document, legalisation: Pipeline, notes: Notes, watch: Watch | None = None, *, fit: bool = True
+    document: Document,
+    legalisation: Pipeline,
+    notes: Notes,
+    watch: Watch | None = None,
+    *,
+    fit: bool = True,
+    kept: Set[str] = frozenset(),
 ) -> tuple[Document, str]:
     """The document after the passes that its target asks for, and its text; empty where the notes have errors.
 
-    `fit` is that of `emit`.
+    `fit` and `kept` are those of `emit`.
     """
     if len(legalisation):
         document = legalisation.run(document, notes, watch=watch)
@@ -55,15 +61,17 @@ def emit_legal(
             verify_again(document, notes)
     if notes.has_errors:
         return document, ""
-    text = emit(document, notes, fit=fit)
+    text = emit(document, notes, fit=fit, kept=kept)
     return document, "" if notes.has_errors else text
 
 
-def valid_tree(document: Document, notes: Notes, *, fit: bool = False) -> XmlElement:
+def valid_tree(
+    document: Document, notes: Notes, *, fit: bool = False, kept: Set[str] = frozenset()
+) -> XmlElement:
     """The XML of a document, validated; `emit` says how."""
     root = document_tree(document)
     found = Notes(file=notes.file)
-    _validate(root, document.format, written_version(document), found, fit=fit)
+    _validate(root, document.format, written_version(document), found, kept=kept if fit else None)
     notes.entries.extend(found.entries)
     notes.extend([_located(diagnostic, document) for diagnostic in found.diagnostics])
     return root
@@ -101,8 +109,11 @@ def written_version(document: Document) -> Version:
     return (1, 0) if document.format is Format.URDF and document.version is None else facts.newest
 
 
-def _validate(root: XmlElement, format_: Format, version: Version, notes: Notes, *, fit: bool) -> None:
-    """The gate behind the back end. The table pass looks only where the XSD refuses: at what came in as unknown."""
+def _validate(root: XmlElement, format_: Format, version: Version, notes: Notes, *, kept: Set[str] | None) -> None:
+    """The gate behind the back end. The table pass looks only where the XSD refuses: at what came in as unknown.
+
+    What the version does not have is left out, but for the names that are kept; all of it stays where `kept` is None.
+    """
     errors = libxml2_errors(root, format_, version)
     if not errors:
         return
@@ -110,15 +121,17 @@ def _validate(root: XmlElement, format_: Format, version: Version, notes: Notes,
     context = Context(found, notes.file, format_, version)
     reader(format_, version).read(root, context)
     gate(root, context, errors=errors)
-    if fit:
-        _leave_out(context, notes)
+    if kept is not None:
+        _leave_out(context, kept, notes)
     notes.extend(diagnostic for diagnostic in found.diagnostics if diagnostic.is_error)
 
 
-def _leave_out(context: Context, notes: Notes) -> None:
+def _leave_out(context: Context, kept: Set[str], notes: Notes) -> None:
     """Take what the version does not have out of the tree that the table pass has looked at."""
     version = f"{context.format.upper()} {print_version(context.version)}"
     for element, fact in context.outside:
+        if fact.name in kept:
+            continue
         what = f"the attribute {fact.name[1:]!r} of <{element.tag}>" if fact.is_attribute else f"<{element.tag}>"
         message = f"{version} does not have {what}"
         where = Location(notes.file, element.sourceline or 0, path_of(element))

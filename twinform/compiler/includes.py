@@ -13,9 +13,10 @@ from twinform.compiler.uris import UriError
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import files, includes
 from twinform.ir import Document, Format, Include
+from twinform.ir.transform import Transform
 from twinform.ir.verify import verify
 from twinform.passes import Pipeline
-from twinform.passes.includes import Included, expand_includes, has_includes
+from twinform.passes.includes import Included, expand_includes, frame_of_sdf, has_includes
 from twinform.passes.legalise import Target, legalisation
 from twinform.schemas import Version, parse_version, table
 
@@ -33,13 +34,15 @@ Wanted = Callable[[Include], bool]
 class _File(NamedTuple):
     """A file with all its includes expanded.
 
-    How many files it is made of, how large these are together, and how deep its models are nested.
+    How many files it is made of, how large these are together, and how deep its models are nested. `frame` is that of
+    its model in the one that an include places.
     """
 
     document: Document
     files: int
     size: int
     depth: int
+    frame: Transform = Transform()
 
 
 def expand(checked: Checked, how: Reading, *, wanted: Wanted | None = None, carriers: bool = True) -> Checked:
@@ -120,7 +123,7 @@ class _Reader:
             if too_much:
                 self._report_too_many(include, too_much)
                 return None
-            return Included(found.document, _folder(include, path))
+            return Included(found.document, _folder(include, path), found.frame)
 
         whole = expand_includes(document, resolve, self.notes, carriers=self.carriers)
         return _File(whole, total.files, total.size, max(total.own_depth, total.depth))
@@ -171,11 +174,12 @@ class _Reader:
         self.notes.extend(each for each in checked.diagnostics if each not in known)
         if checked.document is None or not checked.accepted:
             return None
-        document = checked.document
+        document, frame = checked.document, Transform()
         if document.format is Format.URDF:
+            frame = frame_of_sdf(document.models[0])
             document = self._as_sdf(document, path, around)
         inner = self.expanded(document, path, above, None)
-        return inner._replace(size=inner.size + checked.size)
+        return inner._replace(size=inner.size + checked.size, frame=frame)
 
     def _as_sdf(self, document: Document, path: Path, around: Document) -> Document:
         """A URDF document in the terms of the file that includes it."""

@@ -1,11 +1,16 @@
-"""A world as a URDF file for each of its models and an SDF file that includes them."""
+"""A world as a file for each of its models, URDF where Gazebo reads that as the same robot, and one that includes them.
+
+Gazebo reads an included URDF with a converter of its own, which loses what `passes/gazebo_urdf.py` lists. A model that
+would lose something stays SDF, and a warning says why.
+"""
 
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from twinform.compiler.emitting import emit, emit_legal
+from twinform.compiler.driver import has_mixed_words, mixed_words, written
+from twinform.compiler.emitting import emit_legal
 from twinform.compiler.errors import CompileError
 from twinform.compiler.includes import expand
 from twinform.compiler.loading import Reading, garbage_collection_paused, read
@@ -13,21 +18,31 @@ from twinform.compiler.orders import Order
 from twinform.compiler.other_documents import OtherDocuments
 from twinform.compiler.uris import LocalAssets
 from twinform.diagnostics import Companion, Diagnostic, Ledger, Notes
+from twinform.diagnostics.rules import splitting as rules
 from twinform.diagnostics.rules import structure
-from twinform.ir import Document, Format, Include, Model, World
-from twinform.ir.frames import MODEL, FrameError, FrameGraph
+from twinform.diagnostics.rules.to_urdf import UNSAYABLE_SHAPE
+from twinform.ir import Document, Format, Include, Model, Pose, World
+from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.ir.verify import verify
 from twinform.passes import Watch
-from twinform.passes.includes import detach
+from twinform.passes.gazebo_urdf import changes
+from twinform.passes.includes import detach, links_named_around
+from twinform.schemas import table
 
 _UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
 """What some file system or shell would not take in a name."""
 
+_OF_LIBSDFORMAT = frozenset(f"{name}.sdf" for name in ("root", "urdf", *table("sdf").definitions))
+"""Files with which libsdformat describes SDF to itself; an include of that name would find these."""
+
 
 @dataclass(frozen=True, slots=True)
 class Split:
-    """The text of each file by its name, what was found and lost on the way, and the files that passes made beside."""
+    """The text of each file by its name, what was found and lost on the way, and the files that passes made beside.
+
+    The last file is the one that includes the others.
+    """
 
     files: Mapping[str, str]
     diagnostics: tuple[Diagnostic, ...]
@@ -43,29 +58,34 @@ def split(
     name: str = "",
     watch: Watch | None = None,
 ) -> Split:
-    """Every model of an SDF file as URDF, and the file with includes in their place under the name of the source.
+    """Every model of an SDF file in a file of its own, and the file with includes in their place under its own name.
+
+    Models become URDF where Gazebo reads that as the same robot, or stay SDF if the order is for SDF.
 
     Raises:
         CompileError: the source, a pass or one of the results has an error.
     """
     with garbage_collection_paused():
         checked = read(source, how, name=name)
-        wanted = None if order.expand_includes else _inside_models(checked.document)
-        checked = expand(checked, how, wanted=wanted, carriers=order.carriers)
+        if order.expand_includes:
+            checked = expand(checked, how, carriers=order.carriers)
+        elif order.to == "urdf":
+            whole = expand(checked, how, wanted=_inside_models(checked.document), carriers=order.carriers)
+            checked = whole if whole.accepted else checked  # a model with includes in it stays SDF
         if checked.document is None or not checked.accepted:
             raise CompileError(checked.diagnostics, unreadable=checked.unreadable)
         notes = Notes(
             checked.path, how.strict, list(checked.diagnostics), list(checked.entries), origins=dict(checked.origins)
         )
-        order = replace(order, assets=LocalAssets(how.search, Path(checked.path)))
+        order = replace(order, assets=LocalAssets(how.search, Path(checked.path)), mixed=has_mixed_words(checked))
         passes = order.passes.with_files(order.assets, OtherDocuments(how, checked.path).read)
         document = passes.run(checked.document, notes, watch, verify)
-        files = _Files(order, notes, watch)
         if document.format is not Format.SDF:
             message = "the file is URDF, which holds one robot; --split is for SDF"
             notes.report(structure.INVALID_VALUE, message, document.location, found="urdf", expected="sdf")
-        elif not notes.has_errors:
-            files.add(document, _stem(checked.path))
+        files = _Files(order, notes, watch, mixed_words(checked) if checked.mixed else None, _name_of_world(checked.path))
+        if not notes.has_errors:
+            files.add(document)
         if notes.has_errors:
             raise CompileError(tuple(notes.diagnostics))
         lost = sum(entry.weight for entry in notes.entries)
@@ -80,68 +100,138 @@ def _inside_models(document: Document | None) -> Callable[[Include], bool]:
     return lambda include: id(include) not in outermost
 
 
+@dataclass(frozen=True, slots=True)
+class _Urdf:
+    """A model as URDF: its text, its root, where that is in the frame of the model, and what was said on the way."""
+
+    text: str
+    root_name: str
+    root: Transform
+    notes: Notes
+
+
 @dataclass(slots=True)
 class _Files:
-    """The files of one split."""
+    """The files of one split.
+
+    `name` is that of the file around the models. Where the document was put together from several files, `kept` are
+    the words that it has and its version does not, as these files do.
+    """
 
     order: Order
     notes: Notes
     watch: Watch | None
+    kept: frozenset[str] | None
+    name: str
     texts: dict[str, str] = field(default_factory=dict[str, str])
+    urdf: dict[int, _Urdf] = field(default_factory=dict[int, _Urdf])
+    """The models that become URDF, by their identity."""
 
-    def add(self, document: Document, stem: str) -> None:
+    def add(self, document: Document) -> None:
         """The whole document: the models first, so that the rest can name their files."""
         worlds: list[World] = []
         for world in document.worlds:
-            world = detach(world, self.notes)  # noqa: PLW2901 - the same world in other words
-            includes = tuple(self._robots(document, world.models))
-            worlds.append(world.model_copy(update={"models": (), "includes": (*world.includes, *includes)}))
-        includes = (*document.includes, *self._robots(document, document.models))
+            self._choose(document, world.models, links_named_around(world))
+            apart = detach(world, dict(self._bases(world.models)), self.notes)
+            placed = zip(world.models, apart.models, strict=True)
+            includes = tuple(self._include(document, model, now.pose) for model, now in placed)
+            worlds.append(apart.model_copy(update={"models": (), "includes": (*apart.includes, *includes)}))
+        self._choose(document, document.models, {})
+        includes = (*document.includes, *(self._include(document, each, each.pose) for each in document.models))
         rest = document.model_copy(update={"worlds": tuple(worlds), "models": (), "includes": includes})
-        self.texts[f"{stem}.sdf"] = emit(rest, self.notes)
+        self.texts[self.name] = self._sdf(rest)
 
-    def _robots(self, document: Document, models: tuple[Model, ...]) -> Iterator[Include]:
+    def _bases(self, models: tuple[Model, ...]) -> Iterator[tuple[str, str]]:
+        """The frame of each model in URDF that is where it was: its own, or else that of its root."""
         for model in models:
-            file = self._name(model.name)
-            include = _include(model, file, self.notes)
-            alone = model.model_copy(update={"pose": None, "placement_frame": None})
-            self.texts[file] = self._urdf(document, alone)
-            yield include
+            made = self.urdf.get(id(model))
+            if made is not None:
+                yield model.name, model.name if made.root.is_identity else f"{model.name}::{made.root_name}"
 
-    def _urdf(self, document: Document, model: Model) -> str:
-        alone = document.model_copy(
-            update={"models": (model,), "worlds": (), "lights": (), "includes": (), "opaque": ()}
-        )
+    def _choose(self, document: Document, models: tuple[Model, ...], named: Mapping[str, frozenset[str]]) -> None:
+        """Make URDF of the models of which Gazebo makes the same robots, and say of the others why they stay SDF."""
+        for model in models if self.order.to == "urdf" else ():
+            made, why = self._as_urdf(document, model, named.get(model.name, frozenset()))
+            if made is None:
+                message = f"model {model.name!r} stays SDF: {why}"
+                self.notes.report(rules.KEPT_AS_SDF, message, model.location, found=model.name)
+                continue
+            self.urdf[id(model)] = made
+            self.notes.extend(made.notes.diagnostics)
+            self.notes.entries.extend(made.notes.entries)
+
+    def _as_urdf(self, document: Document, model: Model, named: frozenset[str]) -> tuple[_Urdf | None, str]:
+        """The model as URDF, or why it cannot be."""
+        alone = _alone(document, model.model_copy(update={"pose": None, "placement_frame": None}))
         notes = Notes(self.notes.file, self.notes.strict, origins=self.notes.origins)
-        _, text = emit_legal(alone, self.order.legalisation(alone), notes, self.watch)
-        self.notes.extend(notes.diagnostics)
-        self.notes.entries.extend(notes.entries)
-        return text
+        made, text = emit_legal(alone, self.order.legalisation(alone), notes, self.watch)
+        wrong = [each for each in notes.diagnostics if each.is_error or each.rule is UNSAYABLE_SHAPE]
+        if wrong:
+            return None, wrong[0].message
+        first = next(changes(model, made.models[0], named), None)
+        if first is not None:
+            return None, first.what
+        root = _root(made.models[0])
+        try:
+            place = Transform() if root == WORLD else FrameGraph(model).pose(root, MODEL, kind="link", base="model")
+        except FrameError:
+            return None, f"its root would be {root!r}, which it does not have"
+        return _Urdf(text, root, place, notes), ""
 
-    def _name(self, model: str) -> str:
+    def _include(self, document: Document, model: Model, pose: Pose | None) -> Include:
+        """What stands in the place of a model, whose file is written."""
+        made = self.urdf.get(id(model))
+        file = self._name(model.name, "sdf" if made is None else "urdf")
+        if made is None:
+            self.texts[file] = self._sdf(_alone(document, model.model_copy(update={"pose": None})))
+            pose = pose or (Pose() if model.placement_frame else None)  # its frame is in the file, and its pose is here
+            return Include(uri=file, name=model.name, pose=pose, source=model.source)
+        self.texts[file] = made.text
+        placed = _placed(model, pose, made.root, self.notes)
+        return Include(uri=file, name=model.name, pose=placed, static=model.static, source=model.source)
+
+    def _sdf(self, document: Document) -> str:
+        """The text of what stays SDF, in the version that is asked for."""
+        return written(document, replace(self.order, to="sdf"), self.notes, self.watch, kept=self.kept)[1]
+
+    def _name(self, model: str, suffix: str) -> str:
         """A file name that every system takes, unlike the others even where case does not count."""
         base = _UNSAFE.sub("_", model).strip(".") or "model"
-        taken = {name.lower() for name in self.texts}
-        name, number = f"{base}.urdf", 1
-        while name.lower() in taken:
-            name, number = f"{base}_{number}.urdf", number + 1
+        taken = {name.lower() for name in (self.name, *self.texts)}
+        name, number = f"{base}.{suffix}", 1
+        while name.lower() in taken or name.lower() in _OF_LIBSDFORMAT:
+            name, number = f"{base}_{number}.{suffix}", number + 1
         return name
 
 
-def _include(model: Model, file: str, notes: Notes) -> Include:
-    """What stands in the place of a model: where it was, in terms that do not need the frames inside it."""
-    pose = model.pose
+def _alone(document: Document, model: Model) -> Document:
+    return document.model_copy(update={"models": (model,), "worlds": (), "lights": (), "includes": (), "opaque": ()})
+
+
+def _root(robot: Model) -> str:
+    children = {joint.child for joint in robot.joints}
+    return next(link.name for link in robot.links if link.name not in children)
+
+
+def _placed(model: Model, pose: Pose | None, root: Transform, notes: Notes) -> Pose | None:
+    """Where the root of a model is, which is the frame of its URDF, in terms that do not need the frames inside it."""
+    place = Transform.from_pose(pose)
     if model.placement_frame:
         try:
             placement = FrameGraph(model).pose(model.placement_frame, MODEL, kind="frame", base="model")
-            base = pose.relative_to if pose else None
-            pose = Transform.from_pose(pose).compose(placement.inverse()).to_pose(base)
         except FrameError as error:
             error.report(notes)
-    return Include(uri=file, name=model.name, pose=pose, static=model.static, source=model.source)
+            return pose
+        place = place.compose(placement.inverse())
+    elif root.is_identity:
+        return pose
+    made = place.compose(root).to_pose(pose.relative_to if pose else None)
+    return None if made == Pose() else made
 
 
-def _stem(path: str) -> str:
-    """The name of the source without its endings; that of what is no file is `world`."""
-    name = Path(path).name.partition(".")[0]
-    return name if name and not name.startswith("<") else "world"
+def _name_of_world(path: str) -> str:
+    """The name of the source without what it was made with; that of what is no file is `world.sdf`."""
+    name, _, endings = Path(path).name.partition(".")
+    if not name or name.startswith("<"):
+        return "world.sdf"
+    return f"{name}.world" if "world" in endings.lower().split(".") else f"{name}.sdf"

@@ -1,6 +1,7 @@
 """Putting included models in the place of their includes: pure functions from documents to a document."""
 
-from twinform.passes.includes.detach import detach
+from twinform.passes.includes.detach import detach, links_named_around
 from twinform.passes.includes.expand import Included, Resolver, expand_includes, has_includes
+from twinform.passes.includes.place import frame_of_sdf
 
-__all__ = ["Included", "Resolver", "detach", "expand_includes", "has_includes"]
+__all__ = ["Included", "Resolver", "detach", "expand_includes", "frame_of_sdf", "has_includes", "links_named_around"]

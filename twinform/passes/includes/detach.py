@@ -3,6 +3,8 @@
 A frame inside a model need not be there under its name in another format; the model itself and its links are.
 """
 
+from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 
 from twinform.diagnostics import Notes
@@ -13,12 +15,14 @@ from twinform.passes.legalise.nodes import map_poses
 _INSIDE = "::"
 
 
-def detach(world: World, notes: Notes) -> World:
-    """The world with poses relative to whole models, and frames and joints on links."""
-    graph = FrameGraph(world)
-    names = frozenset(model.name for model in world.models)
+def detach(world: World, bases: Mapping[str, str], notes: Notes) -> World:
+    """The world with poses, frames and joints that name none of these models' frames but the one that each keeps.
+
+    `bases` has it by the name of the model: the model itself, or, where its own frame is elsewhere in the other format,
+    a link such as `cart::base`. Frames and joints are on links.
+    """
     try:
-        return _Detached(graph, names).world(world)
+        return _Detached(FrameGraph(world), bases).world(world)
     except FrameError as error:
         error.report(notes)
         return world
@@ -27,7 +31,7 @@ def detach(world: World, notes: Notes) -> World:
 @dataclass(frozen=True, slots=True)
 class _Detached:
     graph: FrameGraph
-    models: frozenset[str]
+    bases: Mapping[str, str]
 
     def world(self, world: World) -> World:
         """All but the models, whose own poses are not theirs to keep."""
@@ -37,34 +41,50 @@ class _Detached:
         models = tuple(model.model_copy(update={"pose": self._own(model.pose)}) for model in world.models)
         return map_poses(rest, self._pose).model_copy(update={"models": models})
 
-    def _model_of(self, name: str | None) -> str | None:
-        """The model that a name is inside of."""
-        model, separator, _ = (name or "").partition(_INSIDE)
-        return model if separator and model in self.models else None
+    def _base_for(self, name: str | None) -> str | None:
+        """The frame that stays of the model that a name is, or is inside of; None where that frame may stay."""
+        model, inside, _ = (name or "").partition(_INSIDE)
+        base = self.bases.get(model)
+        return None if base is None or name == base or (not inside and base == model) else base
+
+    def _relative(self, pose: Pose | None, holder: str, base: str) -> Pose:
+        kind = "link" if _INSIDE in base else "model"
+        return self.graph.resolve(pose, holder, base, base=kind).to_pose(base)
 
     def _own(self, pose: Pose | None) -> Pose | None:
         return self._pose(pose) if pose is not None else None
 
     def _pose(self, pose: Pose) -> Pose:
-        model = self._model_of(pose.relative_to)
-        if model is None:
-            return pose
-        return self.graph.resolve(pose, WORLD, model, base="model").to_pose(model)
+        base = self._base_for(pose.relative_to)
+        return pose if base is None else self._relative(pose, WORLD, base)
 
     def _frame(self, frame: Frame) -> Frame:
-        model = self._model_of(frame.attached_to)
-        if model is None or frame.attached_to is None:
+        base = self._base_for(frame.attached_to)
+        if base is None or frame.attached_to is None:
             return frame
         body = self.graph.body(frame.attached_to)
-        placed = self.graph.resolve(frame.pose, frame.attached_to, model, base="model").to_pose(model)
+        placed = self._relative(frame.pose, frame.attached_to, base)
         return frame.model_copy(update={"attached_to": body, "pose": placed})
 
     def _joint(self, joint: Joint) -> Joint:
         update: dict[str, object] = {}
         for end, name in (("parent", joint.parent), ("child", joint.child)):
-            if name is not None and self._model_of(name) is not None:
+            if name is not None and self._base_for(name) is not None:
                 update[end] = self.graph.body(name)
-        model = self._model_of(joint.child)
-        if model is not None and joint.child is not None and not (joint.pose and joint.pose.relative_to):
-            update["pose"] = self.graph.resolve(joint.pose, joint.child, model, base="model").to_pose(model)
+        base = self._base_for(joint.child)
+        if base is not None and joint.child is not None and not (joint.pose and joint.pose.relative_to):
+            update["pose"] = self._relative(joint.pose, joint.child, base)
         return joint.model_copy(update=update) if update else joint
+
+
+def links_named_around(world: World) -> dict[str, frozenset[str]]:
+    """The links that frames and joints of a world move with, by the model that these are in."""
+    graph = FrameGraph(world)
+    names = [frame.attached_to for frame in world.frames]
+    names += [end for joint in world.joints for end in (joint.parent, joint.child)]
+    found: dict[str, set[str]] = {}
+    for name in names:
+        with suppress(FrameError):  # it may be in an include that was not read
+            model, _, link = (graph.body(name) if name else "").partition(_INSIDE)
+            found.setdefault(model, set()).add(link)
+    return {model: frozenset(links) for model, links in found.items()}

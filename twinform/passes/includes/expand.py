@@ -9,6 +9,7 @@ from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import includes as rules
 from twinform.ir import Document, Include, Model, World
 from twinform.ir.namespaces import joined
+from twinform.ir.transform import Transform
 from twinform.passes.includes.merge import merge_into_model, merge_into_world
 from twinform.passes.includes.place import account_replaced, placed_actor, placed_light, placed_model, report_leftovers
 from twinform.passes.includes.relocate import relocate
@@ -23,10 +24,15 @@ _NAMED_FRAMES = "1.7"
 
 @dataclass(frozen=True, slots=True)
 class Included:
-    """The document that an include names, itself expanded, and the URI of the folder that it lies in."""
+    """The document that an include names, itself expanded, and the URI of the folder that it lies in.
+
+    `frame` is that of its model in the one that the include places: for URDF that is the root link, whatever frame the
+    model had in the SDF that it was converted from.
+    """
 
     document: Document
     folder: str
+    frame: Transform = Transform()
 
 
 Resolver = Callable[[Include], Included | None]
@@ -112,7 +118,7 @@ class _Expansion:
         for include, source in self._split(world.includes):
             if include.merge:
                 model = self._model(include, source)
-                world = merge_into_world(world, include, model, self.notes) if model else world
+                world = merge_into_world(world, include, model, self.notes, source.frame) if model else world
                 continue
             world = self._beside(world, include, source)
         return world.model_copy(update={"includes": self._kept(world.includes)})
@@ -126,9 +132,9 @@ class _Expansion:
         for include, source in self._split(model.includes):
             included = self._model(include, source)
             if included is not None and include.merge:
-                model = merge_into_model(model, include, included, self.notes)
+                model = merge_into_model(model, include, included, self.notes, source.frame)
             elif included is not None:
-                nested = placed_model(include, included, self.notes)
+                nested = placed_model(include, included, self.notes, source.frame)
                 model = model.model_copy(update={"models": (*model.models, nested)})
         return model.model_copy(update={"includes": self._kept(model.includes)})
 
@@ -166,7 +172,7 @@ class _Expansion:
         model = self._model(include, source)
         if model is None:
             return holder
-        return holder.model_copy(update={"models": (*holder.models, placed_model(include, model, self.notes))})
+        return holder.model_copy(update={"models": (*holder.models, placed_model(include, model, self.notes, source.frame))})
 
     def _model(self, include: Include, source: Included) -> Model | None:
         models = self._ready(source).models

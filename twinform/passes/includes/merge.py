@@ -18,23 +18,22 @@ Holder = TypeVar("Holder", Model, World)
 _SETTINGS = ("static", "self_collide", "allow_auto_disable", "enable_wind")
 
 
-def merge_into_model(holder: Model, include: Include, model: Model, notes: Notes) -> Model:
+def merge_into_model(holder: Model, include: Include, model: Model, notes: Notes, frame: Transform) -> Model:
     """The model with the contents of another; a frame stands for the other's own frame."""
-    return _merged(holder, include, model, MODEL, notes)
+    return _merged(holder, include, placed_model(include, model, notes, frame), MODEL, notes)
 
 
-def merge_into_world(holder: World, include: Include, model: Model, notes: Notes) -> World:
+def merge_into_world(holder: World, include: Include, model: Model, notes: Notes, frame: Transform) -> World:
     """The world with the models, frames and joints of an included model, which must have no links of its own."""
     if model.links:
         message = f"{include.uri!r} cannot be merged into a world: it has links"
         notes.report(rules.UNMERGEABLE_INCLUDE, message, include.location, found=include.uri)
         return holder
-    return _merged(holder, include, model, WORLD, notes)
+    return _merged(holder, include, placed_model(include, model, notes, frame), WORLD, notes)
 
 
 def _merged(holder: Holder, include: Include, model: Model, around: str, notes: Notes) -> Holder:
-    """The holder with the contents of a model; `around` is what its own frame is called."""
-    model = placed_model(include, model, notes)
+    """The holder with the contents of a model in its place; `around` is what its own frame is called."""
     proxy = _proxy(model, around, notes)
     if proxy is None:
         return holder

@@ -1,25 +1,33 @@
 """What an include makes of the thing that it names: another name, another pose, more plugins."""
 
 from collections.abc import Iterator
+from contextlib import suppress
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import includes as rules
-from twinform.ir import Document, Element, Include, Light, Model, Opaque
+from twinform.ir import Document, Element, Format, Include, Light, Model, Opaque, Pose
+from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import to_element
+from twinform.passes.legalise.marks import find_mark
+from twinform.passes.legalise.notation import OFFSET, read_offset
+from twinform.passes.legalise.provenance import came_from
 
 _PARAMETERS = "params"
 """The local name of `<experimental:params>`."""
 
 
-def placed_model(include: Include, model: Model, notes: Notes) -> Model:
-    """The included model where and as the include says; what the include does not say stays."""
+def placed_model(include: Include, model: Model, notes: Notes, frame: Transform) -> Model:
+    """The included model where and as the include says; what the include does not say stays.
+
+    `frame` is the frame of the model in the one that the include places.
+    """
     placement = include.placement_frame or model.placement_frame
     if include.placement_frame is not None and include.pose is None:
         message = f"the include of {include.uri!r} has a placement_frame and no pose"
         notes.report(rules.PLACEMENT_WITHOUT_POSE, message, include.location, found=include.placement_frame)
     update = {
         "name": include.name if include.name is not None else model.name,
-        "pose": include.pose if include.pose is not None else model.pose,
+        "pose": _pose(include, frame) if include.pose is not None else model.pose,
         "static": include.static if include.static is not None else model.static,
         "placement_frame": placement,
         "plugins": (*model.plugins, *include.plugins),
@@ -27,6 +35,21 @@ def placed_model(include: Include, model: Model, notes: Notes) -> Model:
         "source": include.source,
     }
     return model.model_copy(update=update)
+
+
+def frame_of_sdf(robot: Model) -> Transform:
+    """The frame that a robot of URDF had in the SDF that it was converted from, in that of its root link."""
+    found = find_mark(robot, OFFSET) if came_from(robot, Format.SDF) else None
+    with suppress(ValueError):  # the conversion says what is wrong with it
+        return read_offset(found) if found else Transform()
+    return Transform()
+
+
+def _pose(include: Include, frame: Transform) -> Pose | None:
+    """Where the model's frame is; a frame that the include places by name is where it says."""
+    if include.pose is None or include.placement_frame is not None or frame.is_identity:
+        return include.pose
+    return Transform.from_pose(include.pose).compose(frame).to_pose(include.pose.relative_to)
 
 
 def placed_light(include: Include, light: Light) -> Light:

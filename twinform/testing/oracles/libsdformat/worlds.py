@@ -58,11 +58,23 @@ def _sensor(row: object) -> str:
 def _held(row: RobotRow, view: View) -> Robot:
     """The model with its roots where they are in the world, whether they are fixed to it or not."""
     links, joints = [link_of(each) for each in row["links"]], [joint_of(each) for each in row["joints"]]
-    loose = [joint for joint in joints if joint.parent != WORLD or joint.motion is not Motion.FIXED]
+    loose = _tree([joint for joint in joints if joint.parent != WORLD or joint.motion is not Motion.FIXED])
     children = {joint.child for joint in loose}
     roots = (link for link in links if link.name not in children)
     held = [Joint(f"{WORLD} {link.name}", Motion.OTHER, WORLD, link.name, link.pose, np.zeros(3), {}) for link in roots]
     return robot("libsdformat", links, [*loose, *held], pose_matrix(row["pose"]), view)
+
+
+def _tree(joints: Sequence[Joint]) -> list[Joint]:
+    """The joints without those that close a loop."""
+    above: dict[str, Joint] = {}
+    for joint in joints:
+        name = joint.parent
+        while name in above and name != joint.child:
+            name = above[name].parent
+        if joint.child not in above and name != joint.child:
+            above[joint.child] = joint
+    return list(above.values())
 
 
 def _grounded(row: RobotRow) -> set[str]:

@@ -1,0 +1,100 @@
+"""What Gazebo's own reader of URDF, libsdformat, would refuse, leave out or rename in a robot that came from SDF.
+
+It lumps links that are fixed to each other, leaves out what then has no mass, with all that hangs from it, and refuses
+floating joints; the rules are those of its `parser_urdf.cc`, tried on libsdformat 12 and 17.
+"""
+
+from collections import defaultdict
+from collections.abc import Iterator, Set
+from typing import NamedTuple
+
+from twinform.diagnostics import Location
+from twinform.ir import Capsule, Element, Joint, Model
+from twinform.ir.frames import WORLD
+
+NO_MASS = 1e-6
+"""What weighs no more, in kg, has no mass for libsdformat before 13."""
+_KEEPS = frozenset({"preserveFixedJoint", "disableFixedJointLumping"})
+
+
+class Change(NamedTuple):
+    """What Gazebo would make of a part of the robot, in words, and where that part is in the source."""
+
+    what: str
+    location: Location
+
+
+def changes(said: Model, made: Model, named: Set[str] = frozenset()) -> Iterator[Change]:
+    """What would be another robot if Gazebo read the URDF `made` in the place of the SDF `said`.
+
+    `named` are the links that something outside of the model names.
+    """
+    for inner in said.models:
+        yield Change(f"the parts of the model {inner.name!r} in it would have other names", inner.location)
+    for include in said.includes:
+        yield Change(f"it includes {include.uri!r}, which cannot be put in its place", include.location)
+    yield from _of_shapes(made)
+    yield from _of_names(made)
+    for joint in made.joints:
+        if joint.type in {"floating", "planar"}:
+            yield Change(f"Gazebo refuses URDF with a {joint.type} joint, which holds {joint.child!r}", joint.location)
+    yield from _of_mass(made, named)
+
+
+def _of_shapes(made: Model) -> Iterator[Change]:
+    for link in made.links:
+        for shape in (*link.visuals, *link.collisions):
+            if shape.geometry and isinstance(shape.geometry.shape, Capsule):
+                yield Change(f"Gazebo reads no capsule from URDF, as link {link.name!r} has it", shape.location)
+
+
+def _of_names(made: Model) -> Iterator[Change]:
+    links = {link.name for link in made.links}
+    for joint in made.joints:
+        if joint.name in links:
+            yield Change(f"a joint and a link are called {joint.name!r}, which Gazebo refuses in URDF", joint.location)
+
+
+def _of_mass(made: Model, named: Set[str]) -> Iterator[Change]:
+    """What is left out because it has no mass, and what is named but goes into another link."""
+    hosts = _hosts(made)
+    weights: dict[str, float] = defaultdict(float)
+    for link in made.links:
+        weights[hosts[link.name]] += (link.inertial and link.inertial.mass) or 0.0
+    for link in made.links:
+        if hosts[link.name] == link.name != WORLD and weights[link.name] <= NO_MASS:
+            what = f"Gazebo leaves link {link.name!r}, which has no mass, out of URDF, with all that hangs from it"
+            yield Change(what, link.location)
+    outside = {*named, *_named_in_extensions(made)}
+    for link in made.links:
+        if hosts[link.name] != link.name and link.name in outside:
+            what = f"link {link.name!r}, which a joint names, would go into {hosts[link.name]!r}"
+            yield Change(what, link.location)
+
+
+def _hosts(made: Model) -> dict[str, str]:
+    """The link that each link goes into, itself where it stays."""
+    kept = {block.reference for block in made.extensions if any(map(_keeps, block.content))}
+    above: dict[str, Joint] = {
+        joint.child or "": joint
+        for joint in made.joints
+        if joint.type == "fixed" and joint.parent != WORLD and joint.name not in kept
+    }
+    hosts: dict[str, str] = {}
+    for link in made.links:
+        way = [link.name]
+        while way[-1] in above and way[-1] not in hosts:
+            way.append(above[way[-1]].parent or "")
+        hosts |= dict.fromkeys(way, hosts.get(way[-1], way[-1]))
+    return hosts
+
+
+def _keeps(element: Element) -> bool:
+    return element.name in _KEEPS and (element.text or "").strip().lower() in {"true", "yes", "1"}
+
+
+def _named_in_extensions(made: Model) -> Iterator[str]:
+    """The links at the ends of joints of SDF in `<gazebo>` elements."""
+    for block in made.extensions:
+        for joint in (element for element in block.content if element.name == "joint"):
+            yield from (end.text for end in joint.children if end.name in {"parent", "child"} and end.text)
