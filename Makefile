@@ -12,7 +12,7 @@ SYNCED := .venv/.synced
 ORACLES := .venv/.oracles
 DEMO := out/demo
 
-.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness edits gazebo equipment bench inertia lumping classic mapping verdicts xacro prove coverage mutation fuzz clean
+.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness edits worlds gazebo equipment bench inertia lumping classic mapping verdicts xacro prove coverage mutation fuzz clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -114,6 +114,9 @@ probes: $(ORACLES) ## what libsdformat makes of small URDF files beside what we 
 
 edits: $(ORACLES) ## 20,000 edits and passes on converted files, and what becomes of them; writes docs/reference/edits.md
 	$(BIN)/python -m benchmarks.edits --processes $(JOBS)
+
+worlds: $(ORACLES) ## every world taken apart and put together again, before libsdformat; writes docs/reference/worlds.md
+	$(BIN)/python -m benchmarks.worlds
 
 gazebo: $(ORACLES) ## every conversion in Gazebo's own physics, DART and Bullet; writes docs/reference/gazebo.md, gazebo_runs.md
 	$(BIN)/python -m benchmarks.gazebo_features

@@ -5,6 +5,7 @@ file what else is in the world, and libsdformat 12 reads the source and the spli
 """
 
 import math
+import re
 import shutil
 from collections.abc import Iterator
 from contextlib import suppress
@@ -27,6 +28,7 @@ from twinform.testing.oracles.libsdformat.library import models_of
 from twinform.testing.oracles.libsdformat.worlds import differences
 
 _NEAR = 1e-9
+_QUOTED = re.compile(r"'[^']*'")
 
 
 class Together(StrEnum):
@@ -116,10 +118,13 @@ def _judged(name: str, path: Path, folders: tuple[Path, ...], out: Path, to: Lan
         cause or seen,
         urdf=sum(file.endswith(".urdf") for file in found.files),
         sdf=len(found.files) - 1 - sum(file.endswith(".urdf") for file in found.files),
-        reasons=tuple(
-            sorted({each.message for each in found.diagnostics if each.rule.name == "kept-as-sdf"})
-        ),
+        reasons=tuple(_reason(each.message) for each in found.diagnostics if each.rule.name == "kept-as-sdf"),
     )
+
+
+def _reason(message: str) -> str:
+    """Why a model stays SDF, without the names in it."""
+    return _QUOTED.sub("...", message.partition(" stays SDF: ")[2])
 
 
 def _source(path: Path, folders: tuple[Path, ...], out: Path) -> Path:
@@ -163,12 +168,14 @@ def _changes(source: Path, world: Path, folders: tuple[Path, ...]) -> Iterator[s
 def _changes_around(before: World, after: World) -> Iterator[str]:
     """What differs in a world beside its models."""
     one, other = FrameGraph(before), FrameGraph(after)
-    for field, kind in (("frames", "frame"), ("joints", "joint")):
+    for field in ("frames", "joints"):
         names = [node.name for node in getattr(before, field)]
         if names != [node.name for node in getattr(after, field)]:
             yield f"world {before.name!r} has other {field}"
             continue
-        yield from (f"{kind} {name!r} moved" for name in names if not _near(_at(one, name, kind), _at(other, name, kind)))
+        kind: Kind = "frame" if field == "frames" else "joint"
+        moved = (name for name in names if not _near(_at(one, name, kind), _at(other, name, kind)))
+        yield from (f"{kind} {name!r} moved" for name in moved)
     ends = [(one.body(joint.parent or WORLD), one.body(joint.child or WORLD)) for joint in before.joints]
     if ends != [(other.body(joint.parent or WORLD), other.body(joint.child or WORLD)) for joint in after.joints]:
         yield "joints of the world have other ends"

@@ -32,13 +32,14 @@ from twinform.compiler import Reading
     "--ledger", type=click.Path(path_type=Path), metavar="FILE", help="Where to write what was not expressed."
 )
 @companion_options
-@click.option("--model", metavar="NAME", help="The model of a world to convert.")
+@click.option("--model", metavar="NAME", help="The model of the file to convert, whatever it becomes.")
 @notes_option
 @policy_options
 @click.option(
     "--split",
     is_flag=True,
-    help="Write each model of a world as URDF into the directory OUT, and an SDF that includes them.",
+    help="Write each model of a world into the directory OUT, and an SDF that includes them: URDF where Gazebo reads "
+    "it as the same robot, or SDF with --to sdf.",
 )
 @click.option("--audit", is_flag=True, help="Count what became of every element and attribute; fail if any is missing.")
 @reading_options
@@ -98,7 +99,8 @@ def command(
     read = [source.path for source in sources] + [path for path in [settings_of(ctx).path] if path]
     if split:
         whole = Outputs(read)
-        code = run_split(_only(sources), options, _folder(out, target, model, in_place=in_place), whole)
+        folder = _folder(out, target, model, in_place=in_place)
+        code = run_split(_only(sources), target or "urdf", options, folder, whole)
         ctx.exit(_end(whole, [code], reading))
     todo = jobs_in_place(sources, out, target) if in_place else jobs(sources, out, target)
     versioned = ctx.get_parameter_source("sdf_version") is ParameterSource.COMMANDLINE
@@ -136,6 +138,6 @@ def _folder(out: str | None, target: Target | None, model: str | None, *, in_pla
     """The directory that a world is split into."""
     if in_place or out is None or out == "-" or (Path(out).exists() and not Path(out).is_dir()):
         raise click.UsageError("--split needs -o DIRECTORY")
-    if target not in {None, "urdf"} or model is not None:
-        raise click.UsageError("--split makes URDF of every model; leave --to and --model out")
+    if target == "json" or model is not None:
+        raise click.UsageError("--split makes a file of every model, URDF or SDF; leave --model out")
     return Path(out)

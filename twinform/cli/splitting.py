@@ -7,15 +7,19 @@ from twinform.cli.conversion import Options, summary
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.outputs import Outputs
 from twinform.cli.source import Source
+from twinform.cli.targets import Target
 from twinform.compiler import CompileError, Split, split
 from twinform.passes import PassError
 
 
-def run_split(source: Source, options: Options, folder: Path, outputs: Outputs) -> int:
-    """Split one world into a folder; gives the exit code. Nothing is made where one of the files has an error."""
+def run_split(source: Source, to: Target, options: Options, folder: Path, outputs: Outputs) -> int:
+    """Split one world into a folder; gives the exit code. Nothing is made where one of the files has an error.
+
+    Models become URDF where Gazebo reads that as the same robots, or stay SDF with `to`.
+    """
     watched = options.watching.begin(source.name)
     try:
-        order = replace(options.order, to="urdf", model=None)
+        order = replace(options.order, to=to)
         result = split(order, source.content, options.reading, name=source.name, watch=watched.watch)
     except CompileError as error:
         watched.report()

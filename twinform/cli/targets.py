@@ -89,9 +89,11 @@ def _other_format(source: Source) -> Target:
 
 def _into(folder: Path, source: Source, target: Target) -> Job:
     name = Path("stdin" if isinstance(source.content, bytes) else source.name)
+    ending: str = target
     while name.suffix.lower() in _ENDINGS:
+        ending = "world" if target == "sdf" and name.suffix.lower() == ".world" else ending
         name = name.with_suffix("")
-    return Job(source, target, folder / f"{name.name}.{target}")
+    return Job(source, target, folder / f"{name.name}.{ending}")
 
 
 def _require_distinct(found: Sequence[Job]) -> None:

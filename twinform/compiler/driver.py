@@ -1,6 +1,6 @@
 """The way of the data: load, the user's passes, legalisation, back end."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -14,10 +14,10 @@ from twinform.compiler.uris import LocalAssets, SearchPath
 from twinform.diagnostics import Companion, Diagnostic, Ledger, Notes
 from twinform.diagnostics.rules.model import MISSING_LIMIT
 from twinform.diagnostics.rules.structure import MISSING_ATTRIBUTE, OUTSIDE_VERSION
-from twinform.ir import Document, Format
+from twinform.ir import Document, Format, Include
 from twinform.ir.verify import verify
 from twinform.passes import Pass, Pipeline, Watch, parse_pipeline
-from twinform.passes.legalise.candidates import name_once_expanded, wanted_includes
+from twinform.passes.legalise.candidates import candidates, name_once_expanded, wanted_includes
 from twinform.passes.legalise.sdf_versions import has_early_frames
 from twinform.schemas import Engine, XmlElement, table
 
@@ -122,8 +122,8 @@ def fulfil(
     with garbage_collection_paused():
         checked = read(source, how, name=name)
         order = replace(order, assets=LocalAssets(how.search, Path(checked.path)))
-        if checked.accepted and (order.expand_includes or order.to == "urdf"):
-            wanted = None if order.expand_includes else wanted_includes(checked.document, order.model)
+        if checked.accepted and (order.expand_includes or order.to == "urdf" or order.model is not None):
+            wanted = None if order.expand_includes else _wanted(checked.document, order)
             before, checked = checked, expand(checked, how, wanted=wanted, carriers=order.carriers)
             order = replace(order, model=name_once_expanded(before.document, checked.document, order.model))
         order = replace(order, mixed=has_mixed_words(checked))
@@ -132,9 +132,19 @@ def fulfil(
         return _run(checked, checked.document, order, how, watch=watch)
 
 
+def _wanted(document: Document | None, order: Order) -> Callable[[Include], bool]:
+    """The includes that have to be put in their place; of a model that stays SDF, the one that stands for it."""
+    wanted = wanted_includes(document, order.model)
+    if order.to == "urdf" or document is None:
+        return wanted
+    standing = {id(one.model) for one in candidates(document)}
+    return lambda include: id(include) in standing and wanted(include)
+
+
 def has_mixed_words(checked: Checked) -> bool:
     """Whether files have words that their version does not have, or frames where those have no meaning yet."""
-    return checked.mixed or bool(mixed_words(checked)) or (checked.document is not None and has_early_frames(checked.document))
+    early = checked.document is not None and has_early_frames(checked.document)
+    return checked.mixed or bool(mixed_words(checked)) or early
 
 
 def mixed_words(checked: Checked) -> frozenset[str]:
@@ -194,6 +204,9 @@ def written(
     One that was put together from several files has words that are `kept` although its version does not have them: the
     files had them too. It is None where there was one file.
     """
+    document = order.selection(document).run(document, notes, watch=watch)
+    if notes.has_errors:
+        return document, ""
     if order.to == "json":
         return document, document.model_dump_json(indent=2, exclude_defaults=True) + "\n"
     legal = order.legalisation(document)

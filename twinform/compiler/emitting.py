@@ -1,7 +1,8 @@
 """From a document to validated text."""
 
 import re
-from collections.abc import Callable, Set
+from collections.abc import Callable
+from collections.abc import Set as AbstractSet
 from dataclasses import replace
 
 from lxml import etree
@@ -33,7 +34,7 @@ _BACK_ENDS: dict[Format, Callable[[Document, Version, dict[str | None, str]], Xm
 }
 
 
-def emit(document: Document, notes: Notes, *, fit: bool = False, kept: Set[str] = frozenset()) -> str:
+def emit(document: Document, notes: Notes, *, fit: bool = False, kept: AbstractSet[str] = frozenset()) -> str:
     """The text of a document in its own format and version, and errors in the notes where its schema refuses it.
 
     Where the document was not read in this version, `fit` leaves out what other versions have and this one has not, and
@@ -49,7 +50,7 @@ def emit_legal(
     watch: Watch | None = None,
     *,
     fit: bool = True,
-    kept: Set[str] = frozenset(),
+    kept: AbstractSet[str] = frozenset(),
 ) -> tuple[Document, str]:
     """The document after the passes that its target asks for, and its text; empty where the notes have errors.
 
@@ -66,7 +67,7 @@ def emit_legal(
 
 
 def valid_tree(
-    document: Document, notes: Notes, *, fit: bool = False, kept: Set[str] = frozenset()
+    document: Document, notes: Notes, *, fit: bool = False, kept: AbstractSet[str] = frozenset()
 ) -> XmlElement:
     """The XML of a document, validated; `emit` says how."""
     root = document_tree(document)
@@ -109,7 +110,9 @@ def written_version(document: Document) -> Version:
     return (1, 0) if document.format is Format.URDF and document.version is None else facts.newest
 
 
-def _validate(root: XmlElement, format_: Format, version: Version, notes: Notes, *, kept: Set[str] | None) -> None:
+def _validate(
+    root: XmlElement, format_: Format, version: Version, notes: Notes, *, kept: AbstractSet[str] | None
+) -> None:
     """The gate behind the back end. The table pass looks only where the XSD refuses: at what came in as unknown.
 
     What the version does not have is left out, but for the names that are kept; all of it stays where `kept` is None.
@@ -126,7 +129,7 @@ def _validate(root: XmlElement, format_: Format, version: Version, notes: Notes,
     notes.extend(diagnostic for diagnostic in found.diagnostics if diagnostic.is_error)
 
 
-def _leave_out(context: Context, kept: Set[str], notes: Notes) -> None:
+def _leave_out(context: Context, kept: AbstractSet[str], notes: Notes) -> None:
     """Take what the version does not have out of the tree that the table pass has looked at."""
     version = f"{context.format.upper()} {print_version(context.version)}"
     for element, fact in context.outside:

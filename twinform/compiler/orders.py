@@ -7,6 +7,7 @@ from twinform.ir import Document, Format
 from twinform.passes import NO_ASSETS, Assets, Pipeline
 from twinform.passes.legalise import Target, legalisation
 from twinform.passes.legalise.provenance import has_mixed_words, source_version
+from twinform.passes.legalise.to_urdf.select_model import SelectModel
 from twinform.schemas import table
 
 Language = Literal["sdf", "urdf", "json"]
@@ -35,7 +36,13 @@ class Order:
 
     def plan(self, source: Document) -> Pipeline:
         """Every pass that a conversion of this document runs, in order: the user's, then those of the target."""
-        return Pipeline((*self.passes, *self.legalisation(source)))
+        return Pipeline((*self.passes, *self.selection(source), *self.legalisation(source)))
+
+    def selection(self, source: Document) -> Pipeline:
+        """What takes the model that is asked for out of a file, where the way to the target does not begin so."""
+        if self.model is None or (source.format is Format.SDF and self.to == "urdf"):
+            return Pipeline()
+        return Pipeline((SelectModel(model=self.model),))
 
     def legalisation(self, source: Document) -> Pipeline:
         """The passes that the target asks for."""

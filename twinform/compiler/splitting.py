@@ -83,7 +83,8 @@ def split(
         if document.format is not Format.SDF:
             message = "the file is URDF, which holds one robot; --split is for SDF"
             notes.report(structure.INVALID_VALUE, message, document.location, found="urdf", expected="sdf")
-        files = _Files(order, notes, watch, mixed_words(checked) if checked.mixed else None, _name_of_world(checked.path))
+        kept = mixed_words(checked) if checked.mixed else None
+        files = _Files(order, notes, watch, kept, _name_of_world(checked.path))
         if not notes.has_errors:
             files.add(document)
         if notes.has_errors:

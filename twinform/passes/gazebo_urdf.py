@@ -5,7 +5,8 @@ floating joints; the rules are those of its `parser_urdf.cc`, tried on libsdform
 """
 
 from collections import defaultdict
-from collections.abc import Iterator, Set
+from collections.abc import Iterator
+from collections.abc import Set as AbstractSet
 from typing import NamedTuple
 
 from twinform.diagnostics import Location
@@ -14,6 +15,7 @@ from twinform.ir.frames import WORLD
 
 NO_MASS = 1e-6
 """What weighs no more, in kg, has no mass for libsdformat before 13."""
+_SCOPE = "::"
 _KEEPS = frozenset({"preserveFixedJoint", "disableFixedJointLumping"})
 
 
@@ -24,7 +26,7 @@ class Change(NamedTuple):
     location: Location
 
 
-def changes(said: Model, made: Model, named: Set[str] = frozenset()) -> Iterator[Change]:
+def changes(said: Model, made: Model, named: AbstractSet[str] = frozenset()) -> Iterator[Change]:
     """What would be another robot if Gazebo read the URDF `made` in the place of the SDF `said`.
 
     `named` are the links that something outside of the model names.
@@ -33,6 +35,9 @@ def changes(said: Model, made: Model, named: Set[str] = frozenset()) -> Iterator
         yield Change(f"the parts of the model {inner.name!r} in it would have other names", inner.location)
     for include in said.includes:
         yield Change(f"it includes {include.uri!r}, which cannot be put in its place", include.location)
+    for part in (*said.links, *said.joints):
+        if _SCOPE in part.name:
+            yield Change(f"URDF cannot have the name {part.name!r}", part.location)
     yield from _of_shapes(made)
     yield from _of_names(made)
     for joint in made.joints:
@@ -55,7 +60,7 @@ def _of_names(made: Model) -> Iterator[Change]:
             yield Change(f"a joint and a link are called {joint.name!r}, which Gazebo refuses in URDF", joint.location)
 
 
-def _of_mass(made: Model, named: Set[str]) -> Iterator[Change]:
+def _of_mass(made: Model, named: AbstractSet[str]) -> Iterator[Change]:
     """What is left out because it has no mass, and what is named but goes into another link."""
     hosts = _hosts(made)
     weights: dict[str, float] = defaultdict(float)

@@ -41,11 +41,11 @@ def models(source: Path, dest: Path, patterns: Sequence[str]) -> list[PurePosixP
 
 
 def outputs(names: Iterable[PurePosixPath], to: str) -> Mapping[PurePosixPath, PurePosixPath]:
-    """Where each model goes: under its own name with the new ending.
+    """Where each model goes: under its own name with the new ending; a world in SDF keeps `.world`.
 
     Where two would go to one place, as `a.urdf` and `a.sdf` do, both keep their old endings before the new one.
     """
-    plain = {name: _stem(name).with_name(f"{_stem(name).name}.{to}") for name in names}
+    plain = {name: _stem(name).with_name(f"{_stem(name).name}.{_ending(name, to)}") for name in names}
     taken = Counter(_folded(path) for path in plain.values())
     return {
         name: path if taken[_folded(path)] == 1 else name.with_name(f"{name.name}.{to}") for name, path in plain.items()
@@ -56,6 +56,10 @@ def _stem(name: PurePosixPath) -> PurePosixPath:
     while name.suffix.lower() in _ENDINGS and name.stem:
         name = name.with_suffix("")
     return name
+
+
+def _ending(name: PurePosixPath, to: str) -> str:
+    return "world" if to == "sdf" and ".world" in map(str.lower, name.suffixes) else to
 
 
 def _folded(path: PurePosixPath) -> str:

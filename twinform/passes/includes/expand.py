@@ -32,7 +32,7 @@ class Included:
 
     document: Document
     folder: str
-    frame: Transform = Transform()
+    frame: Transform = field(default_factory=Transform)
 
 
 Resolver = Callable[[Include], Included | None]
@@ -172,7 +172,8 @@ class _Expansion:
         model = self._model(include, source)
         if model is None:
             return holder
-        return holder.model_copy(update={"models": (*holder.models, placed_model(include, model, self.notes, source.frame))})
+        placed = placed_model(include, model, self.notes, source.frame)
+        return holder.model_copy(update={"models": (*holder.models, placed)})
 
     def _model(self, include: Include, source: Included) -> Model | None:
         models = self._ready(source).models

@@ -70,11 +70,21 @@ def sdf_models(
     return models.map(lambda model: Document(format=Format.SDF, version=version, models=(model,)))
 
 
-def worlds(*, version: str = "1.11", max_models: int = 3, max_links: int = 4) -> st.SearchStrategy[Document]:
-    """SDF documents of 1.8 or newer with a world, whose models are posed in it and in one another."""
-    placed = st.tuples(
-        _models(version, 1, max_links, None, SDF_SHAPES), maybe(poses(whole=True)), st.integers(0, _MOST)
-    )
+def worlds(
+    *,
+    version: str = "1.11",
+    max_models: int = 3,
+    max_links: int = 4,
+    nested: bool = False,
+    shapes: tuple[type[Any], ...] = SDF_SHAPES,
+) -> st.SearchStrategy[Document]:
+    """SDF documents of 1.8 or newer with a world, whose models are posed in it and in one another.
+
+    With `nested`, a model may be static, placed by one of its frames, and have another model in it.
+    """
+    models = _models(version, 1, max_links, None, shapes)
+    models = _varied(models) if nested else models
+    placed = st.tuples(models, maybe(poses(whole=True)), st.integers(0, _MOST))
 
     def world(parts: list[tuple[Model, Pose | None, int]]) -> Document:
         models: list[Model] = []
@@ -85,6 +95,17 @@ def worlds(*, version: str = "1.11", max_models: int = 3, max_links: int = 4) ->
         return Document(format=Format.SDF, version=version, worlds=(World(name="arena", models=tuple(models)),))
 
     return st.lists(placed, max_size=max_models).map(world)
+
+
+def _varied(models: st.SearchStrategy[Model]) -> st.SearchStrategy[Model]:
+    """The models, static or not, placed by themselves or one of their frames, with one in them or none."""
+
+    def vary(model: Model, inner: Model | None, static: bool | None, framed: bool) -> Model:
+        placement = model.frames[0].name if framed and model.frames else None
+        inside = (inner.model_copy(update={"name": "inner"}),) if inner else ()
+        return model.model_copy(update={"models": inside, "static": static, "placement_frame": placement})
+
+    return st.builds(vary, models, maybe(models), maybe(st.booleans()), st.booleans())
 
 
 def _models(

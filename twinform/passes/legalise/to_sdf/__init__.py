@@ -30,6 +30,8 @@ __all__ = ["to_sdf"]
 
 _ONE_SCOPE = (1, 7)
 """Since this version all names in a model are unlike each other."""
+_NAMES_MEAN_MODELS = (1, 8)
+"""Since this version `::` in a name says that it is in a nested model."""
 
 
 def to_sdf(version: str, *, carriers: bool, mixed: bool = False, mixed_source: bool = False) -> tuple[Pass, ...]:
@@ -59,7 +61,7 @@ def to_sdf(version: str, *, carriers: bool, mixed: bool = False, mixed_source: b
         RestoreNames(to=Format.SDF),
         NameScopes(),
         RestoreFrames(old_words=mixed and before_named_frames),
-        RestoreNested(),
+        RestoreNested(scopes=parse_version(version) >= _NAMES_MEAN_MODELS),
         DropStale(to=Format.SDF),
         DeclareQuaternions(),
         *(lower_meaning(version) if mixed else lower_version(None, version, carriers=carriers)),

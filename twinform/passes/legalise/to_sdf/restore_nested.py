@@ -14,6 +14,7 @@ from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.names import renamed
 from twinform.passes.legalise.nodes import map_poses
 from twinform.passes.legalise.notation import NESTED
+from twinform.passes.legalise.provenance import wrote_scopes
 from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb
 from twinform.passes.legalise.sdf_versions.carriers import Terms
 from twinform.passes.legalise.sdf_versions.nest_models import nest
@@ -78,22 +79,25 @@ def _report_outside(frame: Frame, model: Model, notes: Notes) -> None:
 class RestoreNested(ModelPass):
     """Put links, joints and frames with scoped names back into the models that SDF had inside the model.
 
-    Changes: 1. `inner::link` is `link` in the model `inner`, and so on; 2. the model has again what else it said.
+    Changes: 1. `inner::link` is `link` in the model `inner`, and so on; 2. the model has again what else it said. With
+    `scopes`, a file before 1.8, where `::` may stand in any name, has such models by these names too, as since 1.8.
     Never touches: names without a scope, so what was added or renamed since stays where it is.
     Diagnostics: `stale-carrier` where what a nested model said does not fit it, `nested-model` where a frame of one
     moves with a link outside of it by now.
     """
 
     name: ClassVar[str] = "restore-nested"
+    scopes: bool = False
 
     def run_model(self, model: Model, notes: Notes) -> Model:
         """The model with the models in it."""
         said = {frame.name.removesuffix(_OWN): found for frame in model.frames if (found := find_mark(frame, NESTED))}
-        if not said:
+        free = self.scopes and wrote_scopes(model)
+        if not said and not free:
             return model
         try:
             _report_frames_outside(model, said, notes)
-            nested = nest(model, Notes(), frozenset(said))
+            nested = nest(model, Notes(), None if free else frozenset(said))
             models = tuple(_with_rest(inner, inner.name, said, notes) for inner in nested.models)
             return _tidy(nested.model_copy(update={"models": models}))
         except FrameError as error:

@@ -20,7 +20,8 @@ _SCOPE = "::"
 class FlattenModels(ToUrdfPass):
     """Bring the links, joints and frames of nested models up into the model.
 
-    Changes: 1. they are called `inner__name`, and what names them does so too; 2. a frame called `inner` stands for the
+    Changes: 1. they are called `inner__name`, and what names them does so too, also where a file before 1.8 calls its
+    parts `inner::name` without a model of that name; 2. a frame called `inner` stands for the
     nested model's own frame, and poses that were relative to it name it; 3. all else that the nested model says is
     carried on that frame.
     Diagnostics: `include-not-expanded` for includes in any of the models; in the ledger `nested-model`.
@@ -31,10 +32,12 @@ class FlattenModels(ToUrdfPass):
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model without models in it."""
         _refuse_includes(model, keeper)
-        if not model.models or keeper.notes.has_errors:
+        if keeper.notes.has_errors:
             return model
-        flat = flatten(model, partial(_keep, keeper))
+        flat = flatten(model, partial(_keep, keeper)) if model.models else model
         names = _legal_names(flat)
+        if not names:
+            return flat
         flat = renamed(flat, names, Format.SDF)
         return with_old_names(flat, names) if keeper.carriers else flat
 

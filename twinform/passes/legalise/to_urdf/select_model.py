@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from twinform.diagnostics import Fate, Location, Notes
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Document, Include, Model, Node, Opaque, World, count_parts
+from twinform.ir import Document, Format, Include, Model, Node, Opaque, World, count_parts
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
 from twinform.passes.base import Pass
 from twinform.passes.legalise.candidates import Candidate, candidates
@@ -31,6 +31,8 @@ class SelectModel(Pass):
         chosen = _choose(list(candidates(document)), self.model, document.location, notes)
         if chosen is None or notes.has_errors:
             return document
+        if document.format is Format.URDF:
+            return document  # which is that model, and nothing else
         model, world = chosen.model, chosen.world
         if world is not None:
             model = _place(model, world, notes)
