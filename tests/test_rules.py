@@ -17,6 +17,7 @@ _PARTS = _CASES / "includes/parts"
 
 WITHOUT_CASE = {
     "automatic-inertia": "unit/passes/to_urdf/test_refusals.py",
+    "kept-as-sdf": "unit/compiler/test_splitting.py",
     "joint-type-unsupported": "unit/passes/to_urdf/test_refusals.py",
     "measured-wheels": "unit/passes/plugins/test_add_plugin.py",
     "merged-away": "unit/compiler/test_includes.py",

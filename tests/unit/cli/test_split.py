@@ -16,7 +16,7 @@ def test_a_world_is_split_into_a_folder(run: Run, tmp_path: Path) -> None:
     done = run("convert", WORLD, "--split", "-o", tmp_path / "out", "--ledger", tmp_path / "ledger.json")
     assert done.exit_code == 0
     names = {path.name for path in (tmp_path / "out").iterdir()}
-    assert names == {"warehouse.sdf", "ground_plane.urdf", "shelf.urdf", "lift_cart.urdf"}
+    assert names == {"warehouse.sdf", "ground_plane.sdf", "shelf.urdf", "lift_cart.urdf"}
     assert (tmp_path / "ledger.json").exists()
     assert "4 files: expressed" in done.stderr
 
@@ -24,7 +24,8 @@ def test_a_world_is_split_into_a_folder(run: Run, tmp_path: Path) -> None:
 def test_nothing_is_written_where_one_model_fails(run: Run, tmp_path: Path) -> None:
     world = tmp_path / "world.sdf"
     world.write_text(BAD)
-    assert run("convert", world, "--split", "-o", tmp_path / "out").exit_code == 1
+    denied = ("--deny", "kept-as-sdf")
+    assert run("convert", world, "--split", "-o", tmp_path / "out", *denied).exit_code == 1
     assert not (tmp_path / "out").exists()
 
 
@@ -35,7 +36,7 @@ def test_nothing_is_written_where_one_file_cannot_be(run: Run, tmp_path: Path) -
 
 
 @pytest.mark.parametrize(
-    "options", [[], ["-o", "-"], ["-o", "out", "--to", "sdf"], ["-o", "out", "--model", "shelf"], ["-o", "out", WORLD]]
+    "options", [[], ["-o", "-"], ["-o", "out", "--to", "json"], ["-o", "out", "--model", "shelf"], ["-o", "out", WORLD]]
 )
 def test_what_contradicts_splitting_is_wrong_usage(run: Run, options: list[str | Path]) -> None:
     assert run("convert", WORLD, "--split", *options).exit_code == 2

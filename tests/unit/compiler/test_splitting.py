@@ -31,11 +31,11 @@ def _split(text: str) -> dict[str, etree._Element]:  # pyright: ignore[reportPri
 
 
 def test_every_model_has_a_file_with_a_safe_name_of_its_own() -> None:
-    assert list(_split(WORLD)) == ["a_b.urdf", "A_b_1.urdf", "a_b_2.urdf", "room.sdf"]
+    assert list(_split(WORLD)) == ["a_b.urdf", "A_b_1.urdf", "a_b_2.urdf", "room.world"]
 
 
 def test_the_world_includes_them_where_they_were() -> None:
-    world = _split(WORLD)["room.sdf"]
+    world = _split(WORLD)["room.world"]
     rows = [
         tuple(include.findtext(name) for name in ("uri", "name", "pose", "static"))
         for include in world.iterfind("world/include")
@@ -50,7 +50,7 @@ def test_the_world_includes_them_where_they_were() -> None:
 
 
 def test_nothing_in_the_world_names_a_frame_inside_a_model() -> None:
-    world = _split(WORLD)["room.sdf"]
+    world = _split(WORLD)["room.world"]
     frame, light = world.find("world/frame"), world.find("world/light/pose")
     assert frame is not None
     assert light is not None
@@ -59,11 +59,70 @@ def test_nothing_in_the_world_names_a_frame_inside_a_model() -> None:
     assert (light.get("relative_to"), light.text) == ("a b", "0 0 5 0 0 0")
 
 
-def test_one_model_that_is_refused_stops_all() -> None:
+def test_a_model_that_cannot_be_urdf_stays_sdf() -> None:
     text = WRONG.replace("1.9", "1.11").format('<inertial auto="true"/>')
-    with pytest.raises(CompileError) as caught:
-        split(Order(to="urdf"), text.encode(), Reading())
-    assert "automatic-inertia" in {each.rule.name for each in caught.value.diagnostics}
+    found = split(Order(to="urdf"), text.encode(), Reading(), name="room.sdf")
+    assert list(found.files) == ["m.sdf", "room.sdf"]
+    assert [each.message for each in found.diagnostics if each.rule.name == "kept-as-sdf"] == [
+        "model 'm' stays SDF: link 'l' has no collision to compute its inertia from"
+    ]
+
+
+@pytest.mark.parametrize(
+    ("model", "why"),
+    [
+        ('<link name="a"/><link name="b"/>', "Gazebo refuses URDF with a floating joint, which holds 'b'"),
+        (
+            f"""<link name="a">{_BODY}</link><link name="b">{_BODY}</link>
+            <joint name="caster" type="ball"><parent>a</parent><child>b</child></joint>""",
+            "Gazebo leaves link 'caster_z_link', which has no mass, out of URDF, with all that hangs from it",
+        ),
+        (
+            '<link name="a"><inertial><mass>1e-7</mass></inertial></link>',
+            "Gazebo leaves link 'a', which has no mass, out of URDF, with all that hangs from it",
+        ),
+        ('<model name="b"><link name="c"/></model>', "the parts of the model 'b' in it would have other names"),
+        (
+            '<link name="a"><collision name="floor"><geometry><plane/></geometry></collision></link>',
+            "collision 'floor' of link 'a' is a plane, which URDF does not have",
+        ),
+    ],
+)
+def test_a_model_stays_sdf_where_gazebo_would_make_something_else_of_its_urdf(model: str, why: str) -> None:
+    text = f'<sdf version="1.9"><world name="w"><model name="m">{model}</model></world></sdf>'
+    found = split(Order(to="urdf"), text.encode(), Reading(), name="room.sdf")
+    assert [each.message for each in found.diagnostics if each.rule.name == "kept-as-sdf"] == [
+        f"model 'm' stays SDF: {why}"
+    ]
+    assert list(found.files) == ["m.sdf", "room.sdf"]
+
+
+def test_all_models_may_stay_sdf() -> None:
+    found = split(Order(to="sdf"), WORLD.encode(), Reading(), name="room.world")
+    assert list(found.files) == ["a_b.sdf", "A_b_1.sdf", "a_b_2.sdf", "room.world"]
+    assert not [each for each in found.diagnostics if each.rule.name == "kept-as-sdf"]
+
+
+def test_a_file_is_not_called_as_one_of_libsdformat_or_as_the_world() -> None:
+    text = '<sdf version="1.9"><world name="w"><model name="model"/><model name="room"/></world></sdf>'
+    found = split(Order(to="sdf"), text.encode(), Reading(), name="room.sdf")
+    assert list(found.files) == ["model_1.sdf", "room_1.sdf", "room.sdf"]
+
+
+def test_the_include_of_a_robot_says_where_its_root_is() -> None:
+    text = f"""
+        <sdf version="1.6"><world name="w"><model name="m"><pose>1 0 0 0 0 0</pose>
+          <link name="base"><pose>0 0 0.5 0 0 0</pose>{_BODY}</link></model></world></sdf>"""
+    world = _split(text)["room.world"]
+    assert world.findtext("world/include/pose") == "1 0 0.5 0 0 0"
+
+
+def test_a_link_that_the_world_names_must_be_there_in_gazebo() -> None:
+    text = f"""
+        <sdf version="1.9"><world name="w"><model name="m"><link name="a">{_BODY}</link><link name="b"/>
+          <joint name="j" type="fixed"><parent>a</parent><child>b</child></joint></model>
+          <frame name="f" attached_to="m::b"/></world></sdf>"""
+    assert list(_split(text)) == ["m.urdf", "room.world"]  # which `preserveFixedJoint` keeps
 
 
 def test_urdf_cannot_be_split() -> None:
@@ -103,14 +162,14 @@ def test_a_joint_in_the_world_ends_on_links_and_stays_where_it_was() -> None:
           <joint name="post" type="fixed"><parent>world</parent><child>stake</child></joint>
           <frame name="stake" attached_to="cart::l"/>
         </world></sdf>"""
-    )["room.sdf"]
+    )["room.world"]
     rows = [
         (each.get("name"), each.findtext("parent"), each.findtext("child"), *_pose(each))
         for each in world.iterfind("world/joint")
     ]
     assert rows == [
-        ("tow", "world", "cart::l", "cart", "0 2 3 0 0 0"),
-        ("chain", "cart::l", "cart::k", "cart", "0 2 4 0 0 0"),
+        ("tow", "world", "cart::l", "cart::l", "0 0 3 0 0 0"),
+        ("chain", "cart::l", "cart::k", "cart::l", "0 0 4 0 0 0"),
         ("post", "world", "stake", None, None),
     ]
 

@@ -89,7 +89,7 @@ def _check_plugin(plugin: Plugin, site: Site, release: str, names: Names, notes:
         message = f"{kind.class_name} is not in {release}; releases that have it: {have}"
         notes.report(rules.PLUGIN_NOT_IN_RELEASE, message, plugin.location, found=plugin.filename)
         return
-    if site.scope not in kind.scopes:
+    if site.scope not in kind.scopes and not (site.included and "actor" in kind.scopes):
         scopes = " or ".join(f"<{scope}>" for scope in kind.scopes)
         message = f"{kind.class_name} stands in <{site.scope}> and belongs into {scopes}"
         notes.report(rules.WRONG_PLUGIN_SCOPE, message, plugin.location, found=site.scope, expected=scopes)

@@ -45,6 +45,8 @@ class Site:
     models: tuple[Model, ...] = ()
     link_or_joint: str | None = None
     sensor: Sensor | None = None
+    included: bool = False
+    """Whether it stands in an include, which may name a model or an actor."""
 
     @property
     def model(self) -> Model | None:
@@ -101,7 +103,7 @@ def _site_in(node: Node, site: Site) -> Site:
         case Model():
             return replace(site, scope="model", holder=node.name, models=(*site.models, node))
         case Include():
-            return replace(site, scope="model", holder=node.name or "")
+            return replace(site, scope="model", holder=node.name or "", included=True)
         case Link():
             return replace(site, scope="link", holder=node.name, link_or_joint=node.name)
         case Joint():
