@@ -1,6 +1,6 @@
 """Worlds taken apart and put together again, tried on worlds that Hypothesis makes up."""
 
-from collections.abc import Iterator
+from collections.abc import Generator
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -23,7 +23,7 @@ _PLAIN = strategies.worlds(version=VERSION, shapes=(Box, Cylinder, Sphere))
 
 
 @contextmanager
-def _written(world: Document) -> Iterator[tuple[Path, Path]]:
+def _written(world: Document) -> Generator[tuple[Path, Path]]:
     """The world as a file, and a folder to take it apart in."""
     with TemporaryDirectory() as folder:
         path = Path(folder) / "arena.world"
