@@ -4,9 +4,10 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from twinform.compiler.emitting import emit_legal
+from twinform.compiler.emitting import emit, emit_legal
 from twinform.compiler.errors import CompileError
 from twinform.compiler.includes import expand
+from twinform.compiler.json_documents import json_text
 from twinform.compiler.loading import Checked, Reading, garbage_collection_paused, read
 from twinform.compiler.orders import Language, Order, UrdfVersion
 from twinform.compiler.other_documents import OtherDocuments
@@ -208,7 +209,8 @@ def written(
     if notes.has_errors:
         return document, ""
     if order.to == "json":
-        return document, document.model_dump_json(indent=2, exclude_defaults=True) + "\n"
+        emit(document, notes)
+        return document, json_text(document, notes)
     legal = order.legalisation(document)
     fit = (kept is not None or bool(len(legal))) and not order.target(document, Format(order.to)).mixed
     kept = frozenset() if len(legal) or kept is None else kept

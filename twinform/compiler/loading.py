@@ -1,6 +1,7 @@
 """From text to a verified document: parse, read, gate, build the IR."""
 
 import gc
+import re
 from collections import defaultdict
 from collections.abc import Callable, Generator, Iterable, Mapping
 from contextlib import contextmanager
@@ -52,6 +53,8 @@ _ROOTS: dict[str, tuple[str, Callable[[XmlElement, Context], Mapping[str, Any]]]
 _CONSEQUENCES = frozenset(
     {model.MISSING_LIMIT, model.PARTIAL_LIMIT, model.SEVERAL_ROOTS, model.EMPTY_MODEL, model.UNKNOWN_MATERIAL}
 )
+_JSON = re.compile(rb"(\xef\xbb\xbf)?\s*\{")
+"""How a JSON document begins."""
 _QUALIFIED = b'"{'
 """How a name that is in a namespace begins in JSON."""
 XACRO = ".xacro"
@@ -162,6 +165,8 @@ def _check(source: str | Path | bytes, notes: Notes, how: Reading) -> Checked:
 
 def _check_text(text: bytes, notes: Notes, how: Reading) -> Checked:
     try:
+        if _JSON.match(text):
+            return _check_json(text, notes, how)
         document, tree = read_document(text, notes, how.engine)
     except UnreadableError:
         return Checked(notes.file, None, tuple(notes.diagnostics), unreadable=True)
@@ -171,6 +176,29 @@ def _check_text(text: bytes, notes: Notes, how: Reading) -> Checked:
             check_extensions(document, notes)
     found = tuple(sorted(notes.diagnostics, key=lambda each: each.location.line))
     return Checked(notes.file, document, found, tree=tree)
+
+
+def _check_json(text: bytes, notes: Notes, how: Reading) -> Checked:
+    """Read a JSON document as the text of its format that it stands for.
+
+    Raises:
+        UnreadableError: there is too much of it.
+    """
+    from twinform.compiler.json_documents import read_json  # noqa: PLC0415 - few files are JSON
+
+    refuse_excess(excess_of_json(text), notes)
+    source = read_json(text, notes)
+    if source is None:
+        return Checked(notes.file, None, tuple(notes.diagnostics))
+    refuse_excess(excess_of_names(len(source.data.get("namespaces", ())), text.count(_QUALIFIED)), notes)
+    name = f"{notes.file} (as {source.format.upper()})"
+    checked = _check_text(source.text, Notes(name, notes.strict), how)
+    notes.origins[name] = source.origins(checked.document, notes.file)
+    notes.extend(checked.diagnostics)
+    if checked.document is not None and checked.accepted:
+        source.compare(checked.document, notes)
+    found = tuple(sorted(notes.diagnostics, key=lambda each: each.location.line))
+    return replace(checked, path=notes.file, diagnostics=found, origins=notes.origins)
 
 
 def _check_xacro(path: Path, notes: Notes, how: Reading) -> Checked:
@@ -226,14 +254,12 @@ def _document(checked: Checked) -> Document:
     return checked.document
 
 
-def read_document(text: bytes, notes: Notes, engine: Engine) -> tuple[Document | None, XmlElement | None]:
-    """The document of a text and its XML tree, if it is XML. Where it has errors, the document is there if it can be.
+def read_document(text: bytes, notes: Notes, engine: Engine) -> tuple[Document | None, XmlElement]:
+    """The document of an XML text and its tree. Where it has errors, the document is there if it can be.
 
     Raises:
-        UnreadableError: it is neither XML nor one of our own JSON documents.
+        UnreadableError: it is not XML.
     """
-    if text.lstrip()[:1] == b"{":
-        return _from_json(text, notes), None
     root, namespace = read_tree(text, notes)
     report_split_values(text, notes)
     if b"<xacro:" in text:
@@ -353,19 +379,6 @@ def _namespaces(root: XmlElement, default: str | None, *, inside: bool = True) -
             found[next(name for n in numbers[wanted] if (name := f"{wanted}{n}") not in found)] = uri
         known.add(uri)
     return (*((("", default),) if default else ()), *sorted(found.items()))
-
-
-def _from_json(text: bytes, notes: Notes) -> Document | None:
-    refuse_excess(excess_of_json(text), notes)
-    try:
-        document = Document.model_validate_json(text)
-    except ValidationError as error:
-        for problem in error.errors(include_url=False)[:20]:
-            path = "/".join(map(str, problem["loc"]))
-            notes.report(structure.INVALID_VALUE, f"{path or 'the document'}: {problem['msg']}", Location(path=path))
-        return None
-    refuse_excess(excess_of_names(len(document.namespaces), text.count(_QUALIFIED)), notes)
-    return document
 
 
 @contextmanager

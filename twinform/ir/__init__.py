@@ -31,7 +31,7 @@ from twinform.ir.plugin import Plugin
 from twinform.ir.pose import Pose
 from twinform.ir.sensor import Sensor
 from twinform.ir.surface import Surface
-from twinform.ir.tree import children_of, count_parts, map_children, map_kind, node_fields, walk
+from twinform.ir.tree import children_of, count_parts, map_children, map_kind, node_fields, node_values, walk
 from twinform.ir.visual import Collision, Visual
 from twinform.ir.world import World
 
@@ -86,5 +86,6 @@ __all__ = [
     "map_children",
     "map_kind",
     "node_fields",
+    "node_values",
     "walk",
 ]

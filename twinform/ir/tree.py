@@ -25,6 +25,15 @@ def _holds_nodes(annotation: Any) -> bool:
     return annotation is Self or any(map(_holds_nodes, get_args(annotation)))
 
 
+def node_values(node: Node) -> Iterator[tuple[str, Node | tuple[Node, ...]]]:
+    """The fields of a node that hold nodes, each with the one or the several in it."""
+    values = node.__dict__
+    for name in node_fields(type(node)):
+        value = values[name]
+        if value:
+            yield name, value
+
+
 def children_of(node: Node) -> Iterator[Node]:
     """The nodes directly inside a node, in the order of its fields."""
     values = node.__dict__

@@ -1,20 +1,25 @@
 """Facts tables of both formats, and what is made from them: readers, writers, XSDs and validators."""
 
 from twinform.schemas.facts import Fact, Table, Version, parse_version, print_version, rows_by_name, table
+from twinform.schemas.json_check import Fault, JsonPath, is_array, is_object, json_faults
+from twinform.schemas.json_schema import IDENTIFIER as JSON_IDENTIFIER
 from twinform.schemas.keeping import element_data
 from twinform.schemas.messages import Context
-from twinform.schemas.packaged import schema_text
+from twinform.schemas.packaged import json_schema_text, schema_text
 from twinform.schemas.reader import Reader, reader
 from twinform.schemas.validator import Engine, SchemaError, gate, libxml2_errors, refusals, xmlschema_errors
 from twinform.schemas.values import format_value, parse_value
-from twinform.schemas.writer import LAST_LINE, Writer, element_xml, writer
+from twinform.schemas.writer import LAST_LINE, Writer, element_xml, in_order, writer
 from twinform.schemas.xml import XmlElement, declared_namespaces, path_of, undeclared_namespace, undeclared_prefix
 
 __all__ = [
+    "JSON_IDENTIFIER",
     "LAST_LINE",
     "Context",
     "Engine",
     "Fact",
+    "Fault",
+    "JsonPath",
     "Reader",
     "SchemaError",
     "Table",
@@ -26,6 +31,11 @@ __all__ = [
     "element_xml",
     "format_value",
     "gate",
+    "in_order",
+    "is_array",
+    "is_object",
+    "json_faults",
+    "json_schema_text",
     "libxml2_errors",
     "parse_value",
     "parse_version",

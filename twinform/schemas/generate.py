@@ -1,4 +1,4 @@
-"""Writes the XSDs: `python -m twinform.schemas.generate`, or with `--check` only compares them."""
+"""Writes the XSDs and the JSON Schema: `python -m twinform.schemas.generate`, or with `--check` only compares them."""
 
 import sys
 from collections.abc import Iterator, Sequence
@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import get_args
 
 from twinform.schemas.facts import parse_version, table
-from twinform.schemas.packaged import XsdVersion, schema_file
+from twinform.schemas.json_schema import generate_json_schema
+from twinform.schemas.packaged import XsdVersion, json_schema_file, schema_file
 from twinform.schemas.xsd import generate_schema
 
 FORMATS = ("urdf", "sdf")
@@ -19,6 +20,7 @@ def generated() -> Iterator[tuple[Path, str]]:
         for version in map(parse_version, facts.versions):
             for xsd in get_args(XsdVersion):
                 yield Path(str(schema_file(name, version, xsd))), generate_schema(facts, version, xsd)
+    yield Path(str(json_schema_file())), generate_json_schema()
 
 
 def stale() -> list[Path]:

@@ -1,4 +1,4 @@
-"""The XSDs that come with the package."""
+"""The XSDs and the JSON Schema that come with the package."""
 
 from functools import cache
 from importlib import resources
@@ -25,3 +25,14 @@ def schema_text(format: str, version: Version, xsd: XsdVersion = "1.1") -> str:
         FileNotFoundError: the format has no such version.
     """
     return schema_file(format, version, xsd).read_text(encoding="utf-8")
+
+
+def json_schema_file() -> Traversable:
+    """Where the JSON Schema of documents lies."""
+    return resources.files("twinform.schemas").joinpath("json", "document.schema.json")
+
+
+@cache
+def json_schema_text() -> str:
+    """The JSON Schema of documents as JSON."""
+    return json_schema_file().read_text(encoding="utf-8")

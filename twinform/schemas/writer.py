@@ -7,7 +7,7 @@ their fields. Children that came from a file keep the order that they had in it.
 from collections.abc import Callable, Iterable
 from functools import cache
 from operator import itemgetter
-from typing import Any
+from typing import Any, TypeVar
 
 from lxml import etree
 from lxml.etree import SubElement
@@ -22,6 +22,7 @@ WriteValue = Callable[[Any, Any, XmlElement], None]
 """Writes one field into an element: (value, node, element)"""
 Step = tuple[str, WriteValue]
 """A field, and what writes it where it is not None."""
+_Each = TypeVar("_Each")
 Show = Callable[[Any, Any], str]
 """The text of a value: (value, node)"""
 
@@ -53,8 +54,11 @@ class Writer:
         self.table = facts
         self.version = version
         self.writes: dict[str, Write] = {}
+        self.repeated: dict[str, tuple[str, ...]] = {}
+        """The fields of each definition that hold several parts, in the order in which they are written."""
         for name, definition in facts.definitions.items():
             self.writes[name] = self._node(definition)
+            self.repeated[name] = tuple(row.place or "" for row in self._rows(definition.rows) if _makes_many(row))
 
     def write(self, node: Any, element: XmlElement, definition: str | None = None) -> None:
         """Write a node into an element that is there already."""
@@ -77,7 +81,10 @@ class Writer:
                 if value is not None:
                     write_value(value, node, element)
             if many:
-                _write_in_order([(child, write_one) for field, write_one in many for child in values[field]], element)
+                for child, write_one in in_order(
+                    [(one, write_one) for field, write_one in many for one in values[field]]
+                ):
+                    write_one(child, element)
             if content is not None:
                 for child in values[content]:
                     element_xml(child, element)
@@ -277,19 +284,16 @@ def _pose_text(pose: Any) -> str | None:
     return format_numbers((*(pose.xyz or (0.0, 0.0, 0.0)), *rotation))
 
 
-def _write_in_order(items: list[tuple[Any, Write]], element: XmlElement) -> None:
-    """Write children by the line that they came from; one without a line of this file follows the one before it."""
-    if len(items) == 1:
-        child, write = items[0]
-        write(child, element)
-        return
+def in_order(items: list[tuple[Any, _Each]]) -> list[tuple[Any, _Each]]:
+    """Children by the line that they came from; one without a line of this file follows the one before it."""
+    if len(items) < 2:
+        return items
     keys: list[int] = []
     file = next((child.source.file for child, _ in items if child.source), "")
     for child, _ in items:
         source = child.source
         keys.append(source.line if source and source.file == file else keys[-1] if keys else 0)
-    for _, (child, write) in sorted(zip(keys, items, strict=True), key=itemgetter(0)):
-        write(child, element)
+    return [item for _, item in sorted(zip(keys, items, strict=True), key=itemgetter(0))]
 
 
 def _write_opaque(parts: Iterable[Any], element: XmlElement) -> None:

@@ -1,0 +1,179 @@
+"""From JSON to the text of the format that it is in, which is then read as any other text.
+
+So JSON meets the same checks, and nothing comes in by it that a file of its format could not say: what does not come
+back as it was is an error.
+"""
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from twinform.compiler.emitting import document_tree, serialised
+from twinform.compiler.json_documents.lines import lines_of
+from twinform.compiler.json_documents.writing import Data, json_data
+from twinform.diagnostics import Location, Notes, Origins, Source
+from twinform.diagnostics.rules import structure
+from twinform.ir import Document, Node, node_values
+from twinform.schemas import JsonPath, is_array, is_object, json_faults
+
+_MOST = 20
+"""The faults that are reported: what is of another kind altogether has thousands."""
+_ASIDE = frozenset({"$schema", "namespaces", "order", "spelling"})
+"""What is not compared: the version of the schema; prefixes, of which there may be more than were declared; and what
+says nothing about the robot."""
+_UNKNOWN = object()
+
+
+@dataclass(frozen=True, slots=True)
+class JsonSource:
+    """A JSON text that fits its schema, what it holds, and the same as a text of its format."""
+
+    json: str
+    data: Data
+    text: bytes
+    format: str
+
+    def compare(self, document: Document, notes: Notes) -> None:
+        """Report what the document that was read of the text does not have as the JSON says it."""
+        missed = next(_differences(self.data, _plain(json_data(document)), ()), None)
+        if missed is None:
+            return
+        path, mine, theirs = missed
+        name = "/".join(map(str, path))
+        became = "leaves it out" if theirs is _UNKNOWN else f"has {_shown(theirs)} there"
+        said = "nothing" if mine is _UNKNOWN else _shown(mine)
+        message = f"{name}: {self.format.upper()} cannot say {said}; a file of it {became}"
+        hint = "if it stands in 'opaque', write it in the field that is meant for it"
+        notes.report(structure.INVALID_VALUE, message, self._location(path), found=said, help=hint)
+
+    def origins(self, document: Document | None, file: str) -> Origins:
+        """Where the lines of the text were in the JSON file."""
+        lines = lines_of(self.json)
+        nodes = _places(document, ()) if document else ()
+        return Origins.of((line, Location(file, lines.get(path, 1))) for line, path in nodes)
+
+    def _location(self, path: JsonPath) -> Location:
+        return _location(lines_of(self.json), path)
+
+
+def read_json(text: bytes, notes: Notes) -> JsonSource | None:
+    """What a JSON text holds; errors in the notes where it is none, or does not fit the schema."""
+    try:
+        decoded = text.decode("utf-8-sig")
+        data = json.loads(decoded, object_pairs_hook=_object, parse_constant=_refuse)
+    except json.JSONDecodeError as error:
+        _report(notes, f"not JSON: {error.msg} (column {error.colno})", Location(line=error.lineno))
+        return None
+    except (ValueError, RecursionError) as error:
+        _report(notes, f"not JSON: {'it is nested too deep' if isinstance(error, RecursionError) else error}")
+        return None
+    faults = list(json_faults(data))
+    if faults:
+        lines = lines_of(decoded)
+        for fault in faults[:_MOST]:
+            message = f"{'/'.join(map(str, fault.path)) or 'the document'}: {fault.message}"
+            where, rule = _location(lines, fault.path), structure.INVALID_VALUE
+            notes.report(rule, message, where, found=fault.found, expected=fault.expected, help=fault.help)
+        return None
+    plain = _plain(data)
+    document = Document.model_validate(_with_order({key: plain[key] for key in plain if key != "$schema"}))
+    try:
+        made = serialised(document_tree(document), document)
+    except ValueError as error:  # a name that lxml does not take
+        _report(notes, f"the document: it cannot be written: {error}")
+        return None
+    return JsonSource(decoded, plain, made.encode(), document.format.value)
+
+
+def _object(pairs: list[tuple[str, Any]]) -> Data:
+    """An object of JSON.
+
+    Raises:
+        ValueError: it has a name twice, of which readers of JSON would see the last alone.
+    """
+    made = dict(pairs)
+    if len(made) < len(pairs):
+        names = [name for name, _ in pairs]
+        twice = next(name for name in names if names.count(name) > 1)
+        raise ValueError(f"an object has the field {twice!r} twice")
+    return made
+
+
+def _refuse(word: str) -> object:
+    raise ValueError(f'{word} is no number of JSON; SDF may have the word "{word}" in quotes')
+
+
+def _report(notes: Notes, message: str, where: Location | None = None) -> None:
+    notes.report(structure.INVALID_VALUE, message, where or Location(line=1))
+
+
+def _location(lines: dict[JsonPath, int], path: JsonPath) -> Location:
+    """The place of a value, or of the nearest one around it."""
+    known = path
+    while known and known not in lines:
+        known = known[:-1]
+    return Location(line=lines.get(known, 1), path="/".join(map(str, path)))
+
+
+def _plain(data: Any) -> Any:
+    """The same without fields that say nothing."""
+    if is_array(data):
+        return [_plain(each) for each in data]
+    if not is_object(data):
+        return data
+    inner = {name: _plain(value) for name, value in data.items()}
+    return {name: value for name, value in inner.items() if value not in ({}, [])}
+
+
+def _with_order(data: Any) -> Any:
+    """The same with sources in the place of `order`, by whose lines writers put parts in order."""
+    if is_array(data):
+        return [_with_order(each) for each in data]
+    if not is_object(data):
+        return data
+    made: Data = {
+        name: _with_order(value) for name, value in data.items() if name not in {"order", "opaque", "content"}
+    }
+    made |= {name: data[name] for name in ("opaque", "content") if name in data}
+    lists = {name: iter(made.get(name, ())) for name in data.get("order", ())}
+    for rank, name in enumerate(data.get("order", ()), 1):
+        part: Data | None = next(lists[name], None)
+        if part is not None:
+            part["source"] = Source("", rank, None, "")
+    return made
+
+
+def _differences(mine: Any, theirs: Any, path: JsonPath) -> Iterator[tuple[JsonPath, Any, Any]]:
+    """The places where two documents say something else."""
+    if is_object(mine) and is_object(theirs):
+        for name in [*mine, *(name for name in theirs if name not in mine)]:
+            if name == "opaque":  # those that stand in other elements are in no order
+                one, other = (
+                    sorted(each.get(name, ()), key=lambda part: part.get("at", "")) for each in (mine, theirs)
+                )
+                yield from _differences(one, other, (*path, name))
+            elif name not in _ASIDE:
+                yield from _differences(mine.get(name, _UNKNOWN), theirs.get(name, _UNKNOWN), (*path, name))
+    elif is_array(mine) and is_array(theirs) and len(mine) == len(theirs):
+        for index, (one, other) in enumerate(zip(mine, theirs, strict=True)):
+            yield from _differences(one, other, (*path, index))
+    elif mine != theirs:
+        yield path, mine, theirs
+
+
+def _places(node: Node, path: JsonPath) -> Iterator[tuple[int, JsonPath]]:
+    """The lines of a document's nodes, and where JSON has them."""
+    if node.source is not None:
+        yield node.source.line, path
+    for name, value in node_values(node):
+        if isinstance(value, Node):
+            yield from _places(value, (*path, name))
+        else:
+            for index, child in enumerate(value):
+                yield from _places(child, (*path, name, index))
+
+
+def _shown(value: Any) -> str:
+    text = json.dumps(value)
+    return text if len(text) <= 60 else text[:57] + "..."
