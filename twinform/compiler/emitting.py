@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from lxml import etree
 
+from twinform.compiler.default_namespaces import has_made_up_prefixes, restore_defaults
 from twinform.compiler.sdf import back_end as sdf
 from twinform.compiler.urdf import back_end as urdf
 from twinform.diagnostics import Diagnostic, Fate, Location, Notes
@@ -99,7 +100,11 @@ def serialised(root: XmlElement, document: Document) -> str:
     if default is not None:
         root = _in_namespace(root, default)
     etree.indent(root, "  ")
-    return '<?xml version="1.0"?>\n' + etree.tostring(root, encoding="unicode") + "\n"
+    text = etree.tostring(root, encoding="unicode")
+    if has_made_up_prefixes(text):
+        restore_defaults(root, dict(document.namespaces))
+        text = etree.tostring(root, encoding="unicode")
+    return f'<?xml version="1.0"?>\n{text}\n'
 
 
 def written_version(document: Document) -> Version:

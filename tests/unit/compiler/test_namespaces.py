@@ -1,5 +1,8 @@
 """Prefixes and their namespaces, wherever a file declares them, and however many there are."""
 
+from typing import Literal
+
+import pytest
 from lxml import etree
 
 import twinform
@@ -35,3 +38,55 @@ def test_names_are_shown_with_the_prefix_that_they_were_written_with() -> None:
     assert path_of(child) == "/r/b:x"
     assert [prefix_of(child, str(name)) for name in child.attrib] == ["a", "b"]
     assert prefix_of(root, "r") is None
+
+
+def written(content: str, root: str = "", to: Literal["urdf", "sdf"] = "urdf") -> str:
+    plugin = f'<plugin name="p" filename="p.so">{content}</plugin>'
+    text = f'<robot name="r" {root}><link name="a"/><gazebo>{plugin}</gazebo></robot>'
+    made = twinform.convert(text.encode(), to=to).text
+    again = twinform.convert(made.encode(), to=to).text
+    assert again == made or "xmlns:ns0" in made
+    inside = made.partition("<plugin")[2].partition(">")[2].partition("</plugin>")[0]
+    return " ".join(inside.split()).replace("> <", "><")
+
+
+INSIDE = {
+    "alone": '<param xmlns="urn:v"><gain>1</gain></param>',
+    "with others in it": '<param xmlns="urn:v"><b xmlns="urn:2"><c/></b><gain>1</gain></param>',
+    "twice": '<a xmlns="urn:v"/><b xmlns="urn:v"/>',
+    "with text around": '<a xmlns="urn:v">x</a>y',
+}
+
+
+@pytest.mark.parametrize("to", ["urdf", "sdf"])
+@pytest.mark.parametrize("root", ["", 'xmlns="urn:r"'])
+@pytest.mark.parametrize("name", INSIDE)
+def test_a_default_namespace_stays_one(name: str, root: str, to: Literal["urdf", "sdf"]) -> None:
+    assert written(INSIDE[name], root, to) == INSIDE[name]
+
+
+def test_a_default_on_the_root_stays_beside_others() -> None:
+    plugin = '<plugin name="p" filename="p"><b xmlns="urn:v"/></plugin>'
+    text = f'<sdf xmlns="urn:r" version="1.11"><model name="m"><link name="a"/>{plugin}</model></sdf>'
+    made = twinform.convert(text.encode(), to="sdf").text
+    assert etree.fromstring(made).nsmap == {None: "urn:r"}
+    assert '<b xmlns="urn:v"/>' in made
+    assert {str(each.tag) for each in etree.fromstring(made).iter()} == {
+        str(each.tag) for each in etree.fromstring(text).iter()
+    }
+
+
+def test_a_prefix_that_is_declared_is_used() -> None:
+    assert written('<ns0:a xmlns:ns0="urn:v"/>') == "<ns0:a/>"
+    assert written('<v:a/><b xmlns="urn:v"/>', 'xmlns:v="urn:v"') == "<v:a/><v:b/>"
+
+
+def test_a_default_takes_in_no_part_without_a_namespace() -> None:
+    inside = written('<a xmlns="urn:v"><b xmlns=""/></a>')
+    assert [each.tag for each in etree.fromstring(f"<x>{inside}</x>").iter()] == ["x", "{urn:v}a", "b"]
+
+
+def test_attributes_keep_their_namespace() -> None:
+    inside = written('<a xmlns="urn:v" xmlns:w="urn:v" w:b="1"/>')
+    (element,) = etree.fromstring(f'<x xmlns:w="urn:v">{inside}</x>')
+    assert (element.tag, dict(element.attrib)) == ("{urn:v}a", {"{urn:v}b": "1"})
