@@ -13,7 +13,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from twinform.compiler import CompileError, Conversion, check, convert, load, loads, write_atomically
+    from twinform.compiler import CompileError, Conversion, check, convert, dump, dumps, load, loads, write_atomically
     from twinform.compiler.compare import Comparison, Difference, diff
     from twinform.compiler.normal_form import Discrepancy, NormalForm, normal_form
     from twinform.diagnostics import Diagnostic, Ledger
@@ -33,6 +33,8 @@ __all__ = [
     "check",
     "convert",
     "diff",
+    "dump",
+    "dumps",
     "load",
     "loads",
     "normal_form",

@@ -1,10 +1,11 @@
 """The compiler: front ends, back ends and the driver that runs what lies between."""
 
 from twinform.compiler.driver import Conversion, convert, fulfil, plan
+from twinform.compiler.dumping import dump, dumps
 from twinform.compiler.errors import CompileError
 from twinform.compiler.files import write_all_atomically, write_atomically
 from twinform.compiler.includes import expand
-from twinform.compiler.loading import Checked, Reading, check, load, loads, read
+from twinform.compiler.loading import Checked, Input, Reading, check, load, loads, read
 from twinform.compiler.orders import DEFAULT_SDF_VERSION, URDF_VERSIONS, Language, Order, UrdfVersion
 from twinform.compiler.splitting import Split, split
 from twinform.compiler.uris import SearchPath, UriError
@@ -15,6 +16,7 @@ __all__ = [
     "Checked",
     "CompileError",
     "Conversion",
+    "Input",
     "Language",
     "Order",
     "Reading",
@@ -24,6 +26,8 @@ __all__ = [
     "UriError",
     "check",
     "convert",
+    "dump",
+    "dumps",
     "expand",
     "fulfil",
     "load",

@@ -8,7 +8,7 @@ from twinform.compiler.emitting import emit, emit_legal
 from twinform.compiler.errors import CompileError
 from twinform.compiler.includes import expand
 from twinform.compiler.json_documents import json_text
-from twinform.compiler.loading import Checked, Reading, garbage_collection_paused, read
+from twinform.compiler.loading import Checked, Input, Reading, garbage_collection_paused, read
 from twinform.compiler.orders import Language, Order, UrdfVersion
 from twinform.compiler.other_documents import OtherDocuments
 from twinform.compiler.uris import LocalAssets, SearchPath
@@ -66,7 +66,7 @@ def plan(
 
 
 def convert(
-    source: str | Path | bytes,
+    source: Input,
     *,
     to: Language,
     name: str = "",
@@ -83,7 +83,7 @@ def convert(
     expand_includes: bool = False,
     watch: Watch | None = None,
 ) -> Conversion:
-    """Compile a file, or the bytes of one, into the target's language; `watch` is told of each pass.
+    """Compile a file, the bytes of one or a document into the target's language; `watch` is told of each pass.
 
     `paths`, `arguments` and `xacro` are those of `check`. URDF has no includes: for it, those in the model are always
     expanded.
@@ -109,7 +109,7 @@ def convert(
 
 def fulfil(
     order: Order,
-    source: str | Path | bytes,
+    source: Input,
     how: Reading,
     *,
     name: str = "",

@@ -75,11 +75,11 @@ def valid_tree(
     found = Notes(file=notes.file)
     _validate(root, document.format, written_version(document), found, kept=kept if fit else None)
     notes.entries.extend(found.entries)
-    notes.extend([_located(diagnostic, document) for diagnostic in found.diagnostics])
+    notes.extend([located(diagnostic, document) for diagnostic in found.diagnostics])
     return root
 
 
-def _located(diagnostic: Diagnostic, document: Document) -> Diagnostic:
+def located(diagnostic: Diagnostic, document: Document) -> Diagnostic:
     """A finding about what is to be written, with the line of the part of the source that it was made of."""
     if diagnostic.location.line:
         return diagnostic

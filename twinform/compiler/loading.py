@@ -5,7 +5,7 @@ import re
 from collections import defaultdict
 from collections.abc import Callable, Generator, Iterable, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from itertools import count
 from pathlib import Path
 from typing import Any
@@ -13,6 +13,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from twinform.compiler.errors import CompileError
+from twinform.compiler.inputs import Checked, Input, Reading, name_of_input
 from twinform.compiler.limits import excess_of_json, excess_of_names
 from twinform.compiler.parsing import (
     UnreadableError,
@@ -27,10 +28,10 @@ from twinform.compiler.tabbed_numbers import report_tabbed_numbers
 from twinform.compiler.urdf import front_end as urdf
 from twinform.compiler.urdf.extensions import check_extensions
 from twinform.compiler.uris import SearchPath
-from twinform.diagnostics import Diagnostic, Entry, Location, Notes, Origins
+from twinform.diagnostics import Location, Notes
 from twinform.diagnostics.rules import model, reading, structure
 from twinform.diagnostics.rules import xacro as xacro_rules
-from twinform.ir import Document, Format, count_parts
+from twinform.ir import Document, Format
 from twinform.ir.verify import verify
 from twinform.schemas import (
     Context,
@@ -66,59 +67,8 @@ _WITHOUT_VERSION = {"urdf": (1, 0)}
 """The version of a file that declares none."""
 
 
-@dataclass(frozen=True, slots=True)
-class Reading:
-    """How files are read.
-
-    `search` are the folders for URIs, `arguments` those of xacro, which `xacro` allows.
-    """
-
-    strict: bool = False
-    engine: Engine = "libxml2"
-    search: SearchPath = field(default_factory=SearchPath.of)
-    arguments: Mapping[str, str] = field(default_factory=dict[str, str])
-    xacro: bool = True
-
-
-@dataclass(frozen=True, slots=True)
-class Checked:
-    """What `check` found. `unreadable` says that there is no model at all: no file, no XML, or another format.
-
-    The document may be there in spite of errors; `accepted` says whether it has any. `tree` is the XML that it came
-    from, and `origins` lead from its lines to where they were written if it was expanded. Where includes were expanded,
-    `included` is the size of their files, `entries` what became of parts of them, and `mixed` says that the files may
-    have been of several versions.
-    """
-
-    path: str
-    document: Document | None
-    diagnostics: tuple[Diagnostic, ...]
-    unreadable: bool = False
-    tree: XmlElement | None = None
-    origins: Mapping[str, Origins] = field(default_factory=dict[str, Origins])
-    included: int = 0
-    entries: tuple[Entry, ...] = ()
-    mixed: bool = False
-
-    @property
-    def size(self) -> int:
-        """How many elements and attributes the source has."""
-        if self.tree is not None:
-            return self.included + _parts(self.tree)
-        return count_parts(self.document) if self.document else 0
-
-    @property
-    def accepted(self) -> bool:
-        """Whether there is no error."""
-        return not any(diagnostic.is_error for diagnostic in self.diagnostics)
-
-
-def _parts(tree: XmlElement) -> int:
-    return sum(1 + len(element.keys()) for element in tree.iter())
-
-
 def check(
-    source: str | Path | bytes,
+    source: Input,
     *,
     name: str = "",
     strict: bool = False,
@@ -128,7 +78,7 @@ def check(
     xacro: bool = True,
     expand_includes: bool = False,
 ) -> Checked:
-    """Read a file, or the bytes of one, and say everything that is wrong with it.
+    """Read a file, the bytes of one or a document, and say everything that is wrong with it.
 
     `paths` are folders in which URIs are looked up. A file whose name ends in `.xacro` is expanded with the
     `arguments`, which evaluates expressions and reads files that it names; without `xacro` it is refused. The files
@@ -143,11 +93,14 @@ def check(
     return expand(checked, how)
 
 
-def read(source: str | Path | bytes, how: Reading, *, name: str = "") -> Checked:
+def read(source: Input, how: Reading, *, name: str = "") -> Checked:
     """`check`, with all that it needs to know in one place."""
-    file = name or ("<bytes>" if isinstance(source, bytes) else str(source))
-    notes = Notes(file=file, strict=how.strict)
+    notes = Notes(file=name or name_of_input(source), strict=how.strict)
     with garbage_collection_paused():
+        if isinstance(source, Document):
+            from twinform.compiler.memory import check_document  # noqa: PLC0415 - it reads what it has written
+
+            return check_document(source, notes)
         return _check(source, notes, how)
 
 

@@ -13,7 +13,7 @@ from twinform.compiler.driver import has_mixed_words, mixed_words, written
 from twinform.compiler.emitting import emit_legal
 from twinform.compiler.errors import CompileError
 from twinform.compiler.includes import expand
-from twinform.compiler.loading import Reading, garbage_collection_paused, read
+from twinform.compiler.loading import Input, Reading, garbage_collection_paused, read
 from twinform.compiler.orders import Order
 from twinform.compiler.other_documents import OtherDocuments
 from twinform.compiler.uris import LocalAssets
@@ -52,7 +52,7 @@ class Split:
 
 def split(
     order: Order,
-    source: str | Path | bytes,
+    source: Input,
     how: Reading,
     *,
     name: str = "",

@@ -9,7 +9,7 @@ from twinform.compiler.compare.judge import compare_robots
 from twinform.compiler.compare.language import Robots, read_robots
 from twinform.compiler.compare.robot import Robot
 from twinform.compiler.errors import CompileError
-from twinform.compiler.loading import Reading, garbage_collection_paused
+from twinform.compiler.loading import Input, Reading, garbage_collection_paused, name_of_input
 from twinform.compiler.uris import SearchPath
 from twinform.schemas import Engine
 
@@ -18,8 +18,8 @@ TOLERANCE = 1e-9
 
 
 def diff(
-    a: str | Path | bytes,
-    b: str | Path | bytes,
+    a: Input,
+    b: Input,
     *,
     model: str | None = None,
     tolerance: float = TOLERANCE,
@@ -29,7 +29,7 @@ def diff(
     arguments: Mapping[str, str] | None = None,
     xacro: bool = True,
 ) -> Comparison:
-    """Compare the robots in two files, of either format; `model` names one where a file has several.
+    """Compare the robots in two files or documents, of either format; `model` names one where a file has several.
 
     Without it the models of two worlds are compared by their names. `paths`, `arguments` and `xacro` are those of
     `check`; includes are always expanded.
@@ -42,8 +42,8 @@ def diff(
 
 
 def compare_files(
-    a: str | Path | bytes,
-    b: str | Path | bytes,
+    a: Input,
+    b: Input,
     how: Reading,
     *,
     names: tuple[str, str] = ("", ""),
@@ -71,8 +71,9 @@ def compare_files(
         return Comparison(one.path, other.path, tolerance, tuple(_compared(one, other, tolerance)))
 
 
-def _name(source: str | Path | bytes, default: str) -> str:
-    return f"<{default}>" if isinstance(source, bytes) else str(source)
+def _name(source: Input, default: str) -> str:
+    name = name_of_input(source)
+    return f"<{default}>" if name in {"<bytes>", "<document>"} else name
 
 
 def _compared(a: Robots, b: Robots, tolerance: float) -> Iterator[Difference]:

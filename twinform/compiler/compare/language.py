@@ -9,7 +9,7 @@ from twinform.compiler.compare.describe import describe
 from twinform.compiler.compare.robot import Robot
 from twinform.compiler.errors import CompileError
 from twinform.compiler.includes import expand
-from twinform.compiler.loading import Checked, Reading, read
+from twinform.compiler.loading import Checked, Input, Reading, read
 from twinform.compiler.uris import LocalAssets
 from twinform.diagnostics import Notes
 from twinform.ir import Document, Format, Model
@@ -35,7 +35,7 @@ class Robots:
     by_name: dict[str, Robot]
 
 
-def read_robots(source: str | Path | bytes, how: Reading, *, name: str, model: str | None) -> Robots:
+def read_robots(source: Input, how: Reading, *, name: str, model: str | None) -> Robots:
     """The robots of a file; where there are several and `model` names one, that one.
 
     Raises:

@@ -10,19 +10,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from twinform.compiler.emitting import document_tree, serialised
+from twinform.compiler.json_documents.comparing import MOST, differences, plain, report_missed
 from twinform.compiler.json_documents.lines import lines_of
 from twinform.compiler.json_documents.writing import Data, json_data
 from twinform.diagnostics import Location, Notes, Origins, Source
 from twinform.diagnostics.rules import structure
 from twinform.ir import Document, Node, node_values
 from twinform.schemas import JsonPath, is_array, is_object, json_faults
-
-_MOST = 20
-"""The faults that are reported: what is of another kind altogether has thousands."""
-_ASIDE = frozenset({"$schema", "namespaces", "order", "spelling"})
-"""What is not compared: the version of the schema; prefixes, of which there may be more than were declared; and what
-says nothing about the robot."""
-_UNKNOWN = object()
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,25 +30,15 @@ class JsonSource:
 
     def compare(self, document: Document, notes: Notes) -> None:
         """Report what the document that was read of the text does not have as the JSON says it."""
-        missed = next(_differences(self.data, _plain(json_data(document)), ()), None)
-        if missed is None:
-            return
-        path, mine, theirs = missed
-        name = "/".join(map(str, path))
-        became = "leaves it out" if theirs is _UNKNOWN else f"has {_shown(theirs)} there"
-        said = "nothing" if mine is _UNKNOWN else _shown(mine)
-        message = f"{name}: {self.format.upper()} cannot say {said}; a file of it {became}"
-        hint = "if it stands in 'opaque', write it in the field that is meant for it"
-        notes.report(structure.INVALID_VALUE, message, self._location(path), found=said, help=hint)
+        missed = next(differences(self.data, plain(json_data(document)), ()), None)
+        if missed is not None:
+            report_missed(missed, self.format, _location(lines_of(self.json), missed.path), notes)
 
     def origins(self, document: Document | None, file: str) -> Origins:
         """Where the lines of the text were in the JSON file."""
         lines = lines_of(self.json)
         nodes = _places(document, ()) if document else ()
         return Origins.of((line, Location(file, lines.get(path, 1))) for line, path in nodes)
-
-    def _location(self, path: JsonPath) -> Location:
-        return _location(lines_of(self.json), path)
 
 
 def read_json(text: bytes, notes: Notes) -> JsonSource | None:
@@ -71,19 +55,19 @@ def read_json(text: bytes, notes: Notes) -> JsonSource | None:
     faults = list(json_faults(data))
     if faults:
         lines = lines_of(decoded)
-        for fault in faults[:_MOST]:
+        for fault in faults[:MOST]:
             message = f"{'/'.join(map(str, fault.path)) or 'the document'}: {fault.message}"
             where, rule = _location(lines, fault.path), structure.INVALID_VALUE
             notes.report(rule, message, where, found=fault.found, expected=fault.expected, help=fault.help)
         return None
-    plain = _plain(data)
-    document = Document.model_validate(_with_order({key: plain[key] for key in plain if key != "$schema"}))
+    said = plain(data)
+    document = Document.model_validate(_with_order({key: said[key] for key in said if key != "$schema"}))
     try:
         made = serialised(document_tree(document), document)
     except ValueError as error:  # a name that lxml does not take
         _report(notes, f"the document: it cannot be written: {error}")
         return None
-    return JsonSource(decoded, plain, made.encode(), document.format.value)
+    return JsonSource(decoded, said, made.encode(), document.format.value)
 
 
 def _object(pairs: list[tuple[str, Any]]) -> Data:
@@ -116,16 +100,6 @@ def _location(lines: dict[JsonPath, int], path: JsonPath) -> Location:
     return Location(line=lines.get(known, 1), path="/".join(map(str, path)))
 
 
-def _plain(data: Any) -> Any:
-    """The same without fields that say nothing."""
-    if is_array(data):
-        return [_plain(each) for each in data]
-    if not is_object(data):
-        return data
-    inner = {name: _plain(value) for name, value in data.items()}
-    return {name: value for name, value in inner.items() if value not in ({}, [])}
-
-
 def _with_order(data: Any) -> Any:
     """The same with sources in the place of `order`, by whose lines writers put parts in order."""
     if is_array(data):
@@ -144,24 +118,6 @@ def _with_order(data: Any) -> Any:
     return made
 
 
-def _differences(mine: Any, theirs: Any, path: JsonPath) -> Iterator[tuple[JsonPath, Any, Any]]:
-    """The places where two documents say something else."""
-    if is_object(mine) and is_object(theirs):
-        for name in [*mine, *(name for name in theirs if name not in mine)]:
-            if name == "opaque":  # those that stand in other elements are in no order
-                one, other = (
-                    sorted(each.get(name, ()), key=lambda part: part.get("at", "")) for each in (mine, theirs)
-                )
-                yield from _differences(one, other, (*path, name))
-            elif name not in _ASIDE:
-                yield from _differences(mine.get(name, _UNKNOWN), theirs.get(name, _UNKNOWN), (*path, name))
-    elif is_array(mine) and is_array(theirs) and len(mine) == len(theirs):
-        for index, (one, other) in enumerate(zip(mine, theirs, strict=True)):
-            yield from _differences(one, other, (*path, index))
-    elif mine != theirs:
-        yield path, mine, theirs
-
-
 def _places(node: Node, path: JsonPath) -> Iterator[tuple[int, JsonPath]]:
     """The lines of a document's nodes, and where JSON has them."""
     if node.source is not None:
@@ -172,8 +128,3 @@ def _places(node: Node, path: JsonPath) -> Iterator[tuple[int, JsonPath]]:
         else:
             for index, child in enumerate(value):
                 yield from _places(child, (*path, name, index))
-
-
-def _shown(value: Any) -> str:
-    text = json.dumps(value)
-    return text if len(text) <= 60 else text[:57] + "..."

@@ -1,0 +1,159 @@
+"""Documents in memory go where files go: into `check`, `convert` and `diff`, and out by `dump` and `dumps`."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import twinform
+from twinform.compiler import CompileError
+from twinform.ir import Document, Format, Limit, Model, Opaque, Pose
+
+URDF = """<robot name="r">
+  <link name="a"/>
+  <joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>
+  <link name="b"/>
+</robot>
+"""
+SDF = """<sdf version="1.11">
+<world name="w">
+<model name="m">
+<static>1</static><link name="l"/>
+</model>
+</world></sdf>"""
+
+
+def _changed(document: Document, **update: Any) -> Document:
+    model = document.models[0].model_copy(update=update)
+    return document.model_copy(update={"models": (model, *document.models[1:])})
+
+
+def _links(document: Document, **update: Any) -> Document:
+    first, *others = document.models[0].links
+    return _changed(document, links=(first.model_copy(update=update), *others))
+
+
+@pytest.mark.parametrize("text", [URDF, SDF])
+def test_a_document_is_converted_as_its_file(text: str) -> None:
+    document = twinform.loads(text)
+    for to in ("urdf", "sdf", "json"):
+        one, other = twinform.convert(document, to=to), twinform.convert(text.encode(), to=to)
+        assert one.text == other.text
+        assert one.document == other.document
+        assert [(each.rule, each.location.line) for each in one.diagnostics] == [
+            (each.rule, each.location.line) for each in other.diagnostics
+        ]
+        assert one.ledger.expressed == other.ledger.expressed
+        assert [each.message for each in one.ledger.entries] == [each.message for each in other.ledger.entries]
+
+
+def test_findings_name_the_file_that_a_document_came_from(tmp_path: Path) -> None:
+    file = tmp_path / "r.urdf"
+    file.write_text(URDF)
+    document = twinform.load(file)
+    twice = _changed(document, links=(*document.models[0].links, document.models[0].links[0]))
+    found = next(each for each in twinform.check(twice).diagnostics if each.is_error)
+    assert (found.rule.name, found.location.file, found.location.line) == ("duplicate-name", str(file), 2)
+    assert twinform.check(document).path == str(file)
+
+
+def test_a_document_that_was_made_has_no_file() -> None:
+    made = Document(format=Format.URDF, models=(Model(name="r"),))
+    checked = twinform.check(made)
+    assert checked.path == "<document>"
+    assert not checked.accepted
+
+
+def test_documents_and_files_are_compared() -> None:
+    document = twinform.loads(URDF)
+    assert twinform.diff(document, URDF.encode()).differences == ()
+    other = _changed(document, joints=())
+    found = twinform.diff(document, _changed(document, joints=(), links=document.models[0].links[:1]))
+    assert found.differences
+    assert (found.a, found.b) == ("<string>", "<string>")
+    with pytest.raises(CompileError):  # two roots
+        twinform.diff(document, other)
+
+
+UNSAYABLE: dict[str, tuple[Document, str]] = {
+    "no robot": (
+        Document(format=Format.URDF),
+        "the document: has no 'models'; URDF cannot say it",
+    ),
+    "two robots": (
+        Document(format=Format.URDF, models=(twinform.loads(URDF).models[0],) * 2),
+        "models: has 2 items; expected 1; URDF cannot say it",
+    ),
+    "a robot in a robot": (
+        _changed(twinform.loads(URDF), models=twinform.loads(URDF).models),
+        "models/0/models: is no field of this object; URDF cannot say it",
+    ),
+    "a field that URDF does not have": (
+        _links(twinform.loads(URDF), gravity=False),
+        "models/0/links/0/gravity: is no field of this object; URDF cannot say it",
+    ),
+    "a pose of a link in URDF": (
+        _links(twinform.loads(URDF), pose=Pose(xyz=(1, 0, 0))),
+        "models/0/links/0/pose: is no field of this object; URDF cannot say it",
+    ),
+    "no number in a vector": (
+        _changed(twinform.loads('<sdf version="1.11"><model name="m"><link name="l"/></model></sdf>'),
+                 pose=Pose(xyz=(float("nan"), 0, 0), rpy=(0, 0, 0))),
+        'models/0/pose/xyz/0: is "NaN"; expected a number; SDF cannot say it',
+    ),
+    "a name that XML does not have": (
+        _links(twinform.loads(URDF), name="\x00"),
+        'models/0/links/0/name: is "\\u0000", which XML cannot hold here; URDF cannot say it',
+    ),
+    "an attribute that has a field": (
+        _links(twinform.loads(URDF), opaque=(Opaque(attribute=("name", "c")),)),
+        "",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", UNSAYABLE)
+def test_what_its_format_cannot_say_is_an_error(name: str) -> None:
+    document, message = UNSAYABLE[name]
+    checked = twinform.check(document)
+    assert not checked.accepted
+    if message:
+        assert message in [each.message for each in checked.diagnostics if each.is_error]
+    for to in ("urdf", "sdf", "json"):
+        with pytest.raises(CompileError):
+            twinform.convert(document, to=to)
+    with pytest.raises(CompileError):
+        twinform.dumps(document)
+    with pytest.raises(CompileError):
+        twinform.dumps(document, to="json")
+
+
+def test_a_node_that_says_nothing_is_nothing() -> None:
+    document = twinform.loads('<sdf version="1.11"><model name="m"><link name="l"/></model></sdf>')
+    axis = {"limit": Limit()}
+    assert twinform.check(_changed(document, pose=Pose())).accepted
+    assert axis["limit"].lower is None
+
+
+def test_documents_are_dumped_and_loaded(tmp_path: Path) -> None:
+    document = twinform.loads(URDF)
+    assert twinform.dumps(document) == twinform.convert(URDF.encode(), to="urdf").text
+    assert json.loads(twinform.dumps(document, to="json"))["format"] == "urdf"
+    for name in ("r.urdf", "r.json", "folder/r", "r.xml"):
+        twinform.dump(document, tmp_path / name)
+        assert twinform.load(tmp_path / name) == document
+    assert (tmp_path / "r.json").read_text().startswith("{")
+    with pytest.raises(ValueError, match="is URDF"):
+        twinform.dump(document, tmp_path / "r.sdf")
+    with pytest.raises(ValueError, match="is URDF"):
+        twinform.dumps(document, to="sdf")
+    assert not (tmp_path / "r.sdf").exists()
+
+
+def test_what_cannot_be_dumped_leaves_the_file_alone(tmp_path: Path) -> None:
+    file = tmp_path / "r.urdf"
+    file.write_text(URDF)
+    with pytest.raises(CompileError):
+        twinform.dump(UNSAYABLE["two robots"][0], file)
+    assert file.read_text() == URDF

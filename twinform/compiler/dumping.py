@@ -1,0 +1,49 @@
+"""Writing a document: `dump` into a file, `dumps` as text, in its own format or as JSON."""
+
+from pathlib import Path
+from typing import Literal
+
+from twinform.compiler.emitting import emit
+from twinform.compiler.errors import CompileError
+from twinform.compiler.files import write_atomically
+from twinform.compiler.json_documents import json_text
+from twinform.compiler.loading import Reading, read
+from twinform.diagnostics import Notes
+from twinform.ir import Document
+
+Written = Literal["urdf", "sdf", "json"]
+
+_SUFFIXES: dict[str, Written] = {".urdf": "urdf", ".sdf": "sdf", ".world": "sdf", ".json": "json"}
+
+
+def dumps(document: Document, *, to: Written | None = None) -> str:
+    """The text of a document in its own format, or as JSON where `to` asks for it.
+
+    Raises:
+        CompileError: its format cannot say it; what is wrong is in the diagnostics.
+        ValueError: `to` is the other format, for which there is `convert`.
+    """
+    if to not in {None, "json", document.format.value}:
+        raise ValueError(
+            f"the document is {document.format.upper()}; twinform.convert makes {to.upper() if to else to}"
+        )
+    checked = read(document, Reading())
+    notes = Notes(checked.path, diagnostics=[each for each in checked.diagnostics if each.is_error])
+    text = ""
+    if not notes.has_errors:
+        text = json_text(document, notes) if to == "json" else emit(document, notes)
+    if notes.has_errors:
+        raise CompileError(tuple(notes.diagnostics))
+    return text
+
+
+def dump(document: Document, path: str | Path, *, to: Written | None = None) -> None:
+    """Write a document into a file, all of it or nothing; a name that ends in `.json` asks for JSON.
+
+    Raises:
+        CompileError: its format cannot say it; what is wrong is in the diagnostics.
+        OSError: the file cannot be written.
+        ValueError: the name is that of a file of the other format, for which there is `convert`.
+    """
+    path = Path(path)
+    write_atomically(path, dumps(document, to=to or _SUFFIXES.get(path.suffix.lower())))
