@@ -17,8 +17,10 @@ _DEFAULT = {Format.URDF: (0.0, 0.0), Format.SDF: (1.0, 1.0)}
 """Mass in kg and moments in kg m^2 of a link that says nothing about them."""
 
 
-def body_of(link: Link, graph: FrameGraph, format_: Format) -> Solid:
+def body_of(link: Link, graph: FrameGraph, format_: Format, meshes: Meshes = _NO_MESHES) -> Solid:
     """The mass, centre and inertia of a link in its own frame, with the defaults of the format.
+
+    `meshes` has the files of those that an inertia is computed from.
 
     Raises:
         NoInertiaError: it is left to the reader, and cannot be computed.
@@ -31,7 +33,7 @@ def body_of(link: Link, graph: FrameGraph, format_: Format) -> Solid:
             _NONE if format_ is Format.URDF else Solid(mass, (0.0, 0.0, 0.0), (moment, moment, moment, 0.0, 0.0, 0.0))
         )
     if inertial.auto:
-        return automatic(link, inertial, link.collisions, graph, _NO_MESHES)
+        return automatic(link, inertial, link.collisions, graph, meshes)
     return placed(_written(inertial, mass, moment), graph.resolve(inertial.pose, link.name, link.name))
 
 

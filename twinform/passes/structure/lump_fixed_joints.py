@@ -6,19 +6,22 @@ from pydantic import Field
 
 from twinform.diagnostics.rules import edits as rules
 from twinform.ir import Format, Model
+from twinform.passes.assets import AssetPass
+from twinform.passes.meshes import Meshes
 from twinform.passes.structure.model_edit import ModelEdit, Place
 
 
-class LumpFixedJoints(ModelEdit):
+class LumpFixedJoints(ModelEdit, AssetPass):
     """Put the mass and the shapes of a link on a fixed joint into the link that it is fixed to.
 
-    Changes: 1. mass, centre of mass and inertia of the link above; the axes that its inertia is written in stay; 2. in
-    SDF the link and its joint become frames of their names, and visuals, collisions, sensors and lights move to the
-    link above, posed in the old link's frame, each with its own surface; 3. in URDF, which has no frames, the link and
-    its joint stay, without mass; its shapes move as well, unless `<gazebo>` says other things of the two links' shapes;
-    4. with `compat=libsdformat` URDF becomes what libsdformat 12 makes of it: the link and the joint go, shapes are
-    called `HOST_fixed_joint_lump__NAME`, joints and `<gazebo>` elements of the link go to the link above, and a fixed
-    joint with `disableFixedJointLumping` turns by nothing.
+    Changes: 1. mass, centre of mass and inertia of the link above; the axes that its inertia is written in stay, and an
+    inertia that SDF leaves to be computed is computed, also from meshes; 2. in SDF the link and its joint become frames
+    of their names, and visuals, collisions, sensors and lights move to the link above, posed in the old link's frame,
+    each with its own surface; 3. in URDF, which has no frames, the link and its joint stay, without mass; its shapes
+    move as well, unless `<gazebo>` says other things of the two links' shapes; 4. with `compat=libsdformat` URDF
+    becomes what libsdformat 12 makes of it: the link and the joint go, shapes are called
+    `HOST_fixed_joint_lump__NAME`, joints and `<gazebo>` elements of the link go to the link above, and a fixed joint
+    with `disableFixedJointLumping` turns by nothing.
     Never touches: joints to `world`; links and joints that `keep` names; joints with `preserveFixedJoint`, or, without
     `compat`, `disableFixedJointLumping`. Without `compat` also: a joint with a sensor, links and joints that a plugin,
     a transmission or another tool names, links with other gravity, wind, damping or self collision than their parent,
@@ -49,7 +52,7 @@ class LumpFixedJoints(ModelEdit):
         if place.format is Format.SDF:
             from twinform.passes.structure.lump_sdf import lump_sdf  # noqa: PLC0415 - see above
 
-            return lump_sdf(model, self.keep, place)
+            return lump_sdf(model, self.keep, place, Meshes(self._assets))
         from twinform.passes.structure.lump_urdf import lump_urdf  # noqa: PLC0415 - see above
 
         return lump_urdf(model, self.keep, place)

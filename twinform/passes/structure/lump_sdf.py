@@ -10,6 +10,7 @@ from twinform.ir.solids import placed
 from twinform.passes.legalise.automatic_inertias import NoInertiaError
 from twinform.passes.legalise.carrier import is_ours
 from twinform.passes.legalise.nodes import unique_name
+from twinform.passes.meshes import Meshes
 from twinform.passes.structure.bodies import body_of, with_guests
 from twinform.passes.structure.lumping_plan import Plan, plan
 from twinform.passes.structure.mentions import Mentions, mentions
@@ -22,24 +23,24 @@ _SETTINGS: dict[str, object] = {"gravity": True, "enable_wind": False, "self_col
 _OF_BODY = frozenset({"velocity_decay"})
 
 
-def lump_sdf(model: Model, keep: tuple[str, ...], place: Place, named: Mentions | None = None) -> Model:
+def lump_sdf(model: Model, keep: tuple[str, ...], place: Place, meshes: Meshes, named: Mentions | None = None) -> Model:
     """The model, and the models in it, with one link for each rigid body; the same one where nothing changes."""
     named = named or mentions(model)
-    inner = tuple(lump_sdf(nested, keep, place, named) for nested in model.models)
+    inner = tuple(lump_sdf(nested, keep, place, meshes, named) for nested in model.models)
     if any(new is not old for new, old in zip(inner, model.models, strict=True)):
         model = model.model_copy(update={"models": inner})
     if not any(joint.type == "fixed" for joint in model.joints):
         return model
     graph = FrameGraph(model)
-    planned = plan(model, graph, keep, _Obstacles(graph, named).why, place)
-    return _lumped(model, graph, planned) if planned.joints else model
+    planned = plan(model, graph, keep, _Obstacles(graph, named, meshes).why, place)
+    return _lumped(model, graph, planned, meshes) if planned.joints else model
 
 
 class _Obstacles:
     """What speaks against lumping a link."""
 
-    def __init__(self, graph: FrameGraph, named: Mentions) -> None:
-        self.graph, self.named = graph, named
+    def __init__(self, graph: FrameGraph, named: Mentions, meshes: Meshes) -> None:
+        self.graph, self.named, self.meshes = graph, named, meshes
 
     def why(self, joint: Joint, parent: Link, child: Link) -> str | None:
         if joint.sensors:
@@ -69,7 +70,7 @@ class _Obstacles:
     def _without_mass(self, links: Iterable[Link]) -> str | None:
         try:
             for link in links:
-                body_of(link, self.graph, Format.SDF)
+                body_of(link, self.graph, Format.SDF, self.meshes)
         except (NoInertiaError, FrameError) as error:
             return str(error)
         return None
@@ -96,7 +97,7 @@ def _posed() -> frozenset[str]:
     return frozenset(row.name for row in rows if any(inner.name == "pose" for inner in facts.resolve(row).rows))
 
 
-def _lumped(model: Model, graph: FrameGraph, planned: Plan) -> Model:
+def _lumped(model: Model, graph: FrameGraph, planned: Plan, meshes: Meshes) -> Model:
     links = {link.name: link for link in model.links}
     guests = planned.guests()
     gone = {joint.name for joint in planned.joints.values()}
@@ -104,7 +105,7 @@ def _lumped(model: Model, graph: FrameGraph, planned: Plan) -> Model:
     made = model.model_copy(
         update={
             "links": tuple(
-                _host(link, [links[name] for name in guests.get(link.name, [])], graph)
+                _host(link, [links[name] for name in guests.get(link.name, [])], graph, meshes)
                 for link in model.links
                 if link.name not in planned.joints
             ),
@@ -141,11 +142,11 @@ def _based(pose: Pose | None, base: str) -> Pose:
     return pose if pose.relative_to else pose.model_copy(update={"relative_to": base})
 
 
-def _host(link: Link, guests: list[Link], graph: FrameGraph) -> Link:
+def _host(link: Link, guests: list[Link], graph: FrameGraph, meshes: Meshes) -> Link:
     if not guests:
         return link
-    solids = [placed(body_of(guest, graph, Format.SDF), graph.pose(guest.name, link.name)) for guest in guests]
-    heavy = with_guests(link, body_of(link, graph, Format.SDF), solids)
+    solids = [placed(body_of(guest, graph, Format.SDF, meshes), graph.pose(guest.name, link.name)) for guest in guests]
+    heavy = with_guests(link, body_of(link, graph, Format.SDF, meshes), solids)
     into = heavy
     for guest in guests:
         collisions = _moved(guest, guest.collisions, into.collisions)

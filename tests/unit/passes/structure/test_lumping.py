@@ -1,5 +1,7 @@
 """What lumping leaves alone, and what it cannot follow."""
 
+from pathlib import Path
+
 import pytest
 
 import twinform
@@ -187,3 +189,25 @@ def test_a_fixed_joint_that_is_not_lumped_turns_by_nothing_as_libsdformat_has_it
     axis = Axis(xyz=(0, 0, 1), limit=limit, dynamics=Dynamics(damping=0, friction=0))
     before = twinform.loads(KEPT).models[0].joints[0]
     assert made == (before.model_copy(update={"type": "revolute", "axis": axis}),)
+
+
+CORNER = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+"""A corner of a cube, a sixth of it."""
+
+
+def test_an_inertia_is_computed_from_the_mesh_that_it_is_left_to(tmp_path: Path) -> None:
+    (tmp_path / "corner.obj").write_text(CORNER)
+    auto = '<inertial auto="true"><density>600</density></inertial>'
+    shape = '<collision name="c"><geometry><mesh><uri>corner.obj</uri></mesh></geometry></collision>'
+    joint = '<joint name="j" type="fixed"><parent>a</parent><child>b</child></joint>'
+    heavy = '<link name="a"><inertial><mass>2</mass></inertial></link>'
+    text = f'<sdf version="1.11"><model name="m">{heavy}<link name="b">{auto}{shape}</link>{joint}</model></sdf>'
+    file = tmp_path / "m.sdf"
+    file.write_text(text)
+    made = twinform.convert(file, to="sdf", passes="lump-fixed-joints")
+    (link,) = made.document.models[0].links
+    assert link.inertial
+    assert link.inertial.mass == pytest.approx(102)
+    alone = twinform.convert(text.encode(), to="sdf", passes="lump-fixed-joints")
+    assert len(alone.document.models[0].links) == 2
+    assert "link-not-lumped" in [each.rule.name for each in alone.diagnostics]
