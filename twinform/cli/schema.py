@@ -3,19 +3,23 @@
 from typing import IO, Literal
 
 import click
+from click.core import ParameterSource
 
 from twinform.cli.failure import Unusable
-from twinform.schemas import parse_version, schema_text, table
+from twinform.schemas import json_schema_text, lenient_schema_text, parse_version, schema_text, table
 
 
 @click.command("schema")
-@click.argument("language", metavar="urdf|sdf", type=click.Choice(["urdf", "sdf"]))
+@click.argument("language", metavar="urdf|sdf|json", type=click.Choice(["urdf", "sdf", "json"]))
 @click.option("--version", metavar="V", help="The version of the format; the newest where it is not given.")
 @click.option(
     "--xsd",
     type=click.Choice(["1.0", "1.1"]),
-    default="1.1",
-    help="The version of XML Schema; 1.0 says less, and is what libxml2 and most editors read.",
+    default="1.0",
+    help="The version of XML Schema; 1.0 is what editors and libxml2 read, 1.1 says more.",
+)
+@click.option(
+    "--lenient", is_flag=True, help="Let the words of dialects and of other versions pass, and names that nobody knows."
 )
 @click.option(
     "-o",
@@ -24,9 +28,29 @@ from twinform.schemas import parse_version, schema_text, table
     default="-",
     help="Where to write; standard output where it is not given.",
 )
-def command(language: Literal["urdf", "sdf"], version: str | None, xsd: Literal["1.0", "1.1"], output: IO[str]) -> None:
-    """Print the XML schema of a format."""
+@click.pass_context
+def command(
+    ctx: click.Context,
+    language: Literal["urdf", "sdf", "json"],
+    version: str | None,
+    xsd: Literal["1.0", "1.1"],
+    *,
+    lenient: bool,
+    output: IO[str],
+) -> None:
+    """Print the XML schema of a format, or with json the JSON Schema of documents as JSON.
+
+    The schemas are strict: they take the words of one version. A lenient one is for editors of files that are not.
+    Of XSD 1.0, no schema can take elements that it does not know beside those that it knows; of XSD 1.1, it can.
+    """
+    if language == "json":
+        asked = ctx.get_parameter_source("xsd") is ParameterSource.COMMANDLINE
+        if version is not None or asked or lenient:
+            raise click.UsageError("--version, --xsd and --lenient are for urdf and sdf")
+        output.write(json_schema_text())
+        return
     facts = table(language)
     if version is not None and version not in facts.versions:
         raise Unusable(f"{language.upper()} has no version {version!r}; it has {', '.join(facts.versions)}")
-    output.write(schema_text(language, parse_version(version) if version else facts.newest, xsd))
+    wanted = parse_version(version) if version else facts.newest
+    output.write((lenient_schema_text if lenient else schema_text)(language, wanted, xsd))

@@ -11,6 +11,7 @@ from twinform.schemas.validator import Engine, SchemaError, gate, libxml2_errors
 from twinform.schemas.values import format_value, parse_value
 from twinform.schemas.writer import LAST_LINE, Writer, element_xml, in_order, writer
 from twinform.schemas.xml import XmlElement, declared_namespaces, path_of, undeclared_namespace, undeclared_prefix
+from twinform.schemas.xsd import lenient_schema_text
 
 __all__ = [
     "JSON_IDENTIFIER",
@@ -36,6 +37,7 @@ __all__ = [
     "is_object",
     "json_faults",
     "json_schema_text",
+    "lenient_schema_text",
     "libxml2_errors",
     "parse_value",
     "parse_version",

@@ -31,6 +31,7 @@ _ABOUT = (
 )
 _OPAQUE = "Parts that have no field of their own, each with where it stood."
 _SPELLING = "How truth values were written, where not as true and false. One that does not fit the value is ignored."
+_KINDS = "One of several kinds."
 _ORDER = (
     "In which order the parts of several kinds stand in the file: the name of an array for each part. Without it they "
     "stand kind after kind. It changes nothing but the order."
@@ -78,12 +79,14 @@ class _Object:
             self.needed.append(name)
 
     def schema(self) -> Json:
-        fields = self.fields | {name: {"oneOf": branches} for name, branches in self.kinds.items()}
+        fields = self.fields | {
+            name: {"description": _KINDS, "oneOf": branches} for name, branches in self.kinds.items()
+        }
         fields |= {name: made.schema() for name, made in self.inner.items()}
         if self.keeps:
             fields["opaque"] = {"description": _OPAQUE, "type": "array", "items": {"$ref": "#/$defs/opaque"}}
         if self.bools:
-            spelt = {name: {"$ref": "#/$defs/text"} for name in self.bools}
+            spelt = {name: {"description": "As it was written.", "$ref": "#/$defs/text"} for name in self.bools}
             fields["spelling"] = _closed(_SPELLING, spelt)
         if len(self.order) > 1:
             fields["order"] = {"description": _ORDER, "type": "array", "items": {"enum": list(self.order)}}
@@ -202,7 +205,7 @@ class _Format:
         """One of several kinds of node that share a field."""
         path = (row.reference,) if row.reference else path
         made = self._node(self.table.resolve(row), path, text)
-        made.fields = {"kind": {"const": row.kind}, **made.fields}
+        made.fields = {"kind": {"description": "Which kind it is.", "const": row.kind}, **made.fields}
         made.needed = ["kind", *made.needed]
         return made.schema()
 

@@ -79,10 +79,14 @@ SHARED: dict[str, Json] = {
     "element": _object(
         "An element that has no typed form.",
         {
-            "name": _reference("name"),
-            "attributes": {"type": "array", "items": _pair("A name and a value.", "name", "text")},
+            "name": {"description": "The name of the element.", **_reference("name")},
+            "attributes": {
+                "description": "Its attributes in order.",
+                "type": "array",
+                "items": _pair("A name and a value.", "name", "text"),
+            },
             "text": {"description": "The text before its first child.", **_reference("text")},
-            "children": {"type": "array", "items": _reference("element")},
+            "children": {"description": "The elements in it.", "type": "array", "items": _reference("element")},
             "tail": {"description": "The text that follows its end.", **_reference("text")},
         },
         ["name"],

@@ -18,6 +18,7 @@ from twinform.schemas.facts import Version, print_version
 from twinform.schemas.messages import Context
 from twinform.schemas.packaged import schema_text
 from twinform.schemas.xml import XmlElement
+from twinform.schemas.xsd_assertions import without_assertions
 from twinform.schemas.xsd_names import without_names
 
 if TYPE_CHECKING:
@@ -57,13 +58,13 @@ def gate(
 ) -> None:
     """Report whatever the schema refuses and the table pass, which has filled the context, did not speak of.
 
-    `errors` is what the engine says of the tree, where it was asked already. Duplicate and dangling names, which only
-    the normative schema looks for, are the business of later checks.
+    `errors` is what the engine says of the tree, where it was asked already. Duplicate and dangling names, and what
+    only assertions say, which the normative schema alone looks for, are the business of later checks.
     """
     if errors is None:
         errors = refusals(root, context, engine)
     if errors and (context.tolerated or context.replaced):
-        errors = refusals(_without(root, context), context, engine)
+        errors = refusals(without_tolerated(root, context), context, engine)
     explained = _lines_with_faults(context) if errors else set[int]()
     for error in errors:
         if error.line not in explained and not context.notes.left_out:
@@ -103,9 +104,10 @@ def xmlschema_errors(
     version: Version,
     *,
     names: bool = True,
+    assertions: bool = False,
 ) -> list[SchemaError]:
-    """What xmlschema does not accept by the normative XSD 1.1; with or without its keys."""
-    errors = islice(_xmlschema_schema(format, version, names=names).iter_errors(root), MOST)
+    """What xmlschema does not accept by the normative XSD 1.1; with or without its keys and its assertions."""
+    errors = islice(_xmlschema_schema(format, version, names=names, assertions=assertions).iter_errors(root), MOST)
     try:
         return [SchemaError(error.sourceline or 0, error.reason or error.message) for error in errors]
     except KeyError as error:  # xmlschema 4.3 does not catch its own when xsi:type names a type that there is not
@@ -125,11 +127,12 @@ def _libxml2_schema(format_: str, version: Version) -> etree.XMLSchema:
 
 
 @cache
-def _xmlschema_schema(format_: str, version: Version, *, names: bool) -> "XMLSchema11":
+def _xmlschema_schema(format_: str, version: Version, *, names: bool, assertions: bool) -> "XMLSchema11":
     from xmlschema import XMLSchema11  # noqa: PLC0415 - a tenth of a second
 
     text = schema_text(format_, version, "1.1")
-    return XMLSchema11(text if names else without_names(text), allow="none")
+    text = text if names else without_names(text)
+    return XMLSchema11(text if assertions else without_assertions(text), allow="none")
 
 
 def refusals(root: XmlElement, context: Context, engine: Engine) -> list[SchemaError]:
@@ -146,7 +149,7 @@ def _lines_with_faults(context: Context) -> set[int]:
     return lines | {0} if lines else lines
 
 
-def _without(root: XmlElement, context: Context) -> XmlElement:
+def without_tolerated(root: XmlElement, context: Context) -> XmlElement:
     """A copy of the tree that lacks what was reported and kept."""
     whole = copy.deepcopy(root)
     doomed = {element for element, _ in context.tolerated} | {element for element, _, _ in context.replaced}

@@ -5,13 +5,19 @@ a wildcard, which XSD 1.0 does not have. The XSD 1.0 projection, for libxml2 and
 repeated choice, without counts and without keys, so it accepts whatever the normative one accepts.
 
 What other namespaces add is skipped rather than checked: a `robot` inside of a foreign element is not ours.
+
+A lenient schema, for editors of real files, also takes the words of other versions and of dialects, and any attribute;
+in XSD 1.1 any other element too, which XSD 1.0 cannot tell from those that it knows.
 """
 
 from lxml import etree
 
-from twinform.schemas.facts import Fact, Table, Version, print_version
+from twinform.schemas.documentation import Documentation
+from twinform.schemas.facts import Fact, Table, Version, print_version, rows_by_name, table
+from twinform.schemas.meanings import Path
 from twinform.schemas.packaged import XsdVersion
 from twinform.schemas.xml import XmlElement
+from twinform.schemas.xsd_assertions import declare_assertions
 from twinform.schemas.xsd_names import declare_names
 from twinform.schemas.xsd_values import XS, Values, allow_attributes, xs
 
@@ -20,39 +26,58 @@ _FOREIGN = "foreign"
 """A group of nothing but foreign elements. Where it stood inline, xmlschema 4.3 would let text pass as well."""
 
 
-def generate_schema(facts: Table, version: Version, xsd: XsdVersion) -> str:
+def generate_schema(facts: Table, version: Version, xsd: XsdVersion, *, lenient: bool = False) -> str:
     """The text of the schema of a version of the format."""
-    schema = _Generator(facts, version, normative=xsd == "1.1").generate()
+    schema = _Generator(facts, version, xsd, lenient=lenient).generate()
     etree.indent(schema)
     for annotation in schema.iter(XS + "annotation"):
         annotation.text = annotation[0].tail = None  # one line each
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + etree.tostring(schema, encoding="unicode") + "\n"
 
 
+def lenient_schema_text(format: str, version: Version, xsd: XsdVersion = "1.0") -> str:
+    """The lenient schema of a format's version, which is made when it is asked for."""
+    return generate_schema(table(format), version, xsd, lenient=True)
+
+
 class _Generator:
     """Makes one schema; definitions are declared as they are met."""
 
-    def __init__(self, facts: Table, version: Version, *, normative: bool) -> None:
+    def __init__(self, facts: Table, version: Version, xsd: XsdVersion, *, lenient: bool) -> None:
         self.table = facts
         self.version = version
-        self.normative = normative
-        self.values = Values(facts.format)
+        self.normative = xsd == "1.1" and not lenient
+        self.lenient = lenient
+        self.others = {"notQName": "##definedSibling", "namespace": "##any"} if lenient and xsd == "1.1" else {}
+        self.documentation = Documentation(facts)
+        self.values = Values(facts.format, lenient=lenient)
         self.schema = etree.Element(XS + "schema", {"version": print_version(version)}, nsmap={"xs": XS[1:-1]})
         self.wanted = [facts.root]
 
     def generate(self) -> XmlElement:
         """The whole schema."""
+        xs(xs(self.schema, "annotation"), "documentation").text = self._about()
         root = xs(self.schema, "element", name=self.table.root, type=self.table.root)
-        self._declare_names(root, self.table.definitions[self.table.root], self.table.root)
+        self._declare_names(root, self.table.definitions[self.table.root], (self.table.root,))
         for name in self.wanted:  # it grows on the way
             definition = self.table.definitions[name]
-            self._fill(definition, xs(self.schema, "complexType", name=name), name)
-        _allow_foreign(xs(xs(self.schema, "group", name=_FOREIGN), "sequence"), **_MANY)
+            complex_type = xs(self.schema, "complexType", name=name)
+            _annotate(self.documentation.of_definition(name), complex_type)
+            self._fill(definition, complex_type, (name,))
+        self._allow_foreign(xs(xs(self.schema, "group", name=_FOREIGN), "sequence"), **_MANY)
         self.values.declare(self.schema)
         return self.schema
 
-    def _fill(self, fact: Fact, complex_type: XmlElement, path: str) -> None:
-        """Say in a complex type what an element holds. `path` tells apart the names of the keys on the way."""
+    def _about(self) -> str:
+        """What the schema is, for whoever opens it."""
+        name = f"{self.table.format.upper()} {print_version(self.version)}"
+        if self.lenient:
+            return f"{name}, with the words of other versions and of dialects, and any attribute."
+        strict = f"{name}, strict: what is no word of this version is refused, unless it is in a namespace."
+        return strict if self.normative else f"{strict} How often elements may stand is for the XSD 1.1 to say."
+
+    def _fill(self, fact: Fact, complex_type: XmlElement, path: Path) -> None:
+        """Say in a complex type what an element holds. `path` also tells apart the names of the keys on the way."""
         holder = complex_type
         if fact.type:
             holder = self.values.extension(fact, complex_type)
@@ -60,64 +85,70 @@ class _Generator:
             _allow_anything(fact, complex_type)
         else:
             self._children(fact, complex_type, path)
-        self._attributes(fact, holder)
+        self._attributes(fact, holder, path)
+        if self.normative and not fact.type:
+            declare_assertions(self.table, self.version, fact, complex_type, path)
 
-    def _attributes(self, fact: Fact, holder: XmlElement) -> None:
+    def _attributes(self, fact: Fact, holder: XmlElement, path: Path) -> None:
         for row in self._present(fact.attributes):
             attribute = xs(holder, "attribute", name=row.name[1:])
-            if row.required:
+            if row.required and not (self.lenient and row.dialect):
                 attribute.set("use", "required")
-            _annotate(row, attribute)
+            _annotate(self._words(row, fact, (*path, row.name)), attribute)
             self.values.attribute(row, attribute)
-        allow_attributes(holder, "##any" if fact.any else "##other")
+        allow_attributes(holder, "##any" if fact.any or self.lenient else "##other")
 
-    def _children(self, fact: Fact, complex_type: XmlElement, path: str) -> None:
+    def _words(self, row: Fact, holder: Fact, path: Path) -> str:
+        """What is said of a row to people."""
+        return self.documentation.of(path, row, [each for each in holder.rows if each.name == row.name])
+
+    def _children(self, fact: Fact, complex_type: XmlElement, path: Path) -> None:
         rows = self._present(fact.children)
         if not rows:
             xs(xs(complex_type, "sequence"), "group", ref=_FOREIGN)
         elif not self.normative:
-            self._in_any_number(rows, complex_type, path)
+            self._in_any_number(rows, fact, complex_type, path)
         elif rows[0].kind:
-            self._one_of(rows, complex_type, path)
+            self._one_of(rows, fact, complex_type, path)
         else:
             everything = xs(complex_type, "all")
             for row in rows:
-                self._child(row, everything, path, counted=True)
-            _allow_foreign(everything, **_MANY)
+                self._child(row, fact, everything, path, counted=True)
+            self._allow_foreign(everything, **_MANY)
 
-    def _in_any_number(self, rows: list[Fact], complex_type: XmlElement, path: str) -> None:
+    def _in_any_number(self, rows: list[Fact], holder: Fact, complex_type: XmlElement, path: Path) -> None:
         choice = xs(complex_type, "choice", **_MANY)
         for row in rows:
-            self._child(row, choice, path)
-        _allow_foreign(choice)
+            self._child(row, holder, choice, path)
+        self._allow_foreign(choice)
 
-    def _one_of(self, rows: list[Fact], complex_type: XmlElement, path: str) -> None:
+    def _one_of(self, rows: list[Fact], holder: Fact, complex_type: XmlElement, path: Path) -> None:
         """At most one of several kinds, with foreign elements around it."""
         sequence = xs(complex_type, "sequence")
         xs(sequence, "group", ref=_FOREIGN)
         choice = xs(sequence, "choice", minOccurs="0")
         for row in rows:
             branch = xs(choice, "sequence")
-            self._child(row, branch, path)
+            self._child(row, holder, branch, path)
             if row.repeats:
-                self._in_any_number([row], branch, path + ".more")
+                self._in_any_number([row], holder, branch, path)
             else:
                 xs(branch, "group", ref=_FOREIGN)
 
-    def _child(self, row: Fact, group: XmlElement, path: str, *, counted: bool = False) -> None:
+    def _child(self, row: Fact, holder: Fact, group: XmlElement, path: Path, *, counted: bool = False) -> None:
         element = xs(group, "element", name=row.name)
         if counted and not row.required:
             element.set("minOccurs", "0")
         if counted and row.repeats:
             element.set("maxOccurs", "unbounded")
-        _annotate(row, element)
-        path = f"{path}.{row.name}"
+        path = (*path, row.name)
+        _annotate(self._words(row, holder, path), element)
         if row.reference:
             self._refer(row.reference, element)
         elif row.type:
             extension = self.values.leaf(row, element)
             if extension is not None:
-                self._attributes(row, extension)
+                self._attributes(row, extension, path)
         else:
             self._fill(row, xs(element, "complexType"), path)
         self._declare_names(element, self.table.resolve(row), path)
@@ -127,10 +158,10 @@ class _Generator:
         if name not in self.wanted:
             self.wanted.append(name)
 
-    def _declare_names(self, element: XmlElement, fact: Fact, path: str) -> None:
+    def _declare_names(self, element: XmlElement, fact: Fact, path: Path) -> None:
         if self.normative:
             named = [row.name for row in self._present(fact.children) if row.repeats and self._is_named(row)]
-            declare_names(self.table.format, element, named, path)
+            declare_names(self.table.format, element, named, ".".join(path))
 
     def _is_named(self, row: Fact) -> bool:
         """Whether its name is what others call it by. A plugin's is not: one plugin may run twice."""
@@ -138,11 +169,12 @@ class _Generator:
         return not fact.any and any(row.name == "@name" and row.required for row in self._present(fact.attributes))
 
     def _present(self, rows: list[Fact]) -> list[Fact]:
+        if self.lenient:
+            return list(rows_by_name(rows, self.version).values())
         return [row for row in rows if row.exists_in(self.version) and row.dialect is None]
 
-
-def _allow_foreign(group: XmlElement, **counts: str) -> None:
-    xs(group, "any", namespace="##other", processContents="skip", **counts)
+    def _allow_foreign(self, group: XmlElement, **counts: str) -> None:
+        xs(group, "any", **{"namespace": "##other", **self.others}, processContents="skip", **counts)
 
 
 def _allow_anything(fact: Fact, complex_type: XmlElement) -> None:
@@ -152,10 +184,9 @@ def _allow_anything(fact: Fact, complex_type: XmlElement) -> None:
     xs(xs(complex_type, "sequence"), "any", namespace="##any", processContents="skip", **_MANY)
 
 
-def _annotate(row: Fact, element: XmlElement) -> None:
-    """Tell editors what XSD has no word for."""
-    said = [f"{key}={value}" for key, value in (("default", row.default), ("unit", row.unit)) if value is not None]
-    if row.deprecated:
-        said.append("deprecated")
-    if said:
-        xs(xs(element, "annotation"), "documentation").text = ", ".join(said)
+def _annotate(text: str, element: XmlElement) -> None:
+    """Tell editors and people what an element or attribute is."""
+    if text:
+        annotation = etree.Element(XS + "annotation")
+        element.insert(0, annotation)
+        xs(annotation, "documentation").text = text

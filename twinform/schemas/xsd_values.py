@@ -64,8 +64,9 @@ def xs(parent: XmlElement, tag: str, /, **attributes: str) -> XmlElement:
 class Values:
     """The value types that one schema uses. Asking for one puts it on the list of those to declare."""
 
-    def __init__(self, format: str) -> None:
+    def __init__(self, format: str, *, lenient: bool = False) -> None:
         self.words = WORDS[format]
+        self.lenient = lenient
         self.used: set[str] = set()
         self.blank: set[str] = set()
         self.leaves: set[str] = set()
@@ -73,7 +74,7 @@ class Values:
     def attribute(self, row: Fact, attribute: XmlElement) -> None:
         """Give an attribute its type. Its text stands as it is, blanks and all."""
         if row.enum:
-            _enumerate(xs(xs(attribute, "simpleType"), "restriction", base="xs:string"), row.enum)
+            _enumerate(xs(xs(attribute, "simpleType"), "restriction", base="xs:string"), self._enum(row))
         else:
             attribute.set("type", self._value(row.type))
 
@@ -92,7 +93,7 @@ class Values:
             return xs(content, "extension", base=self._text(row.type, needed=row.needs_text))
         self.leaves.add(_WORD)
         restriction = xs(content, "restriction", base=f"{_WORD}-leaf")
-        _enumerate(restriction, row.enum)
+        _enumerate(restriction, self._enum(row))
         return restriction
 
     def declare(self, schema: XmlElement) -> None:
@@ -111,6 +112,11 @@ class Values:
         if self.blank:
             blank = xs(xs(schema, "simpleType", name="blank"), "restriction", base="xs:token")
             xs(blank, "length", value="0")
+
+    def _enum(self, row: Fact) -> tuple[str, ...]:
+        """The words of an enumeration; in a lenient schema also those of dialects and of other versions."""
+        others = (*(word for word, _ in row.also), *row.elsewhere) if self.lenient else ()
+        return (*row.enum, *others)
 
     def _value(self, name: str | None) -> str:
         if name is None or name == "string":

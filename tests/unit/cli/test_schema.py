@@ -1,3 +1,4 @@
+import json
 from pathlib import Path
 
 import pytest
@@ -17,8 +18,24 @@ def test_every_version_has_a_schema_that_libxml2_compiles(run: Run, language: st
     etree.XMLSchema(etree.fromstring(done.stdout_bytes))
 
 
-def test_the_newest_version_and_xsd_1_1_are_the_default(run: Run) -> None:
-    assert run("schema", "sdf").stdout == run("schema", "sdf", "--version", "1.12", "--xsd", "1.1").stdout
+def test_the_newest_version_and_xsd_1_0_which_editors_read_are_the_default(run: Run) -> None:
+    assert run("schema", "sdf").stdout == run("schema", "sdf", "--version", "1.12", "--xsd", "1.0").stdout
+    assert "xs:assert" in run("schema", "sdf", "--xsd", "1.1").stdout
+
+
+def test_a_lenient_schema_takes_dialects(run: Run) -> None:
+    robot = etree.fromstring('<robot name="r"><link name="a" odd="1"><contact/></link><mujoco/></robot>')
+    strict, lenient = (run("schema", "urdf", *words).stdout_bytes for words in ((), ("--lenient",)))
+    assert not etree.XMLSchema(etree.fromstring(strict)).validate(robot)
+    assert etree.XMLSchema(etree.fromstring(lenient)).validate(robot)
+    newer = run("schema", "urdf", "--lenient", "--xsd", "1.1").stdout
+    assert "##definedSibling" in newer
+
+
+def test_the_schema_of_json_is_a_json_schema(run: Run) -> None:
+    schema = json.loads(run("schema", "json").stdout)
+    assert schema["$id"] == "urn:twinform:document:1"
+    assert schema["$defs"]["urdf.joint"]["properties"]["parent"]["description"]
 
 
 def test_a_file_is_written(run: Run, tmp_path: Path) -> None:
@@ -27,6 +44,16 @@ def test_a_file_is_written(run: Run, tmp_path: Path) -> None:
     assert etree.XMLSchema(etree.parse(file)).validate(etree.fromstring(GOOD))
 
 
-@pytest.mark.parametrize("arguments", [["sdf", "--version", "9.9"], ["mjcf"], []])
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["sdf", "--version", "9.9"],
+        ["mjcf"],
+        [],
+        ["json", "--version", "1"],
+        ["json", "--lenient"],
+        ["json", "--xsd", "1.0"],
+    ],
+)
 def test_what_does_not_exist_exits_2(run: Run, arguments: list[str]) -> None:
     assert run("schema", *arguments).exit_code == 2

@@ -1,0 +1,73 @@
+"""Assertions of the XSD 1.1 schemas: what readers refuse, or cannot simulate, and no type or count can say.
+
+The table pass and the rules on models say the same in words, so the gate asks for them no more than for keys.
+"""
+
+from collections.abc import Iterator
+
+from lxml import etree
+
+from twinform.schemas.facts import Fact, Table, Version
+from twinform.schemas.meanings import Path
+from twinform.schemas.xml import XmlElement
+from twinform.schemas.xsd_values import XS, xs
+
+_NO_RESERVED_NAME = "not(@name = 'world' or matches(@name, '^__.*__$'))"
+_NO_SCOPED_NAME = "not(contains(@name, '::'))"
+_RESERVED_SINCE = (1, 7)
+_SCOPED_SINCE = (1, 8)
+_NAMED = frozenset({"world", "model", "link", "joint", "frame", "visual", "collision", "sensor", "light"})
+"""Definitions of SDF whose names libsdformat looks at."""
+
+_MOVED = (
+    "joint or actuator or passive_joint or leftActuator or rightActuator or flexJoint or rollJoint or gap_joint or "
+    "simulated_actuated_joint"
+)
+_TESTS: dict[tuple[str, str], tuple[str, ...]] = {
+    ("urdf", "joint"): ("not(@type = ('revolute', 'prismatic')) or limit",),
+    ("urdf", "geometry"): ("*",),
+    ("urdf", "transmission"): (f"(@type or type) and ({_MOVED})",),
+    ("sdf", "box_shape"): ("size",),
+    ("sdf", "capsule_shape"): ("radius and length",),
+    ("sdf", "cone_shape"): ("radius and length",),
+    ("sdf", "cylinder_shape"): ("radius and length",),
+    ("sdf", "ellipsoid_shape"): ("radii",),
+    ("sdf", "sphere_shape"): ("radius",),
+}
+"""By format and definition."""
+
+_SHAPES = ("geometry", "_shape")
+"""How the names of definitions of shapes end; nothing in them is less than zero."""
+
+
+def declare_assertions(facts: Table, version: Version, fact: Fact, complex_type: XmlElement, path: Path) -> None:
+    """Say at the end of a complex type what must hold for the element of a row."""
+    for test in _tests(facts, version, fact, path):
+        xs(complex_type, "assert", test=test)
+
+
+def without_assertions(schema: str) -> str:
+    """The same schema without its assertions."""
+    root = etree.fromstring(schema.encode())
+    etree.strip_elements(root, XS + "assert", with_tail=False)
+    return etree.tostring(root, encoding="unicode")
+
+
+def _tests(facts: Table, version: Version, fact: Fact, path: Path) -> Iterator[str]:
+    if len(path) == 1:
+        yield from _TESTS.get((facts.format, path[0]), ())
+    if facts.format == "sdf" and len(path) == 1 and path[0] in _NAMED:
+        yield from [_NO_RESERVED_NAME] if version >= _RESERVED_SINCE else []
+        yield from [_NO_SCOPED_NAME] if version >= _SCOPED_SINCE else []
+    rows = [row for row in fact.rows if row.exists_in(version) and row.dialect is None]
+    if path[0].endswith(_SHAPES):
+        yield from (_not_negative(row) for row in rows if row.min == 0 and (row.is_attribute or row.type))
+    if facts.format == "sdf":  # libsdformat takes no default for an attribute that the format asks for
+        yield from (row.name for row in rows if row.is_attribute and row.expected)
+
+
+def _not_negative(row: Fact) -> str:
+    if row.type == "double":
+        return f"not(number({row.name}) lt 0)"
+    numbers = f"tokenize(normalize-space(string({row.name})), ' ')"
+    return f"every $number in {numbers} satisfies not(number($number) lt 0)"
