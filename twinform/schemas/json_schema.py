@@ -182,8 +182,8 @@ class _Format:
             self._fill(made.within(outer), row, path, needed=needed) if row.attributes else None
         else:
             self._child(made.within(outer), name, rows, path, needed=needed and not outer)
-        if outer and path[-1] == outer:
-            made.within(outer).text = text
+        if outer:  # such as <axis>, of whose object several elements are parts
+            made.within(outer).text = self.words.texts.get((*path[:1], outer), "")
 
     def _child(self, made: _Object, name: str, rows: list[Fact], path: Path, *, needed: bool) -> None:
         row = max(rows, key=lambda row: len(self.table.resolve(row).rows))

@@ -44,16 +44,9 @@ def test_a_file_is_written(run: Run, tmp_path: Path) -> None:
     assert etree.XMLSchema(etree.parse(file)).validate(etree.fromstring(GOOD))
 
 
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ["sdf", "--version", "9.9"],
-        ["mjcf"],
-        [],
-        ["json", "--version", "1"],
-        ["json", "--lenient"],
-        ["json", "--xsd", "1.0"],
-    ],
-)
+WRONG = ["sdf --version 9.9", "mjcf", "", "json --version 1", "json --lenient", "json --xsd 1.0"]
+
+
+@pytest.mark.parametrize("arguments", [words.split() for words in WRONG])
 def test_what_does_not_exist_exits_2(run: Run, arguments: list[str]) -> None:
     assert run("schema", *arguments).exit_code == 2

@@ -110,8 +110,6 @@ ASSERTED = {
     "a transmission of nothing": _robot(f"{_LINKS}<transmission name='t'/>"),
     "a transmission without a type": _robot(f"{_LINKS}<transmission name='t'><joint name='j'/></transmission>"),
     "a box without a size": _shapes("<box/>"),
-    "a cylinder without a length": _shapes("<cylinder><radius>1</radius></cylinder>"),
-    "a sphere without a radius": _shapes("<sphere/>"),
     "a negative radius": _shapes("<sphere><radius> -1e-3 </radius></sphere>"),
     "a negative size": _shapes("<box><size>1 1 -1</size></box>"),
     "a light without a type": _sdf("<light name='l'/>"),
@@ -134,6 +132,7 @@ NOT_ASSERTED = {
     "a shape of size zero": _robot(
         "<link name='l'><visual><geometry><box size=' 0  -0 1e-9 '/></geometry></visual></link>"
     ),
+    "a sphere without a radius": _shapes("<sphere/>"),
     "a blank radius": _shapes("<sphere><radius/></sphere>"),
     "a transmission": _robot(
         f"{_LINKS}<transmission name='t'><type>x</type><joint name='j'/><actuator name='a'/></transmission>"

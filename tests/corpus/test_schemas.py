@@ -1,0 +1,71 @@
+"""The XSDs on real files: assertions refuse nothing that readers take, lenient ones take what is accepted."""
+
+from collections.abc import Set
+from functools import cache
+from pathlib import Path
+
+import pytest
+from lxml import etree
+from xmlschema import XMLSchema11
+
+import twinform
+from tests.corpus.files import CorpusFile, chunks
+from tests.profile import DEEP
+from twinform.compiler.loading import declared_version, read_tree
+from twinform.compiler.parsing import UnreadableError
+from twinform.diagnostics import Notes, Rule
+from twinform.diagnostics.rules import structure
+from twinform.schemas import Version, XmlElement, lenient_schema_text, xmlschema_errors
+
+CHUNKS = chunks()
+_REFUSED_BY_ALL = frozenset(
+    {structure.STRAY_TEXT, structure.INVALID_VALUE, structure.MISSING_ATTRIBUTE, structure.MISSING_ELEMENT}
+)
+"""Findings about what no schema takes, lenient or not; where the robot does not depend on it they are warnings."""
+
+
+@pytest.mark.parametrize("chunk", CHUNKS)
+def test_schemas_take_what_is_accepted(corpus: Path, chunk: str) -> None:
+    assert corpus.is_dir()
+    assert [fault for file in CHUNKS[chunk][:: 1 if DEEP else 4] for fault in _faults(file)] == []
+
+
+def _faults(file: CorpusFile) -> list[str]:
+    checked = twinform.check(file.path)
+    rules = {each.rule for each in checked.diagnostics}
+    if not checked.accepted or checked.unreadable:
+        return []
+    try:
+        root, _ = read_tree(file.path.read_bytes(), Notes())
+    except UnreadableError:  # of JSON
+        return []
+    name = "urdf" if root.tag == "robot" else "sdf"
+    version = declared_version(root, name, Notes())
+    faults: list[str] = []
+    if not xmlschema_errors(root, name, version) and _readers_take(file):
+        faults += [f"{file.name}: {each}" for each in xmlschema_errors(root, name, version, assertions=True)]
+    if not rules & _REFUSED_BY_ALL and not _lenient(name, version).is_valid(root):
+        faults.append(f"{file.name} is not taken by the lenient schema")
+    if not faults and _of_dialects(rules) and not _projection(name, version).validate(root):
+        faults.append(f"{file.name} is not taken by the lenient schema in XSD 1.0")
+    return faults
+
+
+def _of_dialects(rules: Set[Rule]) -> bool:
+    """Whether there is nothing unusual in it but the words of dialects and of other versions."""
+    return not rules & {*_REFUSED_BY_ALL, structure.UNKNOWN_ELEMENT}
+
+
+def _readers_take(file: CorpusFile) -> bool:
+    return file.row.get("libsdformat12") == "ok" and file.row.get("check_urdf") in {"ok", "", None}
+
+
+@cache
+def _lenient(name: str, version: Version) -> XMLSchema11:
+    return XMLSchema11(lenient_schema_text(name, version, "1.1"), allow="none")
+
+
+@cache
+def _projection(name: str, version: Version) -> etree.XMLSchema:
+    root: XmlElement = etree.fromstring(lenient_schema_text(name, version).encode())
+    return etree.XMLSchema(root)
