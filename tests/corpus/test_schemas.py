@@ -1,6 +1,6 @@
 """The XSDs on real files: assertions refuse nothing that readers take, lenient ones take what is accepted."""
 
-from collections.abc import Set
+from collections.abc import Set as AbstractSet
 from functools import cache
 from pathlib import Path
 
@@ -15,7 +15,8 @@ from twinform.compiler.loading import declared_version, read_tree
 from twinform.compiler.parsing import UnreadableError
 from twinform.diagnostics import Notes, Rule
 from twinform.diagnostics.rules import structure
-from twinform.schemas import Version, XmlElement, lenient_schema_text, xmlschema_errors
+from twinform.schemas import Version, XmlElement, xmlschema_errors
+from twinform.schemas.xsd import lenient_schema_text
 
 CHUNKS = chunks()
 _REFUSED_BY_ALL = frozenset(
@@ -51,7 +52,7 @@ def _faults(file: CorpusFile) -> list[str]:
     return faults
 
 
-def _of_dialects(rules: Set[Rule]) -> bool:
+def _of_dialects(rules: AbstractSet[Rule]) -> bool:
     """Whether there is nothing unusual in it but the words of dialects and of other versions."""
     return not rules & {*_REFUSED_BY_ALL, structure.UNKNOWN_ELEMENT}
 

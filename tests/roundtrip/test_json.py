@@ -16,7 +16,8 @@ from tests.profile import examples
 from twinform.compiler import CompileError
 from twinform.compiler.json_documents import json_data
 from twinform.ir import Document
-from twinform.schemas import is_array, is_object, json_faults, table
+from twinform.schemas import table
+from twinform.schemas.json_check import is_array, is_object, json_faults
 from twinform.testing import strategies
 from twinform.testing.documents import document as xml_document
 

@@ -6,7 +6,8 @@ import click
 from click.core import ParameterSource
 
 from twinform.cli.failure import Unusable
-from twinform.schemas import json_schema_text, lenient_schema_text, parse_version, schema_text, table
+from twinform.schemas import json_schema_text, parse_version, schema_text, table
+from twinform.schemas.xsd import lenient_schema_text
 
 
 @click.command("schema")

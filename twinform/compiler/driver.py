@@ -7,7 +7,6 @@ from pathlib import Path
 from twinform.compiler.emitting import emit, emit_legal
 from twinform.compiler.errors import CompileError
 from twinform.compiler.includes import expand
-from twinform.compiler.json_documents import json_text
 from twinform.compiler.loading import Checked, Input, Reading, garbage_collection_paused, read
 from twinform.compiler.orders import Language, Order, UrdfVersion
 from twinform.compiler.other_documents import OtherDocuments
@@ -209,6 +208,8 @@ def written(
     if notes.has_errors:
         return document, ""
     if order.to == "json":
+        from twinform.compiler.json_documents import json_text  # noqa: PLC0415 - few conversions need it
+
         emit(document, notes)
         return document, json_text(document, notes)
     legal = order.legalisation(document)

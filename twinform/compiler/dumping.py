@@ -6,7 +6,6 @@ from typing import Literal
 from twinform.compiler.emitting import emit
 from twinform.compiler.errors import CompileError
 from twinform.compiler.files import write_atomically
-from twinform.compiler.json_documents import json_text
 from twinform.compiler.loading import Reading, read
 from twinform.diagnostics import Notes
 from twinform.ir import Document
@@ -30,8 +29,12 @@ def dumps(document: Document, *, to: Written | None = None) -> str:
     checked = read(document, Reading())
     notes = Notes(checked.path, diagnostics=[each for each in checked.diagnostics if each.is_error])
     text = ""
-    if not notes.has_errors:
-        text = json_text(document, notes) if to == "json" else emit(document, notes)
+    if not notes.has_errors and to == "json":
+        from twinform.compiler.json_documents import json_text  # noqa: PLC0415 - few documents are written so
+
+        text = json_text(document, notes)
+    elif not notes.has_errors:
+        text = emit(document, notes)
     if notes.has_errors:
         raise CompileError(tuple(notes.diagnostics))
     return text

@@ -1,8 +1,6 @@
 """Facts tables of both formats, and what is made from them: readers, writers, XSDs and validators."""
 
 from twinform.schemas.facts import Fact, Table, Version, parse_version, print_version, rows_by_name, table
-from twinform.schemas.json_check import Fault, JsonPath, is_array, is_object, json_faults
-from twinform.schemas.json_schema import IDENTIFIER as JSON_IDENTIFIER
 from twinform.schemas.keeping import element_data
 from twinform.schemas.messages import Context
 from twinform.schemas.packaged import json_schema_text, schema_text
@@ -11,16 +9,12 @@ from twinform.schemas.validator import Engine, SchemaError, gate, libxml2_errors
 from twinform.schemas.values import format_value, parse_value
 from twinform.schemas.writer import LAST_LINE, Writer, element_xml, in_order, writer
 from twinform.schemas.xml import XmlElement, declared_namespaces, path_of, undeclared_namespace, undeclared_prefix
-from twinform.schemas.xsd import lenient_schema_text
 
 __all__ = [
-    "JSON_IDENTIFIER",
     "LAST_LINE",
     "Context",
     "Engine",
     "Fact",
-    "Fault",
-    "JsonPath",
     "Reader",
     "SchemaError",
     "Table",
@@ -33,11 +27,7 @@ __all__ = [
     "format_value",
     "gate",
     "in_order",
-    "is_array",
-    "is_object",
-    "json_faults",
     "json_schema_text",
-    "lenient_schema_text",
     "libxml2_errors",
     "parse_value",
     "parse_version",

@@ -14,15 +14,11 @@ from typing import Any
 
 from twinform.schemas.documentation import Documentation
 from twinform.schemas.facts import Fact, Table, parse_version, table
-from twinform.schemas.json_values import SHARED, value_schema
+from twinform.schemas.json_values import IDENTIFIER, SHARED, value_schema
 from twinform.schemas.meanings import Path
 from twinform.schemas.writer import writer
 
 Json = dict[str, Any]
-
-VERSION = "1"
-"""The version of the schema: another one where documents of the old one are no longer valid."""
-IDENTIFIER = f"urn:twinform:document:{VERSION}"
 
 _TITLE = "A robot model or world of URDF or SDF, as twinform reads and writes it in JSON"
 _ABOUT = (

@@ -7,6 +7,10 @@ from twinform.schemas.facts import Fact
 
 Json = dict[str, Any]
 
+VERSION = "1"
+"""The version of the schema: another one where documents of the old one are no longer valid."""
+IDENTIFIER = f"urn:twinform:document:{VERSION}"
+
 _LARGEST = 1.7976931348623157e308
 _NOT_IN_XML = r"\u0000-\u0008\u000b\u000c\u000e-\u001f\ud800-\udfff\ufffe\uffff"
 _START = (

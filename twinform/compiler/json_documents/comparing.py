@@ -9,7 +9,7 @@ from twinform.compiler.json_documents.writing import Data, json_data
 from twinform.diagnostics import Location, Notes
 from twinform.diagnostics.rules import structure
 from twinform.ir import Document, Node
-from twinform.schemas import JsonPath, is_array, is_object, json_faults
+from twinform.schemas.json_check import JsonPath, is_array, is_object, json_faults
 
 MOST = 20
 """The faults that are reported: what is of another kind altogether has thousands."""

@@ -3,7 +3,7 @@
 import json
 import re
 
-from twinform.schemas import JsonPath
+from twinform.schemas.json_check import JsonPath
 
 _TOKEN = re.compile(r'"(?:[^"\\]|\\.)*"|[{}\[\],:]|[^\s{}\[\],:"]+')
 

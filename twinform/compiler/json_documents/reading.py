@@ -16,7 +16,7 @@ from twinform.compiler.json_documents.writing import Data, json_data
 from twinform.diagnostics import Location, Notes, Origins, Source
 from twinform.diagnostics.rules import structure
 from twinform.ir import Document, Node, node_values
-from twinform.schemas import JsonPath, is_array, is_object, json_faults
+from twinform.schemas.json_check import JsonPath, is_array, is_object, json_faults
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,9 @@ from typing import Any
 from twinform.diagnostics import Location, Notes
 from twinform.diagnostics.rules import structure
 from twinform.ir import Document, Format, Model, Node, node_values
-from twinform.schemas import JSON_IDENTIFIER, in_order, json_faults, table, writer
+from twinform.schemas import in_order, table, writer
+from twinform.schemas.json_check import json_faults
+from twinform.schemas.json_values import IDENTIFIER as JSON_IDENTIFIER
 
 Data = dict[str, Any]
 
