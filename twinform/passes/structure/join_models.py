@@ -8,6 +8,7 @@ from twinform.diagnostics.rules import edits as rules
 from twinform.ir import Element, Include, Joint, Link, Material, Model, Node, Opaque, Pose, Visual
 from twinform.ir.frames import WORLD
 from twinform.ir.node import Vector3
+from twinform.ir.transform import Transform
 from twinform.passes.includes.merge import merge_into_model
 from twinform.passes.legalise.marks import without_mark
 from twinform.passes.legalise.notation import OFFSET, POSE
@@ -81,7 +82,7 @@ def join_sdf(model: Model, guest: Model, mount: Mount, notes: Notes) -> Model:
         return model
     placed = Include(uri=guest.name, pose=mount.pose(mount.to), placement_frame=mount.held, source=guest.source)
     unnamed = guest.model_copy(update={"name": mount.prefix.rstrip("_") or guest.name})
-    merged = merge_into_model(model, placed, unnamed, notes)
+    merged = merge_into_model(model, placed, unnamed, notes, Transform())
     if merged is model:
         return model
     joint = Joint(name=mount.joint, type="fixed", parent=mount.to, child=mount.held, source=guest.source)
