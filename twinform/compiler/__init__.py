@@ -1,10 +1,12 @@
 """The compiler: front ends, back ends and the driver that runs what lies between."""
 
+from twinform.compiler.checking import check
 from twinform.compiler.driver import Conversion, convert, fulfil, plan
 from twinform.compiler.errors import CompileError
 from twinform.compiler.files import write_all_atomically, write_atomically
 from twinform.compiler.includes import expand
-from twinform.compiler.loading import Checked, Reading, check, load, loads, read
+from twinform.compiler.inspection import LookingError, inspect
+from twinform.compiler.loading import Checked, Reading, load, loads, read
 from twinform.compiler.orders import DEFAULT_SDF_VERSION, URDF_VERSIONS, Language, Order, UrdfVersion
 from twinform.compiler.splitting import Split, split
 from twinform.compiler.uris import SearchPath, UriError
@@ -16,6 +18,7 @@ __all__ = [
     "CompileError",
     "Conversion",
     "Language",
+    "LookingError",
     "Order",
     "Reading",
     "SearchPath",
@@ -26,6 +29,7 @@ __all__ = [
     "convert",
     "expand",
     "fulfil",
+    "inspect",
     "load",
     "loads",
     "plan",

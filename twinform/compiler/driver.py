@@ -78,7 +78,7 @@ def convert(
     engine: Engine = "libxml2",
     paths: Iterable[str | Path] = (),
     arguments: Mapping[str, str] | None = None,
-    xacro: bool = True,
+    xacro: bool | None = None,
     expand_includes: bool = False,
     watch: Watch | None = None,
 ) -> Conversion:

@@ -12,6 +12,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from twinform.compiler.errors import CompileError
+from twinform.compiler.exact_lines import with_exact_lines
 from twinform.compiler.limits import excess_of_json, excess_of_names
 from twinform.compiler.parsing import (
     UnreadableError,
@@ -25,6 +26,7 @@ from twinform.compiler.split_values import report_split_values
 from twinform.compiler.tabbed_numbers import report_tabbed_numbers
 from twinform.compiler.urdf import front_end as urdf
 from twinform.compiler.urdf.extensions import check_extensions
+from twinform.compiler.unexpanded import report_unexpanded
 from twinform.compiler.uris import SearchPath
 from twinform.diagnostics import Diagnostic, Entry, Location, Notes, Origins
 from twinform.diagnostics.rules import model, reading, structure
@@ -67,14 +69,15 @@ _WITHOUT_VERSION = {"urdf": (1, 0)}
 class Reading:
     """How files are read.
 
-    `search` are the folders for URIs, `arguments` those of xacro, which `xacro` allows.
+    `search` are the folders for URIs, `arguments` those of xacro. `xacro` says which files are expanded: by default those
+    whose name ends so, all where it is true, and none where it is false.
     """
 
     strict: bool = False
     engine: Engine = "libxml2"
     search: SearchPath = field(default_factory=SearchPath.of)
     arguments: Mapping[str, str] = field(default_factory=dict[str, str])
-    xacro: bool = True
+    xacro: bool | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +101,12 @@ class Checked:
     mixed: bool = False
 
     @property
+    def text_name(self) -> str:
+        """What the text that the document was read from is called in locations: a file, or what it expanded to."""
+        expanded = _expanded(self.path)
+        return expanded if expanded in self.origins else self.path
+
+    @property
     def size(self) -> int:
         """How many elements and attributes the source has."""
         if self.tree is not None:
@@ -110,38 +119,16 @@ class Checked:
         return not any(diagnostic.is_error for diagnostic in self.diagnostics)
 
 
+def _expanded(file: str) -> str:
+    return f"{file} (expanded)"
+
+
 def _parts(tree: XmlElement) -> int:
     return sum(1 + len(element.keys()) for element in tree.iter())
 
 
-def check(
-    source: str | Path | bytes,
-    *,
-    name: str = "",
-    strict: bool = False,
-    engine: Engine = "libxml2",
-    paths: Iterable[str | Path] = (),
-    arguments: Mapping[str, str] | None = None,
-    xacro: bool = True,
-    expand_includes: bool = False,
-) -> Checked:
-    """Read a file, or the bytes of one, and say everything that is wrong with it.
-
-    `paths` are folders in which URIs are looked up. A file whose name ends in `.xacro` is expanded with the
-    `arguments`, which evaluates expressions and reads files that it names; without `xacro` it is refused. The files
-    that includes name are read only where `expand_includes` asks for it.
-    """
-    how = Reading(strict, engine, SearchPath.of(paths), arguments or {}, xacro)
-    checked = read(source, how, name=name)
-    if not expand_includes:
-        return checked
-    from twinform.compiler.includes import expand  # noqa: PLC0415 - it reads files by functions of this module
-
-    return expand(checked, how)
-
-
 def read(source: str | Path | bytes, how: Reading, *, name: str = "") -> Checked:
-    """`check`, with all that it needs to know in one place."""
+    """Read a file, or the bytes of one, and say what is wrong with it; `name` stands for it in findings."""
     file = name or ("<bytes>" if isinstance(source, bytes) else str(source))
     notes = Notes(file=file, strict=how.strict)
     with garbage_collection_paused():
@@ -152,7 +139,7 @@ def _check(source: str | Path | bytes, notes: Notes, how: Reading) -> Checked:
     if not isinstance(source, bytes):
         how.search.seen.add(Path(source))
     try:
-        if not isinstance(source, bytes) and Path(source).suffix.lower() == XACRO:
+        if not isinstance(source, bytes) and (how.xacro or Path(source).suffix.lower() == XACRO):
             return _check_xacro(Path(source), notes, how)
         text = source if isinstance(source, bytes) else read_bytes(Path(source), notes)
     except UnreadableError:
@@ -169,6 +156,8 @@ def _check_text(text: bytes, notes: Notes, how: Reading) -> Checked:
         verify(document, notes)
         if document.format is Format.URDF:
             check_extensions(document, notes)
+    if tree is not None:
+        notes.diagnostics[:] = with_exact_lines(notes.diagnostics, tree, notes.file)
     found = tuple(sorted(notes.diagnostics, key=lambda each: each.location.line))
     return Checked(notes.file, document, found, tree=tree)
 
@@ -181,13 +170,13 @@ def _check_xacro(path: Path, notes: Notes, how: Reading) -> Checked:
     """
     from twinform.compiler.xacro.expansion import expand  # noqa: PLC0415 - few files need it
 
-    if not how.xacro:
+    if how.xacro is False:
         message = "this is a xacro file, and xacro is refused here"
         notes.report(xacro_rules.XACRO_REFUSED, message, Location(line=1))
         raise UnreadableError
     expansion = expand(path, how.arguments, how.search, notes)
     how.search.seen.update(map(Path, {place.file for place in expansion.origins.places}))
-    name = f"{notes.file} (expanded)"
+    name = _expanded(notes.file)
     notes.origins[name] = expansion.origins
     checked = _check_text(expansion.text, Notes(name, notes.strict), how)
     notes.extend(checked.diagnostics)
@@ -207,7 +196,7 @@ def load(
     Raises:
         CompileError: the file has an error; what was found is in its diagnostics.
     """
-    return _document(check(source, strict=strict, engine=engine, paths=paths, arguments=arguments))
+    return _document(read(source, Reading(strict, engine, SearchPath.of(paths), arguments or {})))
 
 
 def loads(text: str | bytes, name: str = "<string>", *, strict: bool = False, engine: Engine = "libxml2") -> Document:
@@ -217,7 +206,7 @@ def loads(text: str | bytes, name: str = "<string>", *, strict: bool = False, en
         CompileError: the text has an error; what was found is in its diagnostics.
     """
     data = text.encode() if isinstance(text, str) else text
-    return _document(check(data, name=name, strict=strict, engine=engine))
+    return _document(read(data, Reading(strict, engine), name=name))
 
 
 def _document(checked: Checked) -> Document:
@@ -236,8 +225,8 @@ def read_document(text: bytes, notes: Notes, engine: Engine) -> tuple[Document |
         return _from_json(text, notes), None
     root, namespace = read_tree(text, notes)
     report_split_values(text, notes)
-    if b"<xacro:" in text:
-        _report_macros(root, notes)
+    if b"<xacro:" in text or b"${" in text:
+        report_unexpanded(root, notes)
     format_, lower = _ROOTS[str(root.tag)]
     if format_ == "urdf":
         report_tabbed_numbers(text, notes)
@@ -302,15 +291,6 @@ def _verify_what_is_there(data: Mapping[str, Any], notes: Notes) -> Document | N
     verify(document, found)
     notes.extend(each for each in found.diagnostics if each.rule not in _CONSEQUENCES)
     return document
-
-
-def _report_macros(root: XmlElement, notes: Notes) -> None:
-    macros = [element for element in root.iter() if str(element.tag).partition("}")[0].endswith("xacro")]
-    if macros:
-        where = Location(line=macros[0].sourceline or 0, path=f"/{root.tag}")
-        count = f"{len(macros)} element{'' if len(macros) == 1 else 's'} of xacro"
-        message = f"{count} will not be expanded: the name of the file does not end in .xacro"
-        notes.report(xacro_rules.UNEXPANDED_XACRO, message, where, found="xacro")
 
 
 def declared_version(root: XmlElement, format_: str, notes: Notes) -> Version:

@@ -4,6 +4,7 @@ The input may be hostile: no entities, no DTD, no network, no decompression, a l
 quite XML; what the parsers of ROS and Gazebo let pass is repaired when it can only mean one thing.
 """
 
+import codecs
 from pathlib import Path
 from typing import cast
 
@@ -21,6 +22,9 @@ from twinform.compiler.malformed import LIMITS, LOST_BRACKET, first_fatal, repai
 from twinform.diagnostics import Location, Notes
 from twinform.diagnostics.rules import reading
 from twinform.schemas import XmlElement, undeclared_namespace
+
+
+_UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 
 class UnreadableError(Exception):
@@ -59,6 +63,9 @@ def parse(text: bytes, notes: Notes) -> XmlElement:
         hint = "save the file as UTF-8, or name an encoding that it may have, such as UTF-8 or ISO-8859-1"
         notes.report(reading.NOT_WELL_FORMED, message, Location(line=1, path="/"), help=hint)
         raise UnreadableError
+    if b"\0" in text[:4] or text[:2] in _UTF_16:
+        message = "the file is in UTF-16, which neither urdfdom nor Drake nor libsdformat reads"
+        notes.report(reading.WIDE_ENCODING, message, Location(line=1, path="/"), help="save the file as UTF-8")
     repaired = False
     try:
         root = etree.fromstring(text, _parser(recover=False))

@@ -141,7 +141,7 @@ class Reader:
                 node.setdefault(content, []).append(element_data(child, context, node.get("source")))
                 return
             if not free and (read_text is not None or str(child.tag)[0] != "{"):
-                messages.unknown_element(context, child, child_rows)
+                messages.unknown_element(context, child, child_rows, attribute_rows)
             elif not free:
                 messages.prefixed_element(context, child)
             if keep:
@@ -151,7 +151,7 @@ class Reader:
             if name[0] == "{":
                 messages.prefixed_attribute(context, element, name)
             if name in _OF_SCHEMAS or (name[0] != "{" and not free):
-                messages.unknown_attribute(context, element, name, attribute_rows)
+                messages.unknown_attribute(context, element, name, attribute_rows, child_rows)
             if keep:
                 keep_part(element, node, context, {"at": at, "attribute": (name, text)})
 

@@ -48,7 +48,7 @@ def _word_check(row: Fact) -> Callable[[XmlElement, Any, Context], None]:
             messages.word_outside_version(context, element, row, value)
         elif value not in allowed:
             step = row.name if row.is_attribute else ""
-            messages.invalid_value(context, element, step, value, f"one of {', '.join(row.enum)}")
+            messages.invalid_word(context, element, step, value, row.enum)
 
     return check
 

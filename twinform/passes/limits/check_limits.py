@@ -61,7 +61,8 @@ class CheckLimits(Pass):
         def look(joint: Joint) -> Joint:
             if fnmatchcase(joint.name, self.joints):
                 for each in self._findings(joint, document.format):
-                    notes.report(each.rule, each.message, each.where, found=each.found, expected=each.expected)
+                    if not notes.has(each.rule, each.where):  # what cannot be but degrees, `check` has seen
+                        notes.report(each.rule, each.message, each.where, found=each.found, expected=each.expected)
             return joint
 
         return map_joints(document, look)
