@@ -63,9 +63,6 @@ def parse(text: bytes, notes: Notes) -> XmlElement:
         hint = "save the file as UTF-8, or name an encoding that it may have, such as UTF-8 or ISO-8859-1"
         notes.report(reading.NOT_WELL_FORMED, message, Location(line=1, path="/"), help=hint)
         raise UnreadableError
-    if b"\0" in text[:4] or text[:2] in _UTF_16:
-        message = "the file is in UTF-16, which neither urdfdom nor Drake nor libsdformat reads"
-        notes.report(reading.WIDE_ENCODING, message, Location(line=1, path="/"), help="save the file as UTF-8")
     repaired = False
     try:
         root = etree.fromstring(text, _parser(recover=False))
@@ -76,6 +73,9 @@ def parse(text: bytes, notes: Notes) -> XmlElement:
     if root.getroottree().docinfo.doctype:
         notes.report(reading.DOCTYPE, "the document has a DOCTYPE; none is allowed", Location(line=1, path="/"))
         raise UnreadableError
+    if b"\0" in text[:4] or text[:2] in _UTF_16:
+        message = "the file is in UTF-16, which neither urdfdom nor Drake nor libsdformat reads"
+        notes.report(reading.WIDE_ENCODING, message, Location(line=1, path="/"), help="save the file as UTF-8")
     return root
 
 

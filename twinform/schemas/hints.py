@@ -79,10 +79,9 @@ def _other(format_: str) -> str:
 
 def _elsewhere(format_: str, name: str) -> str | None:
     parents = sorted(_parents(format_).get(name, ()))
-    if not parents:
+    if not 0 < len(parents) <= _MOST_PARENTS:  # what may stand in many is told nothing by them
         return None
-    shown = [f"<{parent}>" for parent in parents[:_MOST_PARENTS]]
-    return f"it belongs in {' or '.join(shown)}{' or others' if len(parents) > _MOST_PARENTS else ''}"
+    return f"it belongs in {' or '.join(f'<{parent}>' for parent in parents)}"
 
 
 @cache

@@ -16,7 +16,7 @@ from twinform.schemas import XmlElement
 
 _MOST = 2000
 """Different URIs that are looked for; a hostile file may have a million."""
-_WORDS: dict[Kind, str] = {"mesh": "a mesh", "texture": "a texture", "include": "an included model"}
+_WORDS: dict[Kind, str] = {"mesh": "mesh", "texture": "file", "include": "included model"}
 
 
 class _Use(NamedTuple):
@@ -45,7 +45,7 @@ def report_named_files(
     uses = _uses(document)
     wrong = [use for use in uses if "\\" in use.uri]
     for use in wrong:
-        message = f"backslashes in the path of {_WORDS[use.kind]}, {use.uri!r}, are no separators"
+        message = f"backslashes in the path of a file, {use.uri!r}, are no separators"
         hint = f"write {use.uri.replace(chr(92), '/')!r}"
         notes.report(rules.BACKSLASH_IN_PATH, message, _place(use, tree), found=use.uri, help=hint)
     if not path.is_file():
@@ -97,7 +97,7 @@ def _look_for(use: _Use, path: Path, search: SearchPath) -> _Missing | None:
 def _report(missing: Iterable[_Missing], tree: XmlElement | None, notes: Notes) -> None:
     first, *others = missing
     use = first.use
-    message = f"the file of {_WORDS[use.kind]}, {use.uri!r}, is not there"
+    message = f"the {_WORDS[use.kind]} {use.uri!r} is not there"
     if others:
         message += f", nor is anything else of {_holder(use.uri) or 'what is named by a path'}: {len(others)} more"
     hint = f"did you mean {first.near!r}?" if first.near else first.looked
