@@ -178,7 +178,7 @@ def _run(
     if notes.has_errors:
         raise CompileError(tuple(notes.diagnostics))
     lost = sum(entry.weight for entry in notes.entries)
-    ledger = Ledger(max(0, checked.size - lost), tuple(notes.entries))
+    ledger = Ledger(max(0, checked.size - lost), notes.traced_entries())
     return Conversion(text, document, tuple(notes.diagnostics), ledger, checked.tree, tuple(notes.companions))
 
 

@@ -12,7 +12,7 @@ from twinform.compiler.inspection.looking import LookingError, look
 from twinform.compiler.inspection.massless import report_massless
 from twinform.compiler.inspection.named_files import report_named_files
 from twinform.compiler.loading import Checked, Reading
-from twinform.diagnostics import Notes
+from twinform.diagnostics import Diagnostic, Notes
 from twinform.passes import Pipeline
 
 __all__ = ["LookingError", "inspect"]
@@ -34,12 +34,17 @@ def inspect(checked: Checked, how: Reading, passes: Pipeline | None = None) -> C
     if checked.accepted:
         report_massless(document, notes)
     report_named_files(document, Path(checked.path), how.search, checked.tree, notes)
-    if passes and checked.accepted:
-        look(document, passes, notes, Path(checked.path), how)
-    found = notes.diagnostics
-    if checked.tree is not None:
-        found = list(with_exact_lines(found, checked.tree, file))
     whole = Notes(checked.path, how.strict, list(checked.diagnostics), origins=dict(checked.origins))
-    whole.extend_new(found)
+    whole.extend_new(_placed(notes, checked))
+    if passes and checked.accepted:
+        found = Notes(file, how.strict)
+        look(document, passes, found, Path(checked.path), how)
+        whole.extend_new(_placed(found, checked))
     ordered = sorted(whole.diagnostics, key=lambda each: each.location.line)
     return replace(checked, diagnostics=tuple(ordered))
+
+
+def _placed(notes: Notes, checked: Checked) -> list[Diagnostic]:
+    """What was found, at exact lines where there is a text."""
+    found = notes.diagnostics
+    return found if checked.tree is None else list(with_exact_lines(found, checked.tree, notes.file))

@@ -60,8 +60,9 @@ FRAME_LINK = Rule(
 )
 RENAMED = Rule(
     name="renamed",
-    severity=Severity.INFO,
-    finds="A thing whose name had to change, because all names of an SDF model share one scope.",
+    severity=Severity.WARNING,
+    finds="A thing whose name had to change, because all names of an SDF model share one scope, SDF keeps the name for "
+    "itself, or blanks are around it, which libsdformat drops.",
     matters="Plugins and programs that use the old name must use the new one.",
     example="A joint and a link that are both called `arm`: the joint becomes `arm_joint`.",
     better="Choose different names in the URDF.",
