@@ -40,6 +40,7 @@ _HELP = {
     "ERR_INVALID_CHAR": "delete the control character",
     "NS_ERR_QNAME": "write one colon between a prefix and a name",
 }
+_COLONS = re.compile(rb"(</?[A-Za-z_][\w.-]*)::(?=[A-Za-z_])")
 _MISMATCH = re.compile(r"Opening and ending tag mismatch: (?P<open>\S+) line (?P<line>\d+) and (?P<close>\S+)")
 
 
@@ -69,6 +70,18 @@ def with_bracket(text: bytes) -> bytes | None:
     """The text with the `<` that its declaration has lost; None where that is not what is wrong with it."""
     start = text.removeprefix(_BOM)
     return text.replace(b"?xml", b"<?xml", 1) if start.lstrip().startswith(b"?xml") else None
+
+
+def with_single_colons(text: bytes) -> tuple[bytes, list[Flaw]]:
+    """The text with one colon where tags have two between a prefix and a name, and where that was."""
+    flaws: list[Flaw] = []
+    line, start = 1, 0
+    for found in _COLONS.finditer(text):
+        line, start = line + text.count(b"\n", start, found.start()), found.start()
+        if not found[1].startswith(b"</"):
+            name = found[1][1:].decode(errors="replace")
+            flaws.append(Flaw(line, 0, f"two colons behind the prefix {name}", _HELP["NS_ERR_QNAME"]))
+    return _COLONS.sub(rb"\1:", text) if flaws else text, flaws
 
 
 def first_fatal(log: Iterable[Entry], text: bytes) -> Flaw | None:

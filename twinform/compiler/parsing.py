@@ -18,7 +18,7 @@ from twinform.compiler.limits import (
     excess_of_tree,
     uncountable_encoding,
 )
-from twinform.compiler.malformed import LIMITS, LOST_BRACKET, first_fatal, repaired, with_bracket
+from twinform.compiler.malformed import LIMITS, LOST_BRACKET, first_fatal, repaired, with_bracket, with_single_colons
 from twinform.diagnostics import Location, Notes
 from twinform.diagnostics.rules import reading
 from twinform.schemas import XmlElement, undeclared_namespace
@@ -110,6 +110,7 @@ def _recover(text: bytes, notes: Notes, error: etree.XMLSyntaxError) -> XmlEleme
         message = "not well-formed XML, repaired: the '<' of the XML declaration is missing"
         notes.report(reading.REPAIRED_XML, message, Location(line=line, path="/"), help=LOST_BRACKET)
         text = whole
+    text, flaws = with_single_colons(text)
     parser = _parser(recover=True)
     try:
         root = cast("XmlElement | None", etree.fromstring(text, parser))  # None for what has no element at all
@@ -125,7 +126,7 @@ def _recover(text: bytes, notes: Notes, error: etree.XMLSyntaxError) -> XmlEleme
         notes.report(reading.NOT_WELL_FORMED, words, Location(line=line, path="/"), help=hint)
         raise UnreadableError from error
     refuse_excess(excess_of_tree(root, text), notes)
-    for line, _, message, hint in repaired(log):
+    for line, _, message, hint in (*flaws, *repaired(log)):
         words = f"not well-formed XML, repaired: {message}"
         notes.report(reading.REPAIRED_XML, words, Location(line=line, path="/"), help=hint)
     _declare_prefixes(root)

@@ -100,9 +100,9 @@ def _children(facts: Table) -> Iterator[tuple[str, str]]:
     seen: set[tuple[str, str]] = set()
     while todo:
         name, fact = todo.pop()
-        for row in facts.resolve(fact).children:
+        for row in (row for row in facts.resolve(fact).children if not row.dialect):
             yield name, row.name
-            if not row.dialect and not _is_seen(row, seen):
+            if not _is_seen(row, seen):
                 todo.append((row.name, row))
 
 

@@ -11,6 +11,7 @@ from twinform.schemas.hints import hint_for_attribute, hint_for_element, hint_fo
 from twinform.schemas.prefixes import dialect_of, words_of
 from twinform.schemas.xml import Places, XmlElement, path_of
 
+_COLORS = frozenset({"color", "color4"})
 _ESSENTIAL = frozenset({"parent", "child"})
 """Elements without which no reader, not even the most forgiving, makes sense of the file."""
 
@@ -291,7 +292,8 @@ def out_of_range(context: Context, element: XmlElement, fact: Fact, value: float
     subject = f"{fact.name[1:]!r} of <{element.tag}>" if attribute else f"<{element.tag}>"
     message = f"{subject} is {value:g}; expected {bound}"
     step = fact.name if attribute else ""
-    context.report(structure.OUT_OF_RANGE, element, message, step, found=f"{value:g}", expected=bound)
+    hint = "divide by 255" if fact.type in _COLORS and value > 1 else None
+    context.report(structure.OUT_OF_RANGE, element, message, step, found=f"{value:g}", expected=bound, help=hint)
 
 
 def stray_text(context: Context, element: XmlElement, text: str, after: XmlElement | None) -> None:

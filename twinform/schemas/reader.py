@@ -168,7 +168,8 @@ class Reader:
             read = self._hoisted(row)
         else:
             read = self._own_node(row, row.place)
-        return remarked(row, self.version, read)
+        has_text = self.table.resolve(row).type is not None
+        return remarked(row, self.version, read, has_text=has_text, keep=keep)
 
     def _inner(self, row: Fact, *, keep: bool) -> Fill:
         if row.reference is None:
