@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from twinform.compiler.exact_lines import with_exact_lines
+from twinform.compiler.inspection.contact_sensors import report_contact_sensors
 from twinform.compiler.inspection.driven_joints import report_driven_joints
 from twinform.compiler.inspection.looking import LookingError, look
 from twinform.compiler.inspection.massless import report_massless
@@ -33,6 +34,7 @@ def inspect(checked: Checked, how: Reading, passes: Pipeline | None = None) -> C
     report_driven_joints(document, notes)
     if checked.accepted:
         report_massless(document, notes)
+        report_contact_sensors(document, notes)
     report_named_files(document, Path(checked.path), how.search, checked.tree, notes)
     whole = Notes(checked.path, how.strict, list(checked.diagnostics), origins=dict(checked.origins))
     whole.extend_new(_placed(notes, checked))
