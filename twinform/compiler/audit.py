@@ -97,7 +97,11 @@ def fates(source: XmlElement, result: str, ledger: Ledger) -> Iterator[Met]:
     for part in _parts(source, listed):
         if part.fate is not None:
             yield Met(part.element, part.attribute, part.fate)
-        elif part.computed or folded.says(part.element, part.attribute) or all(word in outside or _implied(word, outside) for word in part.words):
+        elif (
+            part.computed
+            or folded.says(part.element, part.attribute)
+            or all(word in outside or _implied(word, outside) for word in part.words)
+        ):
             yield Met(part.element, part.attribute, None)
         elif part.words <= inside | outside:
             yield Met(part.element, part.attribute, Fate.CARRIED)

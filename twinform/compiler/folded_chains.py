@@ -27,13 +27,15 @@ _NAMED = ("link", "joint", "frame")
 class Folded:
     """What a result says otherwise, because the source says by marks that it was made of it.
 
-    `there` has the tag, name and type of each part of the result; `parts` are the names of what is gone from it.
+    `there` has the tag, name and type of each part of the result, and `named` tag and name; `parts` are the names of
+    what is gone from it, `followers` the joints that mimic in it, and `ends` those that chains have become.
     """
 
     there: frozenset[tuple[str, str, str]] = frozenset()
     named: frozenset[tuple[str, str]] = frozenset()
     parts: frozenset[str] = frozenset()
     followers: frozenset[str] = frozenset()
+    ends: frozenset[str] = frozenset()
 
     @classmethod
     def of(cls, source: XmlElement, result: XmlElement) -> Self:
@@ -42,10 +44,14 @@ class Folded:
         there = frozenset((str(each.tag), each.get("name", ""), each.get("type", "")) for each in found)
         named = frozenset((tag, name) for tag, name, _ in there)
         followers = frozenset(each.get("name", "") for each in found if next(each.iter("mimic"), None) is not None)
-        folded = cls(there, named, frozenset(), followers)
+        chains = ((mark.getparent(), mark.get("type", "")) for mark in source.iter(_CHAIN))
+        ends = frozenset(
+            name for end, kind in chains if end is not None and ("joint", name := end.get("name", ""), kind) in there
+        )
+        folded = cls(there, named, frozenset(), followers, ends)
         marks = [mark.getparent() for word in (_PART, _MADE) for mark in source.iter(word)]
         gone = {each.get("name", "") for each in marks if each is not None and folded.is_gone(each)}
-        return cls(there, named, frozenset(gone | set(_made_names(source, result, named))), followers)
+        return cls(there, named, frozenset(gone | set(_made_names(source, result, named))), followers, ends)
 
     def says(self, element: XmlElement, attribute: str | None) -> bool:
         """Whether the result says a part of the source by a joint that stands for more than one."""
@@ -62,8 +68,8 @@ class Folded:
         """Whether an element was made by a conversion and left out by the reverse one."""
         part = element.find(_PART)
         if part is not None:
-            chain = part.get("joint", "")
-            return self._is_named("joint", chain) and not self._is_named(str(element.tag), element.get("name", ""))
+            is_there = self._is_named(str(element.tag), element.get("name", ""))
+            return part.get("joint", "") in self.ends and not is_there
         return element.find(_MADE) is not None and not self._is_named(str(element.tag), element.get("name", ""))
 
     def _is_named(self, tag: str, name: str) -> bool:

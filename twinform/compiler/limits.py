@@ -33,7 +33,9 @@ _LONG_TAG = re.compile(rb"<[^<]{%d}" % min(MOST_ATTRIBUTES * _SHORTEST_ATTRIBUTE
 """A tag that might hold too much, or one that long text follows; few files have any."""
 _CROWDED = etree.XPath(f"//*[@*[{MOST_ATTRIBUTES + 1}]]")
 _LONG_NAMED = etree.XPath(f"//*[string-length(@name) > {LONGEST_NAME}]")
-_DEEP_MODEL = etree.XPath(f"(//*[local-name() = 'model'][count(ancestor::*[local-name() = 'model']) >= {DEEPEST_MODELS}])[1]")
+_DEEP_MODEL = etree.XPath(
+    f"(//*[local-name() = 'model'][count(ancestor::*[local-name() = 'model']) >= {DEEPEST_MODELS}])[1]"
+)
 _QUALIFIED = etree.XPath("count(//*[namespace-uri()]) + count(//@*[namespace-uri()])")
 _FEW = 64
 """Namespaces that nobody needs to count: with these, a file has too many tags first."""

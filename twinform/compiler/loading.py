@@ -24,9 +24,9 @@ from twinform.compiler.parsing import (
 from twinform.compiler.sdf import front_end as sdf
 from twinform.compiler.split_values import report_split_values
 from twinform.compiler.tabbed_numbers import report_tabbed_numbers
+from twinform.compiler.unexpanded import report_unexpanded
 from twinform.compiler.urdf import front_end as urdf
 from twinform.compiler.urdf.extensions import check_extensions
-from twinform.compiler.unexpanded import report_unexpanded
 from twinform.compiler.uris import SearchPath
 from twinform.diagnostics import Diagnostic, Entry, Location, Notes, Origins
 from twinform.diagnostics.rules import model, reading, structure
@@ -69,8 +69,8 @@ _WITHOUT_VERSION = {"urdf": (1, 0)}
 class Reading:
     """How files are read.
 
-    `search` are the folders for URIs, `arguments` those of xacro. `xacro` says which files are expanded: by default those
-    whose name ends so, all where it is true, and none where it is false.
+    `search` are the folders for URIs, `arguments` those of xacro. `xacro` says which files are expanded: by default
+    those whose name ends so, all where it is true, and none where it is false.
     """
 
     strict: bool = False

@@ -40,7 +40,10 @@ _HELP = {
     "ERR_INVALID_CHAR": "delete the control character",
     "NS_ERR_QNAME": "write one colon between a prefix and a name",
 }
-_COLONS = re.compile(rb"(</?[A-Za-z_][\w.-]*)::(?=[A-Za-z_])")
+_COLONS = re.compile(
+    rb"<!--(?:.*?-->|.*)|<!\[CDATA\[(?:.*?\]\]>|.*)|(?P<start></?[A-Za-z_][\w.-]*)::(?=[A-Za-z_])", re.DOTALL
+)
+"""Two colons in a tag; comments and sections are passed over, and those that do not end to the end of the text."""
 _MISMATCH = re.compile(r"Opening and ending tag mismatch: (?P<open>\S+) line (?P<line>\d+) and (?P<close>\S+)")
 
 
@@ -75,13 +78,16 @@ def with_bracket(text: bytes) -> bytes | None:
 def with_single_colons(text: bytes) -> tuple[bytes, list[Flaw]]:
     """The text with one colon where tags have two between a prefix and a name, and where that was."""
     flaws: list[Flaw] = []
-    line, start = 1, 0
-    for found in _COLONS.finditer(text):
-        line, start = line + text.count(b"\n", start, found.start()), found.start()
-        if not found[1].startswith(b"</"):
-            name = found[1][1:].decode(errors="replace")
+    pieces: list[bytes] = []
+    line, counted, copied = 1, 0, 0
+    for found in (each for each in _COLONS.finditer(text) if each["start"]):
+        line, counted = line + text.count(b"\n", counted, found.start()), found.start()
+        pieces += (text[copied : found.start()], found["start"], b":")
+        copied = found.end()
+        if not found["start"].startswith(b"</"):
+            name = found["start"][1:].decode(errors="replace")
             flaws.append(Flaw(line, 0, f"two colons behind the prefix {name}", _HELP["NS_ERR_QNAME"]))
-    return _COLONS.sub(rb"\1:", text) if flaws else text, flaws
+    return b"".join((*pieces, text[copied:])), flaws
 
 
 def first_fatal(log: Iterable[Entry], text: bytes) -> Flaw | None:

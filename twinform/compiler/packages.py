@@ -47,7 +47,6 @@ class PackageIndex:
         if name in self.found[root]:
             yield self.found[root][name]
 
-
     def directly_in(self, name: str, folder: Path) -> Iterator[Path]:
         """The package of this name that lies in a folder, whatever its own folder is called."""
         if folder not in self.inside:

@@ -23,7 +23,6 @@ from twinform.diagnostics import Location, Notes
 from twinform.diagnostics.rules import reading
 from twinform.schemas import XmlElement, undeclared_namespace
 
-
 _UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 

@@ -1,7 +1,7 @@
 """Files that are called nearly like one that is missing: capitals, slips, another folder."""
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from difflib import SequenceMatcher
 from itertools import islice
 from pathlib import Path
@@ -13,6 +13,7 @@ from twinform.compiler.surroundings import folders_around
 from twinform.compiler.uris import SearchPath, UriError
 from twinform.diagnostics import nearest_name
 
+_MODEL_MARK = "model.config"
 _MOST_ENTRIES = 2000
 """Entries of a folder that are looked at."""
 _ALIKE = 0.75
@@ -85,13 +86,11 @@ def _known(scheme: str, search: SearchPath, beside: Path) -> Iterator[str]:
     """The names of the packages or models around a file, and in the folders that were named."""
     around = folders_around(beside)
     if scheme == "package":
-        yield from filter(None, map(package_name, around))
+        for folder in (*search.own, *around):
+            yield from filter(None, (package_name(folder), *(package_name(folder / name) for name in _entries(folder))))
+        return
     for folder in (*search.own, *search.models, *around, *(each / "models" for each in around)):
-        yield from _with_marks(folder, "model.config" if scheme == "model" else "package.xml")
-
-
-def _with_marks(folder: Path, mark: str) -> Iterable[str]:
-    return (name for name in _entries(folder) if (folder / name / mark).is_file())
+        yield from (name for name in _entries(folder) if (folder / name / _MODEL_MARK).is_file())
 
 
 def _entries(folder: Path) -> list[str]:

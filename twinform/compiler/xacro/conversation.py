@@ -107,7 +107,7 @@ class _Conversation:
         answer: dict[str, str] = {}
         for file in files:
             try:
-                return {"path": os.path.abspath(self.search.find(uri, file))}  # links keep their names
+                return {"path": str(self.search.find(uri, file).absolute())}  # links keep their names
             except UriError as error:
                 answer = {"error": error.message, "help": error.help or ""}
         return answer

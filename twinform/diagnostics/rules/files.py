@@ -51,7 +51,7 @@ BACKSLASH_IN_PATH = Rule(
     name="backslash-in-path",
     severity=Severity.WARNING,
     finds="A backslash in the path or URI of a file.",
-    matters="Only Windows reads it as a separator; everywhere else it is a part of the name, and the file is not found.",
+    matters="Only Windows reads it as a separator; everywhere else it is a part of the name, and no file is found.",
     example="`<mesh filename='meshes\\elbow.stl'/>`",
     better="Write slashes, which all systems read: `meshes/elbow.stl`.",
 )

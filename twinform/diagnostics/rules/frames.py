@@ -50,8 +50,8 @@ UNNORMALISED_QUATERNION = Rule(
     name="unnormalised-quaternion",
     severity=Severity.WARNING,
     finds="A quaternion whose length is not 1.",
-    matters="Only those of length 1 are rotations. We and some readers divide by the length; others take the numbers as "
-    "they are, and the part is somewhere else or of another size.",
+    matters="Only those of length 1 are rotations. We and some readers divide by the length; others take the numbers "
+    "as they are, and the part is somewhere else or of another size.",
     example="`<pose rotation_format='quat_xyzw'>0 0 0 0 0 1 1</pose>`",
     better="Divide all four numbers by their length: `0 0 0.707107 0.707107`. The order is x, y, z, w.",
 )

@@ -73,7 +73,7 @@ WIDE_ENCODING = Rule(
     strict=Severity.ERROR,
     finds="A file in UTF-16, or another encoding with several bytes for each letter.",
     matters="urdfdom, libsdformat and Drake refuse it. We read it, and what we write is UTF-8.",
-    example="A file that an editor on Windows has saved as \"Unicode\".",
+    example='A file that an editor on Windows has saved as "Unicode".',
     better="Save it as UTF-8: `iconv -f UTF-16 -t UTF-8 robot.urdf > robot.utf8.urdf`, and correct `encoding` in its "
     "first line.",
 )

@@ -139,6 +139,6 @@ UNSEEN_COLLISION = Rule(
     finds="A contact sensor that names a collision of another link, which libsdformat would have lumped into its own.",
     matters="A contact sensor of Gazebo sees the collisions of its own link alone, and this one stays silent.",
     example="A sensor on `base_link` with `base_link_fixed_joint_lump__pad_collision_1`, where `pad` has a mass.",
-    better="Lump the robot as libsdformat does, `--passes 'lump-fixed-joints{compat=libsdformat}'`, or put the sensor on "
-    "the link that has the collision.",
+    better="Lump the robot as libsdformat does, `--passes 'lump-fixed-joints{compat=libsdformat}'`, or put the sensor "
+    "on the link that has the collision.",
 )

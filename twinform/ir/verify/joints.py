@@ -84,7 +84,9 @@ def _verify_limit(joint: Joint, limit: Limit, notes: Notes) -> None:
         message = f"joint {joint.name!r} has the lower limit {limit.lower:g} above the upper limit {limit.upper:g}"
         notes.report(names.LOWER_ABOVE_UPPER, message, limit.location, found=f"{limit.lower:g}")
     if joint.type == "revolute" and _is_in_degrees(limit.lower or 0.0, limit.upper or 0.0):
-        message = f"joint {joint.name!r} turns from {limit.lower or 0:g} to {limit.upper or 0:g} rad; are these degrees?"
+        message = (
+            f"joint {joint.name!r} turns from {limit.lower or 0:g} to {limit.upper or 0:g} rad; are these degrees?"
+        )
         hint = f"write radians: {math.radians(limit.lower or 0):.6g} to {math.radians(limit.upper or 0):.6g}"
         notes.report(RANGE_IN_DEGREES, message, limit.location, found=f"{limit.upper or limit.lower:g}", help=hint)
     if limit.effort == 0 or limit.velocity == 0:

@@ -135,9 +135,9 @@ def _old_name(found: Element) -> str:
 def with_old_name(node: AnyNode, name: str) -> AnyNode:
     """The node with a mark on it that has its name, since it will be called otherwise; a text would lose blanks."""
     old: str = node.__dict__["name"]
-    bare = old.strip()  # of nothing but blanks nothing is kept: libsdformat complains about empty attributes
+    is_plain = old == old.strip()
     return with_mark(
-        node, NAME, old if old and old == bare else None, {"instead_of": name, "was": old if old != bare and bare else None}
+        node, NAME, old if old and is_plain else None, {"instead_of": name, "was": None if is_plain else old}
     )
 
 

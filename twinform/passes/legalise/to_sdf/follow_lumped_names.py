@@ -43,7 +43,9 @@ class FollowLumpedNames(ModelPass):
             fate = Fate.CARRIED if self.carriers else Fate.APPROXIMATED
             notes.account(fate, rules.LUMPED_NAME, message, element.location.at("text()"), weight=0)
             if extension.reference and not _is_one_body(model, extension.reference, found.link):
-                message = f"{found.name!r} is on link {found.link!r}, and what is on {extension.reference!r} cannot see it"
+                message = (
+                    f"{found.name!r} is on link {found.link!r}, and what is on {extension.reference!r} cannot see it"
+                )
                 hint = "convert with --passes 'lump-fixed-joints{compat=libsdformat}'"
                 notes.report(rules.UNSEEN_COLLISION, message, element.location, found=found.name, help=hint)
         content = tuple(followed(part, names, carriers=self.carriers) for part in extension.content)
@@ -68,7 +70,8 @@ def names_of_libsdformat(model: Model) -> dict[str, Followed]:
     known = {each.name for each in own.values()}
     lumped = lump_as_libsdformat(model, (), Place(Format.URDF, Notes()))
     shapes = (shape for link in lumped.links for shape in link.collisions)
-    return {shape.name: own[shape.source] for shape in shapes if shape.name not in known and shape.source in own}
+    named = ((shape.name, own.get(shape.source)) for shape in shapes if shape.name and shape.source)
+    return {name: meant for name, meant in named if meant and name not in known}
 
 
 def _named(link: str, shapes: tuple[Collision, ...]) -> tuple[Collision, ...]:

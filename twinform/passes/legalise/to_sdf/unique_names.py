@@ -17,9 +17,10 @@ _NO_NAME = "robot"
 class UniqueNames(ModelPass):
     """Give joints names that no link has, and links names that SDF does not keep for itself.
 
-    Changes: 0. a robot without a name is called `robot`; 1. a joint with a link's name becomes `NAME_joint` (with a number if that is taken too), and mimics and
+    Changes: 1. a joint with a link's name becomes `NAME_joint` (with a number if that is taken too), and mimics and
     poses follow; 2. a link called `world`, or with two underscores at both ends, becomes `NAME_link`, and joints and
-    poses follow; 3. names lose the blanks around them, which libsdformat drops where it reads them.
+    poses follow; 3. names lose the blanks around them, which libsdformat drops where it reads them; 4. a robot without a
+    name is called `robot`.
     Never touches: names inside plugins, which only the plugins understand.
     Diagnostics: `renamed`. The old name is carried.
     """
