@@ -19,8 +19,8 @@ class UniqueNames(ModelPass):
 
     Changes: 1. a joint with a link's name becomes `NAME_joint` (with a number if that is taken too), and mimics and
     poses follow; 2. a link called `world`, or with two underscores at both ends, becomes `NAME_link`, and joints and
-    poses follow; 3. names lose the blanks around them, which libsdformat drops where it reads them; 4. a robot without a
-    name is called `robot`.
+    poses follow; 3. names lose the blanks around them, which libsdformat drops where it reads them; 4. a robot without
+    a name is called `robot`.
     Never touches: names inside plugins, which only the plugins understand.
     Diagnostics: `renamed`. The old name is carried.
     """
