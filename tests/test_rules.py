@@ -32,6 +32,7 @@ WITHOUT_CASE = {
     "unreadable-mesh": "unit/passes/test_meshes.py",
     "unused-argument": "unit/compiler/test_xacro.py",
     "wheels-not-measured": "unit/passes/plugins/test_add_plugin.py",
+    "wide-encoding": "unit/compiler/test_parsing.py",
     "xacro-message": "unit/compiler/test_xacro.py",
     "xacro-missing": "unit/compiler/test_xacro.py",
     "xacro-refused": "unit/compiler/test_xacro.py",

@@ -6,13 +6,15 @@ from typing import Unpack
 
 import click
 
-from twinform.cli.failure import FINDINGS, UNUSABLE
+from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.findings import notes_option, show
 from twinform.cli.inputs import HowToRead, how_to_read, inputs, reading_options
+from twinform.cli.ordering import pipeline_option
 from twinform.cli.policy import policy_of, policy_options
-from twinform.compiler import Checked, expand, read
+from twinform.compiler import Checked, LookingError, Reading, expand, inspect, read
 from twinform.diagnostics import Severity
 from twinform.diagnostics.reporters import REPORTERS, Findings
+from twinform.passes import PassError, Pipeline
 
 _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 
@@ -22,6 +24,13 @@ _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "
 @click.option("--format", "style", type=click.Choice(list(REPORTERS)), default="text", help="How to print findings.")
 @notes_option
 @policy_options
+@click.option(
+    "--passes",
+    "check_passes",
+    metavar="PIPELINE",
+    callback=pipeline_option("check-passes"),
+    help="Passes that only look, such as 'check-inertia,check-limits', or @NAME for one that the configuration names.",
+)
 @reading_options
 @click.pass_context
 def command(
@@ -32,6 +41,7 @@ def command(
     notes: bool,
     allow: tuple[str, ...],
     deny: tuple[str, ...],
+    check_passes: Pipeline,
     expand_includes: bool,
     **how: Unpack[HowToRead],
 ) -> None:
@@ -44,6 +54,7 @@ def command(
     policy, reading = policy_of(ctx, allow, deny), how_to_read(arguments, how)
     checked = [read(each.content, reading, name=each.name) for each in sources]
     checked = [expand(each, reading) for each in checked] if expand_includes else checked
+    checked = [_inspected(each, reading, check_passes) for each in checked]
     checked, seen = [replace(each, diagnostics=policy.apply(each.diagnostics)) for each in checked], checked
     allowed = sum(len(each.diagnostics) for each in seen) - sum(len(each.diagnostics) for each in checked)
     findings = [Findings(each.path, each.diagnostics) for each in checked]
@@ -54,6 +65,15 @@ def command(
         click.echo(REPORTERS[style](findings), nl=False)
     click.echo(_summary(checked) + (f"; {allowed} allowed" if allowed else ""), err=True)
     ctx.exit(_exit_code(checked))
+
+
+def _inspected(checked: Checked, reading: Reading, passes: Pipeline) -> Checked:
+    try:
+        return inspect(checked, reading, passes)
+    except LookingError as error:
+        raise click.UsageError(str(error)) from error
+    except PassError as error:
+        raise Unusable(str(error)) from error
 
 
 def _exit_code(checked: list[Checked]) -> int:

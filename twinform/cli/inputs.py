@@ -33,8 +33,8 @@ _OPTIONS = (
     ),
     click.option(
         "--xacro/--no-xacro",
-        default=True,
-        help="Whether to expand .xacro files, which evaluates Python expressions in them; expand only what you trust.",
+        default=None,
+        help="Expand all files, or none; by default those called .xacro. It evaluates expressions in them.",
     ),
 )
 _EXPAND_INCLUDES = click.option(
@@ -60,7 +60,7 @@ class HowToRead(TypedDict):
     strict: bool
     engine: Engine
     paths: tuple[Path, ...]
-    xacro: bool
+    xacro: bool | None
 
 
 def how_to_read(arguments: Mapping[str, str], how: HowToRead) -> Reading:
@@ -75,11 +75,13 @@ def inputs(words: Sequence[str]) -> tuple[list[Source], dict[str, str]]:
     Raises:
         click.UsageError: there are no files, or arguments that nothing takes.
     """
+    ctx = click.get_current_context(silent=True)
+    xacro = bool(ctx and ctx.params.get("xacro"))
     matches = [_ARGUMENT.fullmatch(word) for word in words]
     arguments = {match["name"]: match["value"] for match in matches if match}
     files = [word for word, match in zip(words, matches, strict=True) if not match]
     if not files:
         raise click.UsageError("there are arguments of xacro and no input")
-    if arguments and not any(file.lower().endswith(".xacro") for file in files):
+    if arguments and not (xacro or any(file.lower().endswith(".xacro") for file in files)):
         raise click.UsageError(f"{next(iter(arguments))}:=... is an argument of xacro, and no input is a .xacro file")
     return [open_source(file) for file in files], arguments

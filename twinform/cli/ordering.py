@@ -23,18 +23,23 @@ def _known_version(_ctx: click.Context, _option: click.Parameter, value: str | N
     return value
 
 
-def _pipeline(ctx: click.Context, option: click.Parameter, value: str | None) -> Pipeline:
-    project = settings_of(ctx)
-    configured = ctx.get_parameter_source(option.name or "") is ParameterSource.DEFAULT_MAP
-    try:
-        pipeline = parse_pipeline(value or "", names=project.named)
-        return project.confined(pipeline, "passes") if configured else pipeline
-    except PipelineError as error:
-        if project.path and configured:
-            raise ConfigError(project.path, str(error), key="passes") from error
-        raise click.BadParameter(str(error)) from error
-    except RegistryError as error:
-        raise Unusable(str(error)) from error
+def pipeline_option(key: str) -> Callable[[click.Context, click.Parameter, str | None], Pipeline]:
+    """The callback of an option that takes a pipeline, which is `key` in a configuration."""
+
+    def parse(ctx: click.Context, option: click.Parameter, value: str | None) -> Pipeline:
+        project = settings_of(ctx)
+        configured = ctx.get_parameter_source(option.name or "") is ParameterSource.DEFAULT_MAP
+        try:
+            pipeline = parse_pipeline(value or "", names=project.named)
+            return project.confined(pipeline, key) if configured else pipeline
+        except PipelineError as error:
+            if project.path and configured:
+                raise ConfigError(project.path, str(error), key=key) from error
+            raise click.BadParameter(str(error)) from error
+        except RegistryError as error:
+            raise Unusable(str(error)) from error
+
+    return parse
 
 
 _OPTIONS = (
@@ -43,7 +48,7 @@ _OPTIONS = (
     click.option(
         "--passes",
         metavar="PIPELINE",
-        callback=_pipeline,
+        callback=pipeline_option("passes"),
         help="Passes to run, such as 'check-inertia', or @NAME for one that the configuration names.",
     ),
     click.option(

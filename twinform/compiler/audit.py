@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 from lxml import etree
 
+from twinform.compiler.folded_chains import Folded
 from twinform.diagnostics import Fate, Ledger, Location
 from twinform.passes.legalise.carrier import NAMESPACE
 from twinform.schemas import XmlElement, path_of
@@ -88,12 +89,19 @@ def audit(source: XmlElement, result: str, ledger: Ledger) -> Audit:
 
 def fates(source: XmlElement, result: str, ledger: Ledger) -> Iterator[Met]:
     """What became of each element and attribute of `source`, from the outside in."""
-    inside, outside = _words_of(etree.fromstring(result.encode()))
+    made = etree.fromstring(result.encode())
+    inside, outside = _words_of(made)
+    folded = Folded.of(source, made)
+    outside |= folded.parts
     listed = {(entry.location.line, bare_path(entry.location.path)): entry.fate for entry in reversed(ledger.entries)}
     for part in _parts(source, listed):
         if part.fate is not None:
             yield Met(part.element, part.attribute, part.fate)
-        elif part.computed or all(word in outside or _implied(word, outside) for word in part.words):
+        elif (
+            part.computed
+            or folded.says(part.element, part.attribute)
+            or all(word in outside or _implied(word, outside) for word in part.words)
+        ):
             yield Met(part.element, part.attribute, None)
         elif part.words <= inside | outside:
             yield Met(part.element, part.attribute, Fate.CARRIED)

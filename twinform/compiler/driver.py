@@ -78,7 +78,7 @@ def convert(
     engine: Engine = "libxml2",
     paths: Iterable[str | Path] = (),
     arguments: Mapping[str, str] | None = None,
-    xacro: bool = True,
+    xacro: bool | None = None,
     expand_includes: bool = False,
     watch: Watch | None = None,
 ) -> Conversion:
@@ -192,7 +192,7 @@ def _run(
     if notes.has_errors:
         raise CompileError(tuple(notes.diagnostics))
     lost = sum(entry.weight for entry in notes.entries)
-    ledger = Ledger(max(0, checked.size - lost), tuple(notes.entries))
+    ledger = Ledger(max(0, checked.size - lost), notes.traced_entries())
     return Conversion(text, document, tuple(notes.diagnostics), ledger, checked.tree, tuple(notes.companions))
 
 

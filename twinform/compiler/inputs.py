@@ -17,14 +17,15 @@ Input = str | Path | bytes | Document
 class Reading:
     """How files are read.
 
-    `search` are the folders for URIs, `arguments` those of xacro, which `xacro` allows.
+    `search` are the folders for URIs, `arguments` those of xacro. `xacro` says which files are expanded: by default
+    those whose name ends so, all where it is true, and none where it is false.
     """
 
     strict: bool = False
     engine: Engine = "libxml2"
     search: SearchPath = field(default_factory=SearchPath.of)
     arguments: Mapping[str, str] = field(default_factory=dict[str, str])
-    xacro: bool = True
+    xacro: bool | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +49,12 @@ class Checked:
     mixed: bool = False
 
     @property
+    def text_name(self) -> str:
+        """What the text that the document was read from is called in locations: a file, or what it expanded to."""
+        expanded = expanded_name(self.path)
+        return expanded if expanded in self.origins else self.path
+
+    @property
     def size(self) -> int:
         """How many elements and attributes the source has."""
         if self.tree is not None:
@@ -58,6 +65,11 @@ class Checked:
     def accepted(self) -> bool:
         """Whether there is no error."""
         return not any(diagnostic.is_error for diagnostic in self.diagnostics)
+
+
+def expanded_name(file: str) -> str:
+    """What the text is called that a xacro file expands to."""
+    return f"{file} (expanded)"
 
 
 def _parts(tree: XmlElement) -> int:

@@ -25,11 +25,17 @@ That takes five seconds at most, and is reached by 11,000 of both. The most name
 LONGEST_NAME = 1024
 """The longest name, in characters: the path of each finding repeats the names around it."""
 
+DEEPEST_MODELS = 64
+"""The most models in each other, since a part in them is reached through all. The most in a real file are four."""
+
 _SHORTEST_ATTRIBUTE = len(' a=""')
 _LONG_TAG = re.compile(rb"<[^<]{%d}" % min(MOST_ATTRIBUTES * _SHORTEST_ATTRIBUTE, LONGEST_NAME))
 """A tag that might hold too much, or one that long text follows; few files have any."""
 _CROWDED = etree.XPath(f"//*[@*[{MOST_ATTRIBUTES + 1}]]")
 _LONG_NAMED = etree.XPath(f"//*[string-length(@name) > {LONGEST_NAME}]")
+_DEEP_MODEL = etree.XPath(
+    f"(//*[local-name() = 'model'][count(ancestor::*[local-name() = 'model']) >= {DEEPEST_MODELS}])[1]"
+)
 _QUALIFIED = etree.XPath("count(//*[namespace-uri()]) + count(//@*[namespace-uri()])")
 _FEW = 64
 """Namespaces that nobody needs to count: with these, a file has too many tags first."""
@@ -64,6 +70,11 @@ def uncountable_encoding(text: bytes) -> str | None:
 
 def excess_of_tree(root: XmlElement, text: bytes) -> Excess | None:
     """Why this tree is too much to be read, which was parsed from this text."""
+    if text.count(b"<model") > DEEPEST_MODELS:
+        deep = cast("list[XmlElement]", _DEEP_MODEL(root))
+        if deep:
+            where = Location(line=deep[0].sourceline or 0, path=f"/{root.tag}")
+            return Excess(f"models are in each other more than {DEEPEST_MODELS} deep", where)
     if not _LONG_TAG.search(text):
         return None
     for find, what in ((_CROWDED, f"attributes; the limit is {MOST_ATTRIBUTES}"), (_LONG_NAMED, "")):

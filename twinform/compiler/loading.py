@@ -13,7 +13,8 @@ from typing import Any
 from pydantic import ValidationError
 
 from twinform.compiler.errors import CompileError
-from twinform.compiler.inputs import Checked, Input, Reading, name_of_input
+from twinform.compiler.exact_lines import with_exact_lines
+from twinform.compiler.inputs import Checked, Input, Reading, expanded_name, name_of_input
 from twinform.compiler.limits import excess_of_json, excess_of_names
 from twinform.compiler.parsing import (
     UnreadableError,
@@ -25,6 +26,7 @@ from twinform.compiler.parsing import (
 from twinform.compiler.sdf import front_end as sdf
 from twinform.compiler.split_values import report_split_values
 from twinform.compiler.tabbed_numbers import report_tabbed_numbers
+from twinform.compiler.unexpanded import report_unexpanded
 from twinform.compiler.urdf import front_end as urdf
 from twinform.compiler.urdf.extensions import check_extensions
 from twinform.compiler.uris import SearchPath
@@ -67,34 +69,8 @@ _WITHOUT_VERSION = {"urdf": (1, 0)}
 """The version of a file that declares none."""
 
 
-def check(
-    source: Input,
-    *,
-    name: str = "",
-    strict: bool = False,
-    engine: Engine = "libxml2",
-    paths: Iterable[str | Path] = (),
-    arguments: Mapping[str, str] | None = None,
-    xacro: bool = True,
-    expand_includes: bool = False,
-) -> Checked:
-    """Read a file, the bytes of one or a document, and say everything that is wrong with it.
-
-    `paths` are folders in which URIs are looked up. A file whose name ends in `.xacro` is expanded with the
-    `arguments`, which evaluates expressions and reads files that it names; without `xacro` it is refused. The files
-    that includes name are read only where `expand_includes` asks for it.
-    """
-    how = Reading(strict, engine, SearchPath.of(paths), arguments or {}, xacro)
-    checked = read(source, how, name=name)
-    if not expand_includes:
-        return checked
-    from twinform.compiler.includes import expand  # noqa: PLC0415 - it reads files by functions of this module
-
-    return expand(checked, how)
-
-
 def read(source: Input, how: Reading, *, name: str = "") -> Checked:
-    """`check`, with all that it needs to know in one place."""
+    """Read a file, the bytes of one or a document, and say what is wrong with it; `name` stands for it in findings."""
     notes = Notes(file=name or name_of_input(source), strict=how.strict)
     with garbage_collection_paused():
         if isinstance(source, Document):
@@ -108,7 +84,7 @@ def _check(source: str | Path | bytes, notes: Notes, how: Reading) -> Checked:
     if not isinstance(source, bytes):
         how.search.seen.add(Path(source))
     try:
-        if not isinstance(source, bytes) and Path(source).suffix.lower() == XACRO:
+        if not isinstance(source, bytes) and (how.xacro or Path(source).suffix.lower() == XACRO):
             return _check_xacro(Path(source), notes, how)
         text = source if isinstance(source, bytes) else read_bytes(Path(source), notes)
     except UnreadableError:
@@ -127,6 +103,7 @@ def _check_text(text: bytes, notes: Notes, how: Reading) -> Checked:
         verify(document, notes)
         if document.format is Format.URDF:
             check_extensions(document, notes)
+    notes.diagnostics[:] = with_exact_lines(notes.diagnostics, tree, notes.file)
     found = tuple(sorted(notes.diagnostics, key=lambda each: each.location.line))
     return Checked(notes.file, document, found, tree=tree)
 
@@ -162,13 +139,13 @@ def _check_xacro(path: Path, notes: Notes, how: Reading) -> Checked:
     """
     from twinform.compiler.xacro.expansion import expand  # noqa: PLC0415 - few files need it
 
-    if not how.xacro:
+    if how.xacro is False:
         message = "this is a xacro file, and xacro is refused here"
         notes.report(xacro_rules.XACRO_REFUSED, message, Location(line=1))
         raise UnreadableError
     expansion = expand(path, how.arguments, how.search, notes)
     how.search.seen.update(map(Path, {place.file for place in expansion.origins.places}))
-    name = f"{notes.file} (expanded)"
+    name = expanded_name(notes.file)
     notes.origins[name] = expansion.origins
     checked = _check_text(expansion.text, Notes(name, notes.strict), how)
     notes.extend(checked.diagnostics)
@@ -188,7 +165,7 @@ def load(
     Raises:
         CompileError: the file has an error; what was found is in its diagnostics.
     """
-    return _document(check(source, strict=strict, engine=engine, paths=paths, arguments=arguments))
+    return _document(read(source, Reading(strict, engine, SearchPath.of(paths), arguments or {})))
 
 
 def loads(text: str | bytes, name: str = "<string>", *, strict: bool = False, engine: Engine = "libxml2") -> Document:
@@ -198,7 +175,7 @@ def loads(text: str | bytes, name: str = "<string>", *, strict: bool = False, en
         CompileError: the text has an error; what was found is in its diagnostics.
     """
     data = text.encode() if isinstance(text, str) else text
-    return _document(check(data, name=name, strict=strict, engine=engine))
+    return _document(read(data, Reading(strict, engine), name=name))
 
 
 def _document(checked: Checked) -> Document:
@@ -215,8 +192,8 @@ def read_document(text: bytes, notes: Notes, engine: Engine) -> tuple[Document |
     """
     root, namespace = read_tree(text, notes)
     report_split_values(text, notes)
-    if b"<xacro:" in text:
-        _report_macros(root, notes)
+    if b"<xacro:" in text or b"${" in text:
+        report_unexpanded(root, notes)
     format_, lower = _ROOTS[str(root.tag)]
     if format_ == "urdf":
         report_tabbed_numbers(text, notes)
@@ -281,15 +258,6 @@ def _verify_what_is_there(data: Mapping[str, Any], notes: Notes) -> Document | N
     verify(document, found)
     notes.extend(each for each in found.diagnostics if each.rule not in _CONSEQUENCES)
     return document
-
-
-def _report_macros(root: XmlElement, notes: Notes) -> None:
-    macros = [element for element in root.iter() if str(element.tag).partition("}")[0].endswith("xacro")]
-    if macros:
-        where = Location(line=macros[0].sourceline or 0, path=f"/{root.tag}")
-        count = f"{len(macros)} element{'' if len(macros) == 1 else 's'} of xacro"
-        message = f"{count} will not be expanded: the name of the file does not end in .xacro"
-        notes.report(xacro_rules.UNEXPANDED_XACRO, message, where, found="xacro")
 
 
 def declared_version(root: XmlElement, format_: str, notes: Notes) -> Version:

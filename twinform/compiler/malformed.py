@@ -40,6 +40,10 @@ _HELP = {
     "ERR_INVALID_CHAR": "delete the control character",
     "NS_ERR_QNAME": "write one colon between a prefix and a name",
 }
+_COLONS = re.compile(
+    rb"<!--(?:.*?-->|.*)|<!\[CDATA\[(?:.*?\]\]>|.*)|(?P<start></?[A-Za-z_][\w.-]*)::(?=[A-Za-z_])", re.DOTALL
+)
+"""Two colons in a tag; comments and sections are passed over, and those that do not end to the end of the text."""
 _MISMATCH = re.compile(r"Opening and ending tag mismatch: (?P<open>\S+) line (?P<line>\d+) and (?P<close>\S+)")
 
 
@@ -69,6 +73,21 @@ def with_bracket(text: bytes) -> bytes | None:
     """The text with the `<` that its declaration has lost; None where that is not what is wrong with it."""
     start = text.removeprefix(_BOM)
     return text.replace(b"?xml", b"<?xml", 1) if start.lstrip().startswith(b"?xml") else None
+
+
+def with_single_colons(text: bytes) -> tuple[bytes, list[Flaw]]:
+    """The text with one colon where tags have two between a prefix and a name, and where that was."""
+    flaws: list[Flaw] = []
+    pieces: list[bytes] = []
+    line, counted, copied = 1, 0, 0
+    for found in (each for each in _COLONS.finditer(text) if each["start"]):
+        line, counted = line + text.count(b"\n", counted, found.start()), found.start()
+        pieces += (text[copied : found.start()], found["start"], b":")
+        copied = found.end()
+        if not found["start"].startswith(b"</"):
+            name = found["start"][1:].decode(errors="replace")
+            flaws.append(Flaw(line, 0, f"two colons behind the prefix {name}", _HELP["NS_ERR_QNAME"]))
+    return b"".join((*pieces, text[copied:])), flaws
 
 
 def first_fatal(log: Iterable[Entry], text: bytes) -> Flaw | None:

@@ -3,6 +3,7 @@
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from itertools import islice
 from pathlib import Path
 
 from lxml import etree
@@ -10,6 +11,8 @@ from lxml import etree
 _MARK = "package.xml"
 _LARGEST = 2**20
 _DEEPEST = 5
+_MOST = 2000
+"""Entries of a folder that are looked at."""
 _SKIPPED = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
 
 
@@ -35,6 +38,7 @@ class PackageIndex:
     """The packages below some folders, looked for once and only when one is asked for."""
 
     found: dict[Path, dict[str, Path]] = field(default_factory=dict[Path, dict[str, Path]])
+    inside: dict[Path, dict[str, Path]] = field(default_factory=dict[Path, dict[str, Path]])
 
     def named(self, name: str, root: Path) -> Iterator[Path]:
         """The package of this name below a folder, if there is one."""
@@ -42,6 +46,23 @@ class PackageIndex:
             self.found[root] = dict(_packages_below(root))
         if name in self.found[root]:
             yield self.found[root][name]
+
+    def directly_in(self, name: str, folder: Path) -> Iterator[Path]:
+        """The package of this name that lies in a folder, whatever its own folder is called."""
+        if folder not in self.inside:
+            self.inside[folder] = {called: each for each in _folders(folder) if (called := package_name(each))}
+        if name in self.inside[folder]:
+            yield self.inside[folder][name]
+
+
+def _folders(folder: Path) -> Iterator[Path]:
+    """The folders in a folder, sorted; none where there are too many for a workspace."""
+    try:
+        with os.scandir(folder) as entries:
+            found = sorted(each.name for each in islice(entries, _MOST) if each.is_dir())
+    except OSError:
+        return
+    yield from (folder / name for name in found)
 
 
 def _packages_below(root: Path) -> Iterator[tuple[str, Path]]:

@@ -4,6 +4,7 @@ The input may be hostile: no entities, no DTD, no network, no decompression, a l
 quite XML; what the parsers of ROS and Gazebo let pass is repaired when it can only mean one thing.
 """
 
+import codecs
 from pathlib import Path
 from typing import cast
 
@@ -17,10 +18,12 @@ from twinform.compiler.limits import (
     excess_of_tree,
     uncountable_encoding,
 )
-from twinform.compiler.malformed import LIMITS, LOST_BRACKET, first_fatal, repaired, with_bracket
+from twinform.compiler.malformed import LIMITS, LOST_BRACKET, first_fatal, repaired, with_bracket, with_single_colons
 from twinform.diagnostics import Location, Notes
 from twinform.diagnostics.rules import reading
 from twinform.schemas import XmlElement, undeclared_namespace
+
+_UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 
 class UnreadableError(Exception):
@@ -69,6 +72,9 @@ def parse(text: bytes, notes: Notes) -> XmlElement:
     if root.getroottree().docinfo.doctype:
         notes.report(reading.DOCTYPE, "the document has a DOCTYPE; none is allowed", Location(line=1, path="/"))
         raise UnreadableError
+    if b"\0" in text[:4] or text[:2] in _UTF_16:
+        message = "the file is in UTF-16, which neither urdfdom nor Drake nor libsdformat reads"
+        notes.report(reading.WIDE_ENCODING, message, Location(line=1, path="/"), help="save the file as UTF-8")
     return root
 
 
@@ -103,6 +109,7 @@ def _recover(text: bytes, notes: Notes, error: etree.XMLSyntaxError) -> XmlEleme
         message = "not well-formed XML, repaired: the '<' of the XML declaration is missing"
         notes.report(reading.REPAIRED_XML, message, Location(line=line, path="/"), help=LOST_BRACKET)
         text = whole
+    text, flaws = with_single_colons(text)
     parser = _parser(recover=True)
     try:
         root = cast("XmlElement | None", etree.fromstring(text, parser))  # None for what has no element at all
@@ -118,7 +125,7 @@ def _recover(text: bytes, notes: Notes, error: etree.XMLSyntaxError) -> XmlEleme
         notes.report(reading.NOT_WELL_FORMED, words, Location(line=line, path="/"), help=hint)
         raise UnreadableError from error
     refuse_excess(excess_of_tree(root, text), notes)
-    for line, _, message, hint in repaired(log):
+    for line, _, message, hint in (*flaws, *repaired(log)):
         words = f"not well-formed XML, repaired: {message}"
         notes.report(reading.REPAIRED_XML, words, Location(line=line, path="/"), help=hint)
     _declare_prefixes(root)

@@ -111,6 +111,8 @@ class SearchPath:
             yield folder / "models" / name
         for root in (*self.own, *self.workspaces):
             yield from self.index.named(name, root)
+        for folder in around:
+            yield from self.index.directly_in(name, folder)
 
     def _roots(self) -> tuple[Path, ...]:
         return (*self.own, *self.models, *self.packages, *self.workspaces)

@@ -3,6 +3,7 @@
 from twinform.diagnostics.catalogue import catalogue
 from twinform.diagnostics.companion import Companion
 from twinform.diagnostics.diagnostic import Diagnostic
+from twinform.diagnostics.did_you_mean import did_you_mean, nearest_name
 from twinform.diagnostics.ledger import Entry, Fate, Ledger
 from twinform.diagnostics.location import NOWHERE, Location, Source
 from twinform.diagnostics.notes import Notes
@@ -25,4 +26,6 @@ __all__ = [
     "Severity",
     "Source",
     "catalogue",
+    "did_you_mean",
+    "nearest_name",
 ]

@@ -64,13 +64,16 @@ class Notes:
 
     def has(self, rule: Rule, location: Location, least: Severity = Severity.INFO) -> bool:
         """Whether this rule was reported at this place, at least so severely."""
-        where = self._complete(location)
-        return any(each.rule is rule and each.location == where and each.severity >= least for each in self.diagnostics)
+        where = self._place(location)
+        return any(
+            each.rule is rule and self._place(each.location) == where and each.severity >= least
+            for each in self.diagnostics
+        )
 
     def extend_new(self, diagnostics: Iterable[Diagnostic]) -> None:
         """Add those whose rule was not reported at their place before."""
-        known = {(each.rule.name, each.location) for each in self.diagnostics}
-        self.extend(each for each in diagnostics if (each.rule.name, each.location) not in known)
+        known = {(each.rule.name, self._place(each.location)) for each in self.diagnostics}
+        self.extend(each for each in diagnostics if (each.rule.name, self._place(each.location)) not in known)
 
     def extend(self, diagnostics: Iterable[Diagnostic]) -> None:
         """Add diagnostics that another stage has made."""
@@ -80,6 +83,15 @@ class Notes:
     def account(self, fate: Fate, rule: Rule, message: str, location: Location = NOWHERE, weight: int = 1) -> None:
         """Add a ledger entry."""
         self.entries.append(Entry(fate, rule, message, self._origin(self._complete(location)), weight))
+
+    def traced_entries(self) -> tuple[Entry, ...]:
+        """The ledger's entries, also those that others have made, with the places where their parts were written."""
+        return tuple(replace(each, location=self._origin(each.location)) for each in self.entries)
+
+    def _place(self, location: Location) -> tuple[str, str | int]:
+        """What a place is known by: its path, since its line may be that of the part or of the node around it."""
+        where = self._origin(self._complete(location))
+        return where.file, where.path or where.line
 
     def _add(self, diagnostic: Diagnostic) -> None:
         if not self.takes(diagnostic.severity):

@@ -1,16 +1,17 @@
 """The words of the table pass: one function for each finding, so that the hot path holds none of them."""
 
-from collections.abc import Iterable
+from collections.abc import Collection
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 from typing import TypedDict, Unpack
 
-from twinform.diagnostics import Location, Notes, Rule, Severity
+from twinform.diagnostics import Location, Notes, Rule, Severity, nearest_name
 from twinform.diagnostics.rules import structure
 from twinform.schemas.facts import Fact, Version, print_version
+from twinform.schemas.hints import hint_for_attribute, hint_for_element, hint_for_word
 from twinform.schemas.prefixes import dialect_of, words_of
 from twinform.schemas.xml import Places, XmlElement, path_of
 
+_COLORS = frozenset({"color", "color4"})
 _ESSENTIAL = frozenset({"parent", "child"})
 """Elements without which no reader, not even the most forgiving, makes sense of the file."""
 
@@ -76,8 +77,10 @@ class Context:
         self.notes.report(rule, message, Location(self.file, element.sourceline or 0, path), **more)
 
 
-def unknown_element(context: Context, element: XmlElement, known: Iterable[str]) -> None:
-    """An element that no version has here."""
+def unknown_element(
+    context: Context, element: XmlElement, known: Collection[str], attributes: Collection[str] = ()
+) -> None:
+    """An element that no version has here; its parent may have the `known` ones, and attributes."""
     context.tolerated.append((element, None))
     parent = element.getparent()
     holder = "the document" if parent is None else f"<{parent.tag}>"
@@ -86,15 +89,17 @@ def unknown_element(context: Context, element: XmlElement, known: Iterable[str])
         element,
         f"<{element.tag}> is not an element of {holder}",
         found=str(element.tag),
-        help=_did_you_mean(context, str(element.tag), known),
+        help=hint_for_element(context.format, str(element.tag), known, attributes) if _is_shown(context) else None,
     )
 
 
-def unknown_attribute(context: Context, element: XmlElement, name: str, known: Iterable[str]) -> None:
-    """An attribute that no version has here."""
+def unknown_attribute(
+    context: Context, element: XmlElement, name: str, known: Collection[str], children: Collection[str] = ()
+) -> None:
+    """An attribute that no version has here; the element may have the `known` ones, and children."""
     context.tolerated.append((element, name))
     message = f"{name!r} is not an attribute of <{element.tag}>"
-    hint = _did_you_mean(context, name, known)
+    hint = hint_for_attribute(context.format, name, known, children) if _is_shown(context) else None
     context.report(structure.UNKNOWN_ATTRIBUTE, element, message, f"@{name}", found=name, help=hint)
 
 
@@ -210,8 +215,8 @@ def _check_word(context: Context, element: XmlElement, name: str, step: str = ""
         return
     rule = structure.UNKNOWN_ATTRIBUTE if step else structure.UNKNOWN_ELEMENT
     subject = f"'{prefix}:{word}'" if step else f"<{prefix}:{word}>"
-    close = get_close_matches(word, words_of(prefix), n=1, cutoff=0.75)
-    hint = f"did you mean '{prefix}:{close[0]}'?" if close else None
+    near = nearest_name(word, words_of(prefix)) if _is_shown(context) else None
+    hint = f"did you mean '{prefix}:{near}'?" if near else None
     message = f"{subject} is not a word of {prefix.capitalize()}'s"
     _report_prefixed(context, rule, element, message, step, found=f"{prefix}:{word}", help=hint)
 
@@ -257,6 +262,16 @@ def invalid_value(context: Context, element: XmlElement, step: str, text: str, e
     context.report(structure.INVALID_VALUE, element, message, step, found=text, expected=expected)
 
 
+def invalid_word(context: Context, element: XmlElement, step: str, word: str, known: tuple[str, ...]) -> None:
+    """A word that is none of those that there are."""
+    subject = f"{step[1:]!r} of <{element.tag}>" if step else f"<{element.tag}>"
+    shown = word if len(word) <= 60 else word[:57] + "..."
+    expected = f"one of {', '.join(known)}"
+    hint = hint_for_word(word, known) if _is_shown(context) else None
+    message = f"{subject} is {shown!r}; expected {expected}"
+    context.report(structure.INVALID_VALUE, element, message, step, found=word, expected=expected, help=hint)
+
+
 def mixed_rotation(context: Context, element: XmlElement, count: int) -> None:
     """A pose whose numbers are not those of the notation that it declares."""
     notation, degrees = element.get("rotation_format"), element.get("degrees")
@@ -277,7 +292,8 @@ def out_of_range(context: Context, element: XmlElement, fact: Fact, value: float
     subject = f"{fact.name[1:]!r} of <{element.tag}>" if attribute else f"<{element.tag}>"
     message = f"{subject} is {value:g}; expected {bound}"
     step = fact.name if attribute else ""
-    context.report(structure.OUT_OF_RANGE, element, message, step, found=f"{value:g}", expected=bound)
+    hint = "divide by 255" if fact.type in _COLORS and value > 1 else None
+    context.report(structure.OUT_OF_RANGE, element, message, step, found=f"{value:g}", expected=bound, help=hint)
 
 
 def stray_text(context: Context, element: XmlElement, text: str, after: XmlElement | None) -> None:
@@ -287,8 +303,6 @@ def stray_text(context: Context, element: XmlElement, text: str, after: XmlEleme
     context.report(structure.STRAY_TEXT, element, f"text {shown!r} in <{element.tag}>", found=shown)
 
 
-def _did_you_mean(context: Context, name: str, known: Iterable[str]) -> str | None:
-    if not context.notes.takes(Severity.WARNING):
-        return None  # nobody will see it, and there may be a hundred thousand more
-    close = get_close_matches(name, list(known), n=1)
-    return f"did you mean {close[0]!r}?" if close else None
+def _is_shown(context: Context) -> bool:
+    """Whether anybody will see a finding: there may be a hundred thousand more."""
+    return context.notes.takes(Severity.WARNING)

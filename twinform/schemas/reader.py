@@ -141,7 +141,7 @@ class Reader:
                 node.setdefault(content, []).append(element_data(child, context, node.get("source")))
                 return
             if not free and (read_text is not None or str(child.tag)[0] != "{"):
-                messages.unknown_element(context, child, child_rows)
+                messages.unknown_element(context, child, child_rows, attribute_rows)
             elif not free:
                 messages.prefixed_element(context, child)
             if keep:
@@ -151,7 +151,7 @@ class Reader:
             if name[0] == "{":
                 messages.prefixed_attribute(context, element, name)
             if name in _OF_SCHEMAS or (name[0] != "{" and not free):
-                messages.unknown_attribute(context, element, name, attribute_rows)
+                messages.unknown_attribute(context, element, name, attribute_rows, child_rows)
             if keep:
                 keep_part(element, node, context, {"at": at, "attribute": (name, text)})
 
@@ -168,7 +168,8 @@ class Reader:
             read = self._hoisted(row)
         else:
             read = self._own_node(row, row.place)
-        return remarked(row, self.version, read)
+        has_text = self.table.resolve(row).type is not None
+        return remarked(row, self.version, read, has_text=has_text, keep=keep)
 
     def _inner(self, row: Fact, *, keep: bool) -> Fill:
         if row.reference is None:

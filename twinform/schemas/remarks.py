@@ -4,16 +4,20 @@ from collections.abc import Callable
 
 from twinform.schemas import messages
 from twinform.schemas.facts import Fact, Version
+from twinform.schemas.keeping import keep_element
 from twinform.schemas.messages import Context
 from twinform.schemas.stores import Data
-from twinform.schemas.xml import XmlElement
+from twinform.schemas.xml import XmlElement, is_blank
 
 ReadChild = Callable[[XmlElement, Data, str, int, Context], None]
 """Reads a child: (child, node, path from the node to the parent, place among its like, context)"""
 
 
-def remarked(row: Fact, version: Version, read: ReadChild) -> ReadChild:
-    """The reader of a child in a version, with what there is to say about every such child."""
+def remarked(row: Fact, version: Version, read: ReadChild, *, has_text: bool, keep: bool) -> ReadChild:
+    """The reader of a child in a version, with what there is to say about every such child.
+
+    `has_text` says whether its element has text by the facts, and `keep` whether what has no field is kept.
+    """
     if row.deprecated and row.exists_in(version):
         return _after(messages.deprecated, read)
     if row.dialect:
@@ -23,7 +27,22 @@ def remarked(row: Fact, version: Version, read: ReadChild) -> ReadChild:
         return _aside(read)
     if row.exists_in(version):
         return read
-    return _after(lambda context, child: messages.outside_version(context, child, row), read)
+    read_other = _after(lambda context, child: messages.outside_version(context, child, row), read)
+    return read_other if has_text or row.place else _unless_another(read_other, keep=keep)
+
+
+def _unless_another(read: ReadChild, *, keep: bool) -> ReadChild:
+    """The same reader, but for an element that is text: of the element of another version it has only the name."""
+
+    def read_or_keep(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
+        if len(child) or is_blank(child.text or ""):
+            read(child, node, at, place, context)
+            return
+        messages.unknown_element(context, child, ())
+        if keep:
+            keep_element(child, node, at, context)
+
+    return read_or_keep
 
 
 def _after(say: Callable[[Context, XmlElement], None], read: ReadChild) -> ReadChild:

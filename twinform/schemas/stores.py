@@ -32,8 +32,10 @@ def value_check(row: Fact) -> Callable[[XmlElement, Any, Context], None] | None:
             messages.out_of_range(context, element, row, value)
 
     def check_vector(element: XmlElement, value: tuple[float, ...], context: Context) -> None:
-        for number in value:
-            check_number(element, number, context)
+        if min(value) < low:
+            messages.out_of_range(context, element, row, min(value))
+        elif max(value) > high:
+            messages.out_of_range(context, element, row, max(value))
 
     return check_number if row.type in _SCALARS else check_vector
 
@@ -48,7 +50,7 @@ def _word_check(row: Fact) -> Callable[[XmlElement, Any, Context], None]:
             messages.word_outside_version(context, element, row, value)
         elif value not in allowed:
             step = row.name if row.is_attribute else ""
-            messages.invalid_value(context, element, step, value, f"one of {', '.join(row.enum)}")
+            messages.invalid_word(context, element, step, value, row.enum)
 
     return check
 

@@ -72,3 +72,51 @@ def test_colour_is_for_terminals_without_no_color(folder: Path, monkeypatch: pyt
     assert "\x1b[" not in output(terminal=False)
     monkeypatch.setenv("NO_COLOR", "1")
     assert "\x1b[" not in output(terminal=True)
+
+
+TURNING = """<robot name="r"><link name="a"/><link name="b"><inertial><mass value="1"/>
+<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+<joint name="j" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>
+<limit lower="-20" upper="21" effort="1" velocity="1"/></joint></robot>"""
+
+
+def test_passes_that_only_look_are_run(run: Run, tmp_path: Path) -> None:
+    robot = tmp_path / "turning.urdf"
+    robot.write_text(TURNING)
+    assert run("check", robot).stdout == ""
+    assert (
+        f"{robot}:4: warning: joint 'j' turns from -20 to 21 rad"
+        in run("check", robot, "--passes", "check-limits").stdout
+    )
+    for passes in ("fill-limits{damping=1}", "bridge-config{file=b.yaml}"):
+        done = run("check", robot, "--passes", passes)
+        assert done.exit_code == 2
+        assert "and check only looks" in done.stderr
+    assert run("check", robot, "--passes", "chek-limits").exit_code == 2
+
+
+def test_a_configuration_makes_passes_the_rule(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("turning.urdf").write_text(TURNING)
+    Path("twinform.toml").write_text(
+        'passes = "fill-limits{damping=1}"\ncheck-passes = "@look"\n[pipelines]\nlook = "check-limits,check-inertia"\n'
+    )
+    assert "range-in-degrees" in run("check", "turning.urdf").stdout
+    assert run("check", "turning.urdf", "--passes", "").stdout == ""
+    assert run("check", "turning.urdf", "--no-config").stdout == ""
+    Path("twinform.toml").write_text('check-passes = "no-such-pass"\n')
+    assert "twinform.toml: check-passes: " in run("check", "turning.urdf").stderr
+
+
+def test_a_file_of_xacro_that_is_not_called_so_is_expanded_where_one_asks(run: Run, tmp_path: Path) -> None:
+    robot = tmp_path / "robot.urdf"
+    robot.write_text(
+        '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="r"><xacro:arg name="side" default="left"/>\n'
+        '<link name="${1+1}$(arg side)"/></robot>'
+    )
+    done = run("check", robot)
+    assert done.exit_code == 1
+    assert "help: name it .xacro, or pass --xacro" in done.stdout
+    assert run("check", "--xacro", robot).exit_code == 0
+    assert '<link name="2right"/>' in run("convert", "--xacro", robot, "side:=right", "--to", "urdf").stdout
+    assert run("check", robot, "side:=right").exit_code == 2

@@ -68,7 +68,7 @@ def test_without_configuration_there_are_no_names(run: Run, here: Path) -> None:
         ("[pipelines\n", "twinform.toml:1: Expected ']' at the end of a table declaration"),
         ("a = 1\nb = \n", "twinform.toml:2: Invalid value"),
         ("[pipelins]\n", "twinform.toml: pipelins: there is no such key; did you mean pipelines?"),
-        ("speed = 1\n", "twinform.toml: speed: there is no such key; there are allow, carriers, deny"),
+        ("speed = 1\n", "twinform.toml: speed: there is no such key; there are allow, carriers, check-passes, deny"),
         ("strict = 'yes'", "twinform.toml: strict: should be a valid boolean"),
         ("sdf-version = '2.0'", "twinform.toml: sdf-version: SDF has no version '2.0'; it has 1.2, "),
         ("urdf-version = '2.0'", "twinform.toml: urdf-version: should be '1.0', '1.1' or '1.2'"),

@@ -19,3 +19,60 @@ def test_text_and_attributes_of_no_format_are_carried_or_dropped(
     assert made.source is not None
     found = audit(made.source, made.text, made.ledger)
     assert (found.carried, found.dropped, found.unaccounted) == ((count, 0, ()) if carriers else (0, count, ()))
+
+
+_LINKS = "".join(f'<link name="{name}"><inertial><mass>1</mass></inertial></link>' for name in "abc")
+_BASE = '<joint name="{0}" type="revolute"><parent>a</parent><child>{1}</child><axis><xyz>0 0 1</xyz></axis></joint>'
+_JOINTS = {
+    "universal": "<axis><xyz>1 0 0</xyz></axis><axis2><xyz>0 1 0</xyz></axis2>",
+    "revolute2": "<axis><xyz>1 0 0</xyz></axis><axis2><xyz>0 1 0</xyz></axis2>",
+    "ball": "",
+    "screw": "<thread_pitch>3</thread_pitch><axis><xyz>0 0 1</xyz></axis>",
+    "gearbox": "<gearbox_ratio>2</gearbox_ratio><gearbox_reference_body>a</gearbox_reference_body>"
+    "<axis><xyz>0 0 1</xyz></axis><axis2><xyz>0 0 1</xyz></axis2>",
+}
+_BODY = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+_PLANAR = (
+    f'<robot name="r"><link name="a">{_BODY}</link><link name="b">{_BODY}</link>'
+    '<joint name="j" type="planar"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/></joint></robot>'
+)
+
+
+def _home(source: str) -> tuple[str, Language]:
+    """What a text becomes in the other format, and what that becomes in its own."""
+    own: Language = "sdf" if source.startswith("<sdf") else "urdf"
+    there = twinform.convert(source.encode(), to="urdf" if own == "sdf" else "sdf").text
+    return there, own
+
+
+def _model(kind: str) -> str:
+    first = _BASE.format("x", "b") + (_BASE.format("y", "c") if kind == "gearbox" else "")
+    joint = f'<joint name="j" type="{kind}"><parent>b</parent><child>c</child>{_JOINTS[kind]}</joint>'
+    return f'<sdf version="1.11"><model name="m">{_LINKS}{first}{joint}</model></sdf>'
+
+
+@pytest.mark.parametrize("source", [*map(_model, _JOINTS), _PLANAR], ids=[*_JOINTS, "planar"])
+def test_chains_that_became_one_joint_again_are_all_accounted_for(source: str) -> None:
+    there, own = _home(source)
+    back = twinform.convert(there.encode(), to=own)
+    assert back.source is not None
+    assert audit(back.source, back.text, back.ledger).unaccounted == ()
+
+
+def test_a_chain_that_is_lost_is_not_accounted_for() -> None:
+    there, _ = _home(_model("ball"))
+    back = twinform.convert(there.encode(), to="sdf")
+    assert back.source is not None
+    without = back.text.replace('name="j" type="ball"', 'name="j" type="fixed"')
+    assert {"j_z", "j_z_link", "j_y_link"} <= {
+        part.says for part in audit(back.source, without, back.ledger).unaccounted
+    }
+
+
+@pytest.mark.parametrize("name", ["", " ", "arm "])
+def test_names_that_were_made_up_and_are_gone_are_accounted_for(name: str) -> None:
+    source = f'<robot name="{name}"><link name="{name or "a"}x "><inertial/></link></robot>'
+    there, _ = _home(source)
+    back = twinform.convert(there.encode(), to="urdf")
+    assert back.source is not None
+    assert audit(back.source, back.text, back.ledger).unaccounted == ()

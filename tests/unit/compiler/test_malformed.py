@@ -41,7 +41,6 @@ REFUSED = {
     "an unknown entity": Case(HEAD + "<link name='a&nbsp;b'/>\n</robot>", 2, "write the character itself"),
     "a blank behind the bracket": Case(HEAD + "< link name='a'/>\n</robot>", 2, "right behind the '<'"),
     "two colons in an attribute": Case(HEAD + "<link gz::name='a'/>\n</robot>", 2, "one colon"),
-    "two colons in a tag": Case(HEAD + "<gz::link name='a'/>\n</robot>", 2, "one colon"),
     "an open comment": Case(HEAD + "<!-- open\n<link name='a'/>\n</robot>", 2, "close the comment"),
     "an open section": Case(HEAD + "<![CDATA[ open\n</robot>", 3, "close the section"),
     "bytes of another encoding": Case(HEAD.encode() + b"<link name='\xff'/>\n</robot>", 2, "save the file as UTF-8"),
@@ -56,6 +55,7 @@ REPAIRED = {
     "a version that there is not": Case("<?xml version='0.0'?>\n" + HEAD + "<link name='a'/></robot>", 1, "'1.0'"),
     "a late declaration": Case("\n<?xml version='1.0'?>\n" + HEAD + "<link name='a'/></robot>", 2, "very beginning"),
     "hyphens in a comment": Case(HEAD + "<!-- a -- b --><link name='a'/></robot>", 2, "inside a comment"),
+    "two colons in a tag": Case(HEAD + "<link name='a'/><k::x xmlns:k='urn:k'> </k::x></robot>", 2, "one colon"),
     "an undeclared prefix": Case(HEAD + "<link name='a' x:y='1'/></robot>", 2, "declare the prefix"),
 }
 

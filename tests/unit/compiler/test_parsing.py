@@ -50,7 +50,6 @@ def test_entity_bombs_do_not_go_off() -> None:
 
 
 ACCEPTED = {
-    "UTF-16": _ROBOT.decode().encode("utf-16"),
     "byte order mark": b"\xef\xbb\xbf" + _ROBOT,
     "Latin-1": '<?xml version="1.0" encoding="iso-8859-1"?><robot name="é"><link name="a"/></robot>'.encode("latin-1"),
     "CRLF": _ROBOT.replace(b"><", b">\r\n<"),
@@ -62,6 +61,17 @@ ACCEPTED = {
 def test_what_is_xml_is_read(name: str) -> None:
     checked = check(ACCEPTED[name])
     assert [each.message for each in checked.diagnostics] == []
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-le", "utf-16-be"])
+def test_what_has_several_bytes_for_a_letter_is_read_with_a_warning(encoding: str) -> None:
+    text = '<?xml version="1.0" encoding="UTF-16"?>' + _ROBOT.decode()
+    checked = check(text.encode(encoding))
+    assert [(each.rule.name, str(each.severity), each.help) for each in checked.diagnostics] == [
+        ("wide-encoding", "warning", "save the file as UTF-8")
+    ]
+    assert checked.document == check(_ROBOT).document
+    assert not check(text.encode(encoding), strict=True).accepted
 
 
 PREFIXED = b"""<robot name="r" xmlns:k="urn:known">

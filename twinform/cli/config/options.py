@@ -18,7 +18,7 @@ from twinform.passes.named import Names, no_names
 Command = TypeVar("Command", bound=Callable[..., Any])
 _KEY = f"{__name__}.project"
 _TRUSTED = f"{__name__}.trusted"
-_DEFAULTS = ("sdf_version", "urdf_version", "strict", "carriers", "passes")
+_DEFAULTS = ("sdf_version", "urdf_version", "strict", "carriers", "passes", "check_passes")
 """Settings that are what an option is where the command line says nothing."""
 
 

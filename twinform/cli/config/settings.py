@@ -27,6 +27,7 @@ class Settings(BaseModel):
     strict: bool | None = None
     carriers: bool | None = None
     passes: str | None = None
+    check_passes: str | None = None
     paths: list[str] = Field(default_factory=list[str])
     allow: list[str] = Field(default_factory=list[str])
     deny: list[str] = Field(default_factory=list[str])

@@ -27,7 +27,7 @@ def diff(
     engine: Engine = "libxml2",
     paths: Iterable[str | Path] = (),
     arguments: Mapping[str, str] | None = None,
-    xacro: bool = True,
+    xacro: bool | None = None,
 ) -> Comparison:
     """Compare the robots in two files or documents, of either format; `model` names one where a file has several.
 

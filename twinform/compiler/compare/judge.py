@@ -159,8 +159,8 @@ def _off_axis(a: Hinge, b: Hinge, base: Base) -> Iterable[Gap]:
         away = tuple(away[i] - along * axis[i] for i in range(3))
     elif a.type not in _ABOUT_A_POINT:
         return []
-    (gap,) = gaps(Point(one), Point(other))
-    return [replace(gap, absolute=math.hypot(*away), aspect="")]
+    # none where the frames are only turned
+    return [replace(gap, absolute=math.hypot(*away), aspect="") for gap in gaps(Point(one), Point(other))]
 
 
 def _amount(gaps: Iterable[Gap]) -> str:

@@ -10,7 +10,7 @@ from twinform.compiler.compare.leaves import CARRIED, Resolve, Walk, numbered
 from twinform.compiler.compare.robot import Leaf, Leaves, Part
 from twinform.compiler.compare.values import Words
 from twinform.diagnostics import NOWHERE, Location, Origins
-from twinform.ir import Element, Format, Frame, Joint, Link, Model, Node, node_fields
+from twinform.ir import Element, Format, Frame, Joint, Link, Model, Node, Sensor, node_fields
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import NAMESPACE, from_xml
 from twinform.passes.legalise.marks import find_mark
@@ -43,6 +43,8 @@ _FLOATING = f"{{{NAMESPACE}}}{FLOATING}"
 """A joint of URDF that is none in SDF."""
 _NOT_OF_THE_ROBOT = frozenset({"material", "gazebo", "link", "inertial", "mass", "origin", "name", "type"})
 """What URDF's carriers hold that says how the file is written, or that the model says in words of SDF."""
+_NEW_WORDS = {"ray": "lidar", "gpu_ray": "gpu_lidar", "gps": "navsat"}
+"""Types of sensors, and elements with their parameters, that have two names; readers take one for the other."""
 _OF_AN_AXIS = frozenset({"axis", "limit", "dynamics", "mimic"})
 _IGNORED_LIMITS = frozenset({"limit/@lower", "limit/@upper"})
 """Of a continuous joint; those of others are said in words of SDF."""
@@ -224,4 +226,16 @@ def _name(xml: XmlElement) -> str:
 def _xml(node: Node, tag: str) -> XmlElement:
     made = etree.Element(tag, nsmap={"tf": NAMESPACE})
     writer("sdf", table("sdf").newest).write(node, made, tag)
+    if isinstance(node, Sensor):
+        _in_new_words(made)
     return made
+
+
+def _in_new_words(sensor: XmlElement) -> None:
+    """Say what has an old and a new name, such as a scan of `<ray>` and of `<lidar>`, in the new one."""
+    kind = sensor.get("type")
+    if kind in _NEW_WORDS:
+        sensor.set("type", _NEW_WORDS[kind])
+    for child in sensor:
+        if isinstance(child.tag, str) and (word := _NEW_WORDS.get(child.tag)) and sensor.find(word) is None:
+            child.tag = word

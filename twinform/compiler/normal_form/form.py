@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from twinform.compiler.errors import CompileError
-from twinform.compiler.loading import check, declared_version, read_tree
+from twinform.compiler.loading import Reading, declared_version, read, read_tree
 from twinform.compiler.normal_form.building import builder
 from twinform.compiler.normal_form.comparing import Comparing, Discrepancy
 from twinform.compiler.normal_form.part import Part
@@ -42,7 +42,7 @@ def normal_form(source: str | Path | bytes, *, name: str = "") -> NormalForm:
         CompileError: it is not.
     """
     if not isinstance(source, bytes):
-        checked = check(source, name=name)
+        checked = read(source, Reading(), name=name)
         if checked.tree is None:
             raise CompileError(checked.diagnostics, unreadable=True)
         return NormalForm.of(checked.tree, checked.path)

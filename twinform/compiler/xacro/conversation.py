@@ -107,7 +107,7 @@ class _Conversation:
         answer: dict[str, str] = {}
         for file in files:
             try:
-                return {"path": str(self.search.find(uri, file))}
+                return {"path": str(self.search.find(uri, file).absolute())}  # links keep their names
             except UriError as error:
                 answer = {"error": error.message, "help": error.help or ""}
         return answer

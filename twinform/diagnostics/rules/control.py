@@ -57,3 +57,19 @@ UNSAYABLE_IN_TRANSMISSIONS = Rule(
     example="`<command_interface name='position'><param name='min'>-1</param></command_interface>`",
     better="Give the values to the driver in its configuration.",
 )
+UNKNOWN_DRIVEN_JOINT = Rule(
+    name="unknown-driven-joint",
+    severity=Severity.WARNING,
+    finds="A transmission or `<ros2_control>` that names a joint which the robot does not have.",
+    matters="The controller manager refuses to start, or leaves the joint without a drive.",
+    example="`<transmission name='hip_drive'><joint name='hipp'>...` in a robot whose joint is called `hip`.",
+    better="Correct the name.",
+)
+TRANSMISSION_WITHOUT_JOINT = Rule(
+    name="transmission-without-joint",
+    severity=Severity.WARNING,
+    finds="A transmission in which no joint is named.",
+    matters="It drives nothing; ros_control refuses it and does not load the others either.",
+    example="`<transmission name='hip_drive'><type>...</type><actuator name='hip_motor'/></transmission>`",
+    better="Write `<joint name='...'>` with its hardware interface into it.",
+)

@@ -38,3 +38,20 @@ MISSING_MODEL_CONFIG = Rule(
     example="`<uri>model://crate</uri>` where the folder `crate` has only `model.sdf`.",
     better="Write a model.config that names it, or include the file: `model://crate/model.sdf`.",
 )
+MISSING_FILE = Rule(
+    name="missing-file",
+    severity=Severity.WARNING,
+    finds="A mesh, texture or included model whose file is nowhere. Nothing is said of packages and models that are "
+    "not on this machine at all: they may be installed where the robot is.",
+    matters="The part cannot be seen or touched, or the file is refused.",
+    example="`<mesh filename='package://arm/meshes/Elbow.STL'/>` where the file is called `elbow.stl`.",
+    better="Correct the path; capitals count. Name a folder that holds models or packages with `--path DIR`.",
+)
+BACKSLASH_IN_PATH = Rule(
+    name="backslash-in-path",
+    severity=Severity.WARNING,
+    finds="A backslash in the path or URI of a file.",
+    matters="Only Windows reads it as a separator; everywhere else it is a part of the name, and no file is found.",
+    example="`<mesh filename='meshes\\elbow.stl'/>`",
+    better="Write slashes, which all systems read: `meshes/elbow.stl`.",
+)

@@ -38,3 +38,20 @@ UNKNOWN_CANONICAL_LINK = Rule(
     better="Name a link of the model, or one of a nested model as `model::link`; a frame will not do.",
     references="libsdformat: MODEL_CANONICAL_LINK_INVALID",
 )
+ANGLE_IN_DEGREES = Rule(
+    name="angle-in-degrees",
+    severity=Severity.WARNING,
+    finds="A roll, pitch or yaw of more than two turns, where radians are read.",
+    matters="The part is turned by something that looks like chance: 90 radians are 14 turns and 117 degrees.",
+    example="`<origin xyz='0 0 0' rpy='0 0 90'/>`, `<pose>0 0 0 0 0 90</pose>`",
+    better="Write radians, 1.570796 for 90 degrees, or in SDF from 1.9 on `<pose degrees='true'>`.",
+)
+UNNORMALISED_QUATERNION = Rule(
+    name="unnormalised-quaternion",
+    severity=Severity.WARNING,
+    finds="A quaternion whose length is not 1.",
+    matters="Only those of length 1 are rotations. We and some readers divide by the length; others take the numbers "
+    "as they are, and the part is somewhere else or of another size.",
+    example="`<pose rotation_format='quat_xyzw'>0 0 0 0 0 1 1</pose>`",
+    better="Divide all four numbers by their length: `0 0 0.707107 0.707107`. The order is x, y, z, w.",
+)

@@ -67,3 +67,13 @@ OLD_ROOT = Rule(
     example="`<gazebo version='1.2'>`",
     better="Call the root `sdf`; it is read and written as that, and in a newer version when asked for.",
 )
+WIDE_ENCODING = Rule(
+    name="wide-encoding",
+    severity=Severity.WARNING,
+    strict=Severity.ERROR,
+    finds="A file in UTF-16, or another encoding with several bytes for each letter.",
+    matters="urdfdom, libsdformat and Drake refuse it. We read it, and what we write is UTF-8.",
+    example='A file that an editor on Windows has saved as "Unicode".',
+    better="Save it as UTF-8: `iconv -f UTF-16 -t UTF-8 robot.urdf > robot.utf8.urdf`, and correct `encoding` in its "
+    "first line.",
+)

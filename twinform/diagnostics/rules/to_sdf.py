@@ -60,8 +60,9 @@ FRAME_LINK = Rule(
 )
 RENAMED = Rule(
     name="renamed",
-    severity=Severity.INFO,
-    finds="A thing whose name had to change, because all names of an SDF model share one scope.",
+    severity=Severity.WARNING,
+    finds="A thing whose name had to change, because all names of an SDF model share one scope, SDF keeps the name for "
+    "itself, or blanks are around it, which libsdformat drops.",
     matters="Plugins and programs that use the old name must use the new one.",
     example="A joint and a link that are both called `arm`: the joint becomes `arm_joint`.",
     better="Choose different names in the URDF.",
@@ -122,4 +123,22 @@ OLDER_VERSION = Rule(
     matters="Readers of that version would not see it.",
     example="`mimic` before 1.11, `capsule` before 1.8.",
     better="Ask for a newer `--sdf-version` if the simulator reads it.",
+)
+LUMPED_NAME = Rule(
+    name="lumped-name",
+    severity=Severity.INFO,
+    finds="The name of a collision as libsdformat calls it when it lumps the robot, in a contact sensor or plugin.",
+    matters="We lump nothing unless asked, and the collision keeps its own name: the sensor names it by that.",
+    example="`<collision>base_link_fixed_joint_lump__pad_collision_1</collision>` becomes `pad_collision`.",
+    better="Nothing needs doing.",
+    references="sdformat, parser_urdf.cc, ReduceCollisionToParent.",
+)
+UNSEEN_COLLISION = Rule(
+    name="unseen-collision",
+    severity=Severity.WARNING,
+    finds="A contact sensor that names a collision of another link, which libsdformat would have lumped into its own.",
+    matters="A contact sensor of Gazebo sees the collisions of its own link alone, and this one stays silent.",
+    example="A sensor on `base_link` with `base_link_fixed_joint_lump__pad_collision_1`, where `pad` has a mass.",
+    better="Lump the robot as libsdformat does, `--passes 'lump-fixed-joints{compat=libsdformat}'`, or put the sensor "
+    "on the link that has the collision.",
 )

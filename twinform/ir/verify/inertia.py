@@ -7,9 +7,11 @@ from twinform.diagnostics.rules import inertia as rules
 from twinform.ir.inertial import Inertia, Inertial
 from twinform.ir.link import Link
 from twinform.ir.principal_moments import Symmetric, principal_moments
+from twinform.ir.verify.poses import verify_rotation
 
 _ROUNDING = 5e-15
 """Ten times what a double rounds, as a part of half the trace: libsdformat forgives no more."""
+_HELP = "correct the numbers, or let --passes balance-inertia write the nearest that a body can have"
 _DOUBT = 1e-12
 """Far above what rounding does to the minors of a matrix, as a part of the powers of its trace."""
 
@@ -22,6 +24,7 @@ def verify_inertial(link: Link, default: float | None, notes: Notes) -> None:
     inertial = link.inertial
     if inertial is None:
         return
+    verify_rotation(inertial.pose, notes)
     mass = inertial.mass
     is_seen = default is None and mass is not None and mass < 0  # the table of URDF has a least value
     if mass is not None and not is_seen and not 0 < mass < math.inf:  # the negation catches what is not a number
@@ -69,8 +72,9 @@ def report_moments(
 
     `least` is the part of the trace that each moment has to exceed; where it is None, they may be zero.
     """
+    where = _place(inertial)
     if not all(map(math.isfinite, matrix)):
-        _report(rules.INDEFINITE_INERTIA, f"the inertia of link {link.name!r} is not finite", inertial.location, notes)
+        _report(rules.INDEFINITE_INERTIA, f"the inertia of link {link.name!r} is not finite", where, notes)
         return
     moments = principal_moments(matrix)
     smallest, middle, largest = moments
@@ -78,17 +82,23 @@ def report_moments(
     listed = ", ".join(f"{moment:.6g}" for moment in moments)
     if smallest <= least * trace if least is not None else smallest < -eps * trace:
         message = f"the inertia of link {link.name!r} is not positive definite: its principal moments are {listed}"
-        _report(rules.INDEFINITE_INERTIA, message, inertial.location, notes, listed, "all more than 0")
+        _report(rules.INDEFINITE_INERTIA, message, where, notes, listed, "all more than 0")
     elif largest - smallest - middle > eps * trace:
         message = (
             f"no body has the principal moments of link {link.name!r}, {listed}: the last exceeds the sum of the others"
         )
         expected = f"at most {smallest + middle:.6g}"
-        _report(rules.IMPOSSIBLE_INERTIA, message, inertial.location, notes, listed, expected)
+        _report(rules.IMPOSSIBLE_INERTIA, f"{message}; Gazebo refuses it", where, notes, listed, expected)
 
 
 def _report(
     rule: Rule, message: str, where: Location, notes: Notes, found: str | None = None, expected: str | None = None
 ) -> None:
     if not notes.has(rule, where):  # a pass that is stricter looks again at what `check` has looked at
-        notes.report(rule, message, where, found=found, expected=expected)
+        notes.report(rule, message, where, found=found, expected=expected, help=_HELP if found else None)
+
+
+def _place(inertial: Inertial) -> Location:
+    """Where the moments are written."""
+    inertia = inertial.inertia
+    return inertia.location if inertia is not None and inertia.source else inertial.location

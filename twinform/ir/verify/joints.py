@@ -3,9 +3,10 @@
 import math
 from collections.abc import Iterable
 
-from twinform.diagnostics import Location, Notes
+from twinform.diagnostics import Location, Notes, did_you_mean
 from twinform.diagnostics.rules import joints as rules
 from twinform.diagnostics.rules import model as names
+from twinform.diagnostics.rules.limits import RANGE_IN_DEGREES
 from twinform.ir.joint import Axis, Joint, Limit
 from twinform.ir.node import Vector3
 
@@ -15,6 +16,10 @@ _FREEDOMS = {
 }
 """How many axes a type of joint moves about or along; the others have none."""
 _LIMITED = frozenset({"revolute", "prismatic"})
+_MOST_TURNS = 4 * math.pi
+_WHOLE_TURN = 360
+_STEP = 5
+"""Limits in degrees are mostly multiples of this; those of a winch, in radians, hardly ever."""
 _ROUNDING = 1e-3
 """How far from 1 the length of an axis may be: files write three digits."""
 
@@ -78,10 +83,22 @@ def _verify_limit(joint: Joint, limit: Limit, notes: Notes) -> None:
     elif limit.lower is not None and limit.upper is not None and limit.lower > limit.upper:
         message = f"joint {joint.name!r} has the lower limit {limit.lower:g} above the upper limit {limit.upper:g}"
         notes.report(names.LOWER_ABOVE_UPPER, message, limit.location, found=f"{limit.lower:g}")
+    if joint.type == "revolute" and _is_in_degrees(limit.lower or 0.0, limit.upper or 0.0):
+        message = (
+            f"joint {joint.name!r} turns from {limit.lower or 0:g} to {limit.upper or 0:g} rad; are these degrees?"
+        )
+        hint = f"write radians: {math.radians(limit.lower or 0):.6g} to {math.radians(limit.upper or 0):.6g}"
+        notes.report(RANGE_IN_DEGREES, message, limit.location, found=f"{limit.upper or limit.lower:g}", help=hint)
     if limit.effort == 0 or limit.velocity == 0:
         which = " and ".join(word for word in ("effort", "velocity") if getattr(limit, word) == 0)
         message = f"joint {joint.name!r} has the limit 0 for {which}; a controller that obeys it cannot move it"
         notes.report(rules.ZERO_LIMIT, message, limit.location, found="0")
+
+
+def _is_in_degrees(lower: float, upper: float) -> bool:
+    """Whether limits are such as people write in degrees, and no robot has in radians."""
+    most = max(-lower, upper)
+    return _MOST_TURNS < most <= _WHOLE_TURN and not lower % _STEP and not upper % _STEP
 
 
 def verify_limits_there(joint: Joint, notes: Notes, *, optional: bool) -> None:
@@ -111,7 +128,8 @@ def verify_mimics(joints: Iterable[Joint], notes: Notes) -> None:
             continue
         what = "which is no joint" if leader is None else "itself" if leader is joint else "which has no axis"
         message = f"joint {joint.name!r} mimics {mimic.joint!r}, {what}"
-        notes.report(names.UNKNOWN_LEADER, message, mimic.location, found=mimic.joint)
+        hint = did_you_mean(mimic.joint or "", (each for each in known if each != joint.name)) if not leader else None
+        notes.report(names.UNKNOWN_LEADER, message, mimic.location, found=mimic.joint, help=hint)
     _report_circles(followers, leaders, notes)
 
 

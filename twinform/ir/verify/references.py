@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from twinform.diagnostics import Notes, Rule, Severity
+from twinform.diagnostics import Notes, Rule, Severity, did_you_mean
 from twinform.diagnostics.rules import frames as rules
 from twinform.diagnostics.rules import model as joints
 from twinform.ir.frame import Frame
@@ -13,6 +13,7 @@ from twinform.ir.model import Include, Model
 from twinform.ir.pose import Pose
 from twinform.ir.sensor import Sensor
 from twinform.ir.sourced import Sourced
+from twinform.ir.verify.poses import verify_rotation
 from twinform.ir.verify.scope import Scope
 from twinform.ir.visual import Collision, Visual
 from twinform.ir.world import World
@@ -63,7 +64,8 @@ class References:
         if model.canonical_link and not self.is_link(model.canonical_link):
             message = f"the canonical link of model {model.name!r} is {model.canonical_link!r}, which is no link in it"
             where = model.location.at("@canonical_link")
-            self.notes.report(rules.UNKNOWN_CANONICAL_LINK, message, where, found=model.canonical_link)
+            hint = did_you_mean(model.canonical_link, self.scope.names("link"))
+            self.notes.report(rules.UNKNOWN_CANONICAL_LINK, message, where, found=model.canonical_link, help=hint)
         self._frame(model.placement_frame, model, "@placement_frame")
 
     def _link(self, link: Link) -> None:
@@ -95,7 +97,10 @@ class References:
         if reference and joint.type == "gearbox" and not self.is_link(reference):
             where = joint.location.at("gearbox_reference_body")
             message = f"joint {joint.name!r} has the reference body {reference!r}, which is no link"
-            self.notes.report(joints.DANGLING_LINK, message, where, found=reference, severity=Severity.WARNING)
+            hint = did_you_mean(reference, self.scope.names("link"))
+            self.notes.report(
+                joints.DANGLING_LINK, message, where, found=reference, severity=Severity.WARNING, help=hint
+            )
 
     def _end(self, joint: Joint, end: str, name: str) -> None:
         if name == joint.name and self.scope.find(name) == "joint":
@@ -103,12 +108,14 @@ class References:
             self.notes.report(joints.SELF_JOINT, message, joint.location.at(end), found=name)
         elif name != self.own:
             what = f"joint {joint.name!r} has the {end} {name!r}, which is no link or frame of the "
-            self._look_up(joints.DANGLING_LINK, what + ("model" if self.own == MODEL else "world"), (joint, end), name)
+            message = what + ("model" if self.own == MODEL else "world")
+            self._look_up(joints.DANGLING_LINK, message, (joint, end), name, (joint.parent, joint.child))
 
     def _pose(self, placed: _Placed) -> None:
         pose = placed.pose
         if pose is None:
             return
+        verify_rotation(pose, self.notes)
         where, step = (placed, "pose/") if pose.source is None else (pose, "")  # a pass may have made it
         if pose.relative_to:
             self._frame(pose.relative_to, where, f"{step}@relative_to")
@@ -119,17 +126,24 @@ class References:
 
     def _frame(self, name: str | None, node: Sourced, step: str) -> None:
         if name and name != self.own:
-            self._look_up(rules.DANGLING_FRAME, f"there is no frame {name!r}", (node, step), name)
+            own = node.name if isinstance(node, Frame | Link | Joint) else None
+            self._look_up(rules.DANGLING_FRAME, f"there is no frame {name!r}", (node, step), name, (own,))
 
-    def _look_up(self, rule: Rule, message: str, part: tuple[Sourced, str], name: str) -> None:
-        """Report a name that means nothing; `part` is where it stands, whose path is dear and made only then."""
+    def _look_up(
+        self, rule: Rule, message: str, part: tuple[Sourced, str], name: str, taken: Iterable[str | None] = ()
+    ) -> None:
+        """Report a name that means nothing, or two things.
+
+        `part` is where it stands, whose path is dear and made only then; `taken` are names that it is not a slip of.
+        """
         found = self.scope.find(name)
         if found is not None and not (found == "twice" and self.one_scope):
             return
         node, step = part
         where = node.location.at(step)
         if found is None:
-            self.notes.report(rule, message, where, found=name)
+            known = [each for each in self.scope.names() if each not in taken]
+            self.notes.report(rule, message, where, found=name, help=did_you_mean(name, known))
         else:
             message = f"{name!r} is the name of two things, and this may mean either"
             self.notes.report(rules.AMBIGUOUS_FRAME, message, where, found=name)

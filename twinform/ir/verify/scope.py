@@ -41,6 +41,10 @@ class Scope:
                 self._kinds.setdefault(include.name, "model")
         return unread
 
+    def names(self, *kinds: Found) -> list[str]:
+        """The names of these kinds, or of all, without those in nested models."""
+        return [name for name, kind in self._kinds.items() if not kinds or kind in kinds]
+
     def find(self, name: str) -> Found | None:
         """What a name stands for, as seen from here; None for nothing."""
         here = self._kinds.get(name)

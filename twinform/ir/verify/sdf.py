@@ -12,6 +12,7 @@ from twinform.ir.pose import Pose
 from twinform.ir.verify.inertia import verify_inertial
 from twinform.ir.verify.joints import verify_joint, verify_mimics
 from twinform.ir.verify.names import Kinds, report_names, report_reserved, report_scope
+from twinform.ir.verify.poses import verify_rotation
 from twinform.ir.verify.references import References
 from twinform.ir.verify.sensors import verify_grippers, verify_joint_sensors, verify_sensors
 from twinform.ir.verify.shapes import verify_shapes
@@ -73,6 +74,7 @@ class _Verifier:
 
     def _at_top(self, model: Model) -> None:
         """A model that stands in no world has nothing around it to be relative to."""
+        verify_rotation(model.pose, self.notes)
         if model.pose is not None and model.pose.relative_to:
             message = f"the pose of model {model.name!r} names a frame, and there is nothing around a model at the top"
             where = model.pose.location.at("@relative_to")

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import Notes, did_you_mean
 from twinform.diagnostics.rules import bodies as rules
 from twinform.ir.element import Opaque
 from twinform.ir.link import Link
@@ -65,28 +65,32 @@ def _verify_content(sensor: Sensor, notes: Notes) -> None:
 
 def _verify_contact(sensor: Sensor, model: Model, notes: Notes) -> None:
     known: set[str] | None = None
-    for part, name in _texts(sensor.opaque, "contact", "collision"):
+    for part, step, name in _texts(sensor.opaque, "contact", "collision"):
         if known is None:
             known = {one.name or "" for each in _all_models(model) for link in each.links for one in link.collisions}
         if name.rpartition("::")[2] not in known and name != _DEFAULT and not _has_includes(model):
             message = f"contact sensor {sensor.name!r} looks at the collision {name!r}, which does not exist"
-            notes.report(rules.UNKNOWN_COLLISION, message, part.location, found=name)
+            hint = did_you_mean(name.rpartition("::")[2], known)
+            notes.report(rules.UNKNOWN_COLLISION, message, part.location.at(step), found=name, help=hint)
 
 
 def verify_grippers(model: Model, is_link: Callable[[str], bool], notes: Notes) -> None:
     """Report grippers whose links do not exist."""
     for word in ("gripper_link", "palm_link"):
-        for part, name in _texts(model.opaque, "gripper", word):
+        for part, step, name in _texts(model.opaque, "gripper", word):
             if not is_link(name):
                 message = f"<{word}> of a gripper names {name!r}, which is no link of model {model.name!r}"
-                notes.report(rules.UNKNOWN_GRIPPER_LINK, message, part.location, found=name)
+                hint = did_you_mean(name, (link.name for link in model.links))
+                notes.report(rules.UNKNOWN_GRIPPER_LINK, message, part.location.at(step), found=name, help=hint)
 
 
-def _texts(parts: tuple[Opaque, ...], outer: str, inner: str) -> Iterator[tuple[Opaque, str]]:
-    """The texts of the `inner` children of the parts that are an `outer` element."""
+def _texts(parts: tuple[Opaque, ...], outer: str, inner: str) -> Iterator[tuple[Opaque, str, str]]:
+    """The texts of the `inner` children of the parts that are an `outer` element, and the step to each."""
     for part in parts:
         if part.element and part.element.name == outer:
-            yield from ((part, child.text or "") for child in part.element.children if child.name == inner)
+            found = [child.text or "" for child in part.element.children if child.name == inner]
+            for place, text in enumerate(found, 1):
+                yield part, f"{inner}[{place}]" if len(found) > 1 else inner, text
 
 
 def _all_models(model: Model) -> Iterator[Model]:

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 
-from twinform.diagnostics import Location, Notes, Severity
+from twinform.diagnostics import Location, Notes, Severity, did_you_mean
 from twinform.diagnostics.rules import bodies
 from twinform.diagnostics.rules import joints as joint_rules
 from twinform.diagnostics.rules import model as rules
@@ -13,6 +13,7 @@ from twinform.ir.node import Node
 from twinform.ir.verify.inertia import verify_inertial
 from twinform.ir.verify.joints import verify_joint, verify_limits_there, verify_mimics
 from twinform.ir.verify.names import report_names, report_unprintable
+from twinform.ir.verify.poses import verify_rotation
 from twinform.ir.verify.shapes import verify_shapes
 from twinform.ir.verify.tree import report_loops
 
@@ -29,6 +30,7 @@ def verify_robot(model: Model, notes: Notes, *, optional: bool) -> None:
     links = {link.name for link in model.links}
     for joint in model.joints:
         _verify_joint(joint, links, notes)
+        verify_rotation(joint.pose, notes)
         verify_limits_there(joint, notes, optional=optional)
     verify_mimics(model.joints, notes)
     for link in model.links:
@@ -37,20 +39,25 @@ def verify_robot(model: Model, notes: Notes, *, optional: bool) -> None:
         for kind, shapes in (("visual", link.visuals), ("collision", link.collisions)):
             for shape in shapes:
                 report_unprintable(kind, shape, notes)
+                verify_rotation(shape.pose, notes)
     _verify_tree(model, links, notes)
     known = links | {joint.name for joint in model.joints}
     for extension in model.extensions:
         if extension.reference and extension.reference not in known:
             where = extension.location.at("@reference")
             message = f"<gazebo> refers to {extension.reference!r}, which is neither a link nor a joint"
-            notes.report(rules.UNKNOWN_REFERENCE, message, where, found=extension.reference)
+            hint = did_you_mean(extension.reference, known)
+            notes.report(rules.UNKNOWN_REFERENCE, message, where, found=extension.reference, help=hint)
 
 
 def _verify_joint(joint: Joint, links: set[str], notes: Notes) -> None:
     for end, name in (("parent", joint.parent), ("child", joint.child)):
         if name is not None and name not in links:
             message = f"joint {joint.name!r} has the {end} {name!r}, which is no link"
-            notes.report(rules.DANGLING_LINK, message, joint.location.at(end), found=name)
+            others = (each for each in links if each not in {joint.parent, joint.child})
+            notes.report(
+                rules.DANGLING_LINK, message, joint.location.at(end), found=name, help=did_you_mean(name, others)
+            )
     verify_joint(joint, notes)
     for part in joint.opaque:
         if part.element and part.element.name == "dynamics" and not part.element.attributes:
@@ -86,7 +93,8 @@ def _report_materials(model: Model, notes: Notes) -> None:
     for material in used:
         if material.name and _is_bare(material) and material.name not in defined:
             message = f"material {material.name!r} is not defined"
-            notes.report(rules.UNKNOWN_MATERIAL, message, material.location, found=material.name)
+            hint = did_you_mean(material.name, defined)
+            notes.report(rules.UNKNOWN_MATERIAL, message, material.location, found=material.name, help=hint)
 
 
 def _report_unnamed(model: Model, notes: Notes) -> None:

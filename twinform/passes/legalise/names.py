@@ -1,6 +1,7 @@
 """Names that a conversion had to change, and the marks that give them back.
 
     <tf:name instead_of="arm_joint">arm</tf:name>                    in SDF
+    <tf:name instead_of="arm" was="arm "/>                           where blanks are around the name
     <tf:scoped-name instead_of="arm__hand">arm::hand</tf:name>       in URDF
 
 A mark says which name it stands behind: where that was edited since, the edit counts.
@@ -11,8 +12,8 @@ from typing import ClassVar
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
-from twinform.ir import Format, Frame, Joint, Link, Model
-from twinform.passes.legalise.marks import find_mark, with_mark, without_mark
+from twinform.ir import Element, Format, Frame, Joint, Link, Model
+from twinform.passes.legalise.marks import AnyNode, find_mark, with_mark, without_mark
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.notation import NESTED
 from twinform.passes.legalise.provenance import came_from, wrote_scopes
@@ -65,6 +66,8 @@ class RestoreNames(ModelPass):
     def run_model(self, model: Model, notes: Notes) -> Model:
         """The model by its old names."""
         kind = SCOPED_NAME if self.to is Format.SDF and not self.apart else NAME
+        if kind == NAME and self.to is Format.URDF:
+            model = _model_by_its_name(model)
         back = kind == SCOPED_NAME or came_from(model, self.to)
         marked = list(_marked(model, kind)) if back else []
         if not marked:
@@ -119,5 +122,29 @@ def _marked(model: Model, kind: str) -> Iterator[tuple[Part, Link | Joint | Fram
     for part, field in _FIELDS.items():
         for node in getattr(model, field):
             found = find_mark(node, kind)
-            if found is not None and found.text:
-                yield part, node, found.get("instead_of") or "", found.text
+            old = _old_name(found) if found is not None else ""
+            if found is not None and old:
+                yield part, node, found.get("instead_of") or "", old
+
+
+def _old_name(found: Element) -> str:
+    """The name that a mark gives back."""
+    return found.get("was") or found.text or ""
+
+
+def with_old_name(node: AnyNode, name: str) -> AnyNode:
+    """The node with a mark on it that has its name, since it will be called otherwise; a text would lose blanks."""
+    old: str = node.__dict__["name"]
+    is_plain = old == old.strip()
+    return with_mark(
+        node, NAME, old if old and is_plain else None, {"instead_of": name, "was": None if is_plain else old}
+    )
+
+
+def _model_by_its_name(model: Model) -> Model:
+    """The model by the name that it had, unless it has another one by now."""
+    found = find_mark(model, NAME)
+    if found is None:
+        return model
+    model = without_mark(model, NAME)
+    return model.model_copy(update={"name": _old_name(found)}) if found.get("instead_of") == model.name else model

@@ -61,6 +61,8 @@ class CheckLimits(Pass):
         def look(joint: Joint) -> Joint:
             if fnmatchcase(joint.name, self.joints):
                 for each in self._findings(joint, document.format):
+                    if each.rule is rules.RANGE_IN_DEGREES and notes.has(each.rule, each.where):
+                        continue  # verifying has seen what cannot be but degrees
                     notes.report(each.rule, each.message, each.where, found=each.found, expected=each.expected)
             return joint
 

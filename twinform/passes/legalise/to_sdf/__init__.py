@@ -11,6 +11,7 @@ from twinform.passes.legalise.to_sdf.declare_quaternions import DeclareQuaternio
 from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo
 from twinform.passes.legalise.to_sdf.fold_gearboxes import FoldGearboxes
 from twinform.passes.legalise.to_sdf.fold_joints import FoldJoints
+from twinform.passes.legalise.to_sdf.follow_lumped_names import FollowLumpedNames
 from twinform.passes.legalise.to_sdf.frame_links import FrameLinks
 from twinform.passes.legalise.to_sdf.joints import UrdfJoints
 from twinform.passes.legalise.to_sdf.leave_inertias import LeaveInertias
@@ -42,6 +43,7 @@ def to_sdf(version: str, *, carriers: bool, mixed: bool = False, mixed_source: b
     before_named_frames = parse_version(version) < _ONE_SCOPE
     return (
         CarryUrdf(carriers=carriers),  # before anything of SDF comes in
+        FollowLumpedNames(carriers=carriers),
         FoldGazebo(carriers=carriers),
         *raise_unversioned(carriers=carriers),
         UnpackSdf(of="bodies"),

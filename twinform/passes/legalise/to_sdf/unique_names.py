@@ -1,16 +1,17 @@
 """One scope for all names."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf
 from twinform.ir import Axis, Joint, Link, Model, Pose
-from twinform.passes.legalise.marks import with_mark
 from twinform.passes.legalise.model_pass import ModelPass
-from twinform.passes.legalise.names import NAME
+from twinform.passes.legalise.names import with_old_name
 
-Named = TypeVar("Named", Link, Joint)
+Named = TypeVar("Named", Link, Joint, Model)
+_NO_NAME = "robot"
+"""What a robot is called that has no name, which SDF asks for."""
 
 
 class UniqueNames(ModelPass):
@@ -18,7 +19,8 @@ class UniqueNames(ModelPass):
 
     Changes: 1. a joint with a link's name becomes `NAME_joint` (with a number if that is taken too), and mimics and
     poses follow; 2. a link called `world`, or with two underscores at both ends, becomes `NAME_link`, and joints and
-    poses follow.
+    poses follow; 3. names lose the blanks around them, which libsdformat drops where it reads them; 4. a robot without
+    a name is called `robot`.
     Never touches: names inside plugins, which only the plugins understand.
     Diagnostics: `renamed`. The old name is carried.
     """
@@ -28,11 +30,13 @@ class UniqueNames(ModelPass):
 
     def run_model(self, model: Model, notes: Notes) -> Model:
         """The model with one name for each thing."""
+        if not model.name.strip():
+            model = self._rename(model, _NO_NAME, notes)
         names = {link.name for link in model.links}
         taken = names | {joint.name for joint in model.joints}
-        links = {name: free_name(f"{name.strip('_')}_link", taken) for name in sorted(names) if _reserved(name)}
+        links = {name: free_name(_new(name, "link"), taken) for name in sorted(names) if _reserved(name)}
         clashes = [joint.name for joint in model.joints if joint.name in names or _reserved(joint.name)]
-        joints = {name: free_name(f"{name.strip('_')}_joint", taken) for name in clashes}
+        joints = {name: free_name(_new(name, "joint", names), taken) for name in clashes}
         if not links and not joints:
             return model
         return model.model_copy(
@@ -67,12 +71,18 @@ class UniqueNames(ModelPass):
         notes.report(to_sdf.RENAMED, message, node.location, found=node.name)
         notes.account(Fate.CARRIED if self.carriers else Fate.DROPPED, to_sdf.RENAMED, message, node.location)
         if self.carriers:
-            node = with_mark(node, NAME, node.name, {"instead_of": name})
+            node = with_old_name(node, name)
         return node.model_copy(update={"name": name})
 
 
 def _reserved(name: str) -> bool:
-    return name == "world" or (name.startswith("__") and name.endswith("__"))
+    return name == "world" or (name.startswith("__") and name.endswith("__")) or name != name.strip()
+
+
+def _new(name: str, kind: str, links: Collection[str] = ()) -> str:
+    """The name to take instead of one that is reserved, or that a link has."""
+    bare = name.strip()
+    return f"{bare.strip('_')}_{kind}" if bare == name or bare in links or _reserved(bare) else bare
 
 
 def free_name(name: str, taken: set[str]) -> str:

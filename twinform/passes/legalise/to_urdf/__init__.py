@@ -21,6 +21,7 @@ from twinform.passes.legalise.to_urdf.rebase_links import RebaseLinks
 from twinform.passes.legalise.to_urdf.relate_gearboxes import RelateGearboxes
 from twinform.passes.legalise.to_urdf.resolve_joint_ends import ResolveJointEnds
 from twinform.passes.legalise.to_urdf.restore_links import RestoreLinks
+from twinform.passes.legalise.to_urdf.restore_lumped_names import RestoreLumpedNames
 from twinform.passes.legalise.to_urdf.restore_materials import RestoreMaterials
 from twinform.passes.legalise.to_urdf.restore_shapes import RestoreShapes
 from twinform.passes.legalise.to_urdf.select_model import SelectModel
@@ -73,6 +74,7 @@ def to_urdf(
         RestoreMaterials(),
         RestoreShapes(),
         RestoreNames(to=Format.URDF),
+        RestoreLumpedNames(),
         UnpackUrdf(),
         DropStale(to=Format.URDF),
     )

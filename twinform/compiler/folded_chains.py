@@ -1,0 +1,99 @@
+"""Chains and gears of joints that became one joint again: what in them the one joint of the result says."""
+
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
+from typing import Self
+
+from twinform.passes.legalise.carrier import NAMESPACE
+from twinform.passes.legalise.gearboxes import GEARED
+from twinform.passes.legalise.joint_chains import CHAIN, PART
+from twinform.passes.legalise.marks import MADE
+from twinform.passes.legalise.names import NAME, SCOPED_NAME
+from twinform.passes.legalise.to_sdf.bodies import UNSAID
+from twinform.passes.legalise.token_mass import TOKEN_MASS
+from twinform.schemas import XmlElement
+from twinform.schemas.values import format_number
+
+_OURS = f"{{{NAMESPACE}}}"
+_CHAIN, _PART, _MADE, _GEARED, _URDF = (f"{_OURS}{word}" for word in (CHAIN, PART, MADE, GEARED, "urdf"))
+_OLD_NAMES = tuple(f"{_OURS}{word}" for word in (NAME, SCOPED_NAME))
+_UNSAID = f"{_OURS}{UNSAID}"
+_TOKEN_MASS = format_number(TOKEN_MASS)
+"""What a link of SDF weighs that weighs nothing in URDF."""
+_NAMED = ("link", "joint", "frame")
+
+
+@dataclass(frozen=True, slots=True)
+class Folded:
+    """What a result says otherwise, because the source says by marks that it was made of it.
+
+    `there` has the tag, name and type of each part of the result, and `named` tag and name; `parts` are the names of
+    what is gone from it, `followers` the joints that mimic in it, and `ends` those that chains have become.
+    """
+
+    there: frozenset[tuple[str, str, str]] = frozenset()
+    named: frozenset[tuple[str, str]] = frozenset()
+    parts: frozenset[str] = frozenset()
+    followers: frozenset[str] = frozenset()
+    ends: frozenset[str] = frozenset()
+
+    @classmethod
+    def of(cls, source: XmlElement, result: XmlElement) -> Self:
+        """That of two trees; only what the result really has counts."""
+        found = [each for tag in _NAMED for each in result.iter(tag)]
+        there = frozenset((str(each.tag), each.get("name", ""), each.get("type", "")) for each in found)
+        named = frozenset((tag, name) for tag, name, _ in there)
+        followers = frozenset(each.get("name", "") for each in found if next(each.iter("mimic"), None) is not None)
+        chains = ((mark.getparent(), mark.get("type", "")) for mark in source.iter(_CHAIN))
+        ends = frozenset(
+            name for end, kind in chains if end is not None and ("joint", name := end.get("name", ""), kind) in there
+        )
+        folded = cls(there, named, frozenset(), followers, ends)
+        marks = [mark.getparent() for word in (_PART, _MADE) for mark in source.iter(word)]
+        gone = {each.get("name", "") for each in marks if each is not None and folded.is_gone(each)}
+        return cls(there, named, frozenset(gone | set(_made_names(source, result, named))), followers, ends)
+
+    def says(self, element: XmlElement, attribute: str | None) -> bool:
+        """Whether the result says a part of the source by a joint that stands for more than one."""
+        if attribute == "type" and element.tag == "joint":
+            return self._is_end(element)
+        if any(map(self.is_gone, (element, *element.iterancestors()))):
+            return True
+        holder = element.getparent()
+        if element.tag == "mass" and holder is not None and holder.find(_UNSAID) is not None:
+            return (element.text or "").strip() == _TOKEN_MASS
+        return element.tag == "mimic" and holder is not None and self._is_geared(holder)
+
+    def is_gone(self, element: XmlElement) -> bool:
+        """Whether an element was made by a conversion and left out by the reverse one."""
+        part = element.find(_PART)
+        if part is not None:
+            is_there = self._is_named(str(element.tag), element.get("name", ""))
+            return part.get("joint", "") in self.ends and not is_there
+        return element.find(_MADE) is not None and not self._is_named(str(element.tag), element.get("name", ""))
+
+    def _is_named(self, tag: str, name: str) -> bool:
+        return (tag, name) in self.named
+
+    def _is_end(self, joint: XmlElement) -> bool:
+        """Whether a joint has the type in the result that its mark says."""
+        kinds = [mark.get("type") for mark in joint.findall(_CHAIN)]
+        kinds += [mark.get("value") for mark in joint.findall(_URDF) if mark.get("attribute") == "type"]
+        if not kinds:
+            return any(map(self.is_gone, (joint, *joint.iterancestors())))
+        return any(("joint", joint.get("name", ""), kind) in self.there for kind in kinds)
+
+    def _is_geared(self, joint: XmlElement) -> bool:
+        """Whether a joint mimicked because of a gearbox, and the result has the gearbox instead."""
+        has_gearbox = any(kind == "gearbox" for _, _, kind in self.there)
+        return joint.find(_GEARED) is not None and has_gearbox and joint.get("name", "") not in self.followers
+
+
+def _made_names(source: XmlElement, result: XmlElement, named: Collection[tuple[str, str]]) -> Iterator[str]:
+    """Names that a conversion gave to what has its old name again."""
+    roots = {(str(result.tag), result.get("name", ""))}
+    for mark in (each for word in _OLD_NAMES for each in source.iter(word)):
+        holder, old = mark.getparent(), mark.get("was") or (mark.text or "").strip()
+        tag = "" if holder is None else "robot" if holder.tag == "model" else str(holder.tag)
+        if (tag, old) in named or (tag, old) in roots:
+            yield mark.get("instead_of", "")

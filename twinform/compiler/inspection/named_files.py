@@ -1,0 +1,110 @@
+"""Files that a model names: meshes, textures and includes that are nowhere, and paths that only Windows reads."""
+
+from collections import defaultdict
+from collections.abc import Iterable
+from pathlib import Path
+from typing import NamedTuple
+
+from twinform.compiler.exact_lines import line_of_text
+from twinform.compiler.inspection.near_files import is_elsewhere, near_file
+from twinform.compiler.uris import SearchPath, UriError
+from twinform.diagnostics import Location, Notes
+from twinform.diagnostics.rules import files as rules
+from twinform.ir import Document
+from twinform.passes.uris import Kind, map_uris
+from twinform.schemas import XmlElement
+
+_MOST = 2000
+"""Different URIs that are looked for; a hostile file may have a million."""
+_WORDS: dict[Kind, str] = {"mesh": "mesh", "texture": "file", "include": "included model"}
+
+
+class _Use(NamedTuple):
+    """A URI where it stands first."""
+
+    uri: str
+    kind: Kind
+    where: Location
+
+
+class _Missing(NamedTuple):
+    """A URI that leads nowhere, what is called nearly so, and where was looked."""
+
+    use: _Use
+    near: str | None
+    looked: str | None
+
+
+def report_named_files(
+    document: Document, path: Path, search: SearchPath, tree: XmlElement | None, notes: Notes
+) -> None:
+    """Report each URI once, where it stands first; of a text that lies nowhere only how it is written.
+
+    Where nothing of a package, or of what is beside the file, is there, that is one finding.
+    """
+    uses = _uses(document)
+    wrong = [use for use in uses if "\\" in use.uri]
+    for use in wrong:
+        message = f"backslashes in the path of a file, {use.uri!r}, are no separators"
+        hint = f"write {use.uri.replace(chr(92), '/')!r}"
+        notes.report(rules.BACKSLASH_IN_PATH, message, _place(use, tree), found=use.uri, help=hint)
+    if not path.is_file():
+        return
+    found: set[str] = set()
+    missing: defaultdict[str, list[_Missing]] = defaultdict(list)
+    for use in (use for use in uses if "\\" not in use.uri and "$" not in use.uri):
+        gone = _look_for(use, path, search)
+        if gone is None:
+            found.add(_holder(use.uri))
+        elif gone.near is not None:
+            _report((gone,), tree, notes)
+        elif not is_elsewhere(use.uri, search, path):
+            missing[_holder(use.uri)].append(gone)
+    for holder, gone in missing.items():
+        for group in ((each,) for each in gone) if holder in found else (gone,):
+            _report(group, tree, notes)
+
+
+def _uses(document: Document) -> list[_Use]:
+    """The URIs of a document."""
+    found: dict[str, _Use] = {}
+
+    def note(uri: str, kind: Kind, where: Location) -> str:
+        if len(found) < _MOST:
+            found.setdefault(uri.strip(), _Use(uri.strip(), kind, where))
+        return uri
+
+    map_uris(document, note)
+    return list(found.values())
+
+
+def _holder(uri: str) -> str:
+    """The package or model of a URI; empty for a path."""
+    scheme, separator, rest = uri.partition("://")
+    return f"{scheme}://{rest.partition('/')[0]}" if separator else ""
+
+
+def _look_for(use: _Use, path: Path, search: SearchPath) -> _Missing | None:
+    """What is missing; None for what is there, even where it must not be read."""
+    try:
+        search.find(use.uri, path)
+    except UriError as error:
+        if error.rule is rules.UNRESOLVED_URI:
+            return _Missing(use, near_file(use.uri, search, path), error.help)
+    return None
+
+
+def _report(missing: Iterable[_Missing], tree: XmlElement | None, notes: Notes) -> None:
+    first, *others = missing
+    use = first.use
+    message = f"the {_WORDS[use.kind]} {use.uri!r} is not there"
+    if others:
+        message += f", nor is anything else of {_holder(use.uri) or 'what is named by a path'}: {len(others)} more"
+    hint = f"did you mean {first.near!r}?" if first.near else first.looked
+    related = tuple(each.use.where for each in others)
+    notes.report(rules.MISSING_FILE, message, _place(use, tree), found=use.uri, help=hint, related=related)
+
+
+def _place(use: _Use, tree: XmlElement | None) -> Location:
+    line = line_of_text(tree, use.where, use.uri) if tree is not None else 0
+    return use.where._replace(line=line or use.where.line)

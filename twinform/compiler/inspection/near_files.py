@@ -1,0 +1,101 @@
+"""Files that are called nearly like one that is missing: capitals, slips, another folder."""
+
+import os
+from collections.abc import Iterator
+from difflib import SequenceMatcher
+from itertools import islice
+from pathlib import Path
+from posixpath import normpath
+from urllib.parse import unquote
+
+from twinform.compiler.packages import package_name
+from twinform.compiler.surroundings import folders_around
+from twinform.compiler.uris import SearchPath, UriError
+from twinform.diagnostics import nearest_name
+
+_MODEL_MARK = "model.config"
+_MOST_ENTRIES = 2000
+"""Entries of a folder that are looked at."""
+_ALIKE = 0.75
+"""Models and packages that are not here at all are usual: only what is very near is taken for a slip."""
+_FEW = 3
+"""Letters that are in one of two names and not in the other."""
+_NAMED = frozenset({"model", "package"})
+_SCHEMES = ("file", "http", "https", "model", "package")
+
+
+def is_elsewhere(uri: str, search: SearchPath, beside: Path) -> bool:
+    """Whether a URI leads to where nothing of this machine is: an unknown package or model, or the network."""
+    scheme, separator, rest = uri.partition("://")
+    if not separator:
+        return False
+    if scheme not in _NAMED:
+        return scheme != "file" or rest.startswith("media/")  # Gazebo Classic has its own media
+    name = normpath(unquote(rest)).partition("/")[0]
+    return _folder(name, search, beside) is None
+
+
+def near_file(uri: str, search: SearchPath, beside: Path) -> str | None:
+    """The part of a path that was probably meant instead of the first one that is not there."""
+    scheme, separator, rest = uri.partition("://")
+    if separator and scheme not in _SCHEMES:
+        near = nearest_name(scheme, _SCHEMES, _ALIKE)
+        return f"{near}://" if near and _is_slip(scheme, near) else None
+    path = normpath(unquote(rest)) if separator else normpath(uri)
+    if scheme not in _NAMED or not separator:
+        return _near_below(beside.parent, path, beside)
+    name, _, inner = path.partition("/")
+    folder = _folder(name, search, beside)
+    if folder is None:
+        near = nearest_name(name, _known(scheme, search, beside), _ALIKE)
+        return near if near and _is_slip(name, near) else None
+    return _near_below(folder, inner, beside)
+
+
+def _is_slip(name: str, near: str) -> bool:
+    """Whether no more than a letter or two differ: a longer name is mostly another model of the same family."""
+    same = sum(block.size for block in SequenceMatcher(None, name, near, autojunk=False).get_matching_blocks())
+    return len(name) + len(near) - 2 * same <= _FEW
+
+
+def _folder(name: str, search: SearchPath, beside: Path) -> Path | None:
+    try:
+        return search.package(name, beside)
+    except UriError:
+        return None
+
+
+def _near_below(folder: Path, path: str, beside: Path) -> str | None:
+    """What is called nearly like the first part of a path that is not in its folder."""
+    for part in path.split("/"):
+        if not (folder / part).exists():
+            suffix = Path(part).suffix.lower()
+            alike = (each for each in _entries(folder) if Path(each).suffix.lower() == suffix)
+            return nearest_name(part, alike) if _is_around(folder, beside) else None
+        folder = folder / part
+    return None
+
+
+def _is_around(folder: Path, beside: Path) -> bool:
+    """Whether the names in a folder are the author's own: a file from elsewhere is told of no other."""
+    real = folder.resolve()
+    return any(real.is_relative_to(each.resolve()) for each in folders_around(beside))
+
+
+def _known(scheme: str, search: SearchPath, beside: Path) -> Iterator[str]:
+    """The names of the packages or models around a file, and in the folders that were named."""
+    around = folders_around(beside)
+    if scheme == "package":
+        for folder in (*search.own, *around):
+            yield from filter(None, (package_name(folder), *(package_name(folder / name) for name in _entries(folder))))
+        return
+    for folder in (*search.own, *search.models, *around, *(each / "models" for each in around)):
+        yield from (name for name in _entries(folder) if (folder / name / _MODEL_MARK).is_file())
+
+
+def _entries(folder: Path) -> list[str]:
+    try:
+        with os.scandir(folder) as entries:
+            return [entry.name for entry in islice(entries, _MOST_ENTRIES)]
+    except OSError:
+        return []

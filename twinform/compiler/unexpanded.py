@@ -1,0 +1,44 @@
+"""Files of xacro that are not called so: macros and `${...}` that nobody will expand."""
+
+from collections.abc import Iterator
+
+from twinform.diagnostics import Location, Notes, Severity
+from twinform.diagnostics.rules import xacro as rules
+from twinform.schemas import XmlElement
+from twinform.schemas.xml import path_of
+
+_HELP = "name it .xacro, or pass --xacro"
+
+
+def report_unexpanded(root: XmlElement, notes: Notes) -> None:
+    """Report elements of xacro, and, as an error, expressions where the robot itself should be."""
+    macros = [element for element in root.iter() if str(element.tag).partition("}")[0].endswith("xacro")]
+    if macros:
+        where = Location(line=macros[0].sourceline or 0, path=f"/{root.tag}")
+        message = f"{_count(len(macros), 'element')} of xacro will not be expanded"
+        notes.report(rules.UNEXPANDED_XACRO, message, where, found="xacro", help=_HELP)
+    expressions = list(_with_expressions(root))
+    if expressions:
+        element, text = expressions[0]
+        shown = text if len(text) <= 60 else text[:57] + "..."
+        message = f"{shown!r} is an expression of xacro, as in {_count(len(expressions), 'element')}, and not expanded"
+        where = Location(line=element.sourceline or 0, path=path_of(element))
+        notes.report(rules.UNEXPANDED_XACRO, message, where, found=shown, help=_HELP, severity=Severity.ERROR)
+
+
+def _with_expressions(root: XmlElement) -> Iterator[tuple[XmlElement, str]]:
+    """The elements of the robot that have `${...}`: what only plugins and xacro read is theirs."""
+    stack = [root]
+    while stack:
+        element = stack.pop()
+        if str(element.tag).startswith("{") or element.tag == "plugin":
+            continue
+        texts = (element.text or "", *element.attrib.values())
+        said = next((each.strip() for each in texts if "${" in each and "}" in each), None)
+        if said is not None:
+            yield element, said
+        stack.extend(reversed(element))
+
+
+def _count(number: int, word: str) -> str:
+    return f"{number} {word}{'' if number == 1 else 's'}"

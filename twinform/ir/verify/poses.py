@@ -1,0 +1,44 @@
+"""Rotations that nobody means: angles in degrees where radians are read, quaternions that are not of length one."""
+
+import math
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules import frames as rules
+from twinform.ir.pose import Pose
+
+_MOST = 4 * math.pi
+"""Two turns, in radians: more is a number of degrees."""
+_ROUNDING = 1e-3
+"""How far from 1 the length of a quaternion may be: files write three digits."""
+
+
+def verify_rotation(pose: Pose | None, notes: Notes) -> None:
+    """Report what is wrong with the rotation of a pose."""
+    if pose is None:
+        return
+    rpy, quaternion = pose.rpy, pose.quat_xyzw
+    if rpy is not None:
+        if not pose.degrees and (max(rpy) > _MOST or min(rpy) < -_MOST):
+            _degrees(pose, max(rpy, key=abs), notes)
+    elif quaternion is not None:
+        x, y, z, w = quaternion
+        if abs(math.sqrt(x * x + y * y + z * z + w * w) - 1) > _ROUNDING:
+            _length(pose, math.hypot(*quaternion), notes)
+
+
+def _degrees(pose: Pose, angle: float, notes: Notes) -> None:
+    message = f"an angle of {angle:g} is read as radians, and is more than two turns; are these degrees?"
+    is_urdf = bool(pose.source and pose.source.step.endswith("origin"))
+    instead = f"write {math.radians(angle):.6g} radians"
+    hint = instead if is_urdf else f"{instead}, or from SDF 1.9 on <pose degrees='true'>"
+    expected = f"at most {_MOST:.4g}"
+    notes.report(rules.ANGLE_IN_DEGREES, message, pose.location, found=f"{angle:g}", expected=expected, help=hint)
+
+
+def _length(pose: Pose, length: float, notes: Notes) -> None:
+    found = f"{length:.4g}"
+    if length:
+        message = f"a quaternion has the length {found}; some readers make it 1, others scale by it"
+    else:
+        message = "a quaternion has length zero, which is no rotation"
+    notes.report(rules.UNNORMALISED_QUATERNION, message, pose.location, found=found, expected="1")

@@ -1,0 +1,89 @@
+"""Lumped collisions in contact sensors and plugins, by the names that they have where nothing is lumped."""
+
+from typing import ClassVar
+
+from twinform.diagnostics import Fate, Notes, Source
+from twinform.diagnostics.rules import to_sdf as rules
+from twinform.ir import Collision, Format, GazeboExtension, Model
+from twinform.passes.legalise.lumped_names import Followed, followed, mentions_collisions
+from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.legalise.to_sdf.name_shapes import name_all
+from twinform.passes.structure.model_edit import Place
+
+
+class FollowLumpedNames(ModelPass):
+    """Name the collisions that libsdformat would lump as they are called here.
+
+    Changes: a text such as `HOST_fixed_joint_lump__PAD_collision_2` in a `<gazebo>` element becomes the name of the
+    collision that libsdformat calls so, lumped or not.
+    Never touches: names of lumped collisions that there would not be, which are reported as those of no collision.
+    Diagnostics: `unseen-collision` where the collision is on a body of its own, which a contact sensor of another link
+    does not see. The ledger has `lumped-name` for each name; it is carried.
+    """
+
+    name: ClassVar[str] = "follow-lumped-names"
+    carriers: bool = True
+
+    def run_model(self, model: Model, notes: Notes) -> Model:
+        """The model with names of collisions that are there."""
+        if not mentions_collisions(model):
+            return model
+        names = names_of_libsdformat(model)
+        extensions = tuple(self._extension(each, model, names, notes) for each in model.extensions)
+        return model.model_copy(update={"extensions": extensions})
+
+    def _extension(
+        self, extension: GazeboExtension, model: Model, names: dict[str, Followed], notes: Notes
+    ) -> GazeboExtension:
+        for element in (one for part in extension.content for one in part.walk()):
+            found = names.get((element.text or "").strip())
+            if found is None:
+                continue
+            message = f"{(element.text or '').strip()!r} is called {found.name!r} where nothing is lumped"
+            fate = Fate.CARRIED if self.carriers else Fate.APPROXIMATED
+            notes.account(fate, rules.LUMPED_NAME, message, element.location.at("text()"), weight=0)
+            if extension.reference and not _is_one_body(model, extension.reference, found.link):
+                message = (
+                    f"{found.name!r} is on link {found.link!r}, and what is on {extension.reference!r} cannot see it"
+                )
+                hint = "convert with --passes 'lump-fixed-joints{compat=libsdformat}'"
+                notes.report(rules.UNSEEN_COLLISION, message, element.location, found=found.name, help=hint)
+        content = tuple(followed(part, names, carriers=self.carriers) for part in extension.content)
+        return extension.model_copy(update={"content": content})
+
+
+def own_collisions(model: Model) -> dict[Source, Followed]:
+    """Every collision by the name that it has in SDF, by where it was written."""
+    return {
+        shape.source: Followed(named.name or "", link.name)
+        for link in model.links
+        for shape, named in zip(link.collisions, _named(link.name, link.collisions), strict=True)
+        if shape.source is not None
+    }
+
+
+def names_of_libsdformat(model: Model) -> dict[str, Followed]:
+    """What names that only libsdformat gives mean: what it lumps has the same shapes, from where they were written."""
+    from twinform.passes.structure.lump_as_libsdformat import lump_as_libsdformat  # noqa: PLC0415 - few robots need it
+
+    own = own_collisions(model)
+    known = {each.name for each in own.values()}
+    lumped = lump_as_libsdformat(model, (), Place(Format.URDF, Notes()))
+    shapes = (shape for link in lumped.links for shape in link.collisions)
+    named = ((shape.name, own.get(shape.source)) for shape in shapes if shape.name and shape.source)
+    return {name: meant for name, meant in named if meant and name not in known}
+
+
+def _named(link: str, shapes: tuple[Collision, ...]) -> tuple[Collision, ...]:
+    return name_all(shapes, f"{link}_collision", Notes(), carriers=False)
+
+
+def _is_one_body(model: Model, reference: str, link: str) -> bool:
+    """Whether the shapes of a link come to stand in the other one: it has no mass, and hangs on it by fixed joints."""
+    links = {each.name: each for each in model.links}
+    above = {joint.child: joint.parent for joint in model.joints if joint.type == "fixed"}
+    while link != reference:
+        if link not in above or links[link].inertial is not None:
+            return False
+        link = above[link] or ""
+    return True
