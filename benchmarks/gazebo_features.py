@@ -10,7 +10,7 @@ from typing import NotRequired, TypedDict
 from benchmarks.markdown import table, write
 from tests.corpus.files import ROOT
 from twinform.testing.oracles import gazebo
-from twinform.testing.oracles.gazebo.comparison import short
+from twinform.testing.oracles.gazebo.differing import short
 
 PAGE = ROOT / "docs" / "reference" / "gazebo.md"
 INTRODUCTION = """# What Gazebo's engines make of SDF
