@@ -113,7 +113,7 @@ void drive(const scene::Scene<Kind> &scene, const Options &options) {
 
 template <typename Kind>
 void start(const scene::Scene<Kind> &scene, const double rate) {
-  if constexpr (Kind::JOINTS) {
+  if constexpr (Kind::OPEN) {  // Bullet takes no rates, and says so for each joint
     for (const auto &joint : scene.joints) {
       for (std::size_t i = 0; joint.made && i < joint.made->GetDegreesOfFreedom(); ++i) joint.made->SetVelocity(i, rate);
     }

@@ -46,7 +46,10 @@ def chains(reference: Simulation, result: Simulation) -> dict[str, list[Joint]]:
 
     URDF has no joints with several degrees of freedom, nor screws.
     """
-    above = {short(joint.child): joint for joint in result.joints}
+    above: dict[str, Joint] = {}
+    for joint in result.joints:  # the first one of a link holds it, others close a loop
+        if joint.freedom is not None:
+            above.setdefault(short(joint.child), joint)
     known = {short(name) for name in reference.joint}
     found: dict[str, list[Joint]] = {}
     for joint in reference.joints:
