@@ -7,7 +7,7 @@
 #include <map>
 #include <sdf/sdf.hh>
 
-#include "child.hh"
+#include "../headers/child.hh"
 #include "engine.hh"
 
 namespace scene {
