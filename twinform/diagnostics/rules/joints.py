@@ -40,11 +40,11 @@ CONTINUOUS_IN_SDF = Rule(
     name="continuous-in-sdf",
     severity=Severity.WARNING,
     finds="A `continuous` joint in SDF.",
-    matters="The specification has it, and no engine of Gazebo: DART and Bullet Featherstone hold the joint still, with "
-    "an error in the log, and Bullet leaves it out. Drake and converters to URDF turn it.",
+    matters="The specification has it, and no engine of Gazebo: DART and Bullet Featherstone hold the joint still, "
+    "with an error in the log, and Bullet leaves it out. Drake and converters to URDF turn it.",
     example="`<joint name='wheel_joint' type='continuous'>`",
-    better="Make it `revolute` without lower and upper limits, as libsdformat does with URDF; `replace-continuous` does "
-    "that, and leaves URDF, where the type is right, as it is.",
+    better="Make it `revolute` without lower and upper limits, as libsdformat does with URDF; `replace-continuous` "
+    "does that, and leaves URDF, where the type is right, as it is.",
     references="gz-physics, `SDFFeatures.cc` of dartsim, bullet and bullet-featherstone",
 )
 REPLACED_CONTINUOUS = Rule(
