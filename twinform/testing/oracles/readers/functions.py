@@ -92,12 +92,14 @@ def _lxml(path: Path) -> str:
 
 
 def canonical(text: bytes) -> str:
-    """What a rewritten file says, without the elements of our namespace."""
+    """What a rewritten file says, without what is of our namespace."""
     etree = _module("lxml.etree")
-    root = etree.fromstring(text, etree.XMLParser(remove_blank_text=True, remove_comments=True))
+    root = etree.fromstring(text, etree.XMLParser(remove_blank_text=True, remove_comments=True, remove_pis=True))
     for element in root.xpath("//*[namespace-uri() = 'urn:twinform:1']"):
         element.getparent().remove(element)
     for element in root.iter():
+        for name in [name for name in element.attrib if name.startswith("{urn:twinform:1}")]:
+            del element.attrib[name]
         element.text, element.tail = (element.text or "").strip() or None, None
     etree.cleanup_namespaces(root)
     return etree.tostring(root, method="c14n").decode()

@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
@@ -49,15 +50,17 @@ class Reader:
         """What it says of a file; its process is started with the first one."""
         if self._process is None:
             command = [sys.executable, "-m", "twinform.testing.oracles.readers.child", self.name]
-            quiet = subprocess.DEVNULL
+            quiet, folder = subprocess.DEVNULL, tempfile.gettempdir()  # some leave a log where they are
             self._process = subprocess.Popen(
-                command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=quiet, text=True
+                command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=quiet, text=True, cwd=folder
             )
         assert self._process.stdin is not None
         assert self._process.stdout is not None
-        print(path, file=self._process.stdin, flush=True)
+        print(path.resolve(), file=self._process.stdin, flush=True)
         row: dict[str, str] = json.loads(self._process.stdout.readline())
-        return Reading(_lasting(row["error"], path), _lasting(f"{row['said']}\n{row['console']}", path))
+        return Reading(
+            _lasting(row["error"], path.resolve()), _lasting(f"{row['said']}\n{row['console']}", path.resolve())
+        )
 
     def close(self) -> None:
         """End its process, if there is one."""
