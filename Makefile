@@ -12,7 +12,7 @@ SYNCED := .venv/.synced
 ORACLES := .venv/.oracles
 DEMO := out/demo
 
-.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness edits worlds gazebo equipment bench inertia lumping classic mapping verdicts xacro prove coverage mutation fuzz clean
+.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness edits worlds gazebo readers equipment bench inertia lumping classic mapping verdicts xacro prove coverage mutation fuzz clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -121,6 +121,11 @@ worlds: $(ORACLES) ## every world taken apart and put together again, before lib
 gazebo: $(ORACLES) ## every conversion in Gazebo's own physics, DART and Bullet; writes docs/reference/gazebo.md, gazebo_runs.md
 	$(BIN)/python -m benchmarks.gazebo_features
 	$(BIN)/python -m benchmarks.gazebo
+
+readers: $(ORACLES) ## what carriers do to other readers of URDF and SDF; writes docs/reference/readers.md
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[readers]'
+	npm install --silent --no-audit --no-fund --prefix out/readers urdf-loader three jsdom || echo "without npm"
+	TWINFORM_NODE_MODULES=$(CURDIR)/out/readers/node_modules $(BIN)/python -m benchmarks.readers
 
 equipment: $(SYNCED) ## sensors and plugins of SDF as libsdformat finds them in URDF; writes docs/reference/equipment.md
 	$(BIN)/python -m benchmarks.equipment

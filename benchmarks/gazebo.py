@@ -10,7 +10,7 @@ from benchmarks.markdown import table, write
 from benchmarks.oracle import judged_files
 from tests.corpus.files import CORPUS, MISSING, ROOT
 from twinform.testing.oracles import gazebo
-from twinform.testing.oracles.gazebo.comparison import AT_REST, MOVED
+from twinform.testing.oracles.gazebo.differing import AT_REST, MOVED
 
 PAGE = ROOT / "docs" / "reference" / "gazebo_runs.md"
 MOST_SHOWN = 60

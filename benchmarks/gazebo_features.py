@@ -10,7 +10,7 @@ from typing import NotRequired, TypedDict
 from benchmarks.markdown import table, write
 from tests.corpus.files import ROOT
 from twinform.testing.oracles import gazebo
-from twinform.testing.oracles.gazebo.comparison import short
+from twinform.testing.oracles.gazebo.differing import short
 
 PAGE = ROOT / "docs" / "reference" / "gazebo.md"
 INTRODUCTION = """# What Gazebo's engines make of SDF
@@ -18,8 +18,8 @@ INTRODUCTION = """# What Gazebo's engines make of SDF
 Made by `python -m benchmarks.gazebo_features`, a part of `make gazebo`: each row is a small model that was loaded into
 the engines of gz-physics 5 with libsdformat 12, those of Gazebo Fortress, and stepped for 0.2 s. A link `a` is fixed to
 the world, `b` hangs on the joint in question; models are in `benchmarks/gazebo_features.toml`. *Newer releases* were
-read, not run: gz-physics 6 to 9 (Garden to Jetty) and the main branch of August 2026. Whole robots are on
-[another page](gazebo_runs.md).
+read, not run: gz-physics 6 to 9 (Garden to Jetty), its main branch of August 2026, and the files that are named with
+each. Whole robots are on [another page](gazebo_runs.md).
 
 Bullet is the plugin of constraints between free bodies here. It makes a hinge of every joint, in single precision; it
 knows the degrees of freedom of `revolute` and `fixed` alone. Since gz-physics 6 there is Bullet Featherstone beside it.
@@ -36,6 +36,8 @@ _WORDS = {
     "LINK_C": _LINK.format("c", 2, "BODY"),
     "MASSLESS_B": _LINK.format("b", 1, _NOTHING),
     "BODY": _BODY,
+    "NO_CONTACTS": '<collision name="c"><max_contacts>0</max_contacts>'
+    "<geometry><sphere><radius>0.1</radius></sphere></geometry></collision>",
     "BALL": '<collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>',
 }
 _SETTINGS = gazebo.Settings(steps=200)

@@ -13,7 +13,8 @@ from typing import TypeGuard
 import twinform
 from tests.corpus.files import ROOT, CorpusFile, Kind
 from twinform.testing.oracles import gazebo
-from twinform.testing.oracles.gazebo.comparison import Difference, Tolerances, differences
+from twinform.testing.oracles.gazebo.comparison import differences
+from twinform.testing.oracles.gazebo.differing import Difference, Tolerances
 from twinform.testing.workers import Failure, run
 
 OUT = ROOT / "out" / "gazebo"

@@ -7,6 +7,8 @@ from typing import Any
 import pytest
 
 import twinform
+from twinform.passes.legalise.token_mass import CHAIN_MASS
+from twinform.testing.oracles.comparison import IN_CHAINS
 
 np: Any = pytest.importorskip("numpy")
 pytest.importorskip("pydrake")
@@ -44,13 +46,18 @@ def test_universal_screw_and_ball_joints_move_as_their_chains_do(pitch: str):
             assert np.abs(here[link][1] - there[link][1]).max() < 1e-9
 
 
-def test_a_chain_is_as_heavy_to_turn_as_its_universal_joint():
+def test_a_chain_is_as_heavy_to_turn_as_its_universal_joint_but_for_the_links_between():
     sdf = SDF.format("")
-    one, other = _plant(sdf, "sdf"), _plant(twinform.convert(sdf.encode(), to="urdf").text, "urdf")
+    urdf = twinform.convert(sdf.encode(), to="urdf").text
+    token = f'<mass value="{CHAIN_MASS:g}"/>'
+    assert urdf.count(token) == len(["u", "s", "w", "w"])
+    one, other = _plant(sdf, "sdf"), _plant(urdf, "urdf")
+    bare = _plant(urdf.replace(token, '<mass value="1e-12"/>'), "urdf")
     for u, v in np.random.default_rng(2).uniform(-1.2, 1.2, (SAMPLES, 2)):
         here = _mass_matrix(one, {"u": [u, v]}, ["u"])
-        there = _mass_matrix(other, {"u_axis": [u], "u": [v]}, ["u_axis", "u"])
-        assert np.abs(here - there).max() < 1e-9
+        there, without = (_mass_matrix(plant, {"u_axis": [u], "u": [v]}, ["u_axis", "u"]) for plant in (other, bare))
+        assert np.abs(here - without).max() < 1e-9
+        assert np.abs(here - there).max() < IN_CHAINS * np.abs(here).max()
 
 
 def _mass_matrix(plant: Any, values: dict[str, list[float]], joints: list[str]) -> Any:

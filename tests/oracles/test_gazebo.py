@@ -10,7 +10,8 @@ from lxml import etree
 import twinform
 from twinform.cli import main
 from twinform.testing.oracles import gazebo
-from twinform.testing.oracles.gazebo.comparison import Tolerances, differences, short
+from twinform.testing.oracles.gazebo.comparison import differences
+from twinform.testing.oracles.gazebo.differing import Tolerances, short
 from twinform.testing.oracles.gazebo.reading import console
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

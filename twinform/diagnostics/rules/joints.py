@@ -36,6 +36,25 @@ UNUSED_LIMIT = Rule(
     example="`<joint type='continuous'>` with `<limit lower='-1' upper='1' .../>`",
     better="Make the joint `revolute`, or leave the limits out.",
 )
+CONTINUOUS_IN_SDF = Rule(
+    name="continuous-in-sdf",
+    severity=Severity.WARNING,
+    finds="A `continuous` joint in SDF.",
+    matters="The specification has it, and no engine of Gazebo: DART and Bullet Featherstone hold the joint still, "
+    "with an error in the log, and Bullet leaves it out. Drake and converters to URDF turn it.",
+    example="`<joint name='wheel_joint' type='continuous'>`",
+    better="Make it `revolute` without lower and upper limits, as libsdformat does with URDF; `replace-continuous` "
+    "does that, and leaves URDF, where the type is right, as it is.",
+    references="gz-physics, `SDFFeatures.cc` of dartsim, bullet and bullet-featherstone",
+)
+REPLACED_CONTINUOUS = Rule(
+    name="replaced-continuous",
+    severity=Severity.INFO,
+    finds="A `continuous` joint of SDF that `replace-continuous` has made `revolute`.",
+    matters="It turns as before, and in Gazebo as well. Limits of its angle, which no reader obeyed, are gone.",
+    example="`<joint name='wheel_joint' type='continuous'>`",
+    better="Nothing needs doing.",
+)
 ZERO_LIMIT = Rule(
     name="zero-limit",
     severity=Severity.INFO,

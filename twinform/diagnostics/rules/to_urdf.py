@@ -74,9 +74,10 @@ UNFOLDED_JOINT = Rule(
     name="unfolded-joint",
     severity=Severity.WARNING,
     finds="A `ball`, `universal`, `revolute2` or `screw` joint of an SDF file that becomes URDF.",
-    matters="URDF says it by a chain of joints with links between. These have no mass, so that the robot weighs what "
-    "it weighed; but Gazebo's own reader of URDF drops a moving link without mass, and all below it. The middle one of "
-    "the three joints of a ball loses a direction at 90 degrees, which the ball does not.",
+    matters="URDF says it by a chain of joints with links between. Each weighs 2e-6 kg, where the joint is: Gazebo's "
+    "own reader of URDF drops a link of 1e-6 kg or less, and all below it. The middle joint of the three of a ball "
+    "loses a direction at 90 degrees, which the ball does not. Gazebo obeys no mimic in URDF, so that a screw slides "
+    "and turns there as it likes.",
     example="`<joint name='neck' type='universal'>` becomes `neck_axis` and `neck`.",
     better="Nothing for ROS, and our way back makes it one joint again. For Gazebo, keep the SDF file.",
 )

@@ -2,6 +2,7 @@
 
 from twinform.diagnostics import Notes, Severity
 from twinform.diagnostics.rules import frames as frame_rules
+from twinform.diagnostics.rules import joints as joint_rules
 from twinform.diagnostics.rules import model as rules
 from twinform.ir.document import Document
 from twinform.ir.frames import FrameError, FrameGraph
@@ -108,6 +109,12 @@ class _Verifier:
 
     def _joint(self, joint: Joint) -> None:
         verify_joint(joint, self.notes)
+        if joint.type == "continuous":
+            message = f"joint {joint.name!r} is continuous, which no engine of Gazebo turns"
+            where = joint.location.at("@type")
+            self.notes.report(
+                joint_rules.CONTINUOUS_IN_SDF, message, where, found="continuous", expected="revolute without limits"
+            )
         if joint.child == "world":
             message = f"joint {joint.name!r} has the child 'world'"
             self.notes.report(rules.WORLD_CHILD, message, joint.location.at("child"))

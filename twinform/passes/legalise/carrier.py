@@ -6,6 +6,10 @@ piece belongs to:
     <tf:urdf at="limit"><foo/></tf:urdf>                  an element, inside the piece's own `limit`
     <tf:urdf attribute="k" value="1"/>                    an attribute; an empty one without `value`
     <tf:urdf text="free"/>                                text
+
+libsdformat prints an error for an empty attribute of an element that it does not know, so a piece has none:
+
+    <material><tf:empty attribute="name"/></material>     <material name=""/>
 """
 
 from collections.abc import Iterable
@@ -22,6 +26,7 @@ _OURS = f"{{{NAMESPACE}}}"
 
 Attributes = tuple[tuple[str, str], ...]
 
+_EMPTY = f"{_OURS}empty"
 SOURCE = "source"
 """What versions before 0.2 wrote at the end of a model: changes that lead back to the source."""
 
@@ -100,7 +105,7 @@ def unpack(part: Opaque) -> tuple[Opaque, ...]:
         return (Opaque(at=at, attribute=(name, value or "")),)
     if text is not None:
         return (Opaque(at=at, text=text),)
-    return tuple(Opaque(at=at, element=child) for child in element.children)
+    return tuple(Opaque(at=at, element=_with_empty(child)) for child in element.children)
 
 
 def to_element(node: Node, tag: str, dialect: str, definition: str | None = None) -> Element:
@@ -128,5 +133,26 @@ def _carrier(piece: Opaque, dialect: str, about: Attributes) -> Element:
         attributes += [("attribute", name), *([("value", value)] if value else [])]
     if piece.text is not None:
         attributes.append(("text", piece.text))
-    children = (piece.element,) if piece.element is not None else ()
+    children = (_without_empty(piece.element),) if piece.element is not None else ()
     return Element(name=f"{{{NAMESPACE}}}{dialect}", attributes=tuple(attributes), children=children)
+
+
+def _without_empty(element: Element) -> Element:
+    """The element with its empty attributes, and those of all below, as elements."""
+    if not any("" in dict(each.attributes).values() for each in element.walk()):
+        return element
+    empty = [name for name, value in element.attributes if value == ""]
+    marks = [Element(name=_EMPTY, attributes=(("attribute", name),)) for name in empty]
+    attributes = tuple((name, value) for name, value in element.attributes if value != "")
+    children = (*marks, *map(_without_empty, element.children))
+    return element.model_copy(update={"attributes": attributes, "children": children})
+
+
+def _with_empty(element: Element) -> Element:
+    """The inverse of `_without_empty`; an attribute that is there by now stays."""
+    if not any(each.name == _EMPTY for each in element.walk()):
+        return element
+    empty = [child.get("attribute") for child in element.children if child.name == _EMPTY]
+    added = tuple((name, "") for name in empty if name and element.get(name) is None)
+    children = tuple(_with_empty(child) for child in element.children if child.name != _EMPTY)
+    return element.model_copy(update={"attributes": (*element.attributes, *added), "children": children})

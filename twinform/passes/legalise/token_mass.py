@@ -6,10 +6,16 @@ TOKEN_MASS = 1e-12
 """In kg: DART aborts on a body that moves and has none, Bullet holds it where it is."""
 TOKEN_MOMENT = 1e-14
 """In kg m^2, about each axis: ten times the least that MuJoCo takes."""
+CHAIN_MASS = 2e-6
+"""In kg, of a link in a chain of URDF: libsdformat before 12.7.2 leaves out what weighs 1e-6 kg or less, and all below.
+
+That is `CreateSDF` of parser_urdf.cc, where a mass equals 0.0 by the tolerance of gz-math.
+"""
 TOKEN = Inertial(
     mass=TOKEN_MASS,
     inertia=Inertia(ixx=TOKEN_MOMENT, ixy=0.0, ixz=0.0, iyy=TOKEN_MOMENT, iyz=0.0, izz=TOKEN_MOMENT),
 )
+CHAIN_TOKEN = TOKEN.model_copy(update={"mass": CHAIN_MASS})
 MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
@@ -25,7 +31,7 @@ def without_tokens(model: Model) -> Model:
 
 def _without_token(inertial: Inertial) -> Inertial:
     update: dict[str, object] = {}
-    if has_token_mass(inertial):
+    if has_token_mass(inertial) or is_chain_token(inertial):
         update["mass"] = 0.0
     if inertial.inertia is not None:
         tokens = [name for name in MOMENTS if getattr(inertial.inertia, name) == TOKEN_MOMENT]
@@ -47,10 +53,13 @@ def has_token_inertia(inertial: Inertial) -> bool:
 
 def is_token(inertial: Inertial | None) -> bool:
     """Whether an inertial says the token at the origin of its link, and no more."""
-    return (
-        inertial is not None
-        and inertial.pose is None
-        and not inertial.opaque
-        and has_token_mass(inertial)
-        and has_token_inertia(inertial)
-    )
+    return inertial is not None and has_token_mass(inertial) and _says_no_more(inertial)
+
+
+def is_chain_token(inertial: Inertial | None) -> bool:
+    """Whether an inertial is that of a link in a chain, at the origin of its link, and no more."""
+    return inertial is not None and inertial.mass == CHAIN_MASS and _says_no_more(inertial)
+
+
+def _says_no_more(inertial: Inertial) -> bool:
+    return inertial.pose is None and not inertial.opaque and has_token_inertia(inertial)

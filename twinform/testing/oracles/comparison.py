@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from twinform.passes.legalise.token_mass import TOKEN_MASS
+from twinform.passes.legalise.token_mass import CHAIN_MASS, TOKEN_MASS
 from twinform.testing.oracles.lumping import lumped as weighed_together
 from twinform.testing.oracles.robot import Matrix, Robot, Sample
 from twinform.testing.oracles.verdict import Alike, Verdict
@@ -14,6 +14,8 @@ from twinform.testing.oracles.verdict import Alike, Verdict
 TOLERANCE = 1e-9
 NOTHING = 10 * TOKEN_MASS
 """A mass in kg, or a moment in kg m^2, that is none: a few tokens of links without mass."""
+IN_CHAINS = 10 * CHAIN_MASS
+"""The same for robots with chains, which differ by as much: a few links of chains."""
 _POSES = frozenset({"position", "rotation"})
 _SHOWN = 4
 
@@ -46,19 +48,27 @@ def chained(first: Robot, second: Robot) -> frozenset[str]:
     return frozenset(name for name in added for joint in whole if name == joint or name.startswith(f"{joint}_"))
 
 
-def judge(first: Robot, second: Robot, *, tolerance: float = TOLERANCE, lumped: bool = False) -> Verdict:
-    """The verdict on two robots that were read; `lumped` weighs links together that are fixed to each other."""
+def judge(
+    first: Robot, second: Robot, *, tolerance: float = TOLERANCE, lumped: bool = False, chains: bool = False
+) -> Verdict:
+    """The verdict on two robots that were read; `lumped` weighs links together that are fixed to each other.
+
+    With `chains`, one of them has some where the other has a joint.
+    """
+    nothing = IN_CHAINS if chains else NOTHING
     if lumped or first.lumped or second.lumped:
         lumped = True
         first, second = (each if each.lumped else weighed_together(each) for each in (first, second))
-    found = _largest_of_each_kind(first, second)
+    found = _largest_of_each_kind(first, second, nothing)
     worst = _largest(found)
     weight = _largest(one for one in found if one.kind not in _POSES)
-    if cause := _other_parts(first, second) or _other_limits(first, second) or _other_numbers(found, tolerance):
+    apart = _largest(one for one in found if one.kind in _POSES)
+    exact = max(tolerance, IN_CHAINS) if chains else tolerance
+    if cause := _other_parts(first, second, nothing) or _other_limits(first, second) or _other_numbers(found, exact):
         return _verdict(first, second, None, worst, cause)
     if lumped:
         return _verdict(first, second, Alike.LUMPED, weight)
-    if worst.size <= tolerance and set(first.links) <= set(second.links):
+    if apart.size <= tolerance and set(first.links) <= set(second.links):
         return _verdict(first, second, Alike.FRAMES, worst)
     return _verdict(first, second, Alike.INERTIAL, weight)
 
@@ -68,11 +78,11 @@ def _verdict(first: Robot, second: Robot, alike: Alike | None, found: _Deviation
     return Verdict(engine, alike, found.size, str(found) if found.size else "", cause)
 
 
-def _largest_of_each_kind(first: Robot, second: Robot) -> list[_Deviation]:
+def _largest_of_each_kind(first: Robot, second: Robot, nothing: float) -> list[_Deviation]:
     scales = _scales(first.samples)
     largest: dict[str, _Deviation] = {}
     for before, after in zip(first.samples, second.samples, strict=True):
-        for one in _deviations(first, second, before, after):
+        for one in _deviations(first, second, before, after, nothing):
             scaled = replace(one, size=_number(one.size / scales.get(one.kind, 1.0)))
             if one.kind not in largest or scaled.size > largest[one.kind].size:
                 largest[one.kind] = scaled
@@ -95,7 +105,7 @@ def _scales(samples: Sequence[Sample]) -> Mapping[str, float]:
     return {kind: max([1.0, *(float(np.abs(value).max()) for value in each)]) for kind, each in values.items()}
 
 
-def _deviations(first: Robot, second: Robot, before: Sample, after: Sample) -> Iterator[_Deviation]:
+def _deviations(first: Robot, second: Robot, before: Sample, after: Sample, nothing: float) -> Iterator[_Deviation]:
     shared = [name for name in first.joints if name in second.joints]
     yield _mass_matrix(shared, _part(first, before, shared), _part(second, after, shared))
     for name in shared:
@@ -105,7 +115,7 @@ def _deviations(first: Robot, second: Robot, before: Sample, after: Sample) -> I
         yield _Deviation("position", float(gap[:3, 3].max()), f"link {name}")
         yield _Deviation("rotation", float(gap[:3, :3].max()), f"link {name}")
     yield from _frames(before, after)
-    for name in _massive(before) & _massive(after):
+    for name in _massive(before, nothing) & _massive(after, nothing):
         one, other, where = before.bodies[name], after.bodies[name], f"link {name}"
         yield _Deviation("mass", abs(one.mass - other.mass), where)
         yield _Deviation("centre of mass", float(np.abs(one.centre - other.centre).max()), where)
@@ -121,9 +131,9 @@ def _frames(before: Sample, after: Sample) -> Iterator[_Deviation]:
         yield _Deviation("frame rotation", float(gap[:3, :3].max()), f"frame {name}")
 
 
-def _massive(sample: Sample) -> set[str]:
+def _massive(sample: Sample, nothing: float) -> set[str]:
     """The links with mass, but for those that have next to none for the sake of engines that cannot do without."""
-    return {name for name, body in sample.bodies.items() if body.mass > NOTHING}
+    return {name for name, body in sample.bodies.items() if body.mass > nothing}
 
 
 def _part(robot: Robot, sample: Sample, joints: list[str]) -> Matrix:
@@ -151,9 +161,9 @@ def _number(size: float) -> float:
     return math.inf if math.isnan(size) else size
 
 
-def _other_parts(first: Robot, second: Robot) -> str:
+def _other_parts(first: Robot, second: Robot, nothing: float) -> str:
     """Joints and links with mass that only one of the two has; massless links may become frames and back."""
-    before, after = _massive(first.samples[0]), _massive(second.samples[0])
+    before, after = (_massive(robot.samples[0], nothing) for robot in (first, second))
     parts = [
         ("joints lost", set(first.joints) - set(second.joints)),
         ("joints added", set(second.joints) - set(first.joints)),

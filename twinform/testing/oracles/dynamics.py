@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from twinform.testing.oracles import drake
-from twinform.testing.oracles.comparison import chained, renamed
+from twinform.testing.oracles.comparison import IN_CHAINS, chained, renamed
 from twinform.testing.oracles.looking import look
 from twinform.testing.oracles.robot import Matrix, View
 from twinform.testing.oracles.sampling import spread
@@ -42,14 +42,15 @@ def moved_alike(first: Path, second: Path, seconds: float) -> Verdict:
         UnreadableError: Drake cannot read or simulate one of them.
     """
     one, other = look(first, "drake"), look(second, "drake")
-    before = _trajectory(first, View(still=chained(other, one)), seconds)
-    after = _trajectory(second, View(renamed(one, other), still=chained(one, other)), seconds)
+    here, there = chained(other, one), chained(one, other)
+    before = _trajectory(first, View(still=here), seconds)
+    after = _trajectory(second, View(renamed(one, other), still=there), seconds)
     if cause := _other_parts(before, after):
         return Verdict("drake", None, math.inf, "", cause)
     gaps = {name: _gap(before.states[name], after.states[name]) for name in before.states}
     worst = max(gaps, key=lambda name: gaps[name], default="")
     size = gaps.get(worst, 0.0)
-    if size > TOLERANCE:
+    if size > (max(TOLERANCE, IN_CHAINS) if here or there else TOLERANCE):
         return Verdict("drake", None, size, worst, f"{worst} moves otherwise")
     return Verdict("drake", Alike.MOTION, size, worst)
 

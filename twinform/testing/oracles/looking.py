@@ -40,7 +40,7 @@ def versus(first: Robot, files: tuple[Path, Path], engines: tuple[str, str], *, 
     if second.reference != first.reference or there:
         first = look(source, before, View(reference=second.reference, still=there))
     tolerance = max(required(engine).formats[path.suffix] for engine, path in zip(engines, files, strict=True))
-    return judge(first, second, tolerance=tolerance, lumped=lumped)
+    return judge(first, second, tolerance=tolerance, lumped=lumped, chains=bool(here or there))
 
 
 def compared(first: Path, second: Path, engines: tuple[str, str], lumped: bool) -> Verdict:

@@ -2,18 +2,21 @@
 
 import hashlib
 import os
+import re
 import shutil
 import subprocess
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+_INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
+
 
 @dataclass(frozen=True, slots=True)
 class Program:
     """A program by its source, with the packages of pkg-config that it is built against.
 
-    Headers beside the source belong to it: whatever of them changes, the program is built again.
+    Headers that it includes by a relative path belong to it: whatever of them changes, the program is built again.
     """
 
     source: Path
@@ -48,8 +51,17 @@ def _built(program: Program) -> Path:
 
 
 def _digest(program: Program) -> str:
-    parts = [program.source, *sorted(program.source.parent.glob("*.hh"))]
-    return hashlib.sha256(b"\0".join(part.read_bytes() for part in parts)).hexdigest()[:12]
+    return hashlib.sha256(b"\0".join(path.read_bytes() for path in sources(program.source))).hexdigest()[:12]
+
+
+def sources(path: Path, known: tuple[Path, ...] = ()) -> tuple[Path, ...]:
+    """A source with the headers that it includes by relative paths, and those that they include, once each."""
+    if path in known:
+        return known
+    known = (*known, path)
+    for name in _INCLUDE.findall(path.read_text(encoding="utf-8")):
+        known = sources((path.parent / name).resolve(), known)
+    return known
 
 
 def _folder() -> Path:

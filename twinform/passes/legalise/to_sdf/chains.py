@@ -21,7 +21,7 @@ from twinform.passes.legalise.marks import without_mark
 from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb
 from twinform.passes.legalise.sdf_versions.carriers import Terms
 from twinform.passes.legalise.to_sdf.mimic_references import with_reference
-from twinform.passes.legalise.token_mass import is_token
+from twinform.passes.legalise.token_mass import is_chain_token, is_token
 from twinform.schemas import parse_version, table
 
 _KINDS: dict[str, JointType] = {str(kind): kind for kind in CHAINS}
@@ -103,7 +103,9 @@ def _check_links(chain: Chain, around: Neighbors) -> None:
     """The links between hold nothing but the chain."""
     inside = {joint.name for joint in (*chain.above, chain.last)}
     for link in chain.between:
-        if not (link.inertial is None or is_token(link.inertial)) or any(getattr(link, field) for field in _NO_BODY):
+        said = link.inertial
+        weighs = said is not None and not is_token(said) and not is_chain_token(said)
+        if weighs or any(getattr(link, field) for field in _NO_BODY):
             raise StaleChainError(f"link {link.name!r} has a body")
         if any(not is_ours(part) for part in link.opaque):
             raise StaleChainError(f"link {link.name!r} says something")

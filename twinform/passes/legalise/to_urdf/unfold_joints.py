@@ -15,7 +15,7 @@ from twinform.passes.legalise.nodes import text_piece, unique_name
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.joint_steps import Step, ball, screw, two_axes
 from twinform.passes.legalise.to_urdf.keeper import Keeper
-from twinform.passes.legalise.token_mass import TOKEN
+from twinform.passes.legalise.token_mass import CHAIN_MASS, CHAIN_TOKEN
 from twinform.passes.legalise.urdf_pieces import BALLS
 from twinform.schemas import format_value
 
@@ -33,7 +33,7 @@ class UnfoldJoints(ToUrdfPass):
 
     Changes: 1. a universal or revolute2 joint turns about its first axis, then about its second; 2. a ball joint turns
     about z, y and x of its frame; 3. a screw joint slides by a joint that mimics the one that turns; 4. the last joint
-    of a chain keeps name, place and child, and links without mass stand between; all are marked, so that the way back
+    of a chain keeps name, place and child, and links of 2e-6 kg stand between; all are marked, so that the way back
     folds them; 5. what mimics the first axis of a joint with two mimics the first joint of the chain; 6. a ball joint
     that was one in URDF is one again.
     Never touches: joints that close a loop, which are joints of SDF in a `<gazebo>` element.
@@ -93,8 +93,8 @@ def _part(made: Joint, joint: Joint, keeper: Keeper) -> Joint:
 
 
 def _between(name: str, joint: Joint, keeper: Keeper) -> Link:
-    """A link where the joint is, with a token of mass, without which MuJoCo refuses the robot."""
-    link = Link(name=name, pose=Pose(relative_to=joint.name), inertial=TOKEN, source=joint.source)
+    """A link where the joint is, with a token of mass that Gazebo's reader of URDF and MuJoCo see."""
+    link = Link(name=name, pose=Pose(relative_to=joint.name), inertial=CHAIN_TOKEN, source=joint.source)
     return with_mark(link, PART, attributes={"joint": joint.name}) if keeper.carriers else link
 
 
@@ -107,6 +107,7 @@ def _last(joint: Joint, parent: str | None, step: Step, opaque: tuple[Opaque, ..
 
 def _account(joint: Joint, keeper: Keeper) -> Joint:
     """Say what becomes of the joint; it carries what its chain has no words for."""
+    between = len(CHAINS[joint.type])
     message = (
         f"{joint.type} joint {joint.name!r} is {_WORDS[joint.type]} in URDF, with links of next to no mass between"
     )
@@ -114,6 +115,8 @@ def _account(joint: Joint, keeper: Keeper) -> Joint:
     fate = Fate.CARRIED if keeper.carriers else Fate.DROPPED
     account = partial(keeper.notes.account, rule=rules.UNFOLDED_JOINT, location=joint.location)
     account(fate, message=f"joint {joint.name!r} is {joint.type}", weight=1)
+    links = f"{between} link{'' if between == 1 else 's'} between"
+    account(Fate.APPROXIMATED, message=f"{links} the joints of {joint.name!r}, of {CHAIN_MASS:g} kg", weight=0)
     if joint.type == "ball":
         lock = f"where the second of the three joints of {joint.name!r} is at 90 deg, the others turn about one axis"
         account(Fate.APPROXIMATED, message=lock, weight=0)

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "json.hh"
+#include "numbers.hh"
 
 namespace dart_view {
 

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <ignition/common/Console.hh>
 
+#include "../headers/loading.hh"
 #include "dart_view.hh"
 #include "scene.hh"
 
@@ -113,7 +114,7 @@ void drive(const scene::Scene<Kind> &scene, const Options &options) {
 
 template <typename Kind>
 void start(const scene::Scene<Kind> &scene, const double rate) {
-  if constexpr (Kind::JOINTS) {
+  if constexpr (Kind::OPEN) {  // Bullet takes no rates, and says so for each joint
     for (const auto &joint : scene.joints) {
       for (std::size_t i = 0; joint.made && i < joint.made->GetDegreesOfFreedom(); ++i) joint.made->SetVelocity(i, rate);
     }
@@ -164,18 +165,6 @@ std::string run(const physics::Engine3dPtr<typename Kind::Features> &engine, con
                      json::member("moments", json::list(moments(scene, options)))});
 }
 
-// what sdf::Root::Load(path) does, but for reading the description of the format, which takes longer than most files
-sdf::Errors load(const std::string &path, const sdf::SDFPtr &description, sdf::Root &root) {
-  sdf::Errors errors;
-  if (!sdf::readFile(path, description, errors)) {
-    errors.push_back({sdf::ErrorCode::FILE_READ, "Unable to read file:" + path});
-    return errors;
-  }
-  const sdf::Errors more = root.Load(description);
-  errors.insert(errors.end(), more.begin(), more.end());
-  return errors;
-}
-
 template <typename Kind>
 void answer(const std::string &path, const sdf::SDFPtr &description,
             const physics::Engine3dPtr<typename Kind::Features> &engine, const Options &options) {
@@ -183,7 +172,7 @@ void answer(const std::string &path, const sdf::SDFPtr &description,
     child::stage("loading");
     sdf::Root root;
     std::vector<std::string> errors;
-    for (const sdf::Error &each : load(path, description, root)) {
+    for (const sdf::Error &each : loading::load(path, description, root)) {
       errors.push_back(json::quoted(std::to_string(static_cast<int>(each.Code())) + ": " + each.Message()));
     }
     const std::string said = json::member("errors", json::list(errors));

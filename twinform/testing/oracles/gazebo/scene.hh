@@ -7,7 +7,7 @@
 #include <map>
 #include <sdf/sdf.hh>
 
-#include "child.hh"
+#include "../headers/child.hh"
 #include "engine.hh"
 
 namespace scene {
@@ -89,13 +89,20 @@ class Scene {
     }
   }
 
+  // along the axes of the link: before 5.3, gz-physics turns an inertia by its pose twice
+  static ignition::math::Inertiald turned(const ignition::math::Inertiald &said) {
+    ignition::math::MassMatrix3d matrix = said.MassMatrix();
+    matrix.SetMoi(said.Moi());
+    return {matrix, Pose3d(said.Pose().Pos(), ignition::math::Quaterniond::Identity)};
+  }
+
   void add_link(const sdf::Link &link, const ModelPtr &model, const std::string &scope) {
     const std::string name = scope + "::" + link.Name();
     child::stage("link " + link.Name());
     sdf::Link bare;
     bare.SetName(link.Name());
     bare.SetRawPose(resolved(link.SemanticPose()));
-    bare.SetInertial(link.Inertial());
+    bare.SetInertial(turned(link.Inertial()));
     Link<Kind> row{name, model->ConstructLink(bare)};
     if constexpr (Kind::OPEN) row.body = newest_body(link.Name());
     bodies_[name] = row.body;

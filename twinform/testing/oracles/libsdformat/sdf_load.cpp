@@ -5,19 +5,18 @@
 //
 // The description of the format, which takes longer to read than most files, is read once. Every file is loaded by a
 // fork of the process, so that one on which the library crashes or hangs spoils no other.
-#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <csignal>
-#include <cstdio>
-#include <cstdlib>
 #include <iostream>
 #include <sdf/sdf.hh>
-#include <sstream>
 #include <string>
 #include <vector>
+
+#include "../headers/child.hh"
+#include "../headers/json.hh"
+#include "../headers/loading.hh"
 
 namespace {
 
@@ -25,36 +24,10 @@ constexpr unsigned SECONDS_PER_FILE = 20;
 
 using ignition::math::Pose3d;
 
-std::string quoted(const std::string &text) {
-  std::string out = "\"";
-  for (const unsigned char c : text) {
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += static_cast<char>(c);
-    } else if (c < 0x20) {
-      char escape[8];
-      std::snprintf(escape, sizeof escape, "\\u%04x", c);
-      out += escape;
-    } else {
-      out += static_cast<char>(c);
-    }
-  }
-  return out + "\"";
-}
-
-std::string number(const double value) {
-  if (std::isnan(value)) return "NaN";
-  if (std::isinf(value)) return value > 0 ? "Infinity" : "-Infinity";
-  std::ostringstream out;
-  out.precision(17);
-  out << value;
-  return out.str();
-}
-
 template <typename... Numbers>
 std::string numbers(const Numbers... values) {
   std::string out;
-  ((out += (out.empty() ? "[" : ", ") + number(values)), ...);
+  ((out += (out.empty() ? "[" : ", ") + json::number(values)), ...);
   return out + "]";
 }
 
@@ -74,7 +47,7 @@ Pose3d resolved(const sdf::SemanticPose &semantic, const std::string &frame) {
 
 template <typename Shape>
 void describe_shape(const char *kind, const Shape &shape, const char *&separator) {
-  std::cout << separator << "{\"kind\": \"" << kind << "\", \"name\": " << quoted(shape.Name())
+  std::cout << separator << "{\"kind\": \"" << kind << "\", \"name\": " << json::quoted(shape.Name())
             << ", \"pose\": " << written(shape.RawPose())
             << ", \"place\": " << written(resolved(shape.SemanticPose(), ""))
             << ", \"geometry\": " << (shape.Geom() == nullptr ? 0 : static_cast<int>(shape.Geom()->Type())) << "}";
@@ -90,9 +63,9 @@ void describe_shapes(const sdf::Link &link) {
 void describe_link(const sdf::Link &link, const std::string &scope, const Pose3d &model) {
   const auto &inertial = link.Inertial();
   const auto &mass = inertial.MassMatrix();
-  std::cout << "{\"name\": " << quoted(scope + link.Name())
+  std::cout << "{\"name\": " << json::quoted(scope + link.Name())
             << ", \"pose\": " << written(model * resolved(link.SemanticPose(), "__model__"))
-            << ", \"mass\": " << number(mass.Mass()) << ", \"centre\": " << written(inertial.Pose())
+            << ", \"mass\": " << json::number(mass.Mass()) << ", \"centre\": " << written(inertial.Pose())
             << ", \"moments\": "
             << numbers(mass.Ixx(), mass.Iyy(), mass.Izz(), mass.Ixy(), mass.Ixz(), mass.Iyz()) << ", \"shapes\": [";
   describe_shapes(link);
@@ -105,18 +78,18 @@ void describe_axis(const sdf::Joint &joint) {
   ignition::math::Vector3d direction;
   axis->ResolveXyz(direction, joint.Name());
   std::cout << ", \"axis\": " << numbers(direction.X(), direction.Y(), direction.Z()) << ", \"limits\": {\"lower\": "
-            << number(axis->Lower()) << ", \"upper\": " << number(axis->Upper())
-            << ", \"velocity\": " << number(axis->MaxVelocity()) << ", \"effort\": " << number(axis->Effort())
-            << ", \"damping\": " << number(axis->Damping()) << ", \"friction\": " << number(axis->Friction()) << "}";
+            << json::number(axis->Lower()) << ", \"upper\": " << json::number(axis->Upper())
+            << ", \"velocity\": " << json::number(axis->MaxVelocity()) << ", \"effort\": " << json::number(axis->Effort())
+            << ", \"damping\": " << json::number(axis->Damping()) << ", \"friction\": " << json::number(axis->Friction()) << "}";
 }
 
 void describe_joint(const sdf::Joint &joint, const std::string &scope, const Pose3d &model) {
   std::string parent = joint.ParentLinkName(), child = joint.ChildLinkName();
   joint.ResolveParentLink(parent);
   joint.ResolveChildLink(child);
-  std::cout << "{\"name\": " << quoted(scope + joint.Name()) << ", \"kind\": " << static_cast<int>(joint.Type())
-            << ", \"parent\": " << quoted(parent == "world" ? parent : scope + parent)
-            << ", \"child\": " << quoted(scope + child)
+  std::cout << "{\"name\": " << json::quoted(scope + joint.Name()) << ", \"kind\": " << static_cast<int>(joint.Type())
+            << ", \"parent\": " << json::quoted(parent == "world" ? parent : scope + parent)
+            << ", \"child\": " << json::quoted(scope + child)
             << ", \"pose\": " << written(model * resolved(joint.SemanticPose(), "__model__"));
   describe_axis(joint);
   std::cout << "}";
@@ -148,11 +121,11 @@ void describe_joints(const sdf::Model &model, const std::string &scope, const Po
 std::string said(const sdf::ElementPtr &element) {
   const sdf::ElementPtr copy = element->Clone();
   if (copy->HasElement("pose")) copy->RemoveChild(copy->GetElement("pose"));
-  return quoted(copy->ToString(""));
+  return json::quoted(copy->ToString(""));
 }
 
 void describe_sensor(const sdf::Sensor &sensor, const Pose3d &model, const char *&separator) {
-  std::cout << separator << "{\"name\": " << quoted(sensor.Name()) << ", \"kind\": " << quoted(sensor.TypeStr())
+  std::cout << separator << "{\"name\": " << json::quoted(sensor.Name()) << ", \"kind\": " << json::quoted(sensor.TypeStr())
             << ", \"pose\": " << written(model * resolved(sensor.SemanticPose(), "__model__"))
             << ", \"text\": " << said(sensor.Element()) << "}";
   separator = ", ";
@@ -177,8 +150,8 @@ void describe_sensors(const sdf::Model &model, const Pose3d &pose, const char *&
 void describe_plugins(const sdf::ElementPtr &element, const char *&separator) {
   for (sdf::ElementPtr child = element->GetFirstElement(); child; child = child->GetNextElement()) {
     if (child->GetName() == "plugin") {
-      std::cout << separator << "{\"inside\": " << quoted(element->GetName())
-                << ", \"text\": " << quoted(child->ToString("")) << "}";
+      std::cout << separator << "{\"inside\": " << json::quoted(element->GetName())
+                << ", \"text\": " << json::quoted(child->ToString("")) << "}";
       separator = ", ";
     } else {
       describe_plugins(child, separator);
@@ -204,7 +177,7 @@ Pose3d in_world(const sdf::Model &model) {
 
 void describe(const sdf::Model &model) {
   const char *separator = "";
-  std::cout << "{\"name\": " << quoted(model.Name()) << ", \"pose\": " << written(in_world(model))
+  std::cout << "{\"name\": " << json::quoted(model.Name()) << ", \"pose\": " << written(in_world(model))
             << ", \"static\": " << (model.Static() ? "true" : "false") << ", \"links\": [";
   describe_links(model, "", Pose3d::Zero, separator);
   separator = "";
@@ -238,24 +211,12 @@ void describe(const sdf::Root &root, const Described what) {
 }
 
 std::string error(const int code, const std::string &message) {
-  return "{\"code\": " + std::to_string(code) + ", \"message\": " + quoted(message) + "}";
-}
-
-// what sdf::Root::Load(path) does, but for reading the description of the format
-sdf::Errors load(const std::string &path, const sdf::SDFPtr &description, sdf::Root &root) {
-  sdf::Errors errors;
-  if (!sdf::readFile(path, description, errors)) {
-    errors.push_back({sdf::ErrorCode::FILE_READ, "Unable to read file:" + path});
-    return errors;
-  }
-  const sdf::Errors more = root.Load(description);
-  errors.insert(errors.end(), more.begin(), more.end());
-  return errors;
+  return "{\"code\": " + std::to_string(code) + ", \"message\": " + json::quoted(message) + "}";
 }
 
 void judge(const std::string &path, const sdf::SDFPtr &description, const Described what) {
   sdf::Root root;
-  const sdf::Errors errors = load(path, description, root);
+  const sdf::Errors errors = loading::load(path, description, root);
   std::cout << "\"ok\": " << (errors.empty() ? "true" : "false") << ", \"errors\": [";
   const char *separator = "";
   for (const sdf::Error &each : errors) {
@@ -266,23 +227,11 @@ void judge(const std::string &path, const sdf::SDFPtr &description, const Descri
   describe(root, what);
 }
 
-// what was written to a file that is only in memory
-std::string contents(const int file) {
-  std::string text(static_cast<size_t>(lseek(file, 0, SEEK_END)), '\0');
-  return pread(file, text.data(), text.size(), 0) < 0 ? "" : text;
-}
-
-int memory(const char *name) {
-  const int file = memfd_create(name, 0);
-  if (file < 0) std::abort();
-  return file;
-}
-
 // its verdict, as members of a JSON object, from a process of its own; `console` has what it writes beside
 std::string verdict(const std::string &path, const sdf::SDFPtr &description, const Described what, const int console) {
-  const int answer = memory("answer");
-  const pid_t child = fork();
-  if (child == 0) {
+  const int answer = child::memory("answer");
+  const pid_t process = fork();
+  if (process == 0) {
     alarm(SECONDS_PER_FILE);
     dup2(answer, STDOUT_FILENO);
     dup2(console, STDERR_FILENO);
@@ -291,8 +240,8 @@ std::string verdict(const std::string &path, const sdf::SDFPtr &description, con
     _exit(0);
   }
   int status = 0;
-  waitpid(child, &status, 0);
-  const std::string text = contents(answer);
+  waitpid(process, &status, 0);
+  const std::string text = child::contents(answer);
   close(answer);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return text;
   const std::string how = WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM ? "did not come to an end" : "crashed";
@@ -300,9 +249,9 @@ std::string verdict(const std::string &path, const sdf::SDFPtr &description, con
 }
 
 void answer(const std::string &path, const sdf::SDFPtr &description, const Described what) {
-  const int console = memory("console");
+  const int console = child::memory("console");
   const std::string text = verdict(path, description, what, console);
-  std::cout << "{\"path\": " << quoted(path) << ", " << text << ", \"console\": " << quoted(contents(console)) << "}"
+  std::cout << "{\"path\": " << json::quoted(path) << ", " << text << ", \"console\": " << json::quoted(child::contents(console)) << "}"
             << std::endl;
   close(console);
 }

@@ -1,7 +1,6 @@
 // Values as JSON text, with NaN and Infinity as Python reads them.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <cstdio>
 #include <sstream>
@@ -48,22 +47,6 @@ inline std::string member(const std::string &name, const std::string &value) { r
 inline std::string object(const std::vector<std::string> &members) {
   const std::string inside = list(members);
   return "{" + inside.substr(1, inside.size() - 2) + "}";
-}
-
-template <typename Numbers>
-std::string numbers(const Numbers &values) {
-  std::vector<std::string> out;
-  for (Eigen::Index i = 0; i < values.size(); ++i) out.push_back(number(values[i]));
-  return list(out);
-}
-
-// position, then the quaternion with its real part first
-inline std::string pose(const Eigen::Isometry3d &pose) {
-  const Eigen::Vector3d p = pose.translation();
-  const Eigen::Quaterniond q(pose.linear());
-  Eigen::Matrix<double, 7, 1> all;
-  all << p, q.w(), q.x(), q.y(), q.z();
-  return numbers(all);
 }
 
 }  // namespace json

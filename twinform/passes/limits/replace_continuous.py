@@ -1,0 +1,46 @@
+"""Let continuous joints of SDF turn in Gazebo, whose engines know revolute ones alone."""
+
+from typing import ClassVar
+
+from twinform.diagnostics import Notes
+from twinform.diagnostics.rules.joints import REPLACED_CONTINUOUS
+from twinform.ir import Axis, Document, Format, Joint, Limit
+from twinform.passes.base import Pass
+from twinform.passes.map_joints import map_joints
+
+
+class ReplaceContinuous(Pass):
+    """Makes `continuous` joints of SDF `revolute` ones without an end.
+
+    It changes documents of SDF:
+
+    1. the type of each continuous joint, in worlds and nested models too;
+    2. `lower` and `upper` of such a joint, which mean nothing before and would mean something now, are taken out.
+
+    It never touches effort, velocity and dynamics, nor URDF, whose continuous joints are revolute in SDF anyway.
+    It reports `replaced-continuous` for each joint.
+    """
+
+    name = "replace-continuous"
+    example: ClassVar[str] = "replace-continuous"
+
+    def run(self, document: Document, notes: Notes) -> Document:
+        """The document without continuous joints."""
+        if document.format is not Format.SDF:
+            return document
+        return map_joints(document, lambda joint: _revolute(joint, notes))
+
+
+def _revolute(joint: Joint, notes: Notes) -> Joint:
+    if joint.type != "continuous":
+        return joint
+    message = f"joint {joint.name!r} was continuous and is revolute, without limits"
+    notes.report(REPLACED_CONTINUOUS, message, joint.location.at("@type"), found=joint.name)
+    return joint.model_copy(update={"type": "revolute", "axis": _endless(joint.axis)})
+
+
+def _endless(axis: Axis | None) -> Axis | None:
+    if axis is None or axis.limit is None:
+        return axis
+    limit = axis.limit.model_copy(update={"lower": None, "upper": None})
+    return axis.model_copy(update={"limit": None if limit == Limit() else limit})

@@ -1,0 +1,8 @@
+"""Other programs' readers of URDF and SDF: whether they take a file, and what they say of it.
+
+They are asked whether something changes for them: a file with carriers has to be for each what it is without them.
+"""
+
+from twinform.testing.oracles.readers.library import READERS, Reader, Reading
+
+__all__ = ["READERS", "Reader", "Reading"]
