@@ -1,6 +1,6 @@
 """Add a sensor to a link or joint."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import count
 from typing import Annotated, ClassVar, Self
 
@@ -147,6 +147,7 @@ class AddSensor(SelectingPass):
     def _sensor(self, name: str, content: tuple[Opaque, ...]) -> Sensor:
         kind, settings = sensor(self.type), settings_of(self.type)
         typed = release(self.release).frame_element == "frame_id"
+        topic, is_contact = self.topic or usual_topic(kind, name, settings.name), kind.type == "contact"
         return Sensor(
             name=name,
             type=kind.type,
@@ -154,9 +155,9 @@ class AddSensor(SelectingPass):
             always_on=True,
             update_rate=self.rate or float(settings.rate),
             visualize=self.visualize or None,
-            topic=self.topic or usual_topic(kind, name, settings.name),
+            topic=None if is_contact else topic,
             frame_id=self.frame_id if typed else None,
-            opaque=content,
+            opaque=tuple(map(_named_inside(topic), content)) if is_contact else content,
         )
 
     def _contact(self, model: Model, holder: Link | Joint, format_: Format, notes: Notes) -> Element | None:
@@ -192,6 +193,18 @@ def usual_topic(kind: SensorKind, name: str, usual: str) -> str:
     if kind.element == "camera":
         return f"{name}/{kind.suffix}" if kind.suffix else name
     return kind.suffix if name == usual else f"{name}/{kind.suffix}"
+
+
+def _named_inside(topic: str) -> Callable[[Opaque], Opaque]:
+    """Puts the topic of a contact sensor into `<contact>`: Gazebo reads it there alone (contact/Contact.cc, Load)."""
+
+    def change(part: Opaque) -> Opaque:
+        if part.element is None or part.element.name != "contact":
+            return part
+        children = (*part.element.children, Element(name="topic", text=topic))
+        return Opaque(element=part.element.model_copy(update={"children": children}))
+
+    return change
 
 
 def _collisions(holder: Link | Joint, format_: Format) -> Iterator[str]:

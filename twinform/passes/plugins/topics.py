@@ -69,12 +69,17 @@ def _of_sensor(sensor: Sensor, site: Site, release: str, world: str | None) -> I
 
 
 def _written_topic(sensor: Sensor) -> str | None:
-    """The topic in the sensor, or in the `<contact>` of a contact sensor, which counts first."""
+    """The topic in the sensor; of a contact sensor the one in `<contact>`, as Gazebo reads no other."""
+    topic = _text_in(sensor, "contact", "topic") if sensor.type == "contact" else sensor.topic
+    return topic if topic and topic != "__default_topic__" else None
+
+
+def _text_in(sensor: Sensor, holder: str, name: str) -> str | None:
     for part in sensor.opaque:
-        inner = part.element.find("topic") if part.element and part.element.name == "contact" else None
-        if inner is not None and inner.text and inner.text != "__default_topic__":
+        inner = part.element.find(name) if part.element and part.element.name == holder else None
+        if inner is not None and inner.text:
             return inner.text
-    return sensor.topic if sensor.topic and sensor.topic != "__default_topic__" else None
+    return None
 
 
 def _info_topic(sensor: Sensor) -> str | None:

@@ -64,6 +64,11 @@ CASES: dict[str, tuple[str, str, list[tuple[str, str, str]]]] = {
         "",
         [("bump", "/bump", "<")],
     ),
+    "a contact's topic outside, which Gazebo does not read": (
+        '<sensor name="s" type="contact"><topic>b</topic><contact><collision>c</collision></contact></sensor>',
+        "",
+        [],
+    ),
     "the usual topics of a drive": (
         "",
         plugin("diff-drive"),
