@@ -77,7 +77,7 @@ class SensorMigration:
         names = RosNames(plugin, sensor=element.get("name"), camera=camera)
         moved = Moved(element, repeats=False, is_valid=_is_sensor)
         moved.apply(plugin.content, {**migration.shared, **row.moves})
-        element = _placed(moved, self.release)
+        element = _with_sets(_placed(moved, self.release), migration, row, moved.moved)
         for path, pattern in row.topics_of.get(element.get("type") or "", row.topics).items():
             topic = names.topic(pattern)
             if text_at(element, path) is None and migration.nothing is None:
@@ -194,6 +194,16 @@ def _placed(moved: Moved, release: Release) -> Element:
     if moved.offsets and element.find("pose") is None:
         pose = f"{moved.offsets.get('xyz', '0 0 0')} {moved.offsets.get('rpy', '0 0 0')}"
         element = with_text(element, "pose", pose)
+    return element
+
+
+def _with_sets(element: Element, migration: Migration, row: SensorRow, moved: set[str]) -> Element:
+    """The sensor with what the plugin took for granted, where no parameter has chosen it."""
+    moves = {**migration.shared, **row.moves}
+    chosen = {path for name in moved for texts in (moves[name].choose or {}).values() for path in texts}
+    for path, value in row.sets.items():
+        if path not in chosen and text_at(element, path) is None:
+            element = with_text(element, path, value)
     return element
 
 

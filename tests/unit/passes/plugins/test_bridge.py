@@ -84,6 +84,15 @@ CASES: dict[str, tuple[str, str, list[tuple[str, str, str]]]] = {
         plugin("mecanum-drive", "<topic>go</topic><odom_topic>where</odom_topic><tf_topic>/tf</tf_topic>"),
         [("go", "/go", ">"), ("where", "/where", "<"), ("/tf", "/tf", "<")],
     ),
+    "transforms that are not for the tree of ROS": (
+        "",
+        plugin("odometry-publisher", "<odom_topic>truth</odom_topic><tf_topic>truth/transform</tf_topic>"),
+        [
+            ("truth", "/truth", "<"),
+            ("odometry_with_covariance", "/model/r/odometry_with_covariance", "<"),
+            ("truth/transform", "/truth/transform", "<"),
+        ],
+    ),
     "names of parameters in topics": (
         "",
         plugin("joint-position-controller", HIP),
