@@ -66,9 +66,9 @@ class Parameter:
 
 @dataclass(frozen=True, slots=True)
 class Alternative:
-    """Another topic, and perhaps another message, where a parameter is written and not false."""
+    """Another topic or message where all of some parameters are written and not false; an empty pattern keeps it."""
 
-    parameter: str
+    parameters: tuple[str, ...]
     pattern: str
     message: str | None
 
@@ -78,7 +78,9 @@ class Channel:
     """A topic of gz-transport that a plugin reads (`>`) or writes (`<`).
 
     `parameter` sets it; else it follows the pattern, in which `{model}`, `{world}` and names of parameters stand for
-    their values. The last alternative that applies wins. It is not there where `unless` is written and true.
+    their values, `{models}` for the model with those around it, and `{scope}` for these as topics have them. The last
+    alternative that applies wins. It is not there where `unless` is written and true, nor where `when` is not. With
+    `each`, the path of a parameter that repeats, there is one for each of its values, which `{each}` stands for.
     """
 
     direction: Literal["<", ">"]
@@ -87,6 +89,9 @@ class Channel:
     pattern: str
     alternatives: tuple[Alternative, ...]
     unless: str | None
+    when: str | None
+    each: tuple[str, ...]
+    releases: frozenset[str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,10 +136,15 @@ def _walk(above: tuple[str, ...], rows: tuple[Parameter, ...]) -> Iterator[tuple
 
 @dataclass(frozen=True, slots=True)
 class Published:
-    """A topic of a sensor: a pattern of `{topic}` or `{beside}`, and the message."""
+    """A topic of a sensor: a pattern of `{topic}` or `{beside}`, and the message.
+
+    `where` is a setting that has the message `instead`, such as `box_type=3d`.
+    """
 
     pattern: str
     message: str
+    where: str = ""
+    instead: str = ""
 
 
 @dataclass(frozen=True, slots=True)
