@@ -7,12 +7,12 @@ from twinform.passes.classic.moving import truth_of
 from twinform.passes.classic.tables import Caveat, Migration
 
 
-def reasons_to_look(migration: Migration, plugin: Plugin) -> Iterator[str]:
-    """What the author has to write beside a migrated plugin, and to know of it."""
+def reasons_to_look(migration: Migration, plugin: Plugin, sensor: str | None = None) -> Iterator[str]:
+    """What the author has to write beside a migrated plugin, and to know of it; `sensor` is the type it became."""
     if migration.geometry:
         yield migration.geometry
     for caveat in migration.caveats:
-        if _applies(caveat, plugin):
+        if caveat.type in {None, sensor} and _applies(caveat, plugin):
             yield caveat.says
 
 

@@ -7,6 +7,7 @@ from functools import cache
 from twinform.diagnostics import Fate, Location, Notes
 from twinform.diagnostics.rules import classic as rules
 from twinform.ir import Element, Plugin, Sensor
+from twinform.passes.classic.caveats import reasons_to_look
 from twinform.passes.classic.element_edits import text_at, with_text
 from twinform.passes.classic.moving import Lost, Moved, camera_height, camera_width, focal_length
 from twinform.passes.classic.reporting import Report, accept, scratch
@@ -89,6 +90,8 @@ class SensorMigration:
             report.needless(migration.nothing, lost)
         else:
             report.migrated(f"a part of the {element.get('type')} {element.get('name')!r}", lost)
+            for reason in reasons_to_look(migration, plugin, element.get("type")):
+                report.missing(reason)
         return element
 
     def say_type(self, sensor: Sensor, type_: str, site: Site) -> None:

@@ -72,12 +72,13 @@ class Caveat(_Row):
     """What is otherwise afterwards, and the author has to know.
 
     It `says` so, unless one of the parameters in `unless` is written: then the table has a place or a reason for it.
-    With `where` it does only where one of these parameters is true.
+    With `where` it does only where one of these parameters is true, with `type` only of such sensors.
     """
 
     says: str
     unless: tuple[str, ...] = ()
     where: tuple[str, ...] = ()
+    type: str | None = None
 
 
 class SystemRow(_Row):
