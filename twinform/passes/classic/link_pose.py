@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from twinform.ir import Element, Format, Model, Plugin
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.transform import Transform
+from twinform.passes.plugins.base_link import base_link
 from twinform.schemas import format_value
 
 _WORLDS = frozenset({"", "world", "/world", "map", "/map"})
@@ -28,7 +29,7 @@ def offset_of(plugin: Plugin, bodies: tuple[str, ...], model: Model | None, form
         raise OtherQuantityError(f"the pose was relative to link {frame!r}, and OdometryPublisher knows the world only")
     if model is None or body not in {link.name for link in model.links}:
         raise OtherQuantityError(f"there is no link {body!r} to report the pose of")
-    if body not in _rigid(model, _canonical(model, format_)):
+    if body not in _rigid(model, base_link(model, format_) or ""):
         reason = f"it reported the pose of link {body!r}, which moves on its own; OdometryPublisher has the model's"
         raise OtherQuantityError(reason)
     try:
@@ -44,14 +45,6 @@ def _elements(place: Transform) -> Iterator[Element]:
         yield Element(name="xyz_offset", text=format_value(pose.xyz))
     if pose.rpy is not None:
         yield Element(name="rpy_offset", text=format_value(pose.rpy))
-
-
-def _canonical(model: Model, format_: Format) -> str:
-    """The link that the model's frame is fixed to: the root in URDF, the canonical one in SDF."""
-    if format_ is Format.SDF:
-        return model.canonical_link or model.links[0].name
-    children = {joint.child for joint in model.joints}
-    return next((link.name for link in model.links if link.name not in children), model.links[0].name)
 
 
 def _rigid(model: Model, link: str) -> set[str]:

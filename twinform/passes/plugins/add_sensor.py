@@ -58,7 +58,10 @@ class AddSensor(SelectingPass):
     rate: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None = Field(
         default=None, description="How often it measures, in Hz; by default what is usual for its kind."
     )
-    frame_id: Word | None = Field(default=None, description="The frame that its messages are in, for ROS.")
+    frame_id: Word | None = Field(
+        default=None,
+        description="The frame of its messages, for ROS; by default the link, if it has no `xyz` or `rpy`.",
+    )
     xyz: Finite | None = Field(default=None, description="Where it is on its holder, in m.")
     rpy: Finite | None = Field(default=None, description="Its rotation on its holder: roll, pitch and yaw, in rad.")
     visualize: bool = Field(default=False, description="Whether the GUI shows it.")
@@ -134,14 +137,19 @@ class AddSensor(SelectingPass):
             return None
         return found
 
+    @property
+    def _frame(self) -> str | None:
+        """The frame of its messages: that of the link, unless the sensor has a place of its own on it."""
+        return self.frame_id or (None if self.xyz or self.rpy else self.link)
+
     def _content(self, model: Model, holder: Link | Joint, format_: Format, notes: Notes) -> tuple[Opaque, ...]:
         """The elements in the sensor that have no typed form."""
         values = {option: getattr(self, option.replace("-", "_"), None) for option in self.fields_for(self.type)}
         is_contact = sensor(self.type).type == "contact"
         element = self._contact(model, holder, format_, notes) if is_contact else element_of(self.type, values)
         frame = release(self.release).frame_element
-        own = self.frame_id is not None and frame is not None and frame != "frame_id"
-        said = (Element(name=frame, text=self.frame_id),) if own and frame else ()
+        own = self._frame is not None and frame is not None and frame != "frame_id"
+        said = (Element(name=frame, text=self._frame),) if own and frame else ()
         return tuple(Opaque(element=each) for each in (*said, element) if each is not None)
 
     def _sensor(self, name: str, content: tuple[Opaque, ...]) -> Sensor:
@@ -156,7 +164,7 @@ class AddSensor(SelectingPass):
             update_rate=self.rate or float(settings.rate),
             visualize=self.visualize or None,
             topic=None if is_contact else topic,
-            frame_id=self.frame_id if typed else None,
+            frame_id=self._frame if typed else None,
             opaque=tuple(map(_named_inside(topic), content)) if is_contact else content,
         )
 

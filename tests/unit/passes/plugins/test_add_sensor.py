@@ -154,12 +154,18 @@ def test_topics_are_short_and_of_their_own(more: str, topic: str) -> None:
 
 def test_a_contact_sensor_looks_at_the_collisions_by_the_names_that_gazebo_gives_them() -> None:
     [(made, _)] = sensors_of(run(pipeline("contact"), twinform.loads(URDF))[0])
-    [part] = made.opaque
+    part = made.opaque[-1]
     assert part.element
     names = [each.text for each in part.element.children if each.name == "collision"]
     assert names == ["base_collision", "base_collision_1"]
     converted = twinform.convert(URDF.encode(), to="sdf", passes=pipeline("contact")).document
     assert [each.name for each in converted.models[0].links[0].collisions] == ["base_collision", "base_collision_1"]
+
+
+@pytest.mark.parametrize(("more", "frame"), [("", "base"), ("frame-id=f", "f"), ("xyz=[0,0,1]", None)])
+def test_the_frame_is_that_of_the_link_unless_the_sensor_is_elsewhere(more: str, frame: str | None) -> None:
+    [(made, _)] = sensors_of(run(f"add-sensor{{type=imu link=base release=jetty {more}}}", twinform.loads(URDF))[0])
+    assert made.frame_id == frame
 
 
 @pytest.mark.parametrize("more", ["", "topic=bump"])
