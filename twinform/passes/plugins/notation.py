@@ -13,6 +13,7 @@ topics that the plugin reads and writes: the parameter that sets it or `-`, the 
 `alt=PARAMETER[+PARAMETER]:TOPIC[:MESSAGE]` where these are written, `unless=PARAMETER`, `when=PARAMETER`,
 `each=PATH/OF/PARAMETER` for one topic a value, and the releases. Values with blanks stand in double
 quotes, and `#` begins a comment.
+`needs=a|b` in the first line are systems of which the world has to have one.
 """
 
 import shlex
@@ -60,6 +61,7 @@ def _plugin(head: list[str], lines: list[_Line], releases: Sequence[str]) -> Plu
         parameters=_rows([line for line in lines if line.words[0] not in {"<", ">"}], 1, own, releases),
         channels=channels,
         free="any" in head[2:],
+        needs=tuple(options["needs"].split("|")) if "needs" in options else (),
     )
 
 

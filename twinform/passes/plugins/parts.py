@@ -100,7 +100,7 @@ class PluginKind:
 
     `file` is as gz-sim finds it: without path, and for systems without `lib` and `.so`. `class_name` is the word that
     `<plugin name=...>` has to have in gz-sim; in Gazebo Classic that name is free. `free` means that it takes
-    parameters besides these.
+    parameters besides these. `needs` are systems of which the world has to have one.
     """
 
     name: str
@@ -111,6 +111,7 @@ class PluginKind:
     parameters: tuple[Parameter, ...]
     channels: tuple[Channel, ...]
     free: bool
+    needs: tuple[str, ...] = ()
 
     def parameter(self, *path: str) -> Parameter | None:
         """The parameter at a path of names, such as `left_track`, `link`; attributes begin with `@`."""

@@ -36,7 +36,8 @@ _SCOPES = frozenset({"world", "model", "include", "link", "joint", "sensor", "vi
 class Site:
     """Where a plugin or sensor stands: in a `scope` (`model`, `link`, `sensor`, ...) called `holder`.
 
-    `models` are those around it, the innermost last; `link_or_joint` is the name of the one around it.
+    `models` are those around it, the innermost last; `link_or_joint` is the name of the one around it. What is
+    included may be a model or an actor.
     """
 
     scope: str = ""
@@ -45,6 +46,7 @@ class Site:
     models: tuple[Model, ...] = ()
     link_or_joint: str | None = None
     sensor: Sensor | None = None
+    in_include: bool = False
 
     @property
     def model(self) -> Model | None:
@@ -101,7 +103,7 @@ def _site_in(node: Node, site: Site) -> Site:
         case Model():
             return replace(site, scope="model", holder=node.name, models=(*site.models, node))
         case Include():
-            return replace(site, scope="model", holder=node.name or "")
+            return replace(site, scope="model", holder=node.name or "", in_include=True)
         case Link():
             return replace(site, scope="link", holder=node.name, link_or_joint=node.name)
         case Joint():
