@@ -13,6 +13,7 @@ from twinform.compiler import Conversion
 from twinform.diagnostics import Notes
 from twinform.diagnostics.reporters import Findings
 from twinform.passes.plugins.parts import ReleaseName
+from twinform.schemas import parse_version
 
 _WORLD = "default"
 """The name of the world that is written."""
@@ -26,10 +27,20 @@ def companion_options(command: Command) -> Command:
     names = click.Choice(get_args(ReleaseName))
     bridge = "Write the file of ros_gz_bridge for the topics of the result."
     world = "Write a world with the model in it, ground, light, and the systems that its sensors need."
-    release = "The release of Gazebo that --bridge and --world are for."
+    release = "The release of Gazebo that all is for: SDF is written in the newest version that it reads."
     command = click.option("--bridge", type=path, metavar="FILE", help=bridge)(command)
     command = click.option("--world", type=path, metavar="FILE", help=world)(command)
     return click.option("--gazebo", type=names, default="harmonic", help=release)(command)
+
+
+def version_for(gazebo: str, asked: str | None) -> str:
+    """The version of SDF for a release of Gazebo: the newest that it reads, or the one that is asked for."""
+    from twinform.passes.plugins.catalogue import release  # noqa: PLC0415 - few conversions need it
+
+    newest = release(gazebo).sdf
+    if asked is not None and parse_version(asked) > parse_version(newest):
+        raise click.UsageError(f"Gazebo {gazebo} reads SDF up to {newest}, and --sdf-version is {asked}")
+    return asked or newest
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ from typing import Unpack
 import click
 from click.core import ParameterSource
 
-from twinform.cli.companions import Companions, companion_options
+from twinform.cli.companions import Companions, companion_options, version_for
 from twinform.cli.config import settings_of
 from twinform.cli.conversion import Options, print_plan, run_conversion
 from twinform.cli.findings import notes_option
@@ -80,6 +80,8 @@ def command(
     sources, arguments = inputs(words)
     if ledger is not None and len(sources) > 1:
         raise click.UsageError("--ledger takes one input")
+    if ctx.get_parameter_source("gazebo") is not ParameterSource.DEFAULT:
+        asked["sdf_version"] = version_for(gazebo, asked["sdf_version"])
     policy, reading = policy_of(ctx, allow, deny), how_to_read(arguments, asked)
     watching = Watching(dumps=dumps, changes=changes, times=times, statistics=statistics, reproducers=reproducers)
     options = Options(

@@ -5,6 +5,7 @@ from click.testing import CliRunner
 
 import twinform
 from twinform.cli import main
+from twinform.passes.plugins.catalogue import releases
 from twinform.passes.plugins.sites import plugins_of
 
 ROBOT = """<robot name="r"><link name="base"><inertial><mass value="1"/>
@@ -46,6 +47,26 @@ def test_the_release_decides_the_words_of_the_bridge(tmp_path: Path) -> None:
     bridge = tmp_path / "b.yaml"
     assert run(tmp_path, "-o", f"{tmp_path}/r.sdf", "--bridge", str(bridge), "--gazebo", "fortress")[0] == 0
     assert "ignition.msgs.IMU" in bridge.read_text()
+
+
+@pytest.mark.parametrize("release", releases())
+def test_the_release_decides_the_version_of_sdf(tmp_path: Path, release: str) -> None:
+    assert run(tmp_path, "-o", f"{tmp_path}/r.sdf", "--gazebo", release)[0] == 0
+    assert twinform.load(tmp_path / "r.sdf").version == releases()[release].sdf
+
+
+def test_the_frame_of_a_sensor_arrives_in_the_release_that_reads_it(tmp_path: Path) -> None:
+    framed = IMU.replace("<topic>", "<frame_id>base</frame_id><topic>")
+    assert run(tmp_path, "-o", f"{tmp_path}/r.sdf", "--gazebo", "jetty", robot=ROBOT.format(framed))[0] == 0
+    assert "<frame_id>base</frame_id>" in (tmp_path / "r.sdf").read_text()
+
+
+@pytest.mark.parametrize(("asked", "code"), [("1.8", 0), ("1.9", 0), ("1.10", 2)])
+def test_a_version_that_the_release_does_not_read_is_refused(tmp_path: Path, asked: str, code: int) -> None:
+    words = ("--gazebo", "fortress", "--sdf-version", asked)
+    made, text = run(tmp_path, "-o", f"{tmp_path}/r.sdf", *words)
+    assert made == code
+    assert not code or "reads SDF up to 1.9" in text
 
 
 @pytest.mark.parametrize("to", ["urdf", "sdf"])

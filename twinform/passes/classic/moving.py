@@ -101,8 +101,6 @@ class Moved:
 
     def _scaled(self, text: str, move: Move) -> str:
         number, factor = _number(text), move.scale
-        if move.times is not None:
-            factor = _number(text_at(self.element, move.times) or "")
         if move.negative_times is not None:
             factor = -focal_length(self.element)
         return text if number is None or factor is None else format_value(number * factor)
@@ -160,6 +158,12 @@ def camera_width(sensor: Element) -> float:
 def camera_height(sensor: Element) -> float:
     """The height of a camera's images in pixels."""
     return _number(text_at(sensor, "camera/image/height") or "") or 240.0
+
+
+def truth_of(text: str) -> bool | None:
+    """Whether a text means yes or no; None where it means neither."""
+    truth = _TRUTHS.get(text.strip())
+    return None if truth is None else truth == "true"
 
 
 def _number(text: str) -> float | None:

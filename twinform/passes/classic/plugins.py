@@ -7,8 +7,10 @@ from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import classic as rules
 from twinform.ir import Axis, Format, Joint, Mimic, Model, Plugin
 from twinform.ir.element import Element
+from twinform.passes.classic.caveats import reasons_to_look
 from twinform.passes.classic.deeds import Deeds
 from twinform.passes.classic.ignition import modern_plugin
+from twinform.passes.classic.link_pose import OtherQuantityError, offset_of
 from twinform.passes.classic.measuring import with_measures
 from twinform.passes.classic.moving import Lost, Moved
 from twinform.passes.classic.reporting import Report, accept, scratch
@@ -76,14 +78,15 @@ class PluginMigration:
 
     def _systems(self, plugin: Plugin, site: Site, migration: Migration, report: Report) -> Iterable[Plugin]:
         try:
+            offset = offset_of(plugin, migration.body, site.model, self.format) if migration.body else ()
             made, lost = made_systems(plugin, migration, site, self.release.name)
-        except LookupError as error:
+        except (LookupError, OtherQuantityError) as error:
             return self._without(plugin, report, str(error))
         if any(row.scope == "world" for _, row in made) and site.world is None:
             return self._without(plugin, report, f"{made[0][0].name} stands in a world, and there is none here")
         report.migrated(" and ".join(each.name or "" for each, _ in made), lost)
-        if migration.geometry:
-            report.missing(migration.geometry)
+        for reason in reasons_to_look(migration, plugin):
+            report.missing(reason)
         here: list[Plugin] = []
         for each, row in made:
             if row.scope == "world" and site.world is not None:
@@ -94,7 +97,8 @@ class PluginMigration:
                 for reason in missing:
                     report.missing(reason)
             else:
-                here.append(self._controlled(each, site, report) if migration.control else each)
+                placed = each.model_copy(update={"content": (*each.content, *offset)}) if offset else each
+                here.append(self._controlled(placed, site, report) if migration.control else placed)
         return here
 
     def _controlled(self, plugin: Plugin, site: Site, report: Report) -> Plugin:

@@ -7,6 +7,7 @@ from functools import cache
 from twinform.diagnostics import Fate, Location, Notes
 from twinform.diagnostics.rules import classic as rules
 from twinform.ir import Element, Plugin, Sensor
+from twinform.passes.classic.caveats import reasons_to_look
 from twinform.passes.classic.element_edits import text_at, with_text
 from twinform.passes.classic.moving import Lost, Moved, camera_height, camera_width, focal_length
 from twinform.passes.classic.reporting import Report, accept, scratch
@@ -77,7 +78,7 @@ class SensorMigration:
         names = RosNames(plugin, sensor=element.get("name"), camera=camera)
         moved = Moved(element, repeats=False, is_valid=_is_sensor)
         moved.apply(plugin.content, {**migration.shared, **row.moves})
-        element = _placed(moved, self.release)
+        element = _with_sets(_placed(moved, self.release), migration, row, moved.moved)
         for path, pattern in row.topics_of.get(element.get("type") or "", row.topics).items():
             topic = names.topic(pattern)
             if text_at(element, path) is None and migration.nothing is None:
@@ -89,6 +90,8 @@ class SensorMigration:
             report.needless(migration.nothing, lost)
         else:
             report.migrated(f"a part of the {element.get('type')} {element.get('name')!r}", lost)
+            for reason in reasons_to_look(migration, plugin, element.get("type")):
+                report.missing(reason)
         return element
 
     def say_type(self, sensor: Sensor, type_: str, site: Site) -> None:
@@ -194,6 +197,16 @@ def _placed(moved: Moved, release: Release) -> Element:
     if moved.offsets and element.find("pose") is None:
         pose = f"{moved.offsets.get('xyz', '0 0 0')} {moved.offsets.get('rpy', '0 0 0')}"
         element = with_text(element, "pose", pose)
+    return element
+
+
+def _with_sets(element: Element, migration: Migration, row: SensorRow, moved: set[str]) -> Element:
+    """The sensor with what the plugin took for granted, where no parameter has chosen it."""
+    moves = {**migration.shared, **row.moves}
+    chosen = {path for name in moved for texts in (moves[name].choose or {}).values() for path in texts}
+    for path, value in row.sets.items():
+        if path not in chosen and text_at(element, path) is None:
+            element = with_text(element, path, value)
     return element
 
 

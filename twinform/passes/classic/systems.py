@@ -4,13 +4,15 @@ from collections.abc import Iterator
 
 from twinform.ir import Element, Plugin
 from twinform.passes.classic.element_edits import added
-from twinform.passes.classic.moving import Lost, Moved
+from twinform.passes.classic.moving import Lost, Moved, truth_of
 from twinform.passes.classic.tables import Migration, SystemRow
 from twinform.passes.classic.topics import RosNames, is_namespace
 from twinform.passes.plugins.catalogue import system
 from twinform.passes.plugins.parts import PluginKind
 from twinform.passes.plugins.sites import Site
 
+_ON, _OFF = "{=/tf}", "=odom_transform"
+"""The topics of transforms that ROS is to have, and of those that it is not: the bridge takes the first for `/tf`."""
 _UNREAD = "the plugin of Gazebo Classic does not read it either"
 
 
@@ -27,13 +29,12 @@ def made_systems(
     for row in migration.systems:
         kind = _kind(row, release)
         moved = Moved(Element(name="plugin"), repeats=True)
-        moves = {**migration.shared, **row.moves}
-        moved.apply(plugin.content, {name: move for name, move in moves.items() if move.times is None})
+        moved.apply(plugin.content, {**migration.shared, **row.moves})
         for each in _sets(row, site, moved.element):
             moved.element = added(moved.element, each)
-        moved.apply(plugin.content, {name: move for name, move in moves.items() if move.times is not None})
         content = [*moved.element.children]
         content += [Element(name=path, text=names.topic(pattern)) for path, pattern in row.topics.items()]
+        content += _transforms(row, plugin, names)
         kept, unread = _read_by(kind, content, release)
         lost += [each for each in moved.lost if each.parameter.name not in taken]
         lost += [
@@ -69,6 +70,19 @@ def _sets(row: SystemRow, site: Site, element: Element) -> Iterator[Element]:
     for name, value in row.sets.items():
         if element.find(name) is None:
             yield Element(name=name, text=site.model.name if value == "$model" and site.model else value)
+
+
+def _transforms(row: SystemRow, plugin: Plugin, names: RosNames) -> Iterator[Element]:
+    """Where the transforms of the odometry go; a system cannot be told to publish none."""
+    if row.transforms is None:
+        return
+    on = dict(row.transforms)
+    for parameter in plugin.content:
+        truth = truth_of(parameter.text or "")
+        if parameter.name in on and truth is not None:
+            on[parameter.name] = truth
+            names.used.add(parameter.name)
+    yield Element(name="tf_topic", text="/" + names.topic(_ON if all(on.values()) else _OFF))
 
 
 def _read_by(kind: PluginKind, content: list[Element], release: str) -> tuple[list[Element], set[str]]:

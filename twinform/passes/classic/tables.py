@@ -7,7 +7,8 @@ A table in `data/` is named after the plugin and has
 * `systems`: the systems of gz-sim that take its place, or `sensor`: what becomes of the sensor that it stands in, with
   `make` where the sensor has to be made; or `mimic`; or `none`, the reason why nothing does; or `nothing`, the reason
   why nothing has to;
-* `uses`: tables of `shared.toml` with more parameters; `geometry`: what the author has to write beside.
+* `uses`: tables of `shared.toml` with more parameters; `geometry`: what the author has to write beside;
+  `caveats`: what is otherwise afterwards; `body`: parameters with the link whose pose it reports.
 
 A parameter goes to a path, or somewhere else in the words of `Move`. Topics are patterns, which `topics.py` reads.
 """
@@ -37,8 +38,8 @@ class Move(_Row):
     """Where a parameter goes.
 
     `to` is a path of elements, and `@name` at its end an attribute; `@frame`, `@xyz` and `@rpy` are the frame of a
-    sensor and its pose. Numbers are multiplied by `scale`, by another value of the system (`times`), or by minus the
-    focal length of the camera (`negative_times`). `each` takes the numbers of a vector apart; `same` are more places
+    sensor and its pose. Numbers are multiplied by `scale`, or by minus the focal length of the camera
+    (`negative_times`). `each` takes the numbers of a vector apart; `same` are more places
     for the value, `mirror` one for the value with the other sign, `also` what is written beside it. `noise` makes the
     noise around it Gaussian and `drifts` lets its bias wander. `split` divides a list, `first` takes one of several,
     `least` the smaller of the old value and the new. `choose` says what to write for each value.
@@ -55,7 +56,6 @@ class Move(_Row):
     also: Mapping[str, str] = Field(default_factory=dict[str, str])
     choose: Mapping[str, Mapping[str, str]] | None = None
     scale: float | None = None
-    times: str | None = None
     negative_times: str | None = None
     split: str | None = None
     first: bool = False
@@ -68,11 +68,26 @@ class Move(_Row):
 Moves = Mapping[str, Move]
 
 
+class Caveat(_Row):
+    """What is otherwise afterwards, and the author has to know.
+
+    It `says` so, unless one of the parameters in `unless` is written: then the table has a place or a reason for it.
+    With `where` it does only where one of these parameters is true, with `type` only of such sensors.
+    """
+
+    says: str
+    unless: tuple[str, ...] = ()
+    where: tuple[str, ...] = ()
+    type: str | None = None
+
+
 class SystemRow(_Row):
     """A system that takes a plugin's place; `before` is the one that did so in releases that lack it.
 
     `sets` is what is written where no parameter says it: mostly what went without saying in the plugin and does not in
     the system. `$model` is the name of the model. What is `measured` are the sizes that the plugin took from the model.
+    `transforms` are the parameters that switch the transforms of the odometry on, each with what it is where it is not
+    written; they go to `/tf` where all are true, and elsewhere otherwise. Without it there is nothing to switch.
     """
 
     system: str
@@ -80,14 +95,19 @@ class SystemRow(_Row):
     scope: str | None = None
     measured: bool = False
     sets: Mapping[str, str] = Field(default_factory=dict[str, str])
+    transforms: Mapping[str, bool] | None = None
     moves: Moves = Field(default_factory=dict[str, Move])
     topics: Mapping[str, str] = Field(default_factory=dict[str, str])
 
 
 class SensorRow(_Row):
-    """What becomes of the sensor that a plugin stands in. `topics_of` are those of one type alone."""
+    """What becomes of the sensor that a plugin stands in. `topics_of` are those of one type alone.
+
+    `sets` are paths and what is written there where no parameter has chosen it: what the plugin took for granted.
+    """
 
     types: Mapping[str, str] = Field(default_factory=dict[str, str])
+    sets: Mapping[str, str] = Field(default_factory=dict[str, str])
     moves: Moves = Field(default_factory=dict[str, Move])
     topics: Mapping[str, str] = Field(default_factory=dict[str, str])
     topics_of: Mapping[str, Mapping[str, str]] = Field(default_factory=dict[str, Mapping[str, str]])
@@ -109,6 +129,8 @@ class Migration(_Row):
     reads: tuple[str, ...] = ()
     uses: tuple[str, ...] = ()
     geometry: str | None = None
+    caveats: tuple[Caveat, ...] = ()
+    body: tuple[str, ...] = ()
     systems: tuple[SystemRow, ...] = ()
     sensor: SensorRow | None = None
     make: MakeRow | None = None
@@ -133,7 +155,9 @@ class Migration(_Row):
             patterns += [*self.sensor.topics.values()]
             patterns += [pattern for topics in self.sensor.topics_of.values() for pattern in topics.values()]
         named = {name for pattern in patterns for name in names_in(pattern)}
-        return frozenset({name for table in tables for name in table} | named | set(self.make.of if self.make else ()))
+        switches = {name for row in self.systems for name in row.transforms or ()}
+        makers = set(self.make.of if self.make else ())
+        return frozenset({name for table in tables for name in table} | named | switches | makers)
 
 
 def migration_of(filename: str, content: tuple[Element, ...] = ()) -> Migration | None:

@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 from twinform.diagnostics import Notes, Severity
 from twinform.diagnostics.rules import plugins as rules
 from twinform.ir import Document, Model, Plugin, Sensor
+from twinform.passes.plugins.base_link import base_link
 from twinform.passes.plugins.catalogue import nearest, releases, system
 from twinform.passes.plugins.editing import add_plugin, add_visual_plugin, add_world_plugin, replace_model
 from twinform.passes.plugins.options import MissingError, content_of, field_of, options_of
@@ -18,6 +19,9 @@ from twinform.passes.plugins.sites import Site, map_sensors
 from twinform.passes.plugins.targets import find_model, find_world, missing, replace_world
 from twinform.passes.plugins.wheels import MEASURES, Measured, NotMeasuredError
 from twinform.passes.plugins.worlds import system_plugin, with_defaults
+
+_ODOMETRY_FRAMES = (("frame-id", "child-frame-id"), ("odom-frame", "robot-base-frame"))
+"""The options of systems that report odometry: the frame that it is in, and that of the model."""
 
 
 class AddPlugin(SelectingPass):
@@ -36,6 +40,7 @@ class AddPlugin(SelectingPass):
 
     Wheel separation, wheel radius and wheel base, and how far tracks are apart, are read off the model where they are
     not given: from the joints' places and axes, and the cylinders, spheres and capsules of the wheels.
+    Frames of odometry that are not given are `odom` and the base link, so that the transforms of ROS make one tree.
     It never touches a plugin that is there; one that is the same already is not added again.
     Diagnostics: `nothing-to-add-to`, `plugin-reference`, `measured-wheels`, `wheels-not-measured`.
     """
@@ -86,7 +91,7 @@ class AddPlugin(SelectingPass):
         model = find_model(document, self.model, notes)
         if model is None or not self._names_are_there(model, notes):
             return document
-        plugin = self._plugin(self._measured(model, document, notes))
+        plugin = self._plugin({**self._measured(model, document, notes), **self._frames(model, document)})
         if notes.has_errors:
             return document
         return replace_model(document, model, add_plugin(model, plugin, document.format))
@@ -155,6 +160,16 @@ class AddPlugin(SelectingPass):
                 )
                 good = False
         return good
+
+    def _frames(self, model: Model, document: Document) -> dict[str, object]:
+        """The frames of the odometry by their names in ROS: those of gz have the model's name in them."""
+        base, options = base_link(model, document.format), options_of(self._kind())
+        for frame, child in _ODOMETRY_FRAMES:
+            if base is not None and {frame, child} <= options.keys():
+                return {
+                    option: name for option, name in ((frame, "odom"), (child, base)) if option not in self._values()
+                }
+        return {}
 
     def _measured(self, model: Model, document: Document, notes: Notes) -> dict[str, object]:
         """What is not given and the model says."""

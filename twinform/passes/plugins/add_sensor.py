@@ -1,6 +1,6 @@
 """Add a sensor to a link or joint."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import count
 from typing import Annotated, ClassVar, Self
 
@@ -58,7 +58,10 @@ class AddSensor(SelectingPass):
     rate: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None = Field(
         default=None, description="How often it measures, in Hz; by default what is usual for its kind."
     )
-    frame_id: Word | None = Field(default=None, description="The frame that its messages are in, for ROS.")
+    frame_id: Word | None = Field(
+        default=None,
+        description="The frame of its messages, for ROS; by default the link, if it has no `xyz` or `rpy`.",
+    )
     xyz: Finite | None = Field(default=None, description="Where it is on its holder, in m.")
     rpy: Finite | None = Field(default=None, description="Its rotation on its holder: roll, pitch and yaw, in rad.")
     visualize: bool = Field(default=False, description="Whether the GUI shows it.")
@@ -134,19 +137,25 @@ class AddSensor(SelectingPass):
             return None
         return found
 
+    @property
+    def _frame(self) -> str | None:
+        """The frame of its messages: that of the link, unless the sensor has a place of its own on it."""
+        return self.frame_id or (None if self.xyz or self.rpy else self.link)
+
     def _content(self, model: Model, holder: Link | Joint, format_: Format, notes: Notes) -> tuple[Opaque, ...]:
         """The elements in the sensor that have no typed form."""
         values = {option: getattr(self, option.replace("-", "_"), None) for option in self.fields_for(self.type)}
         is_contact = sensor(self.type).type == "contact"
         element = self._contact(model, holder, format_, notes) if is_contact else element_of(self.type, values)
         frame = release(self.release).frame_element
-        own = self.frame_id is not None and frame is not None and frame != "frame_id"
-        said = (Element(name=frame, text=self.frame_id),) if own and frame else ()
+        own = self._frame is not None and frame is not None and frame != "frame_id"
+        said = (Element(name=frame, text=self._frame),) if own and frame else ()
         return tuple(Opaque(element=each) for each in (*said, element) if each is not None)
 
     def _sensor(self, name: str, content: tuple[Opaque, ...]) -> Sensor:
         kind, settings = sensor(self.type), settings_of(self.type)
         typed = release(self.release).frame_element == "frame_id"
+        topic, is_contact = self.topic or usual_topic(kind, name, settings.name), kind.type == "contact"
         return Sensor(
             name=name,
             type=kind.type,
@@ -154,9 +163,9 @@ class AddSensor(SelectingPass):
             always_on=True,
             update_rate=self.rate or float(settings.rate),
             visualize=self.visualize or None,
-            topic=self.topic or usual_topic(kind, name, settings.name),
-            frame_id=self.frame_id if typed else None,
-            opaque=content,
+            topic=None if is_contact else topic,
+            frame_id=self._frame if typed else None,
+            opaque=tuple(map(_named_inside(topic), content)) if is_contact else content,
         )
 
     def _contact(self, model: Model, holder: Link | Joint, format_: Format, notes: Notes) -> Element | None:
@@ -192,6 +201,18 @@ def usual_topic(kind: SensorKind, name: str, usual: str) -> str:
     if kind.element == "camera":
         return f"{name}/{kind.suffix}" if kind.suffix else name
     return kind.suffix if name == usual else f"{name}/{kind.suffix}"
+
+
+def _named_inside(topic: str) -> Callable[[Opaque], Opaque]:
+    """Puts the topic of a contact sensor into `<contact>`: Gazebo reads it there alone (contact/Contact.cc, Load)."""
+
+    def change(part: Opaque) -> Opaque:
+        if part.element is None or part.element.name != "contact":
+            return part
+        children = (*part.element.children, Element(name="topic", text=topic))
+        return Opaque(element=part.element.model_copy(update={"children": children}))
+
+    return change
 
 
 def _collisions(holder: Link | Joint, format_: Format) -> Iterator[str]:

@@ -16,6 +16,8 @@ _USUAL = {"odometry": "odom", "joint_state": "joint_states"}
 """What ROS usually calls the last part of a topic."""
 _TRANSFORMS = "gz.msgs.Pose_V"
 _TRANSFORM_TOPIC = "/tf"
+_TREES = frozenset({"tf", "pose", "pose_static"})
+"""The last parts of topics whose transforms are for the tree of ROS; others keep their name, and the tree whole."""
 _STRANGE = re.compile(r"[^A-Za-z0-9_]")
 _IGNITION = "fortress"
 """The release whose bridge calls messages by the name of Ignition."""
@@ -85,7 +87,7 @@ def _ros_names(topics: list[Topic]) -> Iterator[str]:
 
 
 def _short(topic: Topic, *, several: bool) -> str:
-    if topic.message == _TRANSFORMS:
+    if topic.message == _TRANSFORMS and topic.name.rpartition("/")[2] in _TREES:
         return _TRANSFORM_TOPIC
     if topic.short.startswith("/"):
         return topic.short

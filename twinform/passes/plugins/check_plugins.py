@@ -15,6 +15,7 @@ from twinform.passes.plugins.catalogue import (
     modern_file,
     nearest,
     releases,
+    system,
     system_of_class,
     systems,
     systems_of_file,
@@ -93,8 +94,24 @@ def _check_plugin(plugin: Plugin, site: Site, release: str, names: Names, notes:
         scopes = " or ".join(f"<{scope}>" for scope in kind.scopes)
         message = f"{kind.class_name} stands in <{site.scope}> and belongs into {scopes}"
         notes.report(rules.WRONG_PLUGIN_SCOPE, message, plugin.location, found=site.scope, expected=scopes)
+    _check_needs(plugin, kind, site, notes)
     model = site.model if "world" not in kind.scopes else None
     check_parameters(plugin, Asked(kind, release, model, names, notes))
+
+
+def _check_needs(plugin: Plugin, kind: PluginKind, site: Site, notes: Notes) -> None:
+    """Whether the world has one of the systems without which this one does nothing, or not what is meant."""
+    choice = [system(name) for name in kind.needs]
+    if not choice or (site.world is not None and any(has_system(site.world, each) for each in choice)):
+        return
+    listed = " or ".join(each.class_name for each in choice)
+    help_ = f"add {as_xml(choice[0])} to the world"
+    if site.world is None:
+        message = f"{kind.class_name} needs {listed} in the world"
+        notes.report(rules.WORLD_SYSTEM_NEEDED, message, plugin.location, help=help_)
+    else:
+        message = f"{kind.class_name} needs {listed}, and world {site.world.name!r} has none"
+        notes.report(rules.MISSING_WORLD_SYSTEM, message, plugin.location, help=help_, related=(site.world.location,))
 
 
 def _class_of(plugin: Plugin, kinds: tuple[PluginKind, ...], notes: Notes) -> PluginKind | None:
@@ -152,23 +169,23 @@ def _check_sensor(sensor: Sensor, site: Site, release: str, noted: set[str], not
     if site.world is not None:
         _check_world_of(sensor, kind, site.world, notes)
         return
-    for system in needed_for(kind).systems:
-        if system.name not in noted:
-            noted.add(system.name)
-            message = f"sensor {sensor.name!r} needs {system.class_name} in the world"
-            notes.report(rules.WORLD_SYSTEM_NEEDED, message, sensor.location, help=f"the world needs {as_xml(system)}")
+    for needed in needed_for(kind).systems:
+        if needed.name not in noted:
+            noted.add(needed.name)
+            message = f"sensor {sensor.name!r} needs {needed.class_name} in the world"
+            notes.report(rules.WORLD_SYSTEM_NEEDED, message, sensor.location, help=f"the world needs {as_xml(needed)}")
 
 
 def _check_world_of(sensor: Sensor, kind: SensorKind, world: World, notes: Notes) -> None:
     needed = needed_for(kind)
-    for system in needed.systems:
-        if not has_system(world, system):
-            message = f"sensor {sensor.name!r} needs {system.class_name}, and world {world.name!r} has none"
+    for lacking in needed.systems:
+        if not has_system(world, lacking):
+            message = f"sensor {sensor.name!r} needs {lacking.class_name}, and world {world.name!r} has none"
             notes.report(
                 rules.MISSING_WORLD_SYSTEM,
                 message,
                 sensor.location,
-                help=f"add {as_xml(system)} to the world",
+                help=f"add {as_xml(lacking)} to the world",
                 related=(world.location,),
             )
     for name in needed.elements:

@@ -10,8 +10,10 @@ A block begins with `system` (of gz-sim) or `plugin` (of Gazebo Classic) and the
 its count, its type, and options: `default=`, `enum=a|b`, `since=`, `until=` and `except=` releases, `any` for content
 that is not known (in the first line: for more parameters). Rows that are indented further stand inside. `>` and `<` are
 topics that the plugin reads and writes: the parameter that sets it or `-`, the message, the default;
-`alt=PARAMETER:TOPIC[:MESSAGE]` where that parameter is written, `unless=PARAMETER`. Values with blanks stand in double
+`alt=PARAMETER[+PARAMETER]:TOPIC[:MESSAGE]` where these are written, `unless=PARAMETER`, `when=PARAMETER`,
+`each=PATH/OF/PARAMETER` for one topic a value, and the releases. Values with blanks stand in double
 quotes, and `#` begins a comment.
+`needs=a|b` in the first line are systems of which the world has to have one.
 """
 
 import shlex
@@ -48,8 +50,8 @@ def _words(line: str) -> list[str]:
 
 def _plugin(head: list[str], lines: list[_Line], releases: Sequence[str]) -> PluginKind:
     options = _options(head[2:])
-    channels = tuple(_channel(line.words) for line in lines if line.words[0] in {"<", ">"})
     own = _span(options, releases)
+    channels = tuple(_channel(line.words, own, releases) for line in lines if line.words[0] in {"<", ">"})
     return PluginKind(
         name=head[1],
         file=options["file"],
@@ -59,6 +61,7 @@ def _plugin(head: list[str], lines: list[_Line], releases: Sequence[str]) -> Plu
         parameters=_rows([line for line in lines if line.words[0] not in {"<", ">"}], 1, own, releases),
         channels=channels,
         free="any" in head[2:],
+        needs=tuple(options["needs"].split("|")) if "needs" in options else (),
     )
 
 
@@ -92,17 +95,25 @@ def _row(
     )
 
 
-def _channel(words: list[str]) -> Channel:
+def _channel(words: list[str], above: frozenset[str], releases: Sequence[str]) -> Channel:
     direction, parameter, message, pattern, *rest = words
     alternatives = [word.removeprefix("alt=").split(":") for word in rest if word.startswith("alt=")]
+    options = _options(rest)
     return Channel(
         direction="<" if direction == "<" else ">",
         parameter=None if parameter == "-" else parameter,
         message=message,
         pattern=pattern,
-        alternatives=tuple(Alternative(each[0], each[1], each[2] if len(each) > 2 else None) for each in alternatives),
-        unless=_options(rest).get("unless"),
+        alternatives=tuple(_alternative(*each) for each in alternatives),
+        unless=options.get("unless"),
+        when=options.get("when"),
+        each=tuple(options.get("each", "").split("/")) if "each" in options else (),
+        releases=_span(options, releases) & above,
     )
+
+
+def _alternative(parameters: str, pattern: str, message: str | None = None) -> Alternative:
+    return Alternative(tuple(parameters.split("+")), pattern, message)
 
 
 def _options(words: Sequence[str]) -> dict[str, str]:

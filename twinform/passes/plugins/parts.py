@@ -66,9 +66,9 @@ class Parameter:
 
 @dataclass(frozen=True, slots=True)
 class Alternative:
-    """Another topic, and perhaps another message, where a parameter is written and not false."""
+    """Another topic or message where all of some parameters are written and not false; an empty pattern keeps it."""
 
-    parameter: str
+    parameters: tuple[str, ...]
     pattern: str
     message: str | None
 
@@ -78,7 +78,9 @@ class Channel:
     """A topic of gz-transport that a plugin reads (`>`) or writes (`<`).
 
     `parameter` sets it; else it follows the pattern, in which `{model}`, `{world}` and names of parameters stand for
-    their values. The last alternative that applies wins. It is not there where `unless` is written and true.
+    their values, `{models}` for the model with those around it, and `{scope}` for these as topics have them. The last
+    alternative that applies wins. It is not there where `unless` is written and true, nor where `when` is not. With
+    `each`, the path of a parameter that repeats, there is one for each of its values, which `{each}` stands for.
     """
 
     direction: Literal["<", ">"]
@@ -87,6 +89,9 @@ class Channel:
     pattern: str
     alternatives: tuple[Alternative, ...]
     unless: str | None
+    when: str | None
+    each: tuple[str, ...]
+    releases: frozenset[str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +100,7 @@ class PluginKind:
 
     `file` is as gz-sim finds it: without path, and for systems without `lib` and `.so`. `class_name` is the word that
     `<plugin name=...>` has to have in gz-sim; in Gazebo Classic that name is free. `free` means that it takes
-    parameters besides these.
+    parameters besides these. `needs` are systems of which the world has to have one.
     """
 
     name: str
@@ -106,6 +111,7 @@ class PluginKind:
     parameters: tuple[Parameter, ...]
     channels: tuple[Channel, ...]
     free: bool
+    needs: tuple[str, ...] = ()
 
     def parameter(self, *path: str) -> Parameter | None:
         """The parameter at a path of names, such as `left_track`, `link`; attributes begin with `@`."""
@@ -131,10 +137,15 @@ def _walk(above: tuple[str, ...], rows: tuple[Parameter, ...]) -> Iterator[tuple
 
 @dataclass(frozen=True, slots=True)
 class Published:
-    """A topic of a sensor: a pattern of `{topic}` or `{beside}`, and the message."""
+    """A topic of a sensor: a pattern of `{topic}` or `{beside}`, and the message.
+
+    `where` is a setting that has the message `instead`, such as `box_type=3d`.
+    """
 
     pattern: str
     message: str
+    where: str = ""
+    instead: str = ""
 
 
 @dataclass(frozen=True, slots=True)

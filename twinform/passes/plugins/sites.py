@@ -36,7 +36,8 @@ _SCOPES = frozenset({"world", "model", "include", "link", "joint", "sensor", "vi
 class Site:
     """Where a plugin or sensor stands: in a `scope` (`model`, `link`, `sensor`, ...) called `holder`.
 
-    `models` are those around it, the innermost last; `link_or_joint` is the name of the one around it.
+    `models` are those around it, the innermost last; `link_or_joint` is the name of the one around it. What is
+    included may be a model or an actor.
     """
 
     scope: str = ""

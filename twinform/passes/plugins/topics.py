@@ -1,19 +1,21 @@
 """The topics of gz-transport that the plugins and sensors of a document read and write."""
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from twinform.ir import Document, Plugin, Sensor
+from twinform.ir import Document, Element, Plugin, Sensor
 from twinform.ir.node import Node
 from twinform.passes.plugins.catalogue import modern_class, systems_of_file
-from twinform.passes.plugins.parts import Channel, PluginKind
+from twinform.passes.plugins.parts import Channel, PluginKind, Published, SensorKind
 from twinform.passes.plugins.sites import Site, plugins_of, sensors_of
 from twinform.passes.plugins.worlds import kind_of_sensor
 
 _PLACE = re.compile(r"\{([^}]+)\}")
 _UNDER_MODEL = "/model/"
+_OWN_INFO = "camera"
+"""The kind of sensor that reads `<camera_info_topic>` (CameraSensor.cc): others put it where they want."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +42,7 @@ def topics_of(document: Document, release: str, world: str | None = None) -> Ite
     for plugin, site in plugins_of(document):
         kind = _kind_of(plugin, release)
         if kind is not None:
-            yield from _of_plugin(plugin, kind, site, world)
+            yield from _of_plugin(plugin, kind, site, release, world)
 
 
 def _kind_of(plugin: Plugin, release: str) -> PluginKind | None:
@@ -62,27 +64,31 @@ def _of_sensor(sensor: Sensor, site: Site, release: str, world: str | None) -> I
     for each in kind.publishes:
         beside = name.rsplit("/", 1)[0]
         made = each.pattern.format(topic=name, beside=beside)
-        if made.endswith("/camera_info") and _info_topic(sensor):
-            made = _absolute(_info_topic(sensor) or "")
+        info = _text_in(sensor, "camera", "camera_info_topic") if kind.type == _OWN_INFO else None
+        if made.endswith("/camera_info") and info and info != "__default__":
+            made = _absolute(info)
         short = made.lstrip("/") if own else made.removeprefix(f"{scope}/sensor/")
-        yield Topic(made, short, each.message, "<", model, sensor, needs_world)
+        yield Topic(made, short, _message(each, sensor, kind), "<", model, sensor, needs_world)
 
 
 def _written_topic(sensor: Sensor) -> str | None:
-    """The topic in the sensor, or in the `<contact>` of a contact sensor, which counts first."""
-    for part in sensor.opaque:
-        inner = part.element.find("topic") if part.element and part.element.name == "contact" else None
-        if inner is not None and inner.text and inner.text != "__default_topic__":
-            return inner.text
-    return sensor.topic if sensor.topic and sensor.topic != "__default_topic__" else None
+    """The topic in the sensor; of a contact sensor the one in `<contact>`, as Gazebo reads no other."""
+    topic = _text_in(sensor, "contact", "topic") if sensor.type == "contact" else sensor.topic
+    return topic if topic and topic != "__default_topic__" else None
 
 
-def _info_topic(sensor: Sensor) -> str | None:
+def _text_in(sensor: Sensor, holder: str, name: str) -> str | None:
     for part in sensor.opaque:
-        inner = part.element.find("camera_info_topic") if part.element and part.element.name == "camera" else None
-        if inner is not None and inner.text and inner.text != "__default__":
+        inner = part.element.find(name) if part.element and part.element.name == holder else None
+        if inner is not None and inner.text:
             return inner.text
     return None
+
+
+def _message(published: Published, sensor: Sensor, kind: SensorKind) -> str:
+    """The message of a topic, which a setting of the sensor may have chosen."""
+    name, _, value = published.where.partition("=")
+    return published.instead if name and _text_in(sensor, kind.element, name) == value else published.message
 
 
 def _scoped(site: Site) -> Iterator[str]:
@@ -94,30 +100,57 @@ def _world_of(site: Site, world: str | None) -> str:
     return site.world.name if site.world else world or ""
 
 
-def _of_plugin(plugin: Plugin, kind: PluginKind, site: Site, world: str | None) -> Iterator[Topic]:
+def _of_plugin(plugin: Plugin, kind: PluginKind, site: Site, release: str, world: str | None) -> Iterator[Topic]:
     values = {row.name: row.default for row in kind.parameters if row.default is not None}
     written: dict[str, str] = {}
     for element in plugin.content:
         written.setdefault(element.name, (element.text or "").strip())
     model = site.model.name if site.model else ""
-    values = {**values, **written, "model": model, "world": _world_of(site, world)}
+    models = "/model/".join(each.name for each in site.models)
+    scope = "/".join(_scoped(site))
+    values |= {**written, "model": model, "models": models, "scope": scope, "world": _world_of(site, world)}
     for channel in kind.channels:
-        if channel.unless and _is_on(written, channel.unless):
+        if release not in channel.releases or not _is_there(channel, written):
             continue
         pattern, message = _choose(channel, written)
-        name = _absolute(_filled(pattern, values))
-        short = name.removeprefix(f"/world/{values['world']}").removeprefix(f"{_UNDER_MODEL}{model}/").lstrip("/")
         needs_world = "{world}" in pattern and not values["world"]
         outer = site.models[0].name if site.models else ""
-        yield Topic(name, short, message, channel.direction, outer, plugin, needs_world)
+        for each in dict.fromkeys(_texts(plugin.content, channel.each)) if channel.each else ("",):
+            name = _absolute(_filled(pattern, {**values, "each": each}))
+            short = _inside(name, values["world"], model, models)
+            yield Topic(name, short, message, channel.direction, outer, plugin, needs_world)
+
+
+def _is_there(channel: Channel, written: Mapping[str, str]) -> bool:
+    if channel.unless and _is_on(written, channel.unless):
+        return False
+    return channel.when is None or _is_on(written, channel.when)
+
+
+def _texts(elements: Iterable[Element], path: tuple[str, ...]) -> Iterator[str]:
+    """The texts of all elements at a path."""
+    for element in elements:
+        if element.name == path[0]:
+            if path[1:]:
+                yield from _texts(element.children, path[1:])
+            elif element.text and element.text.strip():
+                yield element.text.strip()
+
+
+def _inside(name: str, world: str, model: str, models: str) -> str:
+    """What is left of a topic inside of the model."""
+    short = name.removeprefix(f"/world/{world}")
+    for scope in (models, model):
+        short = short.removeprefix(f"{_UNDER_MODEL}{scope}/")
+    return short.lstrip("/")
 
 
 def _choose(channel: Channel, written: Mapping[str, str]) -> tuple[str, str]:
     """The pattern and message of a channel: those of the parameter, of the last alternative, or the usual ones."""
     pattern, message = channel.pattern, channel.message
     for each in channel.alternatives:
-        if _is_on(written, each.parameter):
-            pattern, message = each.pattern, each.message or message
+        if all(_is_on(written, name) for name in each.parameters):
+            pattern, message = each.pattern or pattern, each.message or message
     if channel.parameter and written.get(channel.parameter):
         pattern = written[channel.parameter]
     return pattern, message

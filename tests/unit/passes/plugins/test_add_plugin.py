@@ -50,6 +50,20 @@ def test_a_measure_that_is_given_counts() -> None:
     assert {"1", "2"} <= {each.text for each in plugins_of(made)[0][0].content}
 
 
+@pytest.mark.parametrize(
+    ("text", "frames"),
+    [
+        (f"system=diff-drive {WHEELS}", ("frame_id", "odom", "child_frame_id", "base_link")),
+        (f"system=diff-drive {WHEELS} frame-id=map", ("frame_id", "map", "child_frame_id", "base_link")),
+        ("system=odometry-publisher", ("odom_frame", "odom", "robot_base_frame", "base_link")),
+    ],
+)
+def test_odometry_is_in_frames_that_ros_has(text: str, frames: tuple[str, str, str, str]) -> None:
+    values = {each.name: each.text for each in plugins_of(run(f"add-plugin{{{text}}}", rover())[0])[0][0].content}
+    frame, odometry, child, base = frames
+    assert (values[frame], values[child]) == (odometry, base)
+
+
 def test_every_measure_of_a_mecanum_drive_is_read_off() -> None:
     corners = " ".join(
         f"{end}-{side}-joint={name}_{side}_wheel_joint"

@@ -13,6 +13,7 @@ from twinform.passes.plugins.catalogue import sensor, sensors
 from twinform.passes.plugins.check_plugins import CheckPlugins
 from twinform.passes.plugins.sensor_settings import addable, settings_of
 from twinform.passes.plugins.sites import plugins_of, sensors_of
+from twinform.passes.plugins.topics import topics_of
 
 _ROOT = Path(__file__).parents[4]
 WORLD = """<sdf version="1.11"><world name="w">{}<model name="r"><link name="base">
@@ -153,11 +154,27 @@ def test_topics_are_short_and_of_their_own(more: str, topic: str) -> None:
 
 def test_a_contact_sensor_looks_at_the_collisions_by_the_names_that_gazebo_gives_them() -> None:
     [(made, _)] = sensors_of(run(pipeline("contact"), twinform.loads(URDF))[0])
-    [part] = made.opaque
+    part = made.opaque[-1]
     assert part.element
-    assert [each.text for each in part.element.children] == ["base_collision", "base_collision_1"]
+    names = [each.text for each in part.element.children if each.name == "collision"]
+    assert names == ["base_collision", "base_collision_1"]
     converted = twinform.convert(URDF.encode(), to="sdf", passes=pipeline("contact")).document
     assert [each.name for each in converted.models[0].links[0].collisions] == ["base_collision", "base_collision_1"]
+
+
+@pytest.mark.parametrize(("more", "frame"), [("", "base"), ("frame-id=f", "f"), ("xyz=[0,0,1]", None)])
+def test_the_frame_is_that_of_the_link_unless_the_sensor_is_elsewhere(more: str, frame: str | None) -> None:
+    [(made, _)] = sensors_of(run(f"add-sensor{{type=imu link=base release=jetty {more}}}", twinform.loads(URDF))[0])
+    assert made.frame_id == frame
+
+
+@pytest.mark.parametrize("more", ["", "topic=bump"])
+def test_a_contact_sensor_says_its_topic_where_gazebo_reads_it(more: str) -> None:
+    for model in (URDF, WORLD.format("")):
+        made = run(pipeline("contact", more), twinform.loads(model))[0]
+        [(node, _)] = sensors_of(made)
+        assert (node.topic, text_of(node, "topic")) == (None, "bump" if more else "contact")
+        assert [each.name for each in topics_of(made, "harmonic")] == ["/bump" if more else "/contact"]
 
 
 def test_a_fixed_joint_that_is_measured_stays_one() -> None:

@@ -64,6 +64,11 @@ CASES: dict[str, tuple[str, str, list[tuple[str, str, str]]]] = {
         "",
         [("bump", "/bump", "<")],
     ),
+    "a contact's topic outside, which Gazebo does not read": (
+        '<sensor name="s" type="contact"><topic>b</topic><contact><collision>c</collision></contact></sensor>',
+        "",
+        [],
+    ),
     "the usual topics of a drive": (
         "",
         plugin("diff-drive"),
@@ -78,6 +83,54 @@ CASES: dict[str, tuple[str, str, list[tuple[str, str, str]]]] = {
         "",
         plugin("mecanum-drive", "<topic>go</topic><odom_topic>where</odom_topic><tf_topic>/tf</tf_topic>"),
         [("go", "/go", ">"), ("where", "/where", "<"), ("/tf", "/tf", "<")],
+    ),
+    "transforms that are not for the tree of ROS": (
+        "",
+        plugin("odometry-publisher", "<odom_topic>truth</odom_topic><tf_topic>truth/transform</tf_topic>"),
+        [
+            ("truth", "/truth", "<"),
+            ("odometry_with_covariance", "/model/r/odometry_with_covariance", "<"),
+            ("truth/transform", "/truth/transform", "<"),
+        ],
+    ),
+    "a steering that takes actuators": (
+        "",
+        plugin("ackermann-steering", "<steering_only>1</steering_only><use_actuator_msg>1</use_actuator_msg>"),
+        [("actuators", "/actuators", ">")],
+    ),
+    "a topic for each link": (
+        "",
+        plugin("velocity-control", "<link_name>leg</link_name><link_name>base</link_name>"),
+        [
+            ("cmd_vel", "/model/r/cmd_vel", ">"),
+            ("link/leg/cmd_vel", "/model/r/link/leg/cmd_vel", ">"),
+            ("link/base/cmd_vel", "/model/r/link/base/cmd_vel", ">"),
+        ],
+    ),
+    "a motor is of its model": (
+        "",
+        plugin("multicopter-motor-model", "<commandSubTopic>speed</commandSubTopic>"),
+        [("r/speed", "/r/speed", ">")],
+    ),
+    "static poses": (
+        "",
+        plugin("pose-publisher", "<static_publisher>true</static_publisher><topic>where</topic>"),
+        [("where", "/where", "<"), ("where_static", "/where_static", "<")],
+    ),
+    "microphones": (
+        "",
+        plugin("logical-audio-sensor", "<microphone><id>1</id></microphone><microphone><id>2</id></microphone>"),
+        [(f"sensor/mic_{n}/detection", f"/model/r/sensor/mic_{n}/detection", "<") for n in (1, 2)],
+    ),
+    "a depth camera does not read where its info is to go": (
+        SEPARATE.replace('"camera"', '"depth_camera"'),
+        "",
+        [("i", "/i", "<"), ("i/points", "/i/points", "<"), ("camera_info", "/camera_info", "<")],
+    ),
+    "an RGB-D camera does not either": (
+        SEPARATE.replace('"camera"', '"rgbd_camera"'),
+        "",
+        [(f"i/{n}", f"/i/{n}", "<") for n in ("image", "depth_image", "points", "camera_info")],
     ),
     "names of parameters in topics": (
         "",
@@ -102,7 +155,11 @@ CASES: dict[str, tuple[str, str, list[tuple[str, str, str]]]] = {
     "a namespace, or the model": (
         "",
         plugin("thruster", HIP),
-        [("joint/hip/cmd_thrust", "/model/r/joint/hip/cmd_thrust", ">")],
+        [
+            ("joint/hip/cmd_thrust", "/model/r/joint/hip/cmd_thrust", ">"),
+            ("joint/hip/ang_vel", "/model/r/joint/hip/ang_vel", "<"),
+            ("joint/hip/enable_deadband", "/model/r/joint/hip/enable_deadband", ">"),
+        ],
     ),
     "a plugin of somebody else": ("", '<plugin filename="mine" name="mine"/>', []),
 }
@@ -126,6 +183,25 @@ def test_a_topic_that_contains_the_world_is_known_where_the_world_is() -> None:
     notes = Notes()
     assert len(bridges(alone(sensor), "harmonic", notes)) == 1
     assert [(each.rule.name, str(each.severity)) for each in notes.diagnostics] == [("unbridged-topic", "warning")]
+
+
+def test_a_nested_model_publishes_below_all_its_parents() -> None:
+    inner = model(plugins=plugin("joint-state-publisher"), name="arm")
+    outer = in_world(f'<model name="r"><link name="l"/>{inner}</model>')
+    assert [row[1] for row in rows(outer)] == ["/world/w/model/r/model/arm/joint_state"]
+
+
+def test_boxes_have_another_message_in_space() -> None:
+    sensor = (
+        '<sensor name="s" type="boundingbox_camera"><topic>b</topic><camera><box_type>{}</box_type></camera></sensor>'
+    )
+    assert rows(alone(sensor.format("2d")))[0][2] == "gz.msgs.AnnotatedAxisAligned2DBox_V"
+    assert rows(alone(sensor.format("3d")))[0][2] == "gz.msgs.AnnotatedOriented3DBox_V"
+
+
+def test_a_release_has_the_topics_that_it_knows() -> None:
+    [row] = rows(alone(plugins=plugin("thruster", HIP)), "fortress")
+    assert row[1] == "/model/r/joint/hip/cmd_thrust"
 
 
 def test_a_message_that_ros_does_not_know_is_reported() -> None:

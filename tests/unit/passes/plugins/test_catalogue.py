@@ -71,7 +71,8 @@ def test_every_row_of_the_tables_makes_sense(kind: PluginKind) -> None:
         _make_sense(path, row)
     names = {row.name for row in kind.parameters}
     for channel in kind.channels:
-        told = {channel.parameter, channel.unless, *(each.parameter for each in channel.alternatives)} - {None}
+        told = {channel.parameter, channel.unless, channel.when, *(channel.each[:1])} - {None}
+        told |= {name for each in channel.alternatives for name in each.parameters}
         assert told <= names
         assert channel.message.startswith("gz.msgs.")
 

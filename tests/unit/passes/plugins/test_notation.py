@@ -13,8 +13,8 @@ system wheel-slip  file=slip.so class=gz::Slip scope=model|link
     @link_name  1  link
     limits      *  number   any except=old|new
   mode          ?  text     default="a=b c" enum=a|b since=middle
-  > topic  gz.msgs.Twist  /cmd  alt=sub:/{sub}/x alt=other:/y:gz.msgs.Pose unless=quiet
-  < -      gz.msgs.Odom   /odom
+  > topic  gz.msgs.Twist  /cmd  alt=sub:/{sub}/x alt=other+more:/y:gz.msgs.Pose unless=quiet
+  < -      gz.msgs.Odom   /{each} when=on each=wheel/limits until=new
 plugin bare  file=bare.so class=Bare scope=world any since=new
   only  1  bool
 """
@@ -57,10 +57,13 @@ def test_a_table_is_read_whole() -> None:
                 "topic",
                 "gz.msgs.Twist",
                 "/cmd",
-                (Alternative("sub", "/{sub}/x", None), Alternative("other", "/y", "gz.msgs.Pose")),
+                (Alternative(("sub",), "/{sub}/x", None), Alternative(("other", "more"), "/y", "gz.msgs.Pose")),
                 "quiet",
+                None,
+                (),
+                EVER,
             ),
-            Channel("<", None, "gz.msgs.Odom", "/odom", (), None),
+            Channel("<", None, "gz.msgs.Odom", "/{each}", (), None, "on", ("wheel", "limits"), early),
         ),
         free=False,
     )
