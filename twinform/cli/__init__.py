@@ -20,7 +20,7 @@ COMMANDS: Mapping[str, str] = {
     "reproduce": "Run a pass again that failed.",
     "passes": "List the passes, or print the page of one.",
     "explain": "Print the page of a rule, or list all rules.",
-    "schema": "Print the XML schema of a format.",
+    "schema": "Print the schema of URDF, SDF or JSON.",
 }
 """Every command and its summary, which the help shows without importing the command.
 

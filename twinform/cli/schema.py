@@ -39,10 +39,11 @@ def command(
     lenient: bool,
     output: IO[str],
 ) -> None:
-    """Print the XML schema of a format, or with json the JSON Schema of documents as JSON.
+    """Print the schema of URDF, SDF or JSON.
 
-    The schemas are strict: they take the words of one version. A lenient one is for editors of files that are not.
-    Of XSD 1.0, no schema can take elements that it does not know beside those that it knows; of XSD 1.1, it can.
+    That of URDF and SDF is an XML schema, that of documents as JSON a JSON Schema. XML schemas are strict: they take
+    the words of one version. A lenient one is for editors of files that are not. Of XSD 1.0, no schema can take elements
+    that it does not know beside those that it knows; of XSD 1.1, it can.
     """
     if language == "json":
         asked = ctx.get_parameter_source("xsd") is ParameterSource.COMMANDLINE

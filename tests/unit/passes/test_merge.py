@@ -4,6 +4,7 @@ import pytest
 
 from twinform.diagnostics import Fate, Notes
 from twinform.ir import Include, Model, Pose, World
+from twinform.ir.transform import Transform
 from twinform.passes.includes.merge import merge_into_model, merge_into_world
 
 INNER = Include(uri="model://inner", pose=Pose(xyz=(0.0, 0.0, 1.0)))
@@ -12,8 +13,8 @@ OUTER = Include(uri="model://outer", merge=True, pose=Pose(xyz=(1.0, 0.0, 0.0)))
 
 def merged(holder: Model | World, model: Model) -> Model | World:
     if isinstance(holder, Model):
-        return merge_into_model(holder, OUTER, model, Notes())
-    return merge_into_world(holder, OUTER, model, Notes())
+        return merge_into_model(holder, OUTER, model, Notes(), Transform())
+    return merge_into_world(holder, OUTER, model, Notes(), Transform())
 
 
 @pytest.mark.parametrize("holder", [Model(name="around"), World(name="around")], ids=["into a model", "into a world"])
@@ -27,7 +28,7 @@ def test_an_include_that_was_not_read_stays_where_it_is(holder: Model | World) -
 
 def test_what_the_merged_model_says_as_a_whole_is_accounted_for() -> None:
     notes = Notes()
-    merge_into_model(Model(name="around"), OUTER, Model(name="outer", static=True), notes)
+    merge_into_model(Model(name="around"), OUTER, Model(name="outer", static=True), notes, Transform())
     words = "static of the merged model 'outer' is left out; that of the model around it counts"
     assert [(each.fate, each.rule.name, each.message) for each in notes.entries] == [
         (Fate.DROPPED, "merged-away", words)

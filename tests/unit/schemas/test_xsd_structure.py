@@ -117,9 +117,9 @@ ASSERTED = {
         "<model name='m'><link name='l'><sensor name='s' type='altimeter'><altimeter><vertical_position><noise/>"
         "</vertical_position></altimeter></sensor></link></model>"
     ),
-    "a link that is called world": _sdf("<model name='m'><link name='world'/></model>", (1, 7)),
-    "a name between underlines": _sdf("<model name='__m__'><link name='l'/></model>", (1, 7)),
-    "a name with a scope": _sdf("<model name='m'><link name='a::b'/></model>", (1, 8)),
+    "a link that is called world": _sdf("<model name='m'><link name='world'/></model>"),
+    "a name between underlines": _sdf("<model name='__m__'><link name='l'/></model>"),
+    "a name with a scope": _sdf("<model name='m'><link name='a::b'/></model>"),
 }
 """What only assertions refuse."""
 
