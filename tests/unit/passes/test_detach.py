@@ -39,6 +39,11 @@ def without_zeros(world: World) -> World:
     return map_poses(world, short)
 
 
+def detached(world: World, notes: Notes) -> World:
+    """The world with models that keep their own frames."""
+    return detach(world, {model.name: model.name for model in world.models}, notes)
+
+
 @pytest.mark.parametrize(
     ("before", "after"),
     [
@@ -78,7 +83,7 @@ def without_zeros(world: World) -> World:
 )
 def test_what_names_a_part_of_a_model_names_the_model(before: str, after: str) -> None:
     notes = Notes()
-    made = detach(twinform.loads(world(before)).worlds[0], notes)
+    made = detached(twinform.loads(world(before)).worlds[0], notes)
     assert without_zeros(made) == without_zeros(twinform.loads(world(after)).worlds[0])
     assert notes.diagnostics == []
 
@@ -92,7 +97,7 @@ def test_what_names_a_part_of_a_model_names_the_model(before: str, after: str) -
     ],
 )
 def test_a_model_is_placed_by_whole_models(pose: str, expected: str) -> None:
-    made = detach(twinform.loads(world("", pose)).worlds[0], Notes())
+    made = detached(twinform.loads(world("", pose)).worlds[0], Notes())
     assert without_zeros(made) == without_zeros(twinform.loads(world("", expected)).worlds[0])
 
 
@@ -101,7 +106,7 @@ def test_a_world_whose_frames_are_not_known_stays_as_it_is() -> None:
     models = (good.models[0].model_copy(update={"frames": ()}), good.models[1])
     bad = good.model_copy(update={"models": models})
     notes = Notes()
-    assert detach(bad, notes) is bad
+    assert detached(bad, notes) is bad
     assert [(each.rule.name, each.message, each.found) for each in notes.diagnostics] == [
         ("dangling-frame", "there is no frame 'm::f'", "m::f")
     ]
