@@ -95,7 +95,7 @@ DOCUMENTS: Mapping[str, Hostile] = {
         lambda: gzip.compress(_robot(b"<x>" + b"y" * 100_000_000 + b"</x>"), 1), "not-well-formed"
     ),
     "noise": Hostile(lambda: Random(6).randbytes(1_000_000), "not-well-formed"),
-    "JSON of 100,000 levels": Hostile(lambda: b'{"format":"urdf","models":' + b"[" * 100_000, "invalid-value", 0),
+    "JSON of 100,000 levels": Hostile(lambda: b'{"format":"urdf","models":' + b"[" * 100_000, "invalid-value", 1),
     "JSON of four million models": Hostile(
         lambda: b'{"format":"urdf","models":[' + b'{"name":"r"},' * 4_000_000 + b"{}]}", "oversized-file", 0
     ),
@@ -105,6 +105,6 @@ DOCUMENTS: Mapping[str, Hostile] = {
         0,
     ),
     "JSON with a number of a million digits": Hostile(
-        lambda: b'{"format":"urdf","version":' + b"1" * 1_000_000 + b"}", "invalid-value", 0
+        lambda: b'{"format":"urdf","version":' + b"1" * 1_000_000 + b"}", "invalid-value", 1
     ),
 }

@@ -27,7 +27,8 @@ SDF = """<sdf version="1.9"><model name="r"><link name="a"><pose>1 2 3 0.1 0.2 0
 <frame name="f" attached_to="a"/></model></sdf>"""
 ALPHABET = "ab:/.{}$()-_ 0é機\"'<&>"
 VALUES = st.one_of(
-    st.text(ALPHABET, max_size=8), st.sampled_from(["", "::", "a::B", "world", "__model__", "j", "${a}"])
+    st.text(ALPHABET, max_size=8).filter(lambda text: "${" not in text),  # which is of xacro, and an error
+    st.sampled_from(["", "::", "a::B", "world", "__model__", "j", "$a"]),
 )
 
 

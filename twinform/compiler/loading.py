@@ -15,7 +15,7 @@ from pydantic import ValidationError
 from twinform.compiler.errors import CompileError
 from twinform.compiler.exact_lines import with_exact_lines
 from twinform.compiler.inputs import Checked, Input, Reading, expanded_name, name_of_input
-from twinform.compiler.limits import excess_of_json, excess_of_names
+from twinform.compiler.limits import excess_of_json
 from twinform.compiler.parsing import (
     UnreadableError,
     parse,
@@ -58,7 +58,6 @@ _CONSEQUENCES = frozenset(
 )
 _JSON = re.compile(rb"(\xef\xbb\xbf)?\s*\{")
 """How a JSON document begins."""
-_QUALIFIED = b'"{'
 """How a name that is in a namespace begins in JSON."""
 XACRO = ".xacro"
 """The ending of the names of files that are expanded before they are read."""
@@ -120,7 +119,6 @@ def _check_json(text: bytes, notes: Notes, how: Reading) -> Checked:
     source = read_json(text, notes)
     if source is None:
         return Checked(notes.file, None, tuple(notes.diagnostics))
-    refuse_excess(excess_of_names(len(source.data.get("namespaces", ())), text.count(_QUALIFIED)), notes)
     name = f"{notes.file} (as {source.format.upper()})"
     checked = _check_text(source.text, Notes(name, notes.strict), how)
     notes.origins[name] = source.origins(checked.document, notes.file)

@@ -92,7 +92,7 @@ class SearchPath:
             raise UriError(rules.URI_LEAVES_FOLDER, f"{uri!r} leads out of the folders of models and packages")
         around = folders_around(beside)
         for folder in self._candidates(name, around):
-            if _exists(folder / inner):
+            if exists(folder / inner):
                 self._require_inside(uri, folder / inner, around)
                 return folder / inner
         raise self._missing(uri, (*self._roots(), *around))
@@ -127,7 +127,7 @@ class SearchPath:
         """A path: absolute, beside the file, or in one of the folders."""
         around = folders_around(beside)
         for root in (beside.parent, *self._roots(), *around, *(folder / "models" for folder in around)):
-            if path and _exists(root / path):
+            if path and exists(root / path):
                 self._require_inside(uri or path, root / path, (beside.parent, *around))
                 return root / path
         raise self._missing(uri or path, (beside.parent, *self._roots(), *around))
@@ -145,7 +145,8 @@ class SearchPath:
         return UriError(rules.UNRESOLVED_URI, f"{uri!r} is not found", where)
 
 
-def _exists(path: Path) -> bool:
+def exists(path: Path) -> bool:
+    """Whether something is there, and can be looked at."""
     try:
         return path.exists()
     except OSError:  # a name that is too long, a folder that may not be read
@@ -173,7 +174,7 @@ class LocalAssets:
     @property
     def folder(self) -> Path | None:
         """The folder of the document; None for a text that came from no file."""
-        return self.beside.parent if _exists(self.beside) else None
+        return self.beside.parent if exists(self.beside) else None
 
     def find(self, uri: str) -> Path:
         """The file or folder that a URI names.
@@ -187,4 +188,4 @@ class LocalAssets:
         """What the package of ROS or the model of Gazebo is called that a folder is; None where it is none."""
         if kind == "package":
             return package_name(folder)
-        return folder.name if _exists(folder / _MODEL_MARK) else None
+        return folder.name if exists(folder / _MODEL_MARK) else None

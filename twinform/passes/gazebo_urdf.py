@@ -12,6 +12,7 @@ from typing import NamedTuple
 from twinform.diagnostics import Location
 from twinform.ir import Capsule, Element, Joint, Model
 from twinform.ir.frames import WORLD
+from twinform.passes.legalise.joint_chains import part_of
 
 NO_MASS = 1e-6
 """What weighs no more, in kg, has no mass for libsdformat before 13."""
@@ -40,6 +41,9 @@ def changes(said: Model, made: Model, named: AbstractSet[str] = frozenset()) -> 
             yield Change(f"URDF cannot have the name {part.name!r}", part.location)
     yield from _of_shapes(made)
     yield from _of_names(made)
+    chained = {whole: joint for joint in made.joints if (whole := part_of(joint))}
+    for whole, joint in chained.items():
+        yield Change(f"joint {whole!r} would be a chain of joints, with links between them", joint.location)
     for joint in made.joints:
         if joint.type in {"floating", "planar"}:
             yield Change(f"Gazebo refuses URDF with a {joint.type} joint, which holds {joint.child!r}", joint.location)

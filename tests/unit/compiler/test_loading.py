@@ -8,7 +8,7 @@ from lxml import etree
 
 import twinform
 from twinform.compiler import Checked, check, dumps
-from twinform.compiler.loading import garbage_collection_paused, load, loads, lower_tree
+from twinform.compiler.loading import Reading, garbage_collection_paused, load, loads, lower_tree, read
 from twinform.diagnostics import Diagnostic, Location, Notes
 from twinform.ir import Document
 
@@ -19,7 +19,7 @@ VERSIONS = "1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8, 1.9, 1.10, 1.11, 1.12"
 MODEL = '<model name="m"><link name="a"/></model>'
 LINK = '<link name="a"/>'
 XACRO = "http://www.ros.org/wiki/xacro"
-UNEXPANDED = "of xacro will not be expanded: the name of the file does not end in .xacro"
+UNEXPANDED = "of xacro will not be expanded"
 
 ROOTS: dict[str, tuple[str, list[Said]]] = {
     "another format": (
@@ -118,7 +118,7 @@ def said(found: tuple[Diagnostic, ...]) -> list[Said]:
 @pytest.mark.parametrize("name", ROOTS)
 def test_the_root_is_looked_at_first(name: str) -> None:
     text, expected = ROOTS[name]
-    checked = check(text.encode(), name="model.xml")
+    checked = read(text.encode(), Reading(), name="model.xml")
     assert said(checked.diagnostics) == expected
     assert {each.location.file for each in checked.diagnostics} <= {"model.xml"}
     assert checked.path == "model.xml"
@@ -222,16 +222,16 @@ def test_a_text_is_loaded_as_strictly_as_one_asks() -> None:
 def test_all_that_loading_is_asked_for_reaches_the_reader(monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[object] = []
 
-    def asked_for(source: object, **options: object) -> Checked:
-        asked.append((source, options))
+    def asked_for(source: object, how: Reading, *, name: str = "") -> Checked:
+        asked.append((source, how.strict, how.engine, how.search.own, dict(how.arguments), name))
         return Checked("r.urdf", Document.model_validate({"format": "urdf"}), ())
 
-    monkeypatch.setattr("twinform.compiler.loading.check", asked_for)
+    monkeypatch.setattr("twinform.compiler.loading.read", asked_for)
     load("r.urdf", strict=True, engine="xmlschema", paths=["a", "b"], arguments={"c": "d"})
     loads("é", "s.urdf", strict=True, engine="xmlschema")
     assert asked == [
-        ("r.urdf", {"strict": True, "engine": "xmlschema", "paths": ["a", "b"], "arguments": {"c": "d"}}),
-        ("é".encode(), {"name": "s.urdf", "strict": True, "engine": "xmlschema"}),
+        ("r.urdf", True, "xmlschema", (Path("a"), Path("b")), {"c": "d"}, ""),
+        ("é".encode(), True, "xmlschema", (), {}, "s.urdf"),
     ]
 
 

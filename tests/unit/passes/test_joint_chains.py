@@ -10,7 +10,7 @@ from twinform.diagnostics import Fate
 from twinform.ir import Joint, Model
 from twinform.passes.legalise.joint_chains import CHAIN, PART
 from twinform.passes.legalise.marks import MADE, is_mark
-from twinform.passes.legalise.token_mass import TOKEN
+from twinform.passes.legalise.token_mass import CHAIN_TOKEN
 
 ROBOT = """<sdf version='1.11'><model name='m'>
 <link name='a'/><link name='b'><pose>1 0 2 0.1 0.2 0.3</pose></link><link name='c'><pose>0 0 3 0 0 0</pose></link>
@@ -98,7 +98,7 @@ def test_a_joint_that_urdf_has_stays_one(kind: str):
 @pytest.mark.parametrize("kind", ["universal", "revolute2", "ball", "screw"])
 def test_the_links_between_have_next_to_no_mass(kind: str):
     links = robot(there(kind, TWO_AXES if kind != "ball" else "").text).links
-    assert [link.inertial for link in links if link.name.startswith("j_")] == [TOKEN] * (2 if kind == "ball" else 1)
+    assert [each.inertial for each in links if each.name.startswith("j_")] == [CHAIN_TOKEN] * (1 + (kind == "ball"))
 
 
 @pytest.mark.parametrize(
@@ -138,7 +138,8 @@ def test_a_screw_that_moves_infinitely_far_is_an_error():
 def test_the_angles_of_a_ball_are_approximate_and_the_ledger_says_why():
     entries = there("ball", DAMPED).ledger.entries
     assert [entry.message for entry in entries if entry.fate is Fate.APPROXIMATED] == [
-        "where the second of the three joints of 'j' is at 90 deg, the others turn about one axis"
+        "2 links between the joints of 'j', of 2e-06 kg",
+        "where the second of the three joints of 'j' is at 90 deg, the others turn about one axis",
     ]
 
 

@@ -10,7 +10,7 @@ from urllib.parse import unquote
 
 from twinform.compiler.packages import package_name
 from twinform.compiler.surroundings import folders_around
-from twinform.compiler.uris import SearchPath, UriError
+from twinform.compiler.uris import SearchPath, UriError, exists
 from twinform.diagnostics import nearest_name
 
 _MODEL_MARK = "model.config"
@@ -68,7 +68,7 @@ def _folder(name: str, search: SearchPath, beside: Path) -> Path | None:
 def _near_below(folder: Path, path: str, beside: Path) -> str | None:
     """What is called nearly like the first part of a path that is not in its folder."""
     for part in path.split("/"):
-        if not (folder / part).exists():
+        if not exists(folder / part):
             suffix = Path(part).suffix.lower()
             alike = (each for each in _entries(folder) if Path(each).suffix.lower() == suffix)
             return nearest_name(part, alike) if _is_around(folder, beside) else None

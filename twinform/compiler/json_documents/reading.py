@@ -13,10 +13,15 @@ from twinform.compiler.emitting import document_tree, serialised
 from twinform.compiler.json_documents.comparing import MOST, differences, plain, report_missed
 from twinform.compiler.json_documents.lines import lines_of
 from twinform.compiler.json_documents.writing import Data, json_data
+from twinform.compiler.limits import excess_of_names
+from twinform.compiler.parsing import refuse_excess
 from twinform.diagnostics import Location, Notes, Origins, Source
 from twinform.diagnostics.rules import structure
 from twinform.ir import Document, Node, node_values
 from twinform.schemas.json_check import JsonPath, is_array, is_object, json_faults
+
+_QUALIFIED = '"{'
+"""How a name in a namespace begins."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +47,11 @@ class JsonSource:
 
 
 def read_json(text: bytes, notes: Notes) -> JsonSource | None:
-    """What a JSON text holds; errors in the notes where it is none, or does not fit the schema."""
+    """What a JSON text holds; errors in the notes where it is none, or does not fit the schema.
+
+    Raises:
+        UnreadableError: it has too many namespaces.
+    """
     try:
         decoded = text.decode("utf-8-sig")
         data = json.loads(decoded, object_pairs_hook=_object, parse_constant=_refuse)
@@ -52,6 +61,8 @@ def read_json(text: bytes, notes: Notes) -> JsonSource | None:
     except (ValueError, RecursionError) as error:
         _report(notes, f"not JSON: {'it is nested too deep' if isinstance(error, RecursionError) else error}")
         return None
+    named = data.get("namespaces") if is_object(data) else None
+    refuse_excess(excess_of_names(len(named) if is_array(named) else 0, decoded.count(_QUALIFIED)), notes)
     faults = list(json_faults(data))
     if faults:
         lines = lines_of(decoded)

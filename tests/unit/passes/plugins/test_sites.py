@@ -138,7 +138,7 @@ def test_plugins_are_added_to_worlds() -> None:
 
 
 def test_deeply_nested_models_are_walked() -> None:
-    depth = 240
+    depth = 60
     names = "".join(f'<model name="m{number}">' for number in range(depth))
     inside = '<link name="l"><sensor name="s" type="imu"/></link><plugin name="p" filename="f"/>'
     document = load(f'<sdf version="1.11">{names}{inside}{"</model>" * depth}</sdf>')
