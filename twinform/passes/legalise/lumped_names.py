@@ -46,16 +46,30 @@ def followed(element: Element, names: Mapping[str, Followed], *, carriers: bool)
     return element if same else element.model_copy(update={"children": tuple(children)})
 
 
-def restored(element: Element) -> Element:
-    """The element by the names that marks in it say; a text that was edited since stays, and its mark goes."""
+def has_marks(model: Model) -> bool:
+    """Whether a mark says the name of a lumped collision."""
+    return any(one.name == _LUMPED for each in model.extensions for part in each.content for one in part.walk())
+
+
+def restored(element: Element, names: Mapping[str, Followed], stale: list[Element]) -> Element:
+    """The element by the names that marks in it say, where `names` has them mean what stands there now.
+
+    A text that was edited since stays, and so does one whose old name means another collision by now, or none: these
+    marks are added to `stale`.
+    """
     if not any(one.name == _LUMPED for one in element.walk()):
         return element
     children: list[Element] = []
     for child in element.children:
         if child.name != _LUMPED:
-            children.append(restored(child))
-        elif children and (children[-1].text or "").strip() == child.get("instead_of"):
+            children.append(restored(child, names, stale))
+            continue
+        meant = names.get(child.text or "")
+        text = (children[-1].text or "").strip() if children else None
+        if meant and text == child.get("instead_of") == meant.name:
             children[-1] = children[-1].model_copy(update={"text": child.text})
+        else:
+            stale.append(child)
     return element.model_copy(update={"children": tuple(children)})
 
 

@@ -101,8 +101,7 @@ def nest(model: Model, notes: Notes, among: frozenset[str] | None = None) -> Mod
     for nested in model.models:
         if name := first(nested.name):
             inner[name].models.append(nested)
-    full = (each for each in inner.values() if each.holds_anything or (among and each.own))
-    made = [_model(each, model, graph, notes, _within(each, among)) for each in full]
+    made = [_model(each, model, graph, notes, _within(each, among)) for each in inner.values() if each.holds_anything]
     there = tuple(_merged(nested, made) for nested in models)
     new = tuple(nested for nested in made if nested.name not in {each.name for each in models})
     update = {"links": tuple(links), "joints": tuple(joints), "frames": tuple(frames), "models": (*there, *new)}

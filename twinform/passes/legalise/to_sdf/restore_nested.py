@@ -51,13 +51,13 @@ class NameScopes(ModelPass):
 
 
 def _without_hollow(model: Model, notes: Notes) -> Model:
-    """The model without marks of nested models that nothing is in, and of which nothing more is said."""
+    """The model without marks of nested models that nothing is in."""
     named = [node.name for node in (*model.links, *model.joints, *model.frames)]
     frames: list[Frame] = []
     for frame in model.frames:
         found = find_mark(frame, NESTED)
         prefix = frame.name + SCOPE
-        if found is None or found.attributes or found.children or any(name.startswith(prefix) for name in named):
+        if found is None or any(name.startswith(prefix) for name in named):
             frames.append(frame)
             continue
         message = f"nothing is called {prefix!r} and more, so that {frame.name!r} is a frame and no model"

@@ -3,24 +3,35 @@
 from typing import ClassVar
 
 from twinform.diagnostics import Notes
-from twinform.ir import Model
-from twinform.passes.legalise.lumped_names import restored
+from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
+from twinform.ir import Element, GazeboExtension, Model
+from twinform.passes.legalise.lumped_names import has_marks, restored
 from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.legalise.to_sdf.follow_lumped_names import names_of_libsdformat
 
 
 class RestoreLumpedNames(ModelPass):
     """Name collisions in `<gazebo>` elements as libsdformat lumps them, where the source did.
 
     Changes: a text beside which a mark says what stood there.
-    Never touches: a text that was edited since.
-    Diagnostics: none.
+    Never touches: a text that was edited since, or whose old name does not mean that collision any more.
+    Diagnostics: `stale-carrier` for these.
     """
 
     name: ClassVar[str] = "restore-lumped-names"
 
     def run_model(self, model: Model, notes: Notes) -> Model:
         """The model with the names of the source."""
-        extensions = tuple(
-            each.model_copy(update={"content": tuple(map(restored, each.content))}) for each in model.extensions
-        )
-        return model.model_copy(update={"extensions": extensions}) if extensions != model.extensions else model
+        if not has_marks(model):
+            return model
+        names, stale = names_of_libsdformat(model), list[Element]()
+
+        def restore(extension: GazeboExtension) -> GazeboExtension:
+            content = tuple(restored(each, names, stale) for each in extension.content)
+            return extension.model_copy(update={"content": content})
+
+        model = model.model_copy(update={"extensions": tuple(map(restore, model.extensions))})
+        for mark in stale:
+            message = f"{mark.get('instead_of')!r} was called {mark.text!r}, which does not mean it any more"
+            notes.report(STALE_CARRIER, message, mark.location, found=mark.text)
+        return model
