@@ -69,6 +69,8 @@ def _is_of_chain(found: Difference, edited: EditedFile) -> bool:
         return found.aspect == "joint" and _flat(found.a.text) == _flat(found.b.text)
     if any(each.get("name") == found.name for each in edited.marked("joint", "chain")):
         return True
+    if found.aspect.endswith("mimic/@joint") and (found.a.text or "").strip("'") in edited.parts:
+        return True
     # a joint of a nested model that has come apart has the name that it has outside of it
     scoped = (mark.text or "" for mark in edited.root.iter(f"{OURS}scoped-name"))
     apart = found.name if found.a.text is None else (found.name or "").replace("::", "_")
