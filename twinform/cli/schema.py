@@ -42,8 +42,8 @@ def command(
     """Print the schema of URDF, SDF or JSON.
 
     That of URDF and SDF is an XML schema, that of documents as JSON a JSON Schema. XML schemas are strict: they take
-    the words of one version. A lenient one is for editors of files that are not. Of XSD 1.0, no schema can take
-    elements that it does not know beside those that it knows; of XSD 1.1, it can.
+    the words of one version. A lenient one is for editors of files that are not. In XSD 1.0 it takes no elements that
+    it does not know; in XSD 1.1 it does.
     """
     if language == "json":
         asked = ctx.get_parameter_source("xsd") is ParameterSource.COMMANDLINE
