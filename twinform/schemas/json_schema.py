@@ -175,7 +175,7 @@ class _Format:
             made.within(outer).add(name, _array(schema, text) if many else schema, needed=needed and not outer)
             if row.type == "bool":
                 made.within(outer).bools.append(name)
-            self._fill(made.within(outer), row, path, needed=needed) if row.attributes else None
+            self._fill(made.within(outer), row, path, needed=needed)
         else:
             self._child(made.within(outer), name, rows, path, needed=needed and not outer)
         if outer:  # such as <axis>, of whose object several elements are parts
