@@ -146,7 +146,7 @@ class SearchPath:
 
 
 def exists(path: Path) -> bool:
-    """Whether something is there, and can be looked at."""
+    """Whether a file or folder is there."""
     try:
         return path.exists()
     except OSError:  # a name that is too long, a folder that may not be read

@@ -6,8 +6,10 @@ from itertools import islice
 
 _LONGEST = 80
 """The longest name that is compared; longer ones are nobody's slip."""
-_MOST = 400
-"""The most names that are compared with one; a hostile file may have a hundred thousand of each."""
+_MOST_KNOWN = 1000
+"""Among more names nothing is looked for: a hostile file may have a hundred thousand, and as many that are not known."""
+_MOST_COMPARED = 200
+"""The most names that are compared letter by letter."""
 _ALIKE = 0.6
 """How much of two names is the same where one may be meant for the other, as `difflib` measures it."""
 
@@ -21,21 +23,20 @@ def did_you_mean(name: str, known: Iterable[str | None]) -> str | None:
 def nearest_name(name: str, known: Iterable[str | None], alike: float = _ALIKE) -> str | None:
     """The known name that was probably meant: capitals and what stands between words count least, then letters.
 
-    `alike` is how much of the two has to be the same, from 0 to 1.
+    `alike` is how much of the two has to be the same, from 0 to 1. The order of what is known does not matter.
     """
-    folded = _folded(name)
-    if not folded or len(name) > _LONGEST:
+    folded = _folded(name) if len(name) <= _LONGEST else ""
+    others = list(islice(known, _MOST_KNOWN + 1))
+    if not folded or len(others) > _MOST_KNOWN:
         return None
-    others = dict.fromkeys(each for each in known if each and each != name and len(each) <= _LONGEST)
-    same = next((each for each in others if _folded(each) == folded), None)
-    if same is not None:
-        return same
     forms: dict[str, str] = {}
-    for each in islice(_likely(folded, others), _MOST):
-        if _digits(each) and _digits(folded) and _digits(each) != _digits(folded):
-            continue  # joint_1 is no slip of joint_2
+    for each in sorted(each for each in others if each and each != name and _may_be(len(each), len(folded))):
         forms.setdefault(_folded(each), each)
-    near = get_close_matches(folded, list(forms), n=1, cutoff=alike)
+    if folded in forms:
+        return forms[folded]
+    digits = _digits(folded)  # joint_1 is no slip of joint_2
+    likely = (each for each in forms if not digits or _digits(each) in {"", digits})
+    near = get_close_matches(folded, list(islice(likely, _MOST_COMPARED)), n=1, cutoff=alike)
     return forms[near[0]] if near else None
 
 
@@ -47,7 +48,6 @@ def _digits(name: str) -> str:
     return "".join(filter(str.isdigit, name))
 
 
-def _likely(folded: str, names: Iterable[str]) -> Iterable[str]:
-    """The names whose length alone does not rule them out."""
-    least, most = len(folded) * _ALIKE / (2 - _ALIKE), len(folded) * (2 - _ALIKE) / _ALIKE
-    return (each for each in names if least <= len(each) <= most)
+def _may_be(length: int, wanted: int) -> bool:
+    """Whether the lengths alone do not rule out that two names are alike."""
+    return length <= _LONGEST and wanted * _ALIKE <= length * (2 - _ALIKE) and length * _ALIKE <= wanted * (2 - _ALIKE)

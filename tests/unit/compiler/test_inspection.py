@@ -70,6 +70,11 @@ def test_of_a_folder_of_which_nothing_is_there_one_thing_is_said(package: Path) 
     assert len(missing(package, *gone, "meshes/part.stl")) == 9
 
 
+@pytest.mark.parametrize("uri", ["x" * 10_000, "model://" + "x" * 10_000, "package://arm/" + "x/" * 5000, "a&#10;b"])
+def test_a_name_that_no_file_can_have_is_a_finding_or_none(package: Path, uri: str) -> None:
+    assert len(missing(package, uri)) == (0 if uri.startswith("model") else 1)
+
+
 def test_names_outside_of_the_folders_are_not_told(package: Path) -> None:
     (package.parent.parent / "secrets").mkdir(exist_ok=True)
     assert [hint for _, hint in missing(package, "../../secretz/a.stl") if "secrets" in (hint or "")] == []

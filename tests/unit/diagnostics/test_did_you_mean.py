@@ -1,5 +1,8 @@
 """The nearest of the known names."""
 
+from collections.abc import Iterator
+from itertools import permutations
+
 import pytest
 
 from twinform.diagnostics import did_you_mean, nearest_name
@@ -27,6 +30,20 @@ def test_a_slip_is_told_from_another_name(name: str, known: list[str | None], ne
     assert did_you_mean(name, known) == (f"did you mean {near!r}?" if near else None)
 
 
-def test_of_very_many_names_only_some_are_compared() -> None:
-    assert nearest_name("zzzz_z", (f"name_{number}" for number in range(100_000))) is None
-    assert nearest_name("NAME_99999", (f"name_{number}" for number in range(100_000))) == "name_99999"
+def test_among_very_many_names_nothing_is_looked_for() -> None:
+    asked: list[int] = []
+
+    def names(count: int) -> Iterator[str]:
+        for number in range(count):
+            asked.append(number)
+            yield f"name_{number}"
+
+    assert nearest_name("NAME_999", names(1000)) == "name_999"
+    assert nearest_name("NAME_999", names(100_000)) is None
+    assert len(asked) < 2100
+
+
+def test_the_order_of_the_names_does_not_matter() -> None:
+    names = ["arm_a", "arm_b", "ARM_B", "arm_c"]
+    assert {nearest_name("arm-x", order) for order in permutations(names)} == {"arm_c"}
+    assert {nearest_name("Arm_B", order) for order in permutations(names)} == {"ARM_B"}

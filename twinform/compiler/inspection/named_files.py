@@ -7,15 +7,17 @@ from typing import NamedTuple
 
 from twinform.compiler.exact_lines import line_of_text
 from twinform.compiler.inspection.near_files import is_elsewhere, near_file
-from twinform.compiler.uris import SearchPath, UriError
+from twinform.compiler.uris import SearchPath, UriError, exists
 from twinform.diagnostics import Location, Notes
 from twinform.diagnostics.rules import files as rules
 from twinform.ir import Document
 from twinform.passes.uris import Kind, map_uris
 from twinform.schemas import XmlElement
 
-_MOST = 2000
+_MOST = 1000
 """Different URIs that are looked for; a hostile file may have a million."""
+_MOST_NEAR = 50
+"""Missing files of which is asked what they may be called."""
 _WORDS: dict[Kind, str] = {"mesh": "mesh", "texture": "file", "include": "included model"}
 
 
@@ -48,12 +50,14 @@ def report_named_files(
         message = f"backslashes in the path of a file, {use.uri!r}, are no separators"
         hint = f"write {use.uri.replace(chr(92), '/')!r}"
         notes.report(rules.BACKSLASH_IN_PATH, message, _place(use, tree), found=use.uri, help=hint)
-    if not path.is_file():
+    if not exists(path):
         return
     found: set[str] = set()
     missing: defaultdict[str, list[_Missing]] = defaultdict(list)
+    gone_before = 0
     for use in (use for use in uses if "\\" not in use.uri and "$" not in use.uri):
-        gone = _look_for(use, path, search)
+        gone = _look_for(use, path, search, asks=gone_before < _MOST_NEAR)
+        gone_before += gone is not None
         if gone is None:
             found.add(_holder(use.uri))
         elif gone.near is not None:
@@ -84,13 +88,13 @@ def _holder(uri: str) -> str:
     return f"{scheme}://{rest.partition('/')[0]}" if separator else ""
 
 
-def _look_for(use: _Use, path: Path, search: SearchPath) -> _Missing | None:
+def _look_for(use: _Use, path: Path, search: SearchPath, *, asks: bool) -> _Missing | None:
     """What is missing; None for what is there, even where it must not be read."""
     try:
         search.find(use.uri, path)
     except UriError as error:
         if error.rule is rules.UNRESOLVED_URI:
-            return _Missing(use, near_file(use.uri, search, path), error.help)
+            return _Missing(use, near_file(use.uri, search, path) if asks else None, error.help)
     return None
 
 

@@ -90,7 +90,7 @@ def _known(scheme: str, search: SearchPath, beside: Path) -> Iterator[str]:
             yield from filter(None, (package_name(folder), *(package_name(folder / name) for name in _entries(folder))))
         return
     for folder in (*search.own, *search.models, *around, *(each / "models" for each in around)):
-        yield from (name for name in _entries(folder) if (folder / name / _MODEL_MARK).is_file())
+        yield from (name for name in _entries(folder) if exists(folder / name / _MODEL_MARK))
 
 
 def _entries(folder: Path) -> list[str]:

@@ -142,7 +142,7 @@ class References:
         node, step = part
         where = node.location.at(step)
         if found is None:
-            known = [each for each in self.scope.names() if each not in taken]
+            known = (each for each in self.scope.names() if each not in taken)
             self.notes.report(rule, message, where, found=name, help=did_you_mean(name, known))
         else:
             message = f"{name!r} is the name of two things, and this may mean either"

@@ -1,6 +1,6 @@
 """The names that a place in a model or world can refer to."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Literal
 
 from twinform.ir.model import Include, Model
@@ -41,9 +41,9 @@ class Scope:
                 self._kinds.setdefault(include.name, "model")
         return unread
 
-    def names(self, *kinds: Found) -> list[str]:
+    def names(self, *kinds: Found) -> Iterator[str]:
         """The names of these kinds, or of all, without those in nested models."""
-        return [name for name, kind in self._kinds.items() if not kinds or kind in kinds]
+        return (name for name, kind in self._kinds.items() if not kinds or kind in kinds)
 
     def find(self, name: str) -> Found | None:
         """What a name stands for, as seen from here; None for nothing."""
