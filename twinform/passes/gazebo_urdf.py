@@ -17,6 +17,8 @@ from twinform.passes.legalise.joint_chains import part_of
 NO_MASS = 1e-6
 """What weighs no more, in kg, has no mass for libsdformat before 13."""
 _SCOPE = "::"
+_SHARED = frozenset({"fixed", "revolute", "continuous", "prismatic"})
+"""Joints that are one joint in both formats."""
 _KEEPS = frozenset({"preserveFixedJoint", "disableFixedJointLumping"})
 
 
@@ -44,6 +46,9 @@ def changes(said: Model, made: Model, named: AbstractSet[str] = frozenset()) -> 
     chained = {whole: joint for joint in made.joints if (whole := part_of(joint))}
     for whole, joint in chained.items():
         yield Change(f"joint {whole!r} would be a chain of joints, with links between them", joint.location)
+    for joint in said.joints:
+        if joint.type not in _SHARED:
+            yield Change(f"{joint.type} joint {joint.name!r} would not be one for Gazebo", joint.location)
     for joint in made.joints:
         if joint.type in {"floating", "planar"}:
             yield Change(f"Gazebo refuses URDF with a {joint.type} joint, which holds {joint.child!r}", joint.location)

@@ -97,6 +97,14 @@ def test_a_model_stays_sdf_where_gazebo_would_make_something_else_of_its_urdf(mo
     assert list(found.files) == ["m.sdf", "room.sdf"]
 
 
+def test_a_ball_joint_stays_one_without_carriers_too() -> None:
+    links = f'<link name="a">{_BODY}</link><link name="b">{_BODY}</link>'
+    joint = '<joint name="caster" type="ball"><parent>a</parent><child>b</child></joint>'
+    text = f'<sdf version="1.9"><world name="w"><model name="m">{links}{joint}</model></world></sdf>'
+    found = split(Order(to="urdf", carriers=False), text.encode(), Reading(), name="room.sdf")
+    assert list(found.files) == ["m.sdf", "room.sdf"]
+
+
 def test_all_models_may_stay_sdf() -> None:
     found = split(Order(to="sdf"), WORLD.encode(), Reading(), name="room.world")
     assert list(found.files) == ["a_b.sdf", "A_b_1.sdf", "a_b_2.sdf", "room.world"]

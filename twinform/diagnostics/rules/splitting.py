@@ -9,7 +9,7 @@ KEPT_AS_SDF = Rule(
     matters="Gazebo reads URDF with a converter of its own: it refuses floating joints, leaves out links without mass "
     "with all that hangs from them, and knows no planes and no models in models. What is missing then, it does not "
     "say. So the file of this model is SDF, and the world includes that.",
-    example="A ground plane; a caster on a ball joint, whose URDF needs links without mass.",
+    example="A ground plane; a caster on a ball joint, which is three joints in URDF.",
     better="Nothing needs doing for Gazebo. `--model NAME --to urdf` makes URDF of the model for ROS. `--deny "
     "kept-as-sdf` refuses the world instead.",
 )
