@@ -12,7 +12,6 @@ from typing import NamedTuple
 from twinform.diagnostics import Location
 from twinform.ir import Capsule, Element, Joint, Model
 from twinform.ir.frames import WORLD
-from twinform.passes.legalise.joint_chains import part_of
 
 NO_MASS = 1e-6
 """What weighs no more, in kg, has no mass for libsdformat before 13."""
@@ -43,9 +42,6 @@ def changes(said: Model, made: Model, named: AbstractSet[str] = frozenset()) -> 
             yield Change(f"URDF cannot have the name {part.name!r}", part.location)
     yield from _of_shapes(made)
     yield from _of_names(made)
-    chained = {whole: joint for joint in made.joints if (whole := part_of(joint))}
-    for whole, joint in chained.items():
-        yield Change(f"joint {whole!r} would be a chain of joints, with links between them", joint.location)
     for joint in said.joints:
         if joint.type not in _SHARED:
             yield Change(f"{joint.type} joint {joint.name!r} would not be one for Gazebo", joint.location)
