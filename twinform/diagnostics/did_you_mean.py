@@ -7,7 +7,7 @@ from itertools import islice
 _LONGEST = 80
 """The longest name that is compared; longer ones are nobody's slip."""
 _MOST_KNOWN = 1000
-"""Among more names nothing is looked for: a hostile file may have a hundred thousand, and as many that are not known."""
+"""Among more names nothing is looked for: a hostile file may have a hundred thousand, and as many unknown ones."""
 _MOST_COMPARED = 200
 """The most names that are compared letter by letter."""
 _ALIKE = 0.6
