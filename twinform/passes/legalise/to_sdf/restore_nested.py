@@ -52,7 +52,7 @@ class NameScopes(ModelPass):
 
 def _without_hollow(model: Model, notes: Notes) -> Model:
     """The model without marks of nested models that nothing is in."""
-    named = [node.name for node in (*model.links, *model.joints, *model.frames)]
+    named = [node.name for node in (*model.links, *model.frames)]  # a joint goes where its links are
     frames: list[Frame] = []
     for frame in model.frames:
         found = find_mark(frame, NESTED)
