@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 
@@ -12,10 +13,11 @@ from twinform.testing.oracles.robot import Matrix, Robot, Sample
 from twinform.testing.oracles.verdict import Alike, Verdict
 
 TOLERANCE = 1e-9
-NOTHING = 10 * TOKEN_MASS
-"""A mass in kg, or a moment in kg m^2, that is none: a few tokens of links without mass."""
+NOTHING = 1000 * TOKEN_MASS
+"""A mass in kg, or a moment in kg m^2, that is none: some tokens of links without mass, some metres from a joint."""
 IN_CHAINS = 10 * CHAIN_MASS
 """The same for robots with chains, which differ by as much: a few links of chains."""
+Part = TypeVar("Part")
 _POSES = frozenset({"position", "rotation"})
 _SHOWN = 4
 
@@ -56,6 +58,7 @@ def judge(
     With `chains`, one of them has some where the other has a joint.
     """
     nothing = IN_CHAINS if chains else NOTHING
+    second = _by_scopes(first, second)
     if lumped or first.lumped or second.lumped:
         lumped = True
         first, second = (each if each.lumped else weighed_together(each) for each in (first, second))
@@ -71,6 +74,24 @@ def judge(
     if apart.size <= tolerance and set(first.links) <= set(second.links):
         return _verdict(first, second, Alike.FRAMES, worst)
     return _verdict(first, second, Alike.INERTIAL, weight)
+
+
+def _by_scopes(first: Robot, second: Robot) -> Robot:
+    """The second robot with the names that the links of models in the first one have there."""
+    flat = {name.replace("::", "__"): name for name in first.links if "::" in name and name not in second.links}
+    if not flat.keys() & set(second.links):
+        return second
+
+    def named(parts: Mapping[str, Part]) -> dict[str, Part]:
+        return {flat.get(name, name): part for name, part in parts.items()}
+
+    samples = tuple(
+        replace(one, poses=named(one.poses), bodies=named(one.bodies), frames=named(one.frames))
+        for one in second.samples
+    )
+    welds = {flat.get(link, link): flat.get(other, other) for link, other in second.welds.items()}
+    links = tuple(flat.get(name, name) for name in second.links)
+    return replace(second, links=links, samples=samples, welds=welds)
 
 
 def _verdict(first: Robot, second: Robot, alike: Alike | None, found: _Deviation, cause: str = "") -> Verdict:

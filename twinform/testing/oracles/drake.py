@@ -15,6 +15,7 @@ Parts = dict[str, Any]
 """Drake's bodies or joints by name."""
 
 _FREE = 6
+_OF_JOINTS = ("_parent", "_child", "_F", "_M")
 
 
 def read(path: Path, view: View) -> Robot:
@@ -66,9 +67,13 @@ def parts(path: Path) -> tuple[Any, Parts, Parts, Parts]:
     bodies = _named(plant, (plant.get_body(tree.BodyIndex(number)) for number in range(plant.num_bodies())), prefix)
     joints = _named(plant, (plant.get_joint(number) for number in plant.GetJointIndices()), prefix)
     every = _named(plant, (plant.get_frame(tree.FrameIndex(number)) for number in range(plant.num_frames())), prefix)
-    made = {f"{name}_{end}" for name in joints for end in ("parent", "child")}  # which Drake has for itself
-    frames = {name: frame for name, frame in every.items() if name not in bodies and name not in made}
+    frames = {name: frame for name, frame in every.items() if name not in bodies and not _is_of_joint(name, joints)}
     return plant, bodies, joints, frames
+
+
+def _is_of_joint(name: str, joints: Parts) -> bool:
+    """Whether Drake made a frame for a joint: `JOINT_parent`, `JOINT_JOINT_parent_F` and the like."""
+    return name.endswith(_OF_JOINTS) and any(name.startswith(f"{joint}_") for joint in joints)
 
 
 def root(bodies: Parts, joints: Parts) -> str:
