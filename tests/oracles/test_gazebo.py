@@ -12,6 +12,7 @@ from twinform.cli import main
 from twinform.testing.oracles import gazebo
 from twinform.testing.oracles.gazebo.comparison import differences
 from twinform.testing.oracles.gazebo.differing import Tolerances, short
+from twinform.testing.oracles.gazebo.joints import chains
 from twinform.testing.oracles.gazebo.reading import console
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -198,6 +199,45 @@ def test_a_joint_has_its_degrees_of_freedom(kind: str, folder: Path) -> None:
             continue
         assert [joint.freedom for joint in done.joints] == [FREEDOMS[kind]]
         assert not done.console.errors
+
+
+CHAINED = """<sdf version="1.9"><model name="m">
+<link name="a">{0}</link><link name="b"><pose>1 0 0 0.1 0.2 0.3</pose>{0}</link>
+<link name="c"><pose>2 0.3 0 0 0 0</pose>{0}</link>
+<joint name="w" type="fixed"><parent>world</parent><child>a</child></joint>
+<joint name="j" type="{1}"><parent>a</parent><child>b</child>{2}</joint>
+<joint name="k" type="revolute"><parent>b</parent><child>c</child><axis><xyz>0 0.6 0.8</xyz></axis></joint>
+</model></sdf>"""
+SDF_BODY = """<inertial><pose>0 0 0 0.3 0.2 0.1</pose><mass>1</mass>
+<inertia><ixx>0.1</ixx><iyy>0.2</iyy><izz>0.25</izz></inertia></inertial>"""
+CHAINS = {  # with what differs in DART for a known cause
+    "universal": ("<axis><xyz>0 1 0</xyz></axis><axis2><xyz>0 0 1</xyz></axis2>", set[str]()),
+    "revolute2": ("<axis><xyz>0 1 0</xyz></axis><axis2><xyz>0 0 1</xyz></axis2>", {"degrees of freedom", "motion"}),
+    "ball": ("", {"motion"}),
+    "screw": ("<axis><xyz>0 0 1</xyz></axis><thread_pitch>10</thread_pitch>", {"degrees of freedom", "motion"}),
+}
+
+
+@pytest.mark.parametrize("kind", CHAINS)
+def test_a_chain_of_urdf_is_the_joint_that_it_stands_for(kind: str, folder: Path) -> None:
+    inside, known = CHAINS[kind]
+    sdf, urdf = folder / f"{kind}_chain.sdf", folder / f"{kind}_chain.urdf"
+    sdf.write_text(CHAINED.format(SDF_BODY, kind, inside), encoding="utf-8")
+    urdf.write_text(twinform.convert(sdf, to="urdf").text, encoding="utf-8")
+    settings = gazebo.Settings(steps=200, start=0.5)
+    reference, result = (_run(path, settings) for path in (sdf, urdf))
+    assert {"j", "k"} <= {short(joint.name) for joint in result.joints if joint.freedom}
+    assert chains(reference, result).keys() == {"j"}
+    found = list(differences(reference, result, Tolerances(moved=1e-3 if kind == "ball" else 1e-5), frames=False))
+    assert {each.what for each in found} <= known, list(map(str, found))
+
+
+def test_an_inertia_is_turned_once(folder: Path) -> None:
+    path = folder / "turned.sdf"
+    body = SDF_BODY.replace("0.3 0.2 0.1", "0 0 1.5707963267948966")
+    path.write_text(f'<sdf version="1.9"><model name="m"><link name="a">{body}</link></model></sdf>', encoding="utf-8")
+    (link,) = _run(path, gazebo.Settings()).links
+    assert link.moments == pytest.approx((0.2, 0.1, 0.25, 0, 0, 0), abs=1e-12)
 
 
 def test_a_crash_and_a_refusal_are_results(folder: Path) -> None:
