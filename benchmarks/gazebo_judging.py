@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 from typing import TypeGuard
 
-import twinform
+from benchmarks.converting import SDF_VERSION, converted
 from tests.corpus.files import ROOT, CorpusFile, Kind
 from twinform.testing.oracles import gazebo
 from twinform.testing.oracles.gazebo.comparison import differences
@@ -19,7 +19,6 @@ from twinform.testing.workers import Failure, run
 
 OUT = ROOT / "out" / "gazebo"
 KNOWN = Path(__file__).with_name("gazebo_known.toml")
-SDF_VERSION = "1.9"
 """The newest that libsdformat 12 reads."""
 SETTINGS = gazebo.Settings(steps=200, dt=0.001, start=0.5)
 ENGINES = {
@@ -85,25 +84,14 @@ class _Pair:
 
 def outcomes(files: Iterable[CorpusFile]) -> Iterator[Outcome]:
     """Convert and judge every file in every engine that is installed."""
-    converted = run(_converted, list(files), processes=1)
-    pairs = [_Pair(file, None if isinstance(result, Failure) else result) for file, result in converted]
+    results = run(_converted, list(files), processes=1)
+    pairs = [_Pair(file, None if isinstance(result, Failure) else result) for file, result in results]
     for engine in filter(gazebo.available, ENGINES):
         yield from _in_engine(pairs, engine)
 
 
 def _converted(file: CorpusFile) -> Path | None:
-    to_sdf = file.kind is Kind.URDF
-    output = OUT / (file.name + (".sdf" if to_sdf else ".urdf"))
-    try:
-        if to_sdf:
-            text = twinform.convert(file.path, to="sdf", sdf_version=SDF_VERSION).text
-        else:
-            text = twinform.convert(file.path, to="urdf").text
-    except twinform.CompileError:
-        return None
-    output.parent.mkdir(parents=True, exist_ok=True)
-    output.write_text(text, encoding="utf-8")
-    return output
+    return converted(file, OUT / file.name)
 
 
 def _in_engine(pairs: list[_Pair], engine: gazebo.PhysicsEngine) -> Iterator[Outcome]:

@@ -10,6 +10,7 @@ from pathlib import Path
 from lxml import etree
 
 import twinform
+from benchmarks.converting import SDF_VERSION, converted
 from benchmarks.markdown import table, write
 from benchmarks.oracle import judged_files
 from tests.corpus.files import CORPUS, ROOT, CorpusFile, Kind
@@ -20,7 +21,6 @@ from twinform.testing.oracles.readers.judging import Effect, effect, without_car
 PAGE = ROOT / "docs" / "reference" / "readers.md"
 SAMPLE = 25
 """How many corpus files of each kind are converted and read."""
-SDF_VERSION = "1.9"
 INTRODUCTION = """# What carriers do to other readers
 
 Made by `make readers`. What a conversion carries stands in elements of the namespace `urn:twinform:1`, which every
@@ -109,7 +109,7 @@ def _placed(form: str, plain: Path, folder: Path) -> Iterator[Path]:
 
 def _corpus(readers: list[Reader], folder: Path) -> tuple[str, list[str]]:
     """A table of effects by reader, and the files that a reader minds."""
-    files = [path for file in _sample() if (path := _converted(file, folder))]
+    files = [path for file in _sample() if (path := converted(file, folder / file.name.replace(os.sep, "+")))]
     counts: dict[tuple[str, str], dict[Effect, int]] = {}
     minded: list[str] = []
     for path, reader in product(files, readers):
@@ -130,20 +130,6 @@ def _sample() -> Iterable[CorpusFile]:
     for urdf in (True, False):
         chosen = [file for file in files if (file.kind is Kind.URDF) is urdf]
         yield from chosen[:: max(1, len(chosen) // SAMPLE)][:SAMPLE]
-
-
-def _converted(file: CorpusFile, folder: Path) -> Path | None:
-    to_sdf = file.kind is Kind.URDF
-    try:
-        if to_sdf:
-            text = twinform.convert(file.path, to="sdf", sdf_version=SDF_VERSION).text
-        else:
-            text = twinform.convert(file.path, to="urdf").text
-    except twinform.CompileError:
-        return None
-    output = folder / f"{file.name.replace(os.sep, '+')}.{'sdf' if to_sdf else 'urdf'}"
-    output.write_text(text, encoding="utf-8")
-    return output
 
 
 if __name__ == "__main__":

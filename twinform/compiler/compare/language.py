@@ -19,7 +19,6 @@ from twinform.passes.legalise.candidates import candidates, name_once_expanded, 
 from twinform.passes.legalise.names import RestoreNames
 from twinform.passes.legalise.sdf_versions import raise_words
 from twinform.passes.legalise.to_sdf import to_sdf
-from twinform.passes.legalise.to_sdf.restore_nested import RestoreNested
 from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
 from twinform.passes.legalise.to_urdf.floating_links import without_loose_floating
 from twinform.passes.legalise.to_urdf.select_model import SelectModel
@@ -90,8 +89,6 @@ def _comparable(model: Model) -> Model:
 
 def _into_words_of_sdf(document: Document) -> tuple[Pass, ...]:
     newest = table("sdf").versions[-1]
-    if document.format is Format.URDF:  # in old SDF `::` stands in names, and the other side may be such
-        return tuple(
-            RestoreNested() if isinstance(each, RestoreNested) else each for each in to_sdf(newest, carriers=True)
-        )
+    if document.format is Format.URDF:
+        return to_sdf(newest, carriers=True, scopes=False)
     return raise_words(document.version)

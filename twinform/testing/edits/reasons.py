@@ -161,7 +161,8 @@ def _is_beyond_urdf(found: Difference, edited: EditedFile) -> bool:
     if edited.root.tag != "robot":
         return False
     if found.group == "link" and found.aspect.startswith("visual ") and found.aspect.endswith("/material"):
-        carried = [look for visual in edited.marked("visual", "sdf") for look in visual.iterfind(f"{OURS}sdf/material")]
+        named = (each for each in edited.marked("visual", "sdf") if f"'{each.get('name')}'" in found.aspect)
+        carried = [look for visual in named for look in visual.iterfind(f"{OURS}sdf/material")]
         return found.a.text is None and any(all(word.tag not in _COLORS for word in look) for look in carried)
     return found.group == "joint" and found.aspect in _BEYOND_URDF
 

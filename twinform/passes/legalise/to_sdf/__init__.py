@@ -35,10 +35,13 @@ _NAMES_MEAN_MODELS = (1, 8)
 """Since this version `::` in a name says that it is in a nested model."""
 
 
-def to_sdf(version: str, *, carriers: bool, mixed: bool = False, mixed_source: bool = False) -> tuple[Pass, ...]:
+def to_sdf(
+    version: str, *, carriers: bool, mixed: bool = False, mixed_source: bool = False, scopes: bool = True
+) -> tuple[Pass, ...]:
     """The passes that make SDF of a version out of a URDF document.
 
-    `mixed` lets it have words of newer versions, and `mixed_source` says that the URDF has some.
+    `mixed` lets it have words of newer versions, and `mixed_source` says that the URDF has some. Without `scopes`, `::`
+    in a name that a file before 1.8 gave is no model since 1.8 either, as where such a file is compared.
     """
     before_named_frames = parse_version(version) < _ONE_SCOPE
     return (
@@ -63,7 +66,7 @@ def to_sdf(version: str, *, carriers: bool, mixed: bool = False, mixed_source: b
         RestoreNames(to=Format.SDF),
         NameScopes(),
         RestoreFrames(old_words=mixed and before_named_frames),
-        RestoreNested(scopes=parse_version(version) >= _NAMES_MEAN_MODELS),
+        RestoreNested(scopes=scopes and parse_version(version) >= _NAMES_MEAN_MODELS),
         DropStale(to=Format.SDF),
         DeclareQuaternions(),
         *(lower_meaning(version) if mixed else lower_version(None, version, carriers=carriers)),
