@@ -1,7 +1,7 @@
 """Did you mean: the known name that is nearest to one that is not known, as the help of a finding."""
 
-from collections.abc import Iterable
-from difflib import get_close_matches
+from collections.abc import Callable, Iterable
+from difflib import SequenceMatcher
 from itertools import islice
 
 _LONGEST = 80
@@ -36,8 +36,28 @@ def nearest_name(name: str, known: Iterable[str | None], alike: float = _ALIKE) 
         return forms[folded]
     digits = _digits(folded)  # joint_1 is no slip of joint_2
     likely = (each for each in forms if not digits or _digits(each) in {"", digits})
-    near = get_close_matches(folded, list(islice(likely, _MOST_COMPARED)), n=1, cutoff=alike)
-    return forms[near[0]] if near else None
+    near = _nearest(folded, islice(likely, _MOST_COMPARED), alike)
+    return forms[near] if near else None
+
+
+def _nearest(name: str, others: Iterable[str], alike: float) -> str:
+    """The name that is most alike; of several the last by the alphabet, and empty where none is alike enough.
+
+    Which letters there are bounds how much alike two names can be. The order of letters takes much longer to compare,
+    so that is done from the highest bound on, until no other name can be nearer.
+    """
+    matcher = SequenceMatcher(b=name)
+
+    def measured(other: str, measure: Callable[[], float]) -> tuple[float, str]:
+        matcher.set_seq1(other)
+        return measure(), other
+
+    best = alike, ""
+    for bound, other in sorted((measured(each, matcher.quick_ratio) for each in others), reverse=True):
+        if bound < best[0]:
+            break
+        best = max(best, measured(other, matcher.ratio))
+    return best[1]
 
 
 def _folded(name: str) -> str:

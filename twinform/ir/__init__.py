@@ -27,6 +27,7 @@ from twinform.ir.link import Link
 from twinform.ir.material import Material, Script
 from twinform.ir.model import Include, Model
 from twinform.ir.node import Color, Node, Quaternion, Vector3
+from twinform.ir.opaque_inside import holds_opaque, map_opaque
 from twinform.ir.plugin import Plugin
 from twinform.ir.pose import Pose
 from twinform.ir.sensor import Sensor
@@ -83,8 +84,10 @@ __all__ = [
     "World",
     "children_of",
     "count_parts",
+    "holds_opaque",
     "map_children",
     "map_kind",
+    "map_opaque",
     "node_fields",
     "node_values",
     "walk",

@@ -1,6 +1,7 @@
 """Parts that know where they were written."""
 
 from collections.abc import Mapping
+from functools import cache
 from typing import Annotated, Any, Self
 
 from pydantic import BaseModel, ConfigDict, Field, SkipValidation
@@ -22,6 +23,16 @@ class Sourced(BaseModel):
     def location(self) -> Location:
         """Where it was read; nowhere for what a pass made."""
         return self.source.location if self.source else NOWHERE
+
+    @classmethod
+    def unchecked(cls, **values: Any) -> Self:
+        """A part with values that need no validation, since they come from parts or trees that had it."""
+        made = object.__new__(cls)
+        object.__setattr__(made, "__dict__", {**_defaults(cls), **values})
+        object.__setattr__(made, "__pydantic_fields_set__", set(values))
+        object.__setattr__(made, "__pydantic_extra__", None)
+        object.__setattr__(made, "__pydantic_private__", None)
+        return made
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
         """The same part with other values, which are not validated.
@@ -46,3 +57,8 @@ class Sourced(BaseModel):
 
     def __hash__(self) -> int:
         return hash((self.__class__, *(value for name, value in self.__dict__.items() if name not in _UNSEEN)))
+
+
+@cache
+def _defaults(kind: type[Sourced]) -> dict[str, Any]:
+    return {name: field.get_default(call_default_factory=True) for name, field in kind.model_fields.items()}

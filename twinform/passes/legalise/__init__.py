@@ -1,6 +1,7 @@
 """The passes that turn what a target cannot say into what it can."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Literal
 
 from twinform.ir import Format
@@ -27,6 +28,7 @@ class Target:
     mixed_source: bool = False
 
 
+@lru_cache(maxsize=256)  # passes keep no state, so that files of one kind may share theirs
 def legalisation(source: Format, version: str | None, target: Target) -> tuple[Pass, ...]:
     """Every pass that a document of `source` in `version` needs before the target's back end can write it."""
     # imported here: a conversion goes one way only, and each way has many passes

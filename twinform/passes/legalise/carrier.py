@@ -17,7 +17,7 @@ from typing import TypeVar
 
 from lxml import etree
 
-from twinform.ir import Element, Node, Opaque, walk
+from twinform.ir import Element, GazeboExtension, Node, Opaque, children_of, holds_opaque
 from twinform.schemas import XmlElement, parse_version, table, writer
 
 NAMESPACE = "urn:twinform:1"
@@ -85,13 +85,12 @@ def is_memory(part: Opaque) -> bool:
 
 def has_ours(node: Node) -> bool:
     """Whether a carrier or mark is anywhere in a node."""
-    marked = (part.element for each in walk(node) if each.opaque for part in each.opaque if part.element)
-    return any(inner.name.startswith(_OURS) for element in marked for inner in element.walk()) or any(
-        inner.name.startswith(_OURS)
-        for extension in getattr(node, "extensions", ())
-        for each in extension.content
-        for inner in each.walk()
-    )
+    if not holds_opaque(node):
+        return False
+    own = (part.element for part in node.opaque if part.element)
+    content = node.content if isinstance(node, GazeboExtension) else ()
+    said = (inner.name.startswith(_OURS) for each in (*own, *content) for inner in each.walk())
+    return any(said) or any(map(has_ours, children_of(node)))
 
 
 def unpack(part: Opaque) -> tuple[Opaque, ...]:
@@ -117,11 +116,11 @@ def to_element(node: Node, tag: str, dialect: str, definition: str | None = None
 
 def from_xml(xml: XmlElement) -> Element:
     """An XML tree as an `Element`."""
-    return Element(
-        name=str(xml.tag),
-        attributes=tuple((str(name), str(value)) for name, value in xml.items()),
+    return Element.unchecked(
+        name=xml.tag,
+        attributes=tuple(xml.items()),
         text=(xml.text or "").strip() or None,
-        children=tuple(from_xml(child) for child in xml),
+        children=tuple([from_xml(child) for child in xml]),
         tail=(xml.tail or "").strip() or None,
     )
 

@@ -5,7 +5,7 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
-from twinform.ir import Document, Format, Model, Node, Opaque, map_children
+from twinform.ir import Document, Format, Model, Node, Opaque, holds_opaque, map_children
 from twinform.passes.legalise.carrier import NAMESPACE, PREFIX, SOURCE, has_ours, is_carrier, is_memory
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.provenance import came_from, without_provenance
@@ -66,6 +66,8 @@ class _Dropping:
 
     def without(self, node: AnyNode) -> AnyNode:
         """The node without stale carriers, on it and in it."""
+        if not holds_opaque(node):
+            return node
         parts = node.opaque
         kept = tuple([part for part in parts if not self._is_stale(part)]) if parts else parts
         if len(kept) != len(parts):

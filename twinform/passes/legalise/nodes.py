@@ -39,6 +39,8 @@ def map_poses(node: AnyNode, change: Callable[[Pose], Pose]) -> AnyNode:
 
 def map_elements(parts: Iterable[Opaque], change: Callable[[Element], Element]) -> tuple[Opaque, ...]:
     """Opaque parts with every element changed; it is for `change` to look further down."""
-    return tuple(
-        part if part.element is None else part.model_copy(update={"element": change(part.element)}) for part in parts
-    )
+    return tuple([part if part.element is None else _with_element(part, change(part.element)) for part in parts])
+
+
+def _with_element(part: Opaque, element: Element) -> Opaque:
+    return part if element is part.element else part.model_copy(update={"element": element})

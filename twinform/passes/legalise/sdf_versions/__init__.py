@@ -1,5 +1,7 @@
 """From one version of SDF to another, step by step."""
 
+from functools import lru_cache
+
 from twinform.passes.base import Pass
 from twinform.passes.legalise.sdf_versions.base import known_version
 from twinform.passes.legalise.sdf_versions.leave_out import LeaveOut
@@ -52,6 +54,7 @@ def raise_version(declared: str | None, asked: str, *, carriers: bool = True) ->
     return (*forward(old, new), back, *after, LeaveOut(version=asked, carriers=carriers))
 
 
+@lru_cache(maxsize=64)
 def raise_words(declared: str | None, *, carriers: bool = True, mixed: bool = False) -> tuple[Pass, ...]:
     """The same for the newest version, with the file's own names and with the parts that only older versions have.
 

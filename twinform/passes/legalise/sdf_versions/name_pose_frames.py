@@ -2,8 +2,8 @@
 
 from typing import ClassVar
 
-from twinform.ir import Document, Element, Opaque, Pose, map_children
-from twinform.passes.legalise.sdf_versions.base import AnyNode, VersionPass, is_foreign, map_own_elements
+from twinform.ir import Document, Element, Model, Node, Opaque, Pose, map_opaque
+from twinform.passes.legalise.sdf_versions.base import VersionPass, is_foreign, map_own_elements
 from twinform.passes.legalise.sdf_versions.carriers import Keeper
 
 _OLD = "frame"
@@ -22,16 +22,18 @@ class NamePoseFrames(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with poses in the words of 1.7."""
-        models = tuple(_renamed_in(model).model_copy(update={"pose": model.pose}) for model in document.models)
-        rest = map_children(document.model_copy(update={"models": ()}), _renamed_in)
+        models = tuple(map(_renamed_model, document.models))
+        rest = map_opaque(document.model_copy(update={"models": ()}), _renamed)
         return rest.model_copy(update={"models": models})
 
 
-def _renamed_in(node: AnyNode) -> AnyNode:
-    node = map_children(node, _renamed_in)
-    if isinstance(node, Pose):
-        return _pose(node)
-    return map_own_elements(node, _inside)
+def _renamed_model(model: Model) -> Model:
+    """A model at the root of the file, whose own pose stays."""
+    return map_own_elements(map_opaque(model, _renamed), _inside).model_copy(update={"pose": model.pose})
+
+
+def _renamed(node: Node) -> Node:
+    return _pose(node) if isinstance(node, Pose) else map_own_elements(node, _inside)
 
 
 def _pose(pose: Pose) -> Pose:

@@ -5,7 +5,7 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Document, Element, Model, Node, Opaque, World, map_children, walk
+from twinform.ir import Document, Element, Model, Node, Opaque, World, children_of, holds_opaque, map_children
 from twinform.ir.verify.joints import verify_mimics
 from twinform.passes.legalise.carrier import NAMESPACE
 from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb, says_already
@@ -88,6 +88,8 @@ def _report_unfit(node: Node, called: str, error: CarrierError, notes: Notes) ->
 
 def restored(node: AnyNode, version: Version) -> AnyNode:
     """The node with every carrier that fits the version unpacked, in all that is in it too."""
+    if not holds_opaque(node):
+        return node
     return map_children(restored_itself(node, version), lambda child: restored(child, version))
 
 
@@ -161,5 +163,12 @@ def _with_attribute(element: Element, piece: Opaque) -> Element:
 
 def _has_carriers(document: Document) -> bool:
     carrier = f"{{{NAMESPACE}}}{DIALECT}"
-    elements = (part.element for node in walk(document) for part in node.opaque if part.element)
-    return any(each.name == carrier for element in elements for each in element.walk())
+    return _has(document, carrier)
+
+
+def _has(node: Node, carrier: str) -> bool:
+    if not holds_opaque(node):
+        return False
+    elements = (part.element for part in node.opaque if part.element)
+    named = (each.name == carrier for element in elements for each in element.walk())
+    return any(named) or any(_has(child, carrier) for child in children_of(node))

@@ -16,10 +16,14 @@ class Span:
     """When one part exists: every row of the table that speaks of it, and from when to when."""
 
     rows: list[tuple[Version, Version, Fact]] = field(default_factory=list[tuple[Version, Version, Fact]])
+    _found: dict[Version, Fact | None] = field(default_factory=dict[Version, Fact | None])
 
     def row(self, version: Version) -> Fact | None:
         """The row of a version; None where it does not have the part."""
-        return next((row for since, until, row in self.rows if since <= version <= until), None)
+        if version not in self._found:  # asked for each part of a model, when all rows are there
+            fitting = (row for since, until, row in self.rows if since <= version <= until)
+            self._found[version] = next(fitting, None)
+        return self._found[version]
 
     def terms(self, version: Version, index: int | None = None) -> Terms:
         """The nearest versions that have it, on both sides of one that does not."""

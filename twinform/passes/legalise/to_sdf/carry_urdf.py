@@ -18,6 +18,7 @@ from twinform.ir import (
     Opaque,
     Pose,
     Visual,
+    holds_opaque,
     map_children,
 )
 from twinform.passes.legalise.carrier import DANGLING, carry, is_carrier, is_ours, unpack
@@ -57,6 +58,8 @@ class CarryUrdf(ModelPass):
 
     def _sweep(self, node: AnyNode, notes: Notes, back: bool) -> AnyNode:
         if isinstance(node, GazeboExtension):  # the next pass knows what may stand in it
+            return node
+        if not (holds_opaque(node) or isinstance(node, Model) or (isinstance(node, Joint) and node.type in BALLS)):
             return node
         node = map_children(node, lambda child: self._sweep(child, notes, back))
         if isinstance(node, Joint) and node.type in BALLS:

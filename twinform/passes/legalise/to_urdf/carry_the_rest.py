@@ -88,7 +88,7 @@ class _Rest:
 
     def __init__(self, keeper: Keeper) -> None:
         self.keeper = keeper
-        self.link_words: Words = {**urdf_words("link"), "pose": _IMPLIED}
+        self.link_words: Words = {**urdf_words("link"), "pose": _IMPLIED, "inertial": None}
         joint = urdf_words("joint")
         self.joint_words: Words = {**joint, "pose": {**(joint["pose"] or {}), **_IMPLIED}}
 
@@ -101,8 +101,7 @@ class _Rest:
         }
         if link.inertial is not None:
             update["inertial"] = self.take(link.inertial, "inertial", urdf_words("link", "inertial"))
-        words: Words = {**self.link_words, "inertial": None}
-        return self.take(link.model_copy(update=update), "link", words)
+        return self.take(link.model_copy(update=update), "link", self.link_words)
 
     def joint(self, joint: Joint) -> Joint:
         words = self.joint_words

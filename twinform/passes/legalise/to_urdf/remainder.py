@@ -19,6 +19,8 @@ _ABOUT = frozenset({"source", "spelling", "opaque"})
 _APART = _IDENTITY | _ABOUT
 _NONE: tuple[()] = ()
 """There is only one empty tuple."""
+_UNKNOWN: Words = {}
+"""The words for a field that URDF does not have."""
 
 
 @dataclass(slots=True)
@@ -79,6 +81,8 @@ def take_remainder(node: AnyNode, tag: str, words: Words) -> tuple[AnyNode, list
 
     Nodes in tuples (links, visuals, ...) stay where there is a word for them: they have remainders of their own.
     """
+    if all(is_ours(part) or _is_foreign(part) for part in node.opaque) and _fits(node, words):
+        return node, [], []
     split = _split(node, words, "", own_element=True)
     if not split.left:
         return node, [], split.endless
@@ -86,6 +90,25 @@ def take_remainder(node: AnyNode, tag: str, words: Words) -> tuple[AnyNode, list
     left = _only(node, split.left)
     pieces = _pieces(to_element(left, tag, "sdf"), "", frozenset(split.paths), _IDENTITY & node.__dict__.keys())
     return kept, list(pieces), split.endless
+
+
+def _fits(node: Node, words: Words) -> bool:
+    """Whether URDF can write all that is in a node, as it nearly always can."""
+    for name, value in node.__dict__.items():
+        if value is None or value is _NONE or name in _APART:
+            continue
+        inner = words.get(name, _UNKNOWN)
+        if inner is None:
+            if _is_endless(value):
+                return False
+        elif inner is _UNKNOWN:
+            return False
+        elif isinstance(value, Node):
+            kind = value.__dict__.get("kind")
+            found = inner if kind is None else inner.get(kind)
+            if found is None or value.opaque or not _fits(value, found):
+                return False
+    return True
 
 
 def _split(node: Node, words: Words, path: str, *, own_element: bool) -> Split:
@@ -136,9 +159,9 @@ def _says_nothing(node: Node) -> bool:
 
 
 def _is_endless(value: object) -> bool:
-    if isinstance(value, tuple):
-        return any(map(_is_endless, value))  # pyright: ignore[reportUnknownArgumentType] - any
-    return isinstance(value, float) and not math.isfinite(value)
+    if type(value) is float:
+        return not math.isfinite(value)
+    return isinstance(value, tuple) and any(map(_is_endless, value))  # pyright: ignore[reportUnknownArgumentType] - any
 
 
 def _split_opaque(split: Split, node: Node, *, own_element: bool) -> None:
@@ -172,7 +195,12 @@ def _only(node: Node, fields: dict[str, object]) -> Node:
 
 def _blank(node: Node, name: str) -> object:
     """The value of a field that was not written."""
-    return type(node).model_fields[name].default
+    return _blanks(type(node))[name]
+
+
+@cache
+def _blanks(kind: type[Node]) -> dict[str, object]:
+    return {name: field.default for name, field in kind.model_fields.items()}
 
 
 def _pieces(

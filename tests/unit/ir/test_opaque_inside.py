@@ -1,0 +1,56 @@
+"""What is found once about a node holds for every copy of it."""
+
+from collections.abc import Callable
+from typing import Any
+
+from hypothesis import given
+
+from twinform.ir import Document, Element, GazeboExtension, Link, Node, Opaque, Visual, holds_opaque, map_opaque, walk
+from twinform.ir.sourced import Sourced
+from twinform.testing import strategies
+
+MARK = Opaque(element=Element(name="{urn:x}mark"))
+
+
+def _is_there(node: Node) -> bool:
+    return any(each.opaque or isinstance(each, GazeboExtension) for each in walk(node))
+
+
+@given(strategies.robots())
+def test_what_a_walk_finds_is_found(robot: Document) -> None:
+    for node in walk(robot):
+        assert holds_opaque(node) == _is_there(node)
+        assert holds_opaque(node) == _is_there(node), "the second time it is remembered"
+
+
+def test_a_copy_is_asked_for_itself() -> None:
+    link = Link(name="a", visuals=(Visual(name="v"),))
+    assert not holds_opaque(link)
+    marked = link.model_copy(update={"visuals": (Visual(name="v", opaque=(MARK,)),)})
+    assert holds_opaque(marked)
+    assert not holds_opaque(marked.model_copy(update={"visuals": ()}))
+
+
+@given(strategies.robots())
+def test_each_node_with_opaque_parts_is_changed_once_and_no_other(robot: Document) -> None:
+    seen: list[Node] = []
+    assert map_opaque(robot, _noted(seen)) is robot
+    assert {id(each) for each in seen} == {id(each) for each in walk(robot) if _is_there(each)} - {id(robot)}
+    assert len(seen) == len({id(each) for each in seen})
+
+
+def _noted(seen: list[Node]) -> Callable[[Node], Node]:
+    def change(node: Node) -> Node:
+        seen.append(node)
+        return node
+
+    return change
+
+
+@given(strategies.robots())
+def test_unchecked_parts_are_those_that_validation_makes(robot: Document) -> None:
+    for node in walk(robot):
+        values: dict[str, Any] = {name: getattr(node, name) for name in node.model_fields_set}
+        made: Sourced = type(node).unchecked(**values)
+        assert made == node
+        assert made.model_dump() == node.model_dump()
