@@ -12,7 +12,7 @@ SYNCED := .venv/.synced
 ORACLES := .venv/.oracles
 DEMO := out/demo
 
-.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness edits worlds gazebo readers equipment bench inertia lumping classic mapping verdicts xacro prove coverage mutation fuzz clean
+.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness edits worlds gazebo readers equipment bench before inertia lumping classic mapping verdicts xacro prove coverage mutation fuzz clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -144,6 +144,9 @@ mapping: $(SYNCED) ## where every element of both formats goes; writes docs/expl
 
 bench: $(SYNCED) ## how fast it is; writes docs/reference/performance.md
 	$(BIN)/python -m benchmarks.bench
+
+before: $(SYNCED) ## outputs and speed of this tree beside those of an older checkout: make before WITH=../older
+	$(BIN)/python -m benchmarks.before $(WITH) --every 8
 
 clean: ## delete what the other targets made
 	rm -rf .venv .wheel-venv build dist out mutants
