@@ -1,0 +1,134 @@
+"""What differs between the catalogue of systems and sensors and the sources of a release of Gazebo."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from benchmarks.sensors_reading import SensorSource
+from benchmarks.systems_reading import Read, SystemSource
+from twinform.passes.plugins.catalogue import sensors, systems
+from twinform.passes.plugins.parts import Parameter, PluginKind, SensorKind
+
+_AS_READ = {
+    "topic": "text",
+    "joint": "text",
+    "link": "text",
+    "collision": "text",
+    "numbers": "numbers",
+}
+"""The kind of value that a type of the catalogue is read as, where it is another word."""
+_ZEROS = {"bool": {"false"}, "number": {"0"}, "integer": {"0"}, "vector": {"0 0 0"}}
+"""What is read where an element lacks and no default is given."""
+_STRUCTURE = frozenset({"model", "world", "joint", "link", "sensor"})
+"""Words of topics that only say where in the simulation something is."""
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Difference:
+    """One difference: `what` is the parameter, topic or message; `here` is the catalogue, `there` the source."""
+
+    owner: str
+    kind: str
+    what: str
+    here: str = ""
+    there: str = ""
+
+    @property
+    def key(self) -> str:
+        """What explanations are found by."""
+        return f"{self.owner} {self.kind} {self.what}"
+
+
+def of_systems(sources: Mapping[str, SystemSource], release: str) -> Iterator[Difference]:
+    """The differences of all systems in a release."""
+    known = {kind.class_name.rpartition("::")[2]: kind for kind in systems().values() if release in kind.releases}
+    shipped = {name: kind for name, kind in known.items() if kind.class_name.startswith("gz::sim::systems::")}
+    for name in sorted({*shipped} - {*sources}):
+        yield Difference(shipped[name].name, "system", "not in the source")
+    for name in sorted({*sources} - {*shipped}):
+        yield Difference(name, "system", "not in the catalogue")
+    for name, kind in sorted(shipped.items()):
+        if name in sources:
+            yield from of_system(kind, sources[name], release)
+
+
+def of_system(kind: PluginKind, source: SystemSource, release: str) -> Iterator[Difference]:
+    """The differences of one system."""
+    rows = list(_rows(kind.parameters, release))
+    for name, read in sorted(source.parameters.items()):
+        mine = [row for row in rows if row.matches(name) or row.matches(f"@{name}")]
+        if mine:
+            yield from _of_parameter(kind.name, name, mine, read)
+        else:
+            yield Difference(kind.name, "lacks", name, there=", ".join(sorted(read.kinds)))
+    for row in rows:
+        name = row.name.lstrip("@")
+        if name not in source.parameters and "[" not in name:
+            yield Difference(kind.name, "unread", name, here=row.type)
+    yield from _compared(kind.name, "topic", _topic_words(kind, rows, release), source.topics - _STRUCTURE)
+    yield from _compared(kind.name, "message", _messages(kind, release), source.messages)
+
+
+def _rows(rows: Iterable[Parameter], release: str) -> Iterator[Parameter]:
+    for row in rows:
+        if release in row.releases:
+            yield row
+            yield from _rows(row.children, release)
+
+
+def _of_parameter(owner: str, name: str, rows: list[Parameter], read: Read) -> Iterator[Difference]:
+    types = {_AS_READ.get(row.type, row.type) for row in rows}
+    if read.kinds and not types & read.kinds and types != {"element"}:
+        yield Difference(owner, "type", name, ", ".join(sorted(types)), ", ".join(sorted(read.kinds)))
+    here = {_plain(row.default) for row in rows if row.default is not None}
+    there = {_plain(default) for default in read.defaults}
+    unsaid = {zero for type_ in types for zero in _ZEROS.get(type_, set[str]())}
+    if here != there and not (not there and here <= unsaid):
+        yield Difference(owner, "default", name, ", ".join(sorted(here)), ", ".join(sorted(there)))
+
+
+def _plain(value: str) -> str:
+    """A default as it is compared: numbers to nine digits."""
+    try:
+        return " ".join(f"{float(word):.9g}" for word in value.split()) or value
+    except ValueError:
+        return value.strip()
+
+
+def _topic_words(kind: PluginKind, rows: list[Parameter], release: str) -> set[str]:
+    patterns = [row.default for row in rows if row.type == "topic" and row.default]
+    for channel in kind.channels:
+        if release in channel.releases:
+            patterns += [channel.pattern, *(each.pattern for each in channel.alternatives)]
+    patterns += [each.suffix for each in sensors().values() if kind.name in each.systems and kind.name != "sensors"]
+    return {word for pattern in patterns for word in pattern.split("/") if word and "{" not in word} - _STRUCTURE
+
+
+def _messages(kind: PluginKind, release: str) -> set[str]:
+    found = set[str]()
+    for channel in kind.channels:
+        if release in channel.releases:
+            found |= {channel.message, *(each.message for each in channel.alternatives if each.message)}
+    return {message.rpartition(".")[2] for message in found}
+
+
+def _compared(owner: str, kind: str, here: Iterable[str], there: Iterable[str]) -> Iterator[Difference]:
+    mine, theirs = {*here}, {*there}
+    for what in sorted(mine ^ theirs):
+        yield Difference(owner, kind, what, what if what in mine else "", what if what in theirs else "")
+
+
+def of_sensors(sources: Mapping[str, SensorSource], release: str) -> Iterator[Difference]:
+    """The differences of all sensors in a release."""
+    for type_, kind in sensors().items():
+        if release in kind.releases and type_ in sources:
+            yield from _of_sensor(kind, sources[type_])
+
+
+def _of_sensor(kind: SensorKind, source: SensorSource) -> Iterator[Difference]:
+    owner = f"sensor {kind.type}"
+    if source.suffix is not None:
+        yield from _compared(owner, "suffix", {kind.suffix}, {source.suffix})
+    ends = {each.pattern.rpartition("}")[2].rpartition("/")[2] for each in kind.publishes}
+    yield from _compared(owner, "topic", ends - {""}, source.topics)
+    messages = {word for each in kind.publishes for word in (each.message, each.instead) if word}
+    yield from _compared(owner, "message", {each.rpartition(".")[2] for each in messages}, source.messages)
