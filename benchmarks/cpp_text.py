@@ -95,19 +95,27 @@ class Scope:
         if steps == 0:
             return None
         declared = re.compile(rf"[\w>*&]\s+[*&]?{name}\s*(=|\{{|\()")
+        assigned = re.compile(rf"(?:->|\.|[;{{}}]\s*){name}\s*(=)(?!=)")
         for text in self.texts:
-            found = [each for each in declared.finditer(text) if not text[: each.end()].rstrip("={( ").endswith("return")]
+            found = list(declared.finditer(text))
             near = [each for each in found if text is self.texts[0] and each.start() < self.before]
             for each in (near[::-1] or found)[:1]:
                 return self._initial(text, each, steps - 1)
-        return None
+        # A member without an initializer may be given its value before it is read.
+        near = [each for each in assigned.finditer(self.texts[0]) if each.end() < self.before]
+        values = (self._initial(self.texts[0], each, steps - 1) for each in reversed(near))
+        return next((value for value in values if value is not None), None)
 
     def _initial(self, text: str, declared: re.Match[str], steps: int) -> str | None:
         if declared[1] == "=":
             ends = [place for place, character in _outside_strings(text, declared.end()) if character == ";"][:1]
-            return self.value(text[declared.end() : ends[0]].strip().strip("{}"), steps) if ends else None
+            return self.value(_unbraced(text[declared.end() : ends[0]].strip()), steps) if ends else None
         given, end = arguments(text, declared.end() - 1)
         return self.value(", ".join(given), steps) if text[end:].lstrip().startswith(";") else None
+
+
+def _unbraced(text: str) -> str:
+    return text[1:-1] if text.startswith("{") and text.endswith("}") else text
 
 
 def _number(text: str) -> str | None:

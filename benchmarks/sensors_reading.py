@@ -42,7 +42,7 @@ _RENDERED = {
 _SUFFIX = re.compile(r'\b(\w+)Suffix\s*\{\s*"/?(\w*)"\s*\}')
 _SENT = re.compile(r"Advertise\s*<\s*(?:\w+::)*msgs::(\w+)\s*>")
 _FIRST_TOPIC = re.compile(r'SetTopic\s*\(\s*"[^"]*"\s*\)')
-_END = re.compile(r'"(?:/(?=\w)|(?=_))(\w+)"')
+_END = re.compile(r'"(?:/(?=\w)|(?=_\w))(\w+)"')
 
 
 @dataclass(frozen=True, slots=True)

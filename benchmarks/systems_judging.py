@@ -6,15 +6,9 @@ from dataclasses import dataclass
 from benchmarks.sensors_reading import SensorSource
 from benchmarks.systems_reading import Read, SystemSource
 from twinform.passes.plugins.catalogue import sensors, systems
-from twinform.passes.plugins.parts import Parameter, PluginKind, SensorKind
+from twinform.passes.plugins.parts import Alternative, Channel, Parameter, PluginKind, SensorKind
 
-_AS_READ = {
-    "topic": "text",
-    "joint": "text",
-    "link": "text",
-    "collision": "text",
-    "numbers": "numbers",
-}
+_AS_READ = {"topic": "text", "joint": "text", "link": "text", "collision": "text"}
 """The kind of value that a type of the catalogue is read as, where it is another word."""
 _ZEROS = {"bool": {"false"}, "number": {"0"}, "integer": {"0"}, "vector": {"0 0 0"}}
 """What is read where an element lacks and no default is given."""
@@ -54,17 +48,18 @@ def of_systems(sources: Mapping[str, SystemSource], release: str) -> Iterator[Di
 def of_system(kind: PluginKind, source: SystemSource, release: str) -> Iterator[Difference]:
     """The differences of one system."""
     rows = list(_rows(kind.parameters, release))
+    by_name = {row.name.lstrip("@"): row for row in rows}
     for name, read in sorted(source.parameters.items()):
         mine = [row for row in rows if row.matches(name) or row.matches(f"@{name}")]
         if mine:
             yield from _of_parameter(kind.name, name, mine, read)
         else:
             yield Difference(kind.name, "lacks", name, there=", ".join(sorted(read.kinds)))
-    for row in rows:
-        name = row.name.lstrip("@")
+    for name, row in by_name.items():
         if name not in source.parameters and "[" not in name:
             yield Difference(kind.name, "unread", name, here=row.type)
-    yield from _compared(kind.name, "topic", _topic_words(kind, rows, release), source.topics - _STRUCTURE)
+    said = {word for read in source.parameters.values() for default in read.defaults for word in default.split("/")}
+    yield from _compared(kind.name, "topic", _topic_words(kind, release), source.topics - _STRUCTURE - said)
     yield from _compared(kind.name, "message", _messages(kind, release), source.messages)
 
 
@@ -94,20 +89,29 @@ def _plain(value: str) -> str:
         return value.strip()
 
 
-def _topic_words(kind: PluginKind, rows: list[Parameter], release: str) -> set[str]:
-    patterns = [row.default for row in rows if row.type == "topic" and row.default]
+def _topic_words(kind: PluginKind, release: str) -> set[str]:
+    patterns = list[str]()
     for channel in kind.channels:
         if release in channel.releases:
-            patterns += [channel.pattern, *(each.pattern for each in channel.alternatives)]
+            patterns += [channel.pattern, *(each.pattern for each in _alternatives(kind, channel, release))]
     patterns += [each.suffix for each in sensors().values() if kind.name in each.systems and kind.name != "sensors"]
     return {word for pattern in patterns for word in pattern.split("/") if word and "{" not in word} - _STRUCTURE
+
+
+def _alternatives(kind: PluginKind, channel: Channel, release: str) -> Iterator[Alternative]:
+    """Those whose parameters the release reads."""
+    for each in channel.alternatives:
+        rows = [kind.parameter(name) for name in each.parameters]
+        if all(row is not None and release in row.releases for row in rows):
+            yield each
 
 
 def _messages(kind: PluginKind, release: str) -> set[str]:
     found = set[str]()
     for channel in kind.channels:
         if release in channel.releases:
-            found |= {channel.message, *(each.message for each in channel.alternatives if each.message)}
+            more = (each.message for each in _alternatives(kind, channel, release))
+            found |= {channel.message, *(message for message in more if message)}
     return {message.rpartition(".")[2] for message in found}
 
 
@@ -121,14 +125,15 @@ def of_sensors(sources: Mapping[str, SensorSource], release: str) -> Iterator[Di
     """The differences of all sensors in a release."""
     for type_, kind in sensors().items():
         if release in kind.releases and type_ in sources:
-            yield from _of_sensor(kind, sources[type_])
+            yield from _of_sensor(kind, sources[type_], release)
 
 
-def _of_sensor(kind: SensorKind, source: SensorSource) -> Iterator[Difference]:
+def _of_sensor(kind: SensorKind, source: SensorSource, release: str) -> Iterator[Difference]:
     owner = f"sensor {kind.type}"
     if source.suffix is not None:
         yield from _compared(owner, "suffix", {kind.suffix}, {source.suffix})
-    ends = {each.pattern.rpartition("}")[2].rpartition("/")[2] for each in kind.publishes}
+    published = [each for each in kind.publishes if release in each.releases]
+    ends = {each.pattern.rpartition("}")[2].rpartition("/")[2] for each in published}
     yield from _compared(owner, "topic", ends - {""}, source.topics)
-    messages = {word for each in kind.publishes for word in (each.message, each.instead) if word}
+    messages = {word for each in published for word in (each.message, each.instead) if word}
     yield from _compared(owner, "message", {each.rpartition(".")[2] for each in messages}, source.messages)

@@ -13,16 +13,16 @@ _ALIAS = re.compile(r'(?:GZ|IGNITION)_ADD_PLUGIN_ALIAS\s*\([^;]*?"(?:gz::sim|ign
 _TYPE = r"(?:<\s*([\w:]+(?:\s+int)?)\s*>)?"
 _METHOD = re.compile(
     rf"(?:->|\.)\s*(Get|HasElement|FindElement|GetElement|GetElementImpl|GetNextElement|HasAttribute|GetAttribute)\s*{_TYPE}"
-    r'\s*(\()\s*"(@?[\w]+)"'
+    r'\s*(\()\s*("\w+"|[A-Za-z_]\w*)\s*[,)]'
 )
-_HELPER = re.compile(rf'\b([A-Za-z_]\w*)\s*{_TYPE}\s*(\()\s*\*?\w*(?:[sS]df|[eE]lem)\w*\s*,\s*"(\w+)"\s*[,)]')
+_COMPARED = re.compile(r'GetName\s*\(\s*\)\s*==\s*"(\w+)"')
+_HELPER = re.compile(rf'\b([A-Za-z_]\w*)\s*{_TYPE}\s*(\()\s*\*?\w*(?:[sS]df|[eE]lem)\w*\s*,\s*("\w+")\s*[,)]')
 _OWN_VALUE = re.compile(r"^\s*->\s*Get\s*<\s*([\w:]+(?:\s+int)?)\s*>\s*\(\s*\)")
-_TARGET = re.compile(r"^\s*(?P<declared>[\w:<>&\s]*?[\w>&]\s+)?(?P<target>[\w.>()-]*?\w+)\s*=(?!=)[^=]*$")
-_NOTHING_YET = re.compile(r"^\s*(?:const\s+)?[\w:<>]+\s+\w+\s*=")
+_TARGET = re.compile(r'^\s*(?P<declared>[\w:<>&\s]*?[\w>&]\s+)?(?P<target>[\w.>()-]*?\w+)\s*=(?!=)[^="+]*$')
 _LITERAL = re.compile(r'"((?:\\.|[^"\\\n])*)"')
 _TOPIC = re.compile(r"^/?[A-Za-z_]\w*(?:/\w+)*/?$")
 _SENT = re.compile(r"Advertise\s*<\s*(?:[\w]+::)*msgs::(\w+)\s*>")
-_HEARD = re.compile(r"Subscribe\s*\((?:[^;]*?)&\s*(?:\w+::)*(\w+)\s*[,)]", re.DOTALL)
+_HEARD = re.compile(r"Subscriber?\s*\((?:[^;]*?)&\s*(?:\w+::)*(\w+)\s*[,)]", re.DOTALL)
 _KINDS = {
     "double": "number",
     "float": "number",
@@ -91,9 +91,13 @@ def read_system(*texts: str) -> SystemSource:
 
 
 def _readings(text: str, others: tuple[str, ...]) -> Iterator[tuple[str, str | None, str | None]]:
+    yield from ((found[1], None, None) for found in _COMPARED.finditer(text))
     for pattern in (_METHOD, _HELPER):
         for found in pattern.finditer(text):
-            method, type_, _, name = found.groups()
+            method, type_, _, word = found.groups()
+            name = Scope((text, *others), found.start()).value(word) or ""
+            if not name.isidentifier():
+                continue
             given, end = arguments(text, found.start(3))
             own = _OWN_VALUE.match(text[end : end + 80])
             kind = _kind(type_ or (own[1] if own else ""))

@@ -236,5 +236,14 @@ def _sensor(type_: str, row: dict[str, Any]) -> SensorKind:
         holders=tuple(row.get("holder", ("link",))),
         suffix=row["suffix"],
         releases=frozenset(everything[everything.index(row.get("since", everything[0])) :]),
-        publishes=tuple(Published(*each) for each in row["publishes"]),
+        publishes=tuple(_published(*each, everything=everything) for each in row["publishes"]),
     )
+
+
+def _published(pattern: str, message: str, *options: str, everything: tuple[str, ...]) -> Published:
+    """A topic of a sensor. Options are `since=RELEASE`, `until=RELEASE`, and a setting with its message behind it."""
+    spans = dict(each.split("=") for each in options if each.startswith(("since=", "until=")))
+    first, last = spans.get("since", everything[0]), spans.get("until", everything[-1])
+    where, instead = [*(each for each in options if not each.startswith(("since=", "until="))), "", ""][:2]
+    span = frozenset(everything[everything.index(first) : everything.index(last) + 1])
+    return Published(pattern, message, where, instead, span)

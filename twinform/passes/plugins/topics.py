@@ -62,6 +62,8 @@ def _of_sensor(sensor: Sensor, site: Site, release: str, world: str | None) -> I
     needs_world = own is None and site.world is None and world is None
     model = site.models[0].name if site.models else ""
     for each in kind.publishes:
+        if release not in each.releases:
+            continue
         beside = name.rsplit("/", 1)[0]
         made = each.pattern.format(topic=name, beside=beside)
         info = _text_in(sensor, "camera", "camera_info_topic") if kind.type == _OWN_INFO else None
