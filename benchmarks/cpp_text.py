@@ -1,8 +1,7 @@
-"""C++ source as text to search: without comments, calls with their arguments, what an expression or initializer says."""
+"""C++ source as text to search: without comments, calls with their arguments, the value of an initializer."""
 
 import ast
 import math
-import operator
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -21,10 +20,10 @@ _PI_NAME = re.compile(r"\b(?:GZ|IGN|M)_(PI(?:_2|_4)?)\b")
 _SUFFIX = re.compile(r"(?<=[\d.])(?:[fFlL]|[uU][lL]{0,2})\b")
 _NAME = re.compile(r"^(?:[A-Za-z_]\w*\s*(?:->|\.|::)\s*)*([A-Za-z_]\w*)$")
 _OPERATORS: dict[type[ast.operator], Callable[[float, float], float]] = {
-    ast.Add: operator.add,
-    ast.Sub: operator.sub,
-    ast.Mult: operator.mul,
-    ast.Div: operator.truediv,
+    ast.Add: lambda left, right: left + right,
+    ast.Sub: lambda left, right: left - right,
+    ast.Mult: lambda left, right: left * right,
+    ast.Div: lambda left, right: left / right,
 }
 
 

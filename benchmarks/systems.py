@@ -27,8 +27,8 @@ INTRODUCTION = """# The catalogue against the sources of Gazebo
 
 Made by `make systems SOURCES=...` from checkouts of gz-sim and gz-sensors, by the words that their C++ reads elements,
 attributes and defaults with. Compared are, for every system: the parameters by name (wherever they stand in the
-plugin), the kinds of their values, their defaults, the words of topics and the messages; for every sensor: the suffix of
-its default topic, what is published beside it, and the messages.
+plugin), the kinds of their values, their defaults, the words of topics and the messages; for every sensor: the suffix
+of its default topic, what is published beside it, and the messages.
 
 *=* is without a difference, a number counts differences that are explained below; *-* is a release that has none."""
 _KNOWN = Path(__file__).with_name("systems_known.toml")

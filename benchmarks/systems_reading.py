@@ -9,7 +9,9 @@ from pathlib import Path
 from benchmarks.cpp_text import Scope, arguments, without_comments
 
 _REGISTERED = re.compile(r"(?:GZ|IGNITION)_ADD_PLUGIN\s*\(\s*([\w:]+)")
-_ALIAS = re.compile(r'(?:GZ|IGNITION)_ADD_PLUGIN_ALIAS\s*\([^;]*?"(?:gz::sim|ignition::gazebo)::systems::(\w+)"', re.DOTALL)
+_ALIAS = re.compile(
+    r'(?:GZ|IGNITION)_ADD_PLUGIN_ALIAS\s*\([^;]*?"(?:gz::sim|ignition::gazebo)::systems::(\w+)"', re.DOTALL
+)
 _TYPE = r"(?:<\s*([\w:]+(?:\s+int)?)\s*>)?"
 _METHOD = re.compile(
     rf"(?:->|\.)\s*(Get|HasElement|FindElement|GetElement|GetElementImpl|GetNextElement|HasAttribute|GetAttribute)\s*{_TYPE}"

@@ -23,6 +23,7 @@ __all__ = [
     "UnknownNameError",
     "classic_plugins",
     "classic_plugins_of_file",
+    "custom_sensor",
     "is_ignition_name",
     "modern_class",
     "modern_file",
@@ -176,9 +177,19 @@ def sensor(type_: str) -> SensorKind:
     kinds = sensors()
     word = type_.replace("-", "_")
     found = kinds.get(word) or next((kind for kind in kinds.values() if word in kind.aliases), None)
-    if found is None:
+    if found is None or found.custom is not None:
         raise UnknownNameError("sensor", type_, list(kinds))
     return found
+
+
+def custom_sensor(word: str) -> SensorKind | None:
+    """The kind of a sensor of type `custom` by its `gz:type`."""
+    for kind in sensors().values():
+        if kind.custom is not None and (
+            word == kind.custom or (kind.custom[-1] == "/" and word.startswith(kind.custom))
+        ):
+            return kind
+    return None
 
 
 def ros_message(message: str) -> str | None:
@@ -237,6 +248,7 @@ def _sensor(type_: str, row: dict[str, Any]) -> SensorKind:
         suffix=row["suffix"],
         releases=frozenset(everything[everything.index(row.get("since", everything[0])) :]),
         publishes=tuple(_published(*each, everything=everything) for each in row["publishes"]),
+        custom=row.get("custom"),
     )
 
 

@@ -163,7 +163,8 @@ class SensorKind:
 
     `aliases` are older words for `type` that are still read, `classic` the words of Gazebo Classic for what becomes
     this. `element` has its parameters. `systems` are what the world needs to have, `world_elements` what else.
-    `suffix` ends the topic where none is written.
+    `suffix` ends the topic where none is written. `custom` is the `gz:type` of those whose type is `custom`, or what it
+    begins with where that ends in a slash.
     """
 
     type: str
@@ -176,3 +177,4 @@ class SensorKind:
     suffix: str
     releases: frozenset[str]
     publishes: tuple[Published, ...]
+    custom: str | None = None
