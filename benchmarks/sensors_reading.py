@@ -24,8 +24,11 @@ _FILES = {
     "air_speed": ("AirSpeedSensor",),
     "force_torque": ("ForceTorqueSensor",),
     "logical_camera": ("LogicalCameraSensor",),
+    "dvl": ("DopplerVelocityLog",),
 }
 """The files of gz-sensors that publish for a kind of sensor."""
+COMPARED = tuple(_FILES)
+"""The kinds of sensors that are read."""
 _INFO = ("camera_info", "CameraInfo")
 """What every camera publishes through its base class, where it asks for that."""
 _RENDERED = {
@@ -40,7 +43,7 @@ _RENDERED = {
 }
 """What the rendering of gz-sim calls the suffix of a kind of sensor; other suffixes stand in the sensor's system."""
 _SUFFIX = re.compile(r'\b(\w+)Suffix\s*\{\s*"/?(\w*)"\s*\}')
-_SENT = re.compile(r"Advertise\s*<\s*(?:\w+::)*msgs::(\w+)\s*>")
+_SENT = re.compile(r"Advertise\s*<\s*(?:\w+::)*([A-Z]\w*)\s*>")
 _FIRST_TOPIC = re.compile(r'SetTopic\s*\(\s*"[^"]*"\s*\)')
 _END = re.compile(r'"(?:/(?=\w)|(?=_\w))(\w+)"')
 

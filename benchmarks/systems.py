@@ -15,11 +15,11 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 
 from benchmarks.markdown import table, write
-from benchmarks.sensors_reading import sensors_in
-from benchmarks.systems_judging import Difference, of_sensors, of_systems
+from benchmarks.sensors_reading import COMPARED, sensors_in
+from benchmarks.systems_judging import Difference, is_of_sim, of_sensors, of_systems
 from benchmarks.systems_reading import systems_in
 from tests.corpus.files import ROOT
-from twinform.passes.plugins.catalogue import releases, sensors, systems
+from twinform.passes.plugins.catalogue import LATEST, releases, sensors, systems
 
 PAGE = ROOT / "docs" / "reference" / "systems.md"
 MISSING = "no sources: say SOURCES=PATH,... with checkouts of gz-sim and gz-sensors, one for each release"
@@ -27,8 +27,9 @@ INTRODUCTION = """# The catalogue against the sources of Gazebo
 
 Made by `make systems SOURCES=...` from checkouts of gz-sim and gz-sensors, by the words that their C++ reads elements,
 attributes and defaults with. Compared are, for every system: the parameters by name (wherever they stand in the
-plugin), the kinds of their values, their defaults, the words of topics and the messages; for every sensor: the suffix
-of its default topic, what is published beside it, and the messages.
+plugin), whether they are elements or attributes, the kinds of their values, their defaults, the words of topics and
+the messages; for every sensor: the suffix of its default topic, what is published beside it, and the messages.
+Releases say which systems they have.
 
 *=* is without a difference, a number counts differences that are explained below; *-* is a release that has none."""
 _KNOWN = Path(__file__).with_name("systems_known.toml")
@@ -58,7 +59,7 @@ def main(words: list[str]) -> int:
         return 1
     known: dict[str, str] = tomllib.loads(_KNOWN.read_text(encoding="utf-8"))["known"]
     unexplained = [(one, release) for release, many in found.items() for one in many if not why(one, known)]
-    unused = _unused(found, known) if len(found) == len(releases()) else []
+    unused = _unused(found, known) if len(found) > len(releases()) else []
     write(PAGE, INTRODUCTION, *_sections(found, known, checkouts))
     for one, names in _by_difference(unexplained).items():
         print(f"{one.key}: here {one.here or '-'}, there {one.there or '-'} ({', '.join(names)})", file=sys.stderr)
@@ -83,16 +84,23 @@ def checkout(path: Path) -> Checkout:
 def differences(checkouts: list[Checkout]) -> dict[str, list[Difference]]:
     """The differences by release, oldest first."""
     found: dict[str, list[Difference]] = {}
-    for name, release in releases().items():
-        sim = next((each for each in checkouts if each.part == "sim" and each.version == release.sim), None)
-        if sim is None:
-            continue
-        found[name] = list(of_systems(systems_in(sim.path), name))
-        # gz-sensors of a release has the number of its gz-sim.
-        beside = next((each for each in checkouts if each.part == "sensors" and each.version == release.sim), None)
-        if beside is not None:
+    for name, version in _sims().items():
+        sim, beside = (_has(checkouts, part, version) for part in ("sim", "sensors"))
+        if sim is not None:
+            found[name] = list(of_systems(systems_in(sim.path), name))
+        if sim is not None and beside is not None:
             found[name] += of_sensors(dict(sensors_in(sim.path, beside.path)), name)
     return found
+
+
+def _sims() -> dict[str, int]:
+    """The versions of gz-sim by release; gz-sensors has the same, and the development branch the next one."""
+    found = {name: release.sim for name, release in releases().items()}
+    return found | {LATEST: max(found.values()) + 1}
+
+
+def _has(checkouts: list[Checkout], part: str, version: int) -> Checkout | None:
+    return next((each for each in checkouts if (each.part, each.version) == (part, version)), None)
 
 
 def why(difference: Difference, known: dict[str, str]) -> str:
@@ -115,8 +123,12 @@ def _by_difference(found: Iterable[tuple[Difference, str]]) -> dict[Difference, 
 def _sections(found: dict[str, list[Difference]], known: dict[str, str], checkouts: list[Checkout]) -> Iterator[str]:
     versions = sorted(checkouts, key=lambda each: (each.part, each.version))
     yield "Read: " + ", ".join(f"gz-{each.part} {each.full}" for each in versions) + "."
-    yield "## Systems\n\n" + _matrix(found, {kind.name: kind.releases for kind in systems().values()})
-    yield "## Sensors\n\n" + _matrix(found, {f"sensor {kind.type}": kind.releases for kind in sensors().values()})
+    yield "## Systems\n\n" + _matrix(
+        found, {kind.name: kind.releases for kind in systems().values() if is_of_sim(kind)}
+    )
+    read = {name for name, release in _sims().items() if _has(checkouts, "sensors", release)}
+    of_sensors = {f"sensor {type_}": sensors()[type_].releases & read for type_ in COMPARED}
+    yield "## Sensors\n\n" + _matrix(found, of_sensors)
     every = _by_difference((one, release) for release, many in found.items() for one in many)
     rows = [
         (one.owner, one.kind, one.what, one.here or "-", one.there or "-", ", ".join(names), why(one, known) or "**?**")

@@ -35,7 +35,7 @@ class Difference:
 def of_systems(sources: Mapping[str, SystemSource], release: str) -> Iterator[Difference]:
     """The differences of all systems in a release."""
     known = {kind.class_name.rpartition("::")[2]: kind for kind in systems().values() if release in kind.releases}
-    shipped = {name: kind for name, kind in known.items() if kind.class_name.startswith("gz::sim::systems::")}
+    shipped = {name: kind for name, kind in known.items() if is_of_sim(kind)}
     for name in sorted({*shipped} - {*sources}):
         yield Difference(shipped[name].name, "system", "not in the source")
     for name in sorted({*sources} - {*shipped}):
@@ -43,6 +43,11 @@ def of_systems(sources: Mapping[str, SystemSource], release: str) -> Iterator[Di
     for name, kind in sorted(shipped.items()):
         if name in sources:
             yield from of_system(kind, sources[name], release)
+
+
+def is_of_sim(kind: PluginKind) -> bool:
+    """Whether a system comes with gz-sim; others come with ros2_control."""
+    return kind.class_name.startswith("gz::sim::systems::")
 
 
 def of_system(kind: PluginKind, source: SystemSource, release: str) -> Iterator[Difference]:
@@ -74,6 +79,9 @@ def _of_parameter(owner: str, name: str, rows: list[Parameter], read: Read) -> I
     types = {_AS_READ.get(row.type, row.type) for row in rows}
     if read.kinds and not types & read.kinds and types != {"element"}:
         yield Difference(owner, "type", name, ", ".join(sorted(types)), ", ".join(sorted(read.kinds)))
+    places = {"attribute" if row.is_attribute else "element" for row in rows}
+    if read.places and not places & read.places:
+        yield Difference(owner, "place", name, ", ".join(sorted(places)), ", ".join(sorted(read.places)))
     here = {_plain(row.default) for row in rows if row.default is not None}
     there = {_plain(default) for default in read.defaults}
     unsaid = {zero for type_ in types for zero in _ZEROS.get(type_, set[str]())}

@@ -5,6 +5,7 @@ from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import NamedTuple
 
 from benchmarks.cpp_text import Scope, arguments, without_comments
 
@@ -47,10 +48,23 @@ _KINDS = {
 
 @dataclass(slots=True)
 class Read:
-    """What is known of one parameter: the kinds of values it is read as, and its defaults."""
+    """What is known of one parameter: the kinds of values it is read as, its defaults, and where it is asked for.
+
+    `places` are `element` and `attribute`; there is none where only its value is got, since that looks into both.
+    """
 
     kinds: set[str] = field(default_factory=set[str])
     defaults: set[str] = field(default_factory=set[str])
+    places: set[str] = field(default_factory=set[str])
+
+
+class _Reading(NamedTuple):
+    """One place where a parameter is read."""
+
+    name: str
+    kind: str | None = None
+    default: str | None = None
+    place: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,16 +98,17 @@ def read_system(*texts: str) -> SystemSource:
     parameters: defaultdict[str, Read] = defaultdict(Read)
     for index, text in enumerate(texts):
         others = (*texts[:index], *texts[index + 1 :])
-        for name, kind, default in _readings(text, others):
+        for name, kind, default, place in _readings(text, others):
             read = parameters[name]
             read.kinds |= {kind} if kind else set()
             read.defaults |= {default} if default is not None else set()
+            read.places |= {place} if place else set()
     whole = "\n".join(texts)
     return SystemSource(dict(parameters), frozenset(_topics(whole)), frozenset(_messages(whole)))
 
 
-def _readings(text: str, others: tuple[str, ...]) -> Iterator[tuple[str, str | None, str | None]]:
-    yield from ((found[1], None, None) for found in _COMPARED.finditer(text))
+def _readings(text: str, others: tuple[str, ...]) -> Iterator[_Reading]:
+    yield from (_Reading(found[1], place="element") for found in _COMPARED.finditer(text))
     for pattern in (_METHOD, _HELPER):
         for found in pattern.finditer(text):
             method, type_, _, word = found.groups()
@@ -105,12 +120,13 @@ def _readings(text: str, others: tuple[str, ...]) -> Iterator[tuple[str, str | N
             kind = _kind(type_ or (own[1] if own else ""))
             scope = Scope((text, *others), found.start())
             values = given[1:] if pattern is _METHOD else given[2:]
+            place = "attribute" if "Attribute" in method else "element" if "Element" in method else None
             if method.startswith(("Has", "Find")):
-                yield name, None, None
+                yield _Reading(name, place=place)
             elif values:
-                yield name, kind, scope.value(values[-1])
+                yield _Reading(name, kind, scope.value(values[-1]), place)
             else:
-                yield name, kind, _from_target(text, found.start(), scope) if kind else None
+                yield _Reading(name, kind, _from_target(text, found.start(), scope) if kind else None, place)
 
 
 def _kind(type_: str) -> str | None:

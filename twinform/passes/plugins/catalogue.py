@@ -185,9 +185,8 @@ def sensor(type_: str) -> SensorKind:
 def custom_sensor(word: str) -> SensorKind | None:
     """The kind of a sensor of type `custom` by its `gz:type`."""
     for kind in sensors().values():
-        if kind.custom is not None and (
-            word == kind.custom or (kind.custom[-1] == "/" and word.startswith(kind.custom))
-        ):
+        own = kind.custom
+        if own is not None and (word.startswith(own) if own.endswith("/") else word == own):
             return kind
     return None
 

@@ -112,6 +112,11 @@ def test_custom_sensors_go_by_their_own_word() -> None:
         sensor("dvl")
 
 
+def test_an_element_that_is_asked_for_as_an_attribute_of_the_plugin_is_no_parameter() -> None:
+    assert system("joint-trajectory-controller").parameter("use_header_start_time") is None
+    assert system("led-plugin").parameter("mode", "step", "@always_on") is not None
+
+
 @pytest.mark.parametrize(
     ("name", "path", "default", "unit"),
     [
