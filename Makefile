@@ -6,13 +6,15 @@ SHELL := bash
 
 PYTHON ?= python3
 JOBS ?= 2
+# checkouts of gz-sim and gz-sensors, one for each release, for `make systems`
+SOURCES ?=
 BIN := .venv/bin
 # what .venv was made from; a change of the project file makes it again
 SYNCED := .venv/.synced
 ORACLES := .venv/.oracles
 DEMO := out/demo
 
-.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness edits worlds gazebo readers equipment bench before inertia lumping classic mapping verdicts xacro prove coverage mutation fuzz clean
+.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness edits worlds gazebo systems readers equipment bench before inertia lumping classic mapping verdicts xacro prove coverage mutation fuzz clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -121,6 +123,9 @@ worlds: $(ORACLES) ## every world taken apart and put together again, before lib
 gazebo: $(ORACLES) ## every conversion in Gazebo's own physics, DART and Bullet; writes docs/reference/gazebo.md, gazebo_runs.md
 	$(BIN)/python -m benchmarks.gazebo_features
 	$(BIN)/python -m benchmarks.gazebo
+
+systems: $(SYNCED) ## the catalogue against checkouts of gz-sim and gz-sensors, SOURCES=PATH,...; writes docs/reference/systems.md
+	$(BIN)/python -m benchmarks.systems $(SOURCES)
 
 readers: $(ORACLES) ## what carriers do to other readers of URDF and SDF; writes docs/reference/readers.md
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[readers]'

@@ -10,7 +10,14 @@ from twinform.ir import Document, Element, Format, Model, Opaque, Pose, World
 from twinform.passes.plugins.bridge import bridge_yaml, bridges
 from twinform.passes.plugins.sites import sensors_of
 from twinform.passes.plugins.standing import lowest_point
-from twinform.passes.plugins.worlds import Needed, kind_of_sensor, needed_for, with_defaults, with_systems
+from twinform.passes.plugins.worlds import (
+    Needed,
+    kind_of_sensor,
+    needed_by_plugins,
+    needed_for,
+    with_defaults,
+    with_systems,
+)
 
 _EQUATOR = (
     ("surface_model", "EARTH_WGS84"),
@@ -32,7 +39,8 @@ def world_text(document: Document, release: str, notes: Notes, name: str) -> str
     """An SDF file with a world that holds the model of a document, so that it runs by itself.
 
     The model stands on the ground, if it says no pose and its collisions say how deep they reach.
-    The world has light, ground, the systems that gz-sim adds to worlds without any, and those that the sensors need.
+    The world has light, ground, the systems that gz-sim adds to worlds without any, and those that the sensors and
+    plugins need.
     """
     if document.worlds or document.format is not Format.SDF or len(document.models) != 1:
         message = "a world is written around one model of SDF"
@@ -53,10 +61,11 @@ def _on_the_ground(model: Model) -> Model:
 
 
 def _needed(document: Document, release: str) -> Needed:
-    """What the world has to have for the sensors of a document."""
+    """What the world has to have for the sensors and plugins of a document."""
     kinds = [kind_of_sensor(sensor, release) for sensor, _ in sensors_of(document)]
     all_ = [needed_for(kind) for kind in dict.fromkeys(kinds) if kind is not None]
     systems = dict.fromkeys(system for each in all_ for system in each.systems)
+    systems |= dict.fromkeys(needed_by_plugins(document, None, release))
     elements = dict.fromkeys(element for each in all_ for element in each.elements)
     return Needed(tuple(systems), tuple(elements))
 

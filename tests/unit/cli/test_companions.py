@@ -31,6 +31,19 @@ def test_files_are_written_beside_the_model(tmp_path: Path) -> None:
     assert names == ["Physics", "UserCommands", "SceneBroadcaster", "Imu"]
 
 
+def test_the_world_has_what_plugins_need(tmp_path: Path) -> None:
+    boat = """<gazebo><plugin filename="gz-sim-hydrodynamics-system" name="gz::sim::systems::Hydrodynamics">
+    <link_name>base</link_name></plugin><plugin filename="gz-sim-comms-endpoint-system"
+    name="gz::sim::systems::CommsEndpoint"><address>a</address><topic>b</topic></plugin></gazebo>
+    <gazebo reference="base"><sensor name="log" type="custom" gz:type="dvl"/></gazebo>"""
+    world = tmp_path / "world.sdf"
+    robot = ROBOT.format(boat).replace("<robot ", '<robot xmlns:gz="http://gazebosim.org/schema" ')
+    assert run(tmp_path, "-o", f"{tmp_path}/r.sdf", "--world", str(world), robot=robot)[0] == 0
+    made = twinform.load(world).worlds[0]
+    names = [(plugin.name or "").rsplit("::", 1)[-1] for plugin in made.plugins]
+    assert names[3:] == ["DopplerVelocityLogSystem", "Buoyancy", "PerfectComms"]
+
+
 def test_a_world_of_a_plain_robot_has_the_systems_of_every_world(tmp_path: Path) -> None:
     world = tmp_path / "world.sdf"
     assert run(tmp_path, "-o", f"{tmp_path}/r.sdf", "--world", str(world), robot=ROBOT.format(""))[0] == 0

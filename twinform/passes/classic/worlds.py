@@ -17,6 +17,7 @@ from twinform.passes.plugins.worlds import (
     has_system,
     kind_of_sensor,
     missing_defaults,
+    needed_by_plugins,
     needed_for,
     system_plugin,
 )
@@ -73,6 +74,7 @@ def report_unread(document: Document, notes: Notes) -> None:
 def _complete(world: World, release: Release, notes: Notes) -> World:
     kinds = _kinds(world, release)
     needed = [kind for each in kinds for kind in needed_for(each).systems]
+    needed += needed_by_plugins(Document(format=Format.SDF, worlds=(world,)), world, release.name)
     defaults = missing_defaults(world.plugins) if world.plugins or needed else ()
     missing = [kind for kind in dict.fromkeys((*defaults, *needed)) if not has_system(world, kind)]
     for kind in missing:

@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 
 from twinform.diagnostics import Notes, Severity
 from twinform.diagnostics.rules import plugins as rules
-from twinform.ir import Document, Model, Plugin, Sensor
+from twinform.ir import Document, Model, Plugin, Sensor, World
 from twinform.passes.plugins.base_link import base_link
 from twinform.passes.plugins.catalogue import nearest, releases, system
 from twinform.passes.plugins.editing import add_plugin, add_visual_plugin, add_world_plugin, replace_model
@@ -16,9 +16,9 @@ from twinform.passes.plugins.parameters import names_in
 from twinform.passes.plugins.parts import PluginKind, ReleaseName
 from twinform.passes.plugins.selecting import Fields, SelectingPass
 from twinform.passes.plugins.sites import Site, map_sensors
-from twinform.passes.plugins.targets import find_model, find_world, missing, replace_world
+from twinform.passes.plugins.targets import find_model, find_world, missing, replace_world, world_of
 from twinform.passes.plugins.wheels import MEASURES, Measured, NotMeasuredError
-from twinform.passes.plugins.worlds import system_plugin, with_defaults
+from twinform.passes.plugins.worlds import as_xml, lacking_for, system_plugin, with_defaults, with_systems
 
 _ODOMETRY_FRAMES = (("frame-id", "child-frame-id"), ("odom-frame", "robot-base-frame"))
 """The options of systems that report odometry: the frame that it is in, and that of the model."""
@@ -41,8 +41,10 @@ class AddPlugin(SelectingPass):
     Wheel separation, wheel radius and wheel base, and how far tracks are apart, are read off the model where they are
     not given: from the joints' places and axes, and the cylinders, spheres and capsules of the wheels.
     Frames of odometry that are not given are `odom` and the base link, so that the transforms of ROS make one tree.
+    A system that needs another one of the world, such as Buoyancy, gets it there; without a world it is said.
     It never touches a plugin that is there; one that is the same already is not added again.
-    Diagnostics: `nothing-to-add-to`, `plugin-reference`, `measured-wheels`, `wheels-not-measured`.
+    Diagnostics: `nothing-to-add-to`, `plugin-reference`, `measured-wheels`, `wheels-not-measured`,
+    `world-system-needed`, `added-world-system`.
     """
 
     name: ClassVar[str] = "add-plugin"
@@ -72,6 +74,9 @@ class AddPlugin(SelectingPass):
         for option in self._values():
             if self.release not in options_of(kind)[option][1].releases:
                 raise ValueError(f"{kind.name} does not read {option} in {self.release}")
+        for option, (_, row) in options_of(kind).items():
+            if self.release in row.needed and option not in self._values():
+                raise ValueError(f"{kind.name} needs the option {option} in {self.release}")
         try:
             content_of(kind, self._values())
         except MissingError as error:
@@ -94,7 +99,23 @@ class AddPlugin(SelectingPass):
         plugin = self._plugin({**self._measured(model, document, notes), **self._frames(model, document)})
         if notes.has_errors:
             return document
-        return replace_model(document, model, add_plugin(model, plugin, document.format))
+        made = replace_model(document, model, add_plugin(model, plugin, document.format))
+        return self._with_needs(made, model, world_of(document, model), notes)
+
+    def _with_needs(self, document: Document, model: Model, world: World | None, notes: Notes) -> Document:
+        """The document with the system of the world without which this one does not do what is meant."""
+        needed = lacking_for(self._kind(), world)
+        if needed is None:
+            return document
+        if world is None:
+            message = f"{self._kind().class_name} needs {needed.class_name} in the world"
+            help_ = f"the world needs {as_xml(needed)}"
+            notes.report(rules.WORLD_SYSTEM_NEEDED, message, model.location, help=help_)
+            return document
+        message = f"world {world.name!r} gets {needed.class_name}"
+        notes.report(rules.ADDED_WORLD_SYSTEM, message, world.location)
+        now = next(each for each in document.worlds if each.name == world.name)
+        return replace_world(document, now, with_systems(now, [needed]))
 
     def _in_world(self, document: Document, notes: Notes) -> Document:
         world = find_world(document, self.world, notes)

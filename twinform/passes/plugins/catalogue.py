@@ -23,6 +23,7 @@ __all__ = [
     "UnknownNameError",
     "classic_plugins",
     "classic_plugins_of_file",
+    "custom_sensor",
     "is_ignition_name",
     "modern_class",
     "modern_file",
@@ -176,9 +177,18 @@ def sensor(type_: str) -> SensorKind:
     kinds = sensors()
     word = type_.replace("-", "_")
     found = kinds.get(word) or next((kind for kind in kinds.values() if word in kind.aliases), None)
-    if found is None:
+    if found is None or found.custom is not None:
         raise UnknownNameError("sensor", type_, list(kinds))
     return found
+
+
+def custom_sensor(word: str) -> SensorKind | None:
+    """The kind of a sensor of type `custom` by its `gz:type`."""
+    for kind in sensors().values():
+        own = kind.custom
+        if own is not None and (word.startswith(own) if own.endswith("/") else word == own):
+            return kind
+    return None
 
 
 def ros_message(message: str) -> str | None:
@@ -236,5 +246,15 @@ def _sensor(type_: str, row: dict[str, Any]) -> SensorKind:
         holders=tuple(row.get("holder", ("link",))),
         suffix=row["suffix"],
         releases=frozenset(everything[everything.index(row.get("since", everything[0])) :]),
-        publishes=tuple(Published(*each) for each in row["publishes"]),
+        publishes=tuple(_published(*each, everything=everything) for each in row["publishes"]),
+        custom=row.get("custom"),
     )
+
+
+def _published(pattern: str, message: str, *options: str, everything: tuple[str, ...]) -> Published:
+    """A topic of a sensor. Options are `since=RELEASE`, `until=RELEASE`, and a setting with its message behind it."""
+    spans = dict(each.split("=") for each in options if each.startswith(("since=", "until=")))
+    first, last = spans.get("since", everything[0]), spans.get("until", everything[-1])
+    where, instead = [*(each for each in options if not each.startswith(("since=", "until="))), "", ""][:2]
+    span = frozenset(everything[everything.index(first) : everything.index(last) + 1])
+    return Published(pattern, message, where, instead, span)

@@ -7,9 +7,10 @@
       > topic  gz.msgs.Twist  /model/{model}/cmd_vel  alt=sub_topic:/model/{model}/{sub_topic}
 
 A block begins with `system` (of gz-sim) or `plugin` (of Gazebo Classic) and the name; a row is the name of a parameter,
-its count, its type, and options: `default=`, `enum=a|b`, `since=`, `until=` and `except=` releases, `any` for content
-that is not known (in the first line: for more parameters). Rows that are indented further stand inside. `>` and `<` are
-topics that the plugin reads and writes: the parameter that sets it or `-`, the message, the default;
+its count, its type, and options: `default=`, `unit=` (`rad|m` where it is for what turns and for what slides),
+`enum=a|b`, `since=`, `until=` and `except=` releases, `needed=` releases `a|b` that do not work without, `any` for
+content that is not known (in the first line: for more parameters). Rows that are indented further stand inside. `>`
+and `<` are topics that the plugin reads and writes: the parameter that sets it or `-`, the message, the default;
 `alt=PARAMETER[+PARAMETER]:TOPIC[:MESSAGE]` where these are written, `unless=PARAMETER`, `when=PARAMETER`,
 `each=PATH/OF/PARAMETER` for one topic a value, and the releases. Values with blanks stand in double
 quotes, and `#` begins a comment.
@@ -92,6 +93,8 @@ def _row(
         releases=own,
         is_attribute=name.startswith("@"),
         children=_rows(inside, depth, own, releases),
+        unit=options.get("unit"),
+        needed=own & frozenset(options.get("needed", "").split("|")),
     )
 
 

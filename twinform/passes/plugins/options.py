@@ -83,7 +83,8 @@ def field_of(path: Path, row: Parameter, kind: PluginKind) -> tuple[Any, FieldIn
     one = str if many and row.type in _LISTS else _type(row)
     checked: Any = Annotated[one, AfterValidator(_checker(row))]
     kind_of: Any = Annotated[tuple[checked, ...], BeforeValidator(_listed)] if many else checked
-    says = f"<{'><'.join(path)}>" + (f"; by default {row.default}" if row.default is not None else "")
+    unit = f", in {' or '.join(row.unit.split('|'))}" if row.unit else ""
+    says = f"<{'><'.join(path)}>{unit}" + (f"; by default {row.default}" if row.default is not None else "")
     if row.is_required and len(path) == 1:
         return kind_of, Field(description=says)
     optional: Any = Field(default=None, description=says)  # typed as its default

@@ -95,11 +95,17 @@ def _row(option: str, path: tuple[str, ...], row: Parameter, kind: PluginKind) -
     shown = "/".join((*path[:-1], row.name))
     choices = f": {', '.join(row.choices)}" if row.choices else ""
     default = f"`{row.default}`" if row.default is not None else ""
-    more = ", ".join(
-        filter(None, [_TIMES[row.count], _since(row.releases & kind.releases, kind.releases).strip(" ()")])
-    )
+    unit = f", {' or '.join(row.unit.split('|'))}" if row.unit else ""
+    told = [_TIMES[row.count], _needed(row), _since(row.releases & kind.releases, kind.releases).strip(" ()")]
+    more = ", ".join(filter(None, told))
     dots = ", ..." if "[" in row.name else ""
-    return f"| `{option}`{dots} | `{shown}` | {row.type}{choices} | {default} | {more} |"
+    return f"| `{option}`{dots} | `{shown}` | {row.type}{choices}{unit} | {default} | {more} |"
+
+
+def _needed(row: Parameter) -> str:
+    """The releases that do not work without."""
+    listed = ", ".join(each for each in releases() if each in row.needed)
+    return f"needed in {listed}" if listed else ""
 
 
 def _since(mine: Iterable[str], all_: Iterable[str] | None = None) -> str:

@@ -75,7 +75,11 @@ def _check_inside(elements: Sequence[Element], rows: tuple[Parameter, ...], aske
         _check_element(element, row, asked, at)
     present = {*counts}
     for row in rows:
-        if row.is_required and not row.is_attribute and not any(row.matches(name) for name in present):
+        if (
+            row.is_required_in(asked.release)
+            and not row.is_attribute
+            and not any(row.matches(name) for name in present)
+        ):
             message = f"{_called(asked.kind)} needs <{row.name}>"
             asked.notes.report(rules.PLUGIN_PARAMETER_COUNT, message, where, expected=row.name)
 

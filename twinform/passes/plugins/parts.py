@@ -36,7 +36,9 @@ class Release:
 class Parameter:
     """An element or attribute that a plugin reads. Names such as `[xyz][UVW]` stand for all that match them.
 
-    `free` means that what stands inside is not known. `releases` are those whose plugin reads it.
+    `free` means that what stands inside is not known. `releases` are those whose plugin reads it, `needed` those that
+    do not work without, where only some do not. `unit` is that of its numbers, or two of them where it
+    is for what turns and for what slides.
     """
 
     name: str
@@ -48,11 +50,17 @@ class Parameter:
     releases: frozenset[str]
     is_attribute: bool
     children: tuple["Parameter", ...]
+    unit: str | None = None
+    needed: frozenset[str] = frozenset()
 
     @property
     def is_required(self) -> bool:
         """Whether the plugin does not work without."""
         return self.count in {"1", "+"}
+
+    def is_required_in(self, release: str) -> bool:
+        """Whether the plugin of a release does not work without."""
+        return self.is_required or release in self.needed
 
     @property
     def is_many(self) -> bool:
@@ -139,13 +147,14 @@ def _walk(above: tuple[str, ...], rows: tuple[Parameter, ...]) -> Iterator[tuple
 class Published:
     """A topic of a sensor: a pattern of `{topic}` or `{beside}`, and the message.
 
-    `where` is a setting that has the message `instead`, such as `box_type=3d`.
+    `where` is a setting that has the message `instead`, such as `box_type=3d`. `releases` are those that publish it.
     """
 
     pattern: str
     message: str
-    where: str = ""
-    instead: str = ""
+    where: str
+    instead: str
+    releases: frozenset[str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,7 +163,8 @@ class SensorKind:
 
     `aliases` are older words for `type` that are still read, `classic` the words of Gazebo Classic for what becomes
     this. `element` has its parameters. `systems` are what the world needs to have, `world_elements` what else.
-    `suffix` ends the topic where none is written.
+    `suffix` ends the topic where none is written. `custom` is the `gz:type` of those whose type is `custom`, or what it
+    begins with where that ends in a slash.
     """
 
     type: str
@@ -167,3 +177,4 @@ class SensorKind:
     suffix: str
     releases: frozenset[str]
     publishes: tuple[Published, ...]
+    custom: str | None = None

@@ -14,6 +14,9 @@ from twinform.passes.plugins.worlds import kind_of_sensor
 
 _PLACE = re.compile(r"\{([^}]+)\}")
 _UNDER_MODEL = "/model/"
+_CLOUD = re.compile(r"points|cloud", re.IGNORECASE)
+"""What is in names of topics with point clouds: `velodyne_points`, `lidar/points`, `cloud_in`."""
+_CLOUD_TOPIC = "{topic}/points"
 _OWN_INFO = "camera"
 """The kind of sensor that reads `<camera_info_topic>` (CameraSensor.cc): others put it where they want."""
 
@@ -62,13 +65,25 @@ def _of_sensor(sensor: Sensor, site: Site, release: str, world: str | None) -> I
     needs_world = own is None and site.world is None and world is None
     model = site.models[0].name if site.models else ""
     for each in kind.publishes:
+        if release not in each.releases:
+            continue
         beside = name.rsplit("/", 1)[0]
         made = each.pattern.format(topic=name, beside=beside)
         info = _text_in(sensor, "camera", "camera_info_topic") if kind.type == _OWN_INFO else None
         if made.endswith("/camera_info") and info and info != "__default__":
             made = _absolute(info)
-        short = made.lstrip("/") if own else made.removeprefix(f"{scope}/sensor/")
+        short = _named_for_cloud(made, name, kind) if own else made.removeprefix(f"{scope}/sensor/")
         yield Topic(made, short, _message(each, sensor, kind), "<", model, sensor, needs_world)
+
+
+def _named_for_cloud(made: str, name: str, kind: SensorKind) -> str:
+    """What is left of a topic of a sensor; the cloud has the sensor's own name where that names a cloud.
+
+    gz has the scan or image under that name and the cloud on `points` below it.
+    """
+    if _CLOUD.search(name.rpartition("/")[2]) and any(each.pattern == _CLOUD_TOPIC for each in kind.publishes):
+        made = {name: f"{name}/{kind.suffix}", _CLOUD_TOPIC.format(topic=name): name}.get(made, made)
+    return made.lstrip("/")
 
 
 def _written_topic(sensor: Sensor) -> str | None:

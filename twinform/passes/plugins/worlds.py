@@ -1,11 +1,23 @@
 """The systems that a world has, and those that sensors need in it."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from twinform.ir import Element, Plugin, Sensor, World
-from twinform.passes.plugins.catalogue import DEFAULT_SYSTEMS, UnknownNameError, sensor, system, systems_of_file
+from twinform.ir import Document, Element, Plugin, Sensor, World
+from twinform.passes.plugins.catalogue import (
+    DEFAULT_SYSTEMS,
+    UnknownNameError,
+    custom_sensor,
+    sensor,
+    system,
+    systems_of_file,
+)
 from twinform.passes.plugins.parts import PluginKind, SensorKind
+from twinform.passes.plugins.sites import plugins_of
+
+_CUSTOM = "custom"
+_LAYERS = {"default_density": "1000", "above_depth": "0", "density": "1"}
+"""Water up to the height of zero and air above, in kg/m^3: one density everywhere would make everything float away."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,15 +31,38 @@ class Needed:
 def kind_of_sensor(node: Sensor, release: str) -> SensorKind | None:
     """What a sensor is in a release; None where that release does not simulate such sensors."""
     try:
-        found = sensor(node.type or "")
+        found = custom_sensor(_custom_type(node)) if node.type == _CUSTOM else sensor(node.type or "")
     except UnknownNameError:
         return None
-    return found if release in found.releases else None
+    return found if found is not None and release in found.releases else None
+
+
+def _custom_type(node: Sensor) -> str:
+    """The `gz:type` of a sensor, whatever its prefix stands for."""
+    said = (part.attribute for part in node.opaque if part.attribute is not None and not part.at)
+    return next((value for name, value in said if name.startswith("{") and name.endswith("}type")), "")
 
 
 def needed_for(kind: SensorKind) -> Needed:
     """What a world has to have for sensors of a kind."""
     return Needed(tuple(system(name) for name in kind.systems), kind.world_elements)
+
+
+def lacking_for(kind: PluginKind, world: World | None) -> PluginKind | None:
+    """The system that a world has to get for a plugin; None where it needs none, or the world has one that does."""
+    choice = [system(name) for name in kind.needs]
+    if not choice or (world is not None and any(has_system(world, each) for each in choice)):
+        return None
+    return choice[0]
+
+
+def needed_by_plugins(document: Document, world: World | None, release: str) -> Iterator[PluginKind]:
+    """The systems that the plugins of a document need in a world and that it does not have."""
+    for plugin, _ in plugins_of(document):
+        for kind in systems_of_file(plugin.filename or ""):
+            needed = lacking_for(kind, world) if release in kind.releases else None
+            if needed is not None:
+                yield needed
 
 
 def has_system(world: World, kind: PluginKind) -> bool:
@@ -43,8 +78,13 @@ def missing_defaults(plugins: Iterable[Plugin]) -> tuple[PluginKind, ...]:
 
 def system_plugin(kind: PluginKind) -> Plugin:
     """The plugin that is a system, with the parameters that nobody leaves out."""
-    content = (Element(name="render_engine", text="ogre2"),) if kind.name == "sensors" else ()
-    return Plugin(name=kind.class_name, filename=kind.file, content=content)
+    content = {"sensors": (Element(name="render_engine", text="ogre2"),), "buoyancy": (_water_and_air(),)}
+    return Plugin(name=kind.class_name, filename=kind.file, content=content.get(kind.name, ()))
+
+
+def _water_and_air() -> Element:
+    density, depth, air = (Element(name=name, text=text) for name, text in _LAYERS.items())
+    return Element(name="graded_buoyancy", children=(density, Element(name="density_change", children=(depth, air))))
 
 
 def with_defaults(world: World, but: PluginKind | None = None) -> World:

@@ -8,6 +8,8 @@ from click.testing import CliRunner
 import twinform
 from twinform.cli import main
 from twinform.diagnostics import Notes, Severity
+from twinform.passes import parse_pipeline
+from twinform.passes.plugins.bridge import bridges
 from twinform.passes.plugins.check_plugins import CheckPlugins
 
 ROVER = Path(__file__).parents[4] / "examples/classic_rover.urdf"
@@ -31,3 +33,33 @@ def test_the_migrated_robot_is_the_same_robot() -> None:
     found = twinform.diff(ROVER, migrated.encode())
     about = re.compile(r"(sensor|plugin|ros2_control|transmission) ")
     assert [each.message for each in found.differences if not about.match(each.aspect)] == []
+
+
+CLOUDS = """<robot name="r"><link name="base"><inertial><mass value="1"/>
+<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link><gazebo reference="base">
+<sensor name="v" type="ray"><plugin name="p" filename="libgazebo_ros_velodyne_laser.so"><topicName>/velodyne_points
+</topicName></plugin></sensor><sensor name="w" type="ray"><plugin name="q" filename="libgazebo_ros_ray_sensor.so">
+<ros><remapping>~/out:=cloud_in</remapping></ros></plugin></sensor></gazebo></robot>"""
+
+
+def test_clouds_keep_the_names_that_they_had_in_ros() -> None:
+    document = twinform.loads(CLOUDS)
+    migrated = parse_pipeline("migrate-gazebo-classic").run(document, Notes())
+    found = {each.ros_topic_name: each.ros_type_name for each in bridges(migrated, "harmonic", Notes())}
+    cloud, scan = "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/LaserScan"
+    assert {name: type_ for name, type_ in found.items() if name != "/clock"} == {
+        "velodyne_points": cloud,
+        "velodyne_points/scan": scan,
+        "cloud_in": cloud,
+        "cloud_in/scan": scan,
+    }
+
+
+def test_a_world_gets_what_its_plugins_need() -> None:
+    text = """<sdf version="1.6"><world name="sea"><model name="boat"><link name="hull"/><plugin name="h"
+    filename="gz-sim-hydrodynamics-system"><link_name>hull</link_name></plugin></model></world></sdf>"""
+    notes = Notes()
+    made = parse_pipeline("migrate-gazebo-classic").run(twinform.loads(text), notes)
+    names = [(each.name or "").rpartition("::")[2] for each in made.worlds[0].plugins]
+    assert names == ["Physics", "UserCommands", "SceneBroadcaster", "Buoyancy"]
+    assert "added-world-system" in {each.rule.name for each in notes.diagnostics}

@@ -1,4 +1,4 @@
-"""Rules: nothing-to-add-to, plugin-reference, measured-wheels, wheels-not-measured."""
+"""Rules: nothing-to-add-to, plugin-reference, measured-wheels, wheels-not-measured, world-system-needed."""
 
 import pickle
 from pathlib import Path
@@ -214,6 +214,7 @@ def test_wheels_that_say_no_radius_are_an_error() -> None:
         ("add-plugin{system=lift-drag link-name=a reversible=true}", "does not read reversible in harmonic"),
         ("add-plugin{system=odometry-publisher dimensions=4}", "has to be one of 2, 3"),
         ("add-plugin{system=tracked-vehicle left-track-velocity-topic=a}", "needs the option"),
+        ("add-plugin{system=touch-plugin target=a time=1 release=garden}", "needs the option namespace in garden"),
         ('add-plugin{system=breadcrumbs breadcrumb="<a>"}', "XML"),
     ],
 )
@@ -244,3 +245,29 @@ def test_options_of_all_systems_have_names_of_their_own() -> None:
         assert len(options_of(kind)) >= len(leaves - either)
         assert not own & set(options_of(kind))
     assert len(options_of(system("hydrodynamics"))) > 500
+
+
+@pytest.mark.parametrize("release", ["harmonic", "jetty"])
+def test_a_touch_needs_no_namespace_since_harmonic(release: str) -> None:
+    [made] = parse_pipeline(f"add-plugin{{system=touch-plugin target=a time=1 release={release}}}")
+    assert isinstance(made, AddPlugin)
+
+
+def test_a_system_gets_the_one_of_the_world_that_it_needs() -> None:
+    text = "add-plugin{system=hydrodynamics model=a link-name=base}"
+    made, found = run(text, twinform.loads(WORLD))
+    assert [rule for rule, _ in found] == ["added-world-system"]
+    [buoyancy] = [each for each in made.worlds[0].plugins if each.filename == system("buoyancy").file]
+    assert [each.name for each in buoyancy.content] == ["graded_buoyancy"]  # one density everywhere lifts everything
+    assert made.worlds[0].models[0].plugins
+    again, found = run(text, made)
+    assert (again, found) == (made, [])
+
+
+def test_a_system_says_what_a_world_has_to_have_where_there_is_none() -> None:
+    _, found = run(
+        "add-plugin{system=comms-endpoint address=a topic=b}",
+        twinform.loads('<sdf version="1.11"><model name="m"><link name="l"/></model></sdf>'),
+    )
+    assert [rule for rule, _ in found] == ["world-system-needed"]
+    assert "gz-sim-perfect-comms-system" in found[0][1]

@@ -11,6 +11,7 @@ from twinform.ir import Document
 from twinform.passes.plugins.bridge import Bridge, bridge_yaml, bridges
 from twinform.passes.plugins.bridge_config import BridgeConfig
 from twinform.passes.plugins.catalogue import system, systems
+from twinform.passes.plugins.topics import topics_of
 
 MODEL = """<model name="{name}"><link name="base">{sensors}</link><link name="leg"/>
 <joint name="hip" type="revolute"><parent>base</parent><child>leg</child><axis><xyz>0 0 1</xyz></axis></joint>
@@ -39,6 +40,10 @@ def rows(document: Document, release: str = "harmonic", world: str | None = None
     return [(each.ros_topic_name, each.gz_topic_name, each.gz_type_name, each.direction) for each in made][1:]
 
 
+def topics(document: Document, release: str, world: str | None = None) -> dict[str, str]:
+    return {each.name: each.message for each in topics_of(document, release, world)}
+
+
 HIP = "<joint_name>hip</joint_name>"
 SEPARATE = """<sensor name="s" type="camera"><topic>i</topic>
 <camera><camera_info_topic>c</camera_info_topic></camera></sensor>"""
@@ -48,6 +53,48 @@ CASES: dict[str, tuple[str, str, list[tuple[str, str, str]]]] = {
         '<sensor name="s" type="gpu_lidar"><topic>/front/scan</topic></sensor>',
         "",
         [("front/scan", "/front/scan", "<"), ("front/scan/points", "/front/scan/points", "<")],
+    ),
+    "a lidar whose topic names a cloud gives the cloud that name": (
+        '<sensor name="s" type="gpu_lidar"><topic>/velodyne_points</topic></sensor>',
+        "",
+        [
+            ("velodyne_points/scan", "/velodyne_points", "<"),
+            ("velodyne_points", "/velodyne_points/points", "<"),
+        ],
+    ),
+    "so does a depth camera": (
+        '<sensor name="s" type="depth_camera"><topic>eye/PointCloud</topic></sensor>',
+        "",
+        [
+            ("eye/PointCloud/depth_image", "/eye/PointCloud", "<"),
+            ("eye/PointCloud", "/eye/PointCloud/points", "<"),
+            ("eye/camera_info", "/eye/camera_info", "<"),
+        ],
+    ),
+    "what publishes no cloud keeps its name": (
+        '<sensor name="s" type="imu"><topic>points</topic></sensor>',
+        "",
+        [("points", "/points", "<")],
+    ),
+    "a cloud's name above does not count": (
+        '<sensor name="s" type="gpu_lidar"><topic>cloud/scan</topic></sensor>',
+        "",
+        [("cloud/scan", "/cloud/scan", "<"), ("cloud/scan/points", "/cloud/scan/points", "<")],
+    ),
+    "breadcrumbs whose topic is known": (
+        "",
+        plugin("breadcrumbs", "<topic>drop</topic>"),
+        [("drop", "/drop", ">"), ("drop/remaining", "/drop/remaining", "<")],
+    ),
+    "breadcrumbs without": ("", plugin("breadcrumbs"), []),
+    "a battery that is charged by topic": (
+        "",
+        plugin("linear-battery", "<battery_name>b</battery_name><recharge_by_topic>true</recharge_by_topic>"),
+        [
+            ("battery/b/state", "/model/r/battery/b/state", "<"),
+            ("battery/b/recharge/start", "/model/r/battery/b/recharge/start", ">"),
+            ("battery/b/recharge/stop", "/model/r/battery/b/recharge/stop", ">"),
+        ],
     ),
     "camera info stands beside the image": (
         '<sensor name="s" type="camera"><topic>eye/image</topic></sensor>',
@@ -263,3 +310,21 @@ def test_the_topics_of_all_systems_can_be_written(release: str) -> None:
         for each in bridges(alone(plugins=plugin(kind.name)), release, Notes(), "w"):
             assert "{" not in each.gz_topic_name
             assert "//" not in each.gz_topic_name
+
+
+def test_a_topic_is_there_in_the_releases_that_have_it() -> None:
+    camera = '<sensor name="s" type="logical_camera"><topic>logic</topic></sensor>'
+    assert topics(alone(camera), "harmonic") == {"/logic": "gz.msgs.LogicalCameraImage"}
+    assert topics(alone(camera), "ionic").keys() == {"/logic", "/logic/frustum"}
+    speed = alone('<sensor name="s" type="air_speed"><topic>v</topic></sensor>')
+    assert topics(speed, "garden") == {"/v": "gz.msgs.AirSpeedSensor"}
+    assert topics(speed, "jetty") == {"/v": "gz.msgs.AirSpeed"}
+    track = alone(plugins=plugin("track-controller", "<link>base</link>"))
+    assert "/model/r/link/base/odometry" not in topics(track, "fortress")
+    assert "/model/r/link/base/odometry" in topics(track, "garden")
+
+
+def test_a_doppler_log_publishes_below_its_name() -> None:
+    sensor = '<sensor name="s" type="custom" gz:type="dvl"/>'
+    assert list(topics(alone(sensor), "harmonic", "w")) == ["/world/w/model/r/link/base/sensor/s/dvl/velocity"]
+    assert not topics(alone(sensor), "garden", "w")

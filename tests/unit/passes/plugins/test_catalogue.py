@@ -3,7 +3,16 @@ from typing import get_args
 import pytest
 
 from twinform.passes.plugins import catalogue
-from twinform.passes.plugins.catalogue import UnknownNameError, nearest, releases, sensor, sensors, system, systems
+from twinform.passes.plugins.catalogue import (
+    UnknownNameError,
+    custom_sensor,
+    nearest,
+    releases,
+    sensor,
+    sensors,
+    system,
+    systems,
+)
 from twinform.passes.plugins.parts import Parameter, PluginKind, ReleaseName
 
 ALL = [
@@ -93,6 +102,38 @@ def test_sensors_name_systems_that_there_are() -> None:
         assert all(name in systems() for name in kind.systems)
         assert kind.releases
     assert sensor("gps") is sensor("navsat")
+
+
+def test_custom_sensors_go_by_their_own_word() -> None:
+    assert custom_sensor("dvl") is sensors()["dvl"]
+    assert custom_sensor("environmental_sensor/humidity") is sensors()["environmental_sensor"]
+    assert not any(map(custom_sensor, ("", "odometer", "dvl/x", "environmental_sensor")))
+    with pytest.raises(UnknownNameError):
+        sensor("dvl")
+
+
+def test_an_element_that_is_asked_for_as_an_attribute_of_the_plugin_is_no_parameter() -> None:
+    assert system("joint-trajectory-controller").parameter("use_header_start_time") is None
+    assert system("led-plugin").parameter("mode", "step", "@always_on") is not None
+
+
+@pytest.mark.parametrize(
+    ("name", "path", "default", "unit"),
+    [
+        ("lift-drag", ("alpha_stall",), "1.57079632679", "rad"),
+        ("thruster", ("p_gain",), "0.1", None),
+        ("multicopter-motor-model", ("timeConstantUp",), "0.0125", "s"),
+        ("diff-drive", ("max_velocity",), None, "m/s|rad/s"),
+        ("tracked-vehicle", ("angular_velocity", "max_jerk"), None, "rad/s^3"),
+        ("linear-battery", ("capacity",), None, "A*h"),
+    ],
+)
+def test_defaults_and_units_are_those_of_the_sources(
+    name: str, path: tuple[str, ...], default: str | None, unit: str | None
+) -> None:
+    row = system(name).parameter(*path)
+    assert row is not None
+    assert (row.default, row.unit) == (default, unit)
 
 
 def test_every_release_has_physics_and_a_version_of_sdf() -> None:

@@ -12,7 +12,8 @@ system wheel-slip  file=slip.so class=gz::Slip scope=model|link
   wheel         +  element  until=new
     @link_name  1  link
     limits      *  number   any except=old|new
-  mode          ?  text     default="a=b c" enum=a|b since=middle
+  mode          ?  text     default="a=b c" enum=a|b since=middle needed=old|new
+  angle         ?  number   unit=rad|m
   > topic  gz.msgs.Twist  /cmd  alt=sub:/{sub}/x alt=other+more:/y:gz.msgs.Pose unless=quiet
   < -      gz.msgs.Odom   /{each} when=on each=wheel/limits until=new
 plugin bare  file=bare.so class=Bare scope=world any since=new
@@ -49,7 +50,16 @@ def test_a_table_is_read_whole() -> None:
         releases=EVER,
         parameters=(
             row("wheel", "+", "element", children=wheel, releases=early),
-            row("mode", "?", "text", default="a=b c", choices=("a", "b"), releases=EVER - {"old"}),
+            row(
+                "mode",
+                "?",
+                "text",
+                default="a=b c",
+                choices=("a", "b"),
+                releases=EVER - {"old"},
+                needed=frozenset({"new"}),
+            ),
+            row("angle", "?", "number", unit="rad|m"),
         ),
         channels=(
             Channel(
