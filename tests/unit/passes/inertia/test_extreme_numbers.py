@@ -27,6 +27,17 @@ ROBOT = """\
   <joint name="j" type="fixed"><parent link="a"/><child link="b"/><origin xyz="{}"/></joint>
 </robot>
 """
+MODEL = """\
+<sdf version="1.11"><model name="m">
+  <link name="a">
+    <inertial><pose>{} 0 0 0</pose><mass>{}</mass>
+      <inertia><ixx>{}</ixx><iyy>{}</iyy><izz>{}</izz><ixy>{}</ixy><ixz>{}</ixz><iyz>{}</iyz></inertia></inertial>
+    <collision name="c"><pose>{} 0 0 0</pose><geometry><box><size>{}</size></box></geometry></collision>
+  </link>
+  <link name="b"><pose relative_to="j"/><inertial><mass>{}</mass></inertial></link>
+  <joint name="j" type="fixed"><parent>a</parent><child>b</child><pose relative_to="a">{} 0 0 0</pose></joint>
+</model></sdf>
+"""
 PASSES = ["", "check-inertia", "balance-inertia", "fill-inertia{replace=all}", "lump-fixed-joints", "split-massless"]
 _WORD = re.compile(r"(?<![\w.])[+-]?(inf|nan)(?![\w.])", re.IGNORECASE)
 
@@ -37,17 +48,17 @@ def row(numbers: tuple[float, ...]) -> str:
 
 VECTORS = st.tuples(NUMBERS, NUMBERS, NUMBERS).map(row)
 SIZES = st.tuples(*[MAGNITUDES] * 3).map(row)
-ROBOTS = st.tuples(VECTORS, MAGNITUDES, *[NUMBERS] * 6, VECTORS, SIZES, MAGNITUDES, VECTORS).map(
-    lambda numbers: ROBOT.format(*numbers)
-)
-HUGE = ROBOT.format("0 0 0", 1.0, 1e150, 1e150, 1e150, 0.0, 0.0, 0.0, "0 0 0", "1e200 1 1", 1e308, "1e308 1e308 0")
+ROBOTS = st.tuples(VECTORS, MAGNITUDES, *[NUMBERS] * 6, VECTORS, SIZES, MAGNITUDES, VECTORS)
+HUGE = ("0 0 0", 1.0, 1e150, 1e150, 1e150, 0.0, 0.0, 0.0, "0 0 0", "1e200 1 1", 1e308, "1e308 1e308 0")
 
 
+@pytest.mark.parametrize("source", [ROBOT, MODEL], ids=["urdf", "sdf"])
 @pytest.mark.parametrize("passes", PASSES)
 @examples(0.3)
-@example(text=HUGE)
-@given(text=ROBOTS)
-def test_every_pass_over_inertias_ends_with_numbers_or_findings(passes: str, text: str):
+@example(numbers=HUGE)
+@given(numbers=ROBOTS)
+def test_every_pass_over_inertias_ends_with_numbers_or_findings(source: str, passes: str, numbers: tuple[object, ...]):
+    text = source.format(*numbers)
     for target in ("urdf", "sdf"):
         with suppress(twinform.CompileError):
             made = twinform.convert(text.encode(), to=target, passes=passes).text
