@@ -107,8 +107,8 @@ def _generated() -> Iterator[tuple[str, Path, tuple[Path, ...]]]:
     """Worlds that Hypothesis makes up, always the same ones: with nested models, and with shapes of URDF alone."""
     OUT.mkdir(parents=True, exist_ok=True)
     for kind, strategy in (
-        ("varied", strategies.worlds(version=VERSION, nested=True)),
-        ("plain", strategies.worlds(version=VERSION, shapes=(Box, Cylinder, Sphere))),
+        ("varied", strategies.worlds(version=VERSION, nested=True, anchored=True)),
+        ("plain", strategies.worlds(version=VERSION, anchored=True, shapes=(Box, Cylinder, Sphere))),
     ):
         texts: list[str] = []
         _drawn(strategy, texts)

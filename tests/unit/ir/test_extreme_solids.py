@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.exact import LEAST, MAGNITUDES, NUMBERS, exact_sum, is_near
+from tests.profile import examples
 from twinform.ir import Box, Capsule, Cone, Cylinder, Ellipsoid, Pose, Sphere
 from twinform.ir.geometry import ShapeNode
 from twinform.ir.solids import Solid, combined, placed, solid, with_mass
@@ -69,6 +70,7 @@ SHAPES: dict[str, tuple[Callable[[Lengths], ShapeNode], Callable[..., Exact], in
 
 
 @pytest.mark.parametrize("kind", SHAPES)
+@examples()
 @given(lengths=POSITIVE, density=MAGNITUDES)
 def test_a_shape_has_the_mass_and_moments_of_its_formula_or_fills_nothing(kind: str, lengths: Lengths, density: float):
     shape, formula, count = SHAPES[kind]
@@ -84,6 +86,7 @@ def test_a_shape_has_the_mass_and_moments_of_its_formula_or_fills_nothing(kind: 
         assert is_near(each, right, right)
 
 
+@examples()
 @given(one=SOLIDS, quaternion=st.tuples(*[st.floats(-1, 1)] * 4))
 def test_turned_it_is_the_product_of_the_matrices(one: Solid, quaternion: tuple[float, float, float, float]):
     at = Transform.from_pose(Pose(quat_xyzw=quaternion))
@@ -96,6 +99,7 @@ def test_turned_it_is_the_product_of_the_matrices(one: Solid, quaternion: tuple[
         assert is_near(each, exact, size)
 
 
+@examples()
 @given(parts=st.lists(SOLIDS, min_size=1, max_size=4))
 def test_together_they_have_the_mass_the_centre_and_the_inertia_of_all(parts: list[Solid]):
     found = combined(parts)
@@ -117,6 +121,7 @@ def test_together_they_have_the_mass_the_centre_and_the_inertia_of_all(parts: li
         assert size > Fraction(1e307) or is_near(found.inertia[number], exact, size)
 
 
+@examples()
 @given(one=SOLIDS, mass=MAGNITUDES)
 def test_another_mass_scales_the_inertia_by_the_ratio(one: Solid, mass: float):
     for each, before in zip(with_mass(one, mass).inertia, one.inertia, strict=True):

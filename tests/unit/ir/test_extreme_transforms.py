@@ -7,6 +7,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from tests.exact import NUMBERS, exact_sum, is_near
+from tests.profile import examples
 from twinform.ir import Pose, Quaternion, Vector3
 from twinform.ir.transform import Matrix3, Transform
 
@@ -31,6 +32,7 @@ def are_near(one: Matrix3, other: Matrix3) -> bool:
 
 @example(quaternion=(5e-324, 0.0, 0.0, 5e-324))
 @example(quaternion=(1.7e308, 1.7e308, 0.0, 1.7e308))
+@examples()
 @given(quaternion=QUATERNIONS.filter(any))
 def test_a_quaternion_of_any_length_is_its_rotation(quaternion: Quaternion):
     turned = Transform.from_pose(Pose(quat_xyzw=quaternion))
@@ -41,6 +43,7 @@ def test_a_quaternion_of_any_length_is_its_rotation(quaternion: Quaternion):
     assert are_near(Transform.from_pose(Pose(rpy=turned.rpy())).rotation, turned.rotation)
 
 
+@examples()
 @given(rpy=VECTORS, degrees=st.booleans())
 def test_angles_of_any_size_turn_and_come_back(rpy: Vector3, degrees: bool):
     turned = Transform.from_pose(Pose(rpy=rpy, degrees=degrees))
@@ -52,6 +55,7 @@ def test_angles_of_any_size_turn_and_come_back(rpy: Vector3, degrees: bool):
     assert are_near(Transform.from_pose(Pose(quat_xyzw=turned.quaternion())).rotation, r)
 
 
+@examples()
 @given(one=VECTORS, other=VECTORS, quaternion=QUATERNIONS)
 def test_composing_moves_points_exactly_or_out_of_all_numbers(one: Vector3, other: Vector3, quaternion: Quaternion):
     at = Transform.from_pose(Pose(xyz=one, quat_xyzw=quaternion))

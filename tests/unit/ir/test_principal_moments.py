@@ -6,6 +6,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from tests.exact import LARGEST, NUMBERS, eigenvalues_below, exact_sum, is_near
+from tests.profile import examples
 from twinform.ir.principal_moments import Symmetric, principal_axes, principal_moments, relative_moments
 
 MATRICES = (
@@ -14,6 +15,7 @@ MATRICES = (
 
 
 @example(matrix=(0.0, 0.0, 0.0, 0.0, 1.2e-10, 5.1e149))  # LAPACK's are off by a part in 65,000
+@examples()
 @given(matrix=MATRICES)
 def test_moments_are_the_eigenvalues(matrix: Symmetric) -> None:
     found = principal_moments(matrix)
@@ -25,6 +27,7 @@ def test_moments_are_the_eigenvalues(matrix: Symmetric) -> None:
         assert eigenvalues_below(matrix, exact + error) > number or moment == math.inf
 
 
+@examples()
 @given(matrix=MATRICES)
 def test_relative_moments_are_those_over_a_power_of_two(matrix: Symmetric) -> None:
     found, moments = relative_moments(matrix), principal_moments(matrix)
@@ -36,6 +39,7 @@ def test_relative_moments_are_those_over_a_power_of_two(matrix: Symmetric) -> No
     )
 
 
+@examples()
 @given(matrix=MATRICES)
 def test_axes_are_unit_vectors_at_right_angles_that_the_matrix_stretches(matrix: Symmetric) -> None:
     moments, axes = principal_axes(matrix)

@@ -68,6 +68,7 @@ def test_every_pass_over_inertias_ends_with_numbers_or_findings(source: str, pas
 MATRICES = st.tuples(*[st.floats(-1, 1)] * 6)
 
 
+@examples()
 @given(matrix=MATRICES, floor=st.floats(1e-9, 1), power=st.integers(-900, 900))
 def test_the_nearest_inertia_is_the_same_in_every_unit(matrix: Symmetric, floor: float, power: int):
     small = [0.0 if abs(each) < 1e-30 else each for each in matrix]
@@ -77,6 +78,7 @@ def test_the_nearest_inertia_is_the_same_in_every_unit(matrix: Symmetric, floor:
     assert [math.ldexp(each, -power) for each in other] == list(one)
 
 
+@examples()
 @given(matrix=st.tuples(*[NUMBERS] * 6), floor=MAGNITUDES)
 def test_the_nearest_inertia_is_one_that_a_body_can_have_or_too_large(matrix: Symmetric, floor: float):
     found = nearest_possible(matrix, floor)
