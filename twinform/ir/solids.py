@@ -142,8 +142,8 @@ def combined(parts: Sequence[Solid]) -> Solid:
     centre = [safe_sum(m * place[i] for m, place in zip(masses, places, strict=True)) / mass for i in range(3)]
     moved = (_steiner(m, place, centre) for m, place in zip(masses, places, strict=True))
     added = [[times_power(entry, of_mass + 2 * of_place) for entry in each] for each in moved]
-    columns = zip(*(part.inertia for part in parts), *added, strict=True)
-    xx, yy, zz, xy, xz, yz = (safe_sum(column) for column in columns)
+    about = ([a + b for a, b in zip(part.inertia, more, strict=True)] for part, more in zip(parts, added, strict=True))
+    xx, yy, zz, xy, xz, yz = (safe_sum(column) for column in zip(*about, strict=True))
     x, y, z = (times_power(place, of_place) for place in centre)
     return Solid(times_power(mass, of_mass), (x, y, z), (xx, yy, zz, xy, xz, yz))
 
