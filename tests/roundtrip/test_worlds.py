@@ -18,8 +18,8 @@ from twinform.testing import strategies
 
 VERSION = "1.9"
 """The newest version that libsdformat 12 reads."""
-_WORLDS = strategies.worlds(version=VERSION, nested=True)
-_PLAIN = strategies.worlds(version=VERSION, shapes=(Box, Cylinder, Sphere))
+_WORLDS = strategies.worlds(version=VERSION, nested=True, anchored=True)
+_PLAIN = strategies.worlds(version=VERSION, anchored=True, shapes=(Box, Cylinder, Sphere))
 
 
 @contextmanager

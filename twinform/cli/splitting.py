@@ -20,7 +20,7 @@ def run_split(source: Source, to: Target, options: Options, folder: Path, output
     watched = options.watching.begin(source.name)
     try:
         order = replace(options.order, to=to)
-        result = split(order, source.content, options.reading, name=source.name, watch=watched.watch)
+        result = split(order, source.content, options.reading, name=source.name, watch=watched.watch, folder=folder)
     except CompileError as error:
         watched.report()
         options.show(source.name, error.diagnostics)

@@ -16,6 +16,7 @@ from twinform.compiler.includes import expand
 from twinform.compiler.loading import Input, Reading, garbage_collection_paused, read
 from twinform.compiler.orders import Order
 from twinform.compiler.other_documents import OtherDocuments
+from twinform.compiler.splitting_paths import moved
 from twinform.compiler.uris import LocalAssets
 from twinform.diagnostics import Companion, Diagnostic, Ledger, Notes
 from twinform.diagnostics.rules import splitting as rules
@@ -57,10 +58,12 @@ def split(
     *,
     name: str = "",
     watch: Watch | None = None,
+    folder: Path | None = None,
 ) -> Split:
     """Every model of an SDF file in a file of its own, and the file with includes in their place under its own name.
 
-    Models become URDF where Gazebo reads that as the same robot, or stay SDF if the order is for SDF.
+    Models become URDF where Gazebo reads that as the same robot, or stay SDF if the order is for SDF. `folder` is where
+    the files go, so that relative paths lead from there to the same files; without it they stay as they are.
 
     Raises:
         CompileError: the source, a pass or one of the results has an error.
@@ -77,12 +80,16 @@ def split(
         notes = Notes(
             checked.path, how.strict, list(checked.diagnostics), list(checked.entries), origins=dict(checked.origins)
         )
-        order = replace(order, assets=LocalAssets(how.search, Path(checked.path)), mixed=has_mixed_words(checked))
+        assets = LocalAssets(how.search, Path(checked.path))
+        order = replace(order, assets=assets, mixed=has_mixed_words(checked))
         passes = order.passes.with_files(order.assets, OtherDocuments(how, checked.path).read)
         document = passes.run(checked.document, notes, watch, verify)
         if document.format is not Format.SDF:
             message = "the file is URDF, which holds one robot; --split is for SDF"
             notes.report(structure.INVALID_VALUE, message, document.location, found="urdf", expected="sdf")
+        if folder is not None:
+            document, there = moved(document, assets, folder, notes)
+            order = replace(order, assets=there)
         kept = mixed_words(checked) if checked.mixed else None
         files = _Files(order, notes, watch, kept, _name_of_world(checked.path))
         if not notes.has_errors:

@@ -2,6 +2,8 @@
 
 import math
 
+from twinform.ir.scaling import common_exponent, times_power
+
 Symmetric = tuple[float, float, float, float, float, float]
 """xx, yy, zz, xy, xz, yz of a symmetric 3x3 matrix."""
 
@@ -20,24 +22,33 @@ Axes = tuple[tuple[float, float, float], tuple[float, float, float], tuple[float
 def principal_moments(matrix: Symmetric) -> tuple[float, float, float]:
     """The eigenvalues, smallest first, by Jacobi's rotations: small ones are as exact as large ones.
 
-    All elements have to be finite.
+    All elements have to be finite; an eigenvalue that no double holds is infinite.
     """
-    scale = max(map(abs, matrix))
-    if not scale:
-        return 0.0, 0.0, 0.0
-    entries = [element / scale for element in matrix]  # so that no square overflows
+    exponent = common_exponent(matrix)
+    entries = [*times_each(matrix, -exponent)]
     for _ in range(_SWEEPS):
         turned = [_rotate(entries, *plane) for plane in _PLANES]
         if not any(turned):
             break
-    smallest, middle, largest = sorted(element * scale for element in entries[:3])
+    smallest, middle, largest = sorted(times_power(element, exponent) for element in entries[:3])
     return smallest, middle, largest
+
+
+def relative_moments(matrix: Symmetric) -> tuple[float, float, float]:
+    """The eigenvalues over one power of two, below three, so that none of them overflows, nor does their sum."""
+    return principal_moments(times_each(matrix, -common_exponent(matrix)))
+
+
+def times_each(matrix: Symmetric, exponent: int) -> Symmetric:
+    """The matrix times a power of two; elements that no double holds are infinite."""
+    xx, yy, zz, xy, xz, yz = (times_power(element, exponent) for element in matrix)
+    return xx, yy, zz, xy, xz, yz
 
 
 def principal_axes(matrix: Symmetric) -> tuple[tuple[float, float, float], Axes]:
     """The eigenvalues and the eigenvector of each, in no order; all elements have to be finite."""
-    scale = max(map(abs, matrix)) or 1.0
-    entries = [element / scale for element in matrix]
+    exponent = common_exponent(matrix)
+    entries = [*times_each(matrix, -exponent)]
     axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
     for _ in range(_SWEEPS):
         turns = [(plane[:2], _rotate(entries, *plane)) for plane in _PLANES]
@@ -47,7 +58,8 @@ def principal_axes(matrix: Symmetric) -> tuple[tuple[float, float, float], Axes]
         if not any(turn for _, turn in turns):
             break
     one, two, three = ((axis[0], axis[1], axis[2]) for axis in axes)
-    return (entries[0] * scale, entries[1] * scale, entries[2] * scale), (one, two, three)
+    first, second, third = (times_power(element, exponent) for element in entries[:3])
+    return (first, second, third), (one, two, three)
 
 
 def _turn_axes(one: list[float], other: list[float], cosine: float, sine: float) -> None:
@@ -64,7 +76,7 @@ def _rotate(
     Gives the cosine and the sine of the angle.
     """
     coupling = entries[off]
-    if abs(coupling) <= _EPSILON * math.sqrt(abs(entries[first] * entries[second])):
+    if abs(coupling) <= _EPSILON * math.sqrt(abs(entries[first])) * math.sqrt(abs(entries[second])):
         return None
     entries[off] = 0.0
     ratio = (entries[second] - entries[first]) / 2 / coupling

@@ -7,10 +7,13 @@ from typing import Any
 
 from twinform.ir.geometry import Box, Capsule, Cone, Cylinder, Ellipsoid, ShapeNode, Sphere
 from twinform.ir.node import Vector3
-from twinform.ir.principal_moments import Symmetric
+from twinform.ir.principal_moments import Symmetric, times_each
+from twinform.ir.scaling import common_exponent, safe_sum, times_power
 from twinform.ir.transform import Transform
 
 _ORIGIN: Vector3 = (0.0, 0.0, 0.0)
+_THINNEST = 1e-70
+"""What is thinner than this part of its length fills no volume: the fourth powers of thinner ones lose digits."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,13 +30,25 @@ def solid(shape: ShapeNode | None, density: float) -> Solid | None:
 
     Sizes that are not written are SDF's defaults.
     """
-    make = _SOLIDS.get(type(shape))
-    if make is None:
+    found = _SOLIDS.get(type(shape))
+    if found is None:
         return None
-    volume, centre, squares = make(shape)
-    xx, yy, zz = squares
-    mass = density * volume
-    return Solid(mass, (0.0, 0.0, centre), (mass * (yy + zz), mass * (xx + zz), mass * (xx + yy), 0.0, 0.0, 0.0))
+    lengths, moments_of = found
+    sizes, exponent = _in_units(lengths(shape))
+    volume, centre, (xx, yy, zz) = moments_of(*sizes)
+    significand, of_density = math.frexp(density)
+    mass = significand * volume
+    of_mass = of_density + 3 * exponent
+    inertia = (mass * (yy + zz), mass * (xx + zz), mass * (xx + yy), 0.0, 0.0, 0.0)
+    at = (0.0, 0.0, times_power(centre, exponent))
+    return Solid(times_power(mass, of_mass), at, times_each(inertia, of_mass + 2 * exponent))
+
+
+def _in_units(lengths: Sequence[float]) -> tuple[list[float], int]:
+    """Lengths over a power of two, of about one; what is next to nothing beside the longest is nothing."""
+    exponent = common_exponent(lengths)
+    units = (times_power(length, -exponent) for length in lengths)
+    return [unit if abs(unit) > _THINNEST else 0.0 for unit in units], exponent
 
 
 _Moments = tuple[float, float, Vector3]
@@ -44,43 +59,37 @@ and E. M. Lifshitz, Mechanics, section 32, problem 2.
 """
 
 
-def _box(shape: Box) -> _Moments:
+def _box(a: float, b: float, c: float) -> _Moments:
     """Sides a, b, c: Ixx = m (b^2 + c^2) / 12; problem 2 (d)."""
-    a, b, c = shape.size or (1.0, 1.0, 1.0)
     return a * b * c, 0.0, (a * a / 12, b * b / 12, c * c / 12)
 
 
-def _sphere(shape: Sphere) -> _Moments:
+def _sphere(r: float) -> _Moments:
     """Radius r: I = 2/5 m r^2; problem 2 (b)."""
-    r = _or(shape.radius, 1.0)
     return 4 / 3 * math.pi * r * r * r, 0.0, (r * r / 5, r * r / 5, r * r / 5)
 
 
-def _ellipsoid(shape: Ellipsoid) -> _Moments:
+def _ellipsoid(a: float, b: float, c: float) -> _Moments:
     """Semi-axes a, b, c: Ixx = m (b^2 + c^2) / 5; problem 2 (f)."""
-    a, b, c = shape.radii or (1.0, 1.0, 1.0)
     return 4 / 3 * math.pi * a * b * c, 0.0, (a * a / 5, b * b / 5, c * c / 5)
 
 
-def _cylinder(shape: Cylinder) -> _Moments:
+def _cylinder(r: float, h: float) -> _Moments:
     """Radius r, length h: Izz = m r^2 / 2, Ixx = m (r^2 + h^2 / 3) / 4; problem 2 (c)."""
-    r, h = _or(shape.radius, 1.0), _or(shape.length, 1.0)
     return math.pi * r * r * h, 0.0, (r * r / 4, r * r / 4, h * h / 12)
 
 
-def _cone(shape: Cone) -> _Moments:
+def _cone(r: float, h: float) -> _Moments:
     """Radius r, length h: Izz = 3/10 m r^2, Ixx = 3/20 m (r^2 + h^2 / 4), centre h/4 above the base; problem 2 (e)."""
-    r, h = _or(shape.radius, 1.0), _or(shape.length, 1.0)
     return math.pi * r * r * h / 3, -h / 4, (3 / 20 * r * r, 3 / 20 * r * r, 3 / 80 * h * h)
 
 
-def _capsule(shape: Capsule) -> _Moments:
+def _capsule(r: float, h: float) -> _Moments:
     """A cylinder of radius r and length h, and the halves of a sphere with their flat sides at -h/2 and h/2.
 
     About its flat side a half sphere has <z^2> = r^2 / 5 as the whole has, and its centre is 3/8 r above: problem 2 (b)
     and the integral of z over it. Moved by h/2, <z^2> is r^2 / 5 + 3/8 r h + h^2 / 4.
     """
-    r, h = _or(shape.radius, 0.5), _or(shape.length, 1.0)
     middle, ends = math.pi * r * r * h, 4 / 3 * math.pi * r * r * r
     whole = middle + ends
     if not whole:
@@ -90,14 +99,16 @@ def _capsule(shape: Capsule) -> _Moments:
     return whole, 0.0, (across, across, along)
 
 
-_SOLIDS: dict[type[Any], Callable[[Any], _Moments]] = {
-    Box: _box,
-    Sphere: _sphere,
-    Ellipsoid: _ellipsoid,
-    Cylinder: _cylinder,
-    Cone: _cone,
-    Capsule: _capsule,
+_CUBE: Vector3 = (1.0, 1.0, 1.0)
+_SOLIDS: dict[type[Any], tuple[Callable[[Any], Sequence[float]], Callable[..., _Moments]]] = {
+    Box: (lambda shape: shape.size or _CUBE, _box),
+    Sphere: (lambda shape: (_or(shape.radius, 1.0),), _sphere),
+    Ellipsoid: (lambda shape: shape.radii or _CUBE, _ellipsoid),
+    Cylinder: (lambda shape: (_or(shape.radius, 1.0), _or(shape.length, 1.0)), _cylinder),
+    Cone: (lambda shape: (_or(shape.radius, 1.0), _or(shape.length, 1.0)), _cone),
+    Capsule: (lambda shape: (_or(shape.radius, 0.5), _or(shape.length, 1.0)), _capsule),
 }
+"""The lengths of each shape, and what follows from them."""
 
 
 def _or(value: float | None, default: float) -> float:
@@ -106,8 +117,9 @@ def _or(value: float | None, default: float) -> float:
 
 def placed(one: Solid, at: Transform) -> Solid:
     """A solid seen from the frame that `at` places its own in: R I R^T."""
+    exponent = common_exponent(one.inertia)
     rows = (at.rotation[0:3], at.rotation[3:6], at.rotation[6:9])
-    xx, yy, zz, xy, xz, yz = one.inertia
+    xx, yy, zz, xy, xz, yz = times_each(one.inertia, -exponent)
     matrix = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
     half = [[sum(row[k] * matrix[k][j] for k in range(3)) for j in range(3)] for row in rows]
 
@@ -115,33 +127,38 @@ def placed(one: Solid, at: Transform) -> Solid:
         return sum(half[i][k] * rows[j][k] for k in range(3)) + 0.0
 
     turned = (entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2))
-    return Solid(one.mass, at.apply(one.centre), turned)
+    return Solid(one.mass, at.apply(one.centre), times_each(turned, exponent))
 
 
 def combined(parts: Sequence[Solid]) -> Solid:
     """Several solids of one frame as one, each inertia moved to the common centre by the parallel axis theorem."""
-    mass = math.fsum(part.mass for part in parts)
+    of_mass = common_exponent(part.mass for part in parts)
+    of_place = common_exponent(place for part in parts for place in part.centre)
+    masses = [times_power(part.mass, -of_mass) for part in parts]
+    mass = safe_sum(masses)
     if not mass:
         return Solid(0.0, _ORIGIN, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-    x, y, z = (math.fsum(part.mass * part.centre[i] for part in parts) / mass for i in range(3))
-    moved = [_about(part, (x, y, z)) for part in parts]
-    xx, yy, zz, xy, xz, yz = (math.fsum(entries) for entries in zip(*moved, strict=True))
-    return Solid(mass, (x, y, z), (xx, yy, zz, xy, xz, yz))
+    places = [[times_power(place, -of_place) for place in part.centre] for part in parts]
+    centre = [safe_sum(m * place[i] for m, place in zip(masses, places, strict=True)) / mass for i in range(3)]
+    moved = (_steiner(m, place, centre) for m, place in zip(masses, places, strict=True))
+    added = [[times_power(entry, of_mass + 2 * of_place) for entry in each] for each in moved]
+    about = ([a + b for a, b in zip(part.inertia, more, strict=True)] for part, more in zip(parts, added, strict=True))
+    xx, yy, zz, xy, xz, yz = (safe_sum(column) for column in zip(*about, strict=True))
+    x, y, z = (times_power(place, of_place) for place in centre)
+    return Solid(times_power(mass, of_mass), (x, y, z), (xx, yy, zz, xy, xz, yz))
 
 
-def _about(part: Solid, centre: Vector3) -> Symmetric:
-    """The inertia of a part about another point: I + m (d^2 - d d^T)."""
-    x, y, z = (a - b for a, b in zip(part.centre, centre, strict=True))
-    m = part.mass
-    xx, yy, zz, xy, xz, yz = part.inertia
-    return (
-        xx + m * (y * y + z * z), yy + m * (x * x + z * z), zz + m * (x * x + y * y),
-        xy - m * x * y, xz - m * x * z, yz - m * y * z,
-    )  # fmt: skip
+def _steiner(mass: float, place: Sequence[float], centre: Sequence[float]) -> Symmetric:
+    """What the inertia of a part about another point than its own centre is more: m (d^2 - d d^T)."""
+    x, y, z = (a - b for a, b in zip(place, centre, strict=True))
+    m = mass
+    return m * (y * y + z * z), m * (x * x + z * z), m * (x * x + y * y), -m * x * y, -m * x * z, -m * y * z
 
 
 def with_mass(one: Solid, mass: float) -> Solid:
     """The same solid, filled so that it has this mass."""
-    factor = mass / one.mass if one.mass else 0.0
-    xx, yy, zz, xy, xz, yz = (element * factor for element in one.inertia)
-    return Solid(mass, one.centre, (xx, yy, zz, xy, xz, yz))
+    (new, of_new), (old, of_old) = math.frexp(mass), math.frexp(one.mass)
+    factor = new / old if old else 0.0
+    xx, yy, zz, xy, xz, yz = (element * factor for element in times_each(one.inertia, -common_exponent(one.inertia)))
+    back = of_new - of_old + common_exponent(one.inertia)
+    return Solid(mass, one.centre, times_each((xx, yy, zz, xy, xz, yz), back))

@@ -6,6 +6,7 @@ from typing import Self
 
 from twinform.ir.node import Quaternion, Vector3
 from twinform.ir.pose import Pose
+from twinform.ir.scaling import common_exponent
 
 Matrix3 = tuple[float, float, float, float, float, float, float, float, float]
 """A rotation, row by row."""
@@ -14,6 +15,9 @@ _ORIGIN: Vector3 = (0.0, 0.0, 0.0)
 _UNTURNED: Matrix3 = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 _GIMBAL_LOCK = 1e-15
 """Below this cosine of the pitch, roll and yaw turn about one axis to the last digit, and yaw is taken as zero."""
+
+_TINY, _HUGE = 1e-290, 1e300
+"""Between these, the length of a quaternion has all its digits."""
 
 _DIGITS, _NOISE = 12, 2e-15
 """Numbers that people write have at most so many digits behind the point; composing some of them errs by less."""
@@ -152,6 +156,10 @@ def _unit(quaternion: Quaternion) -> Quaternion:
     length = math.hypot(*quaternion)
     if length == 0.0:
         return (0.0, 0.0, 0.0, 1.0)
+    if not _TINY < length < _HUGE:
+        exponent = common_exponent(quaternion)
+        x, y, z, w = (math.ldexp(part, -exponent) for part in quaternion)
+        return _unit((x, y, z, w))
     x, y, z, w = quaternion
     return (x / length, y / length, z / length, w / length)
 

@@ -1,6 +1,7 @@
 """Mesh files as solids: what `trimesh` knows of them, in the frame of the shape."""
 
 import importlib
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -9,6 +10,8 @@ from typing import Any
 from twinform.diagnostics import Rule
 from twinform.diagnostics.rules import meshes as rules
 from twinform.ir import Element, Mesh, Vector3
+from twinform.ir.principal_moments import times_each
+from twinform.ir.scaling import common_exponent, times_power
 from twinform.ir.solids import Solid
 from twinform.passes.assets import AssetError, Assets
 from twinform.passes.mesh_files import EXTRA, READ, kind_of, open_scene
@@ -47,13 +50,14 @@ class Meshes:
         Raises:
             MeshError: the file is not there, cannot be read, or its mesh has no inside.
         """
-        triangles = self._closed(mesh, self._scaled(mesh))
-        with_unit_density = triangles.mass_properties
-        mass = density * float(with_unit_density["volume"])
-        x, y, z = map(float, with_unit_density["center_mass"])
+        whole, middle, exponent = _in_units(mesh, self._scaled(mesh))
+        with_unit_density = self._closed(mesh, whole).mass_properties
+        volume = float(with_unit_density["volume"])
+        x, y, z = (times_power(float(at), exponent) for at in with_unit_density["center_mass"])
         rows = [[density * float(entry) + 0.0 for entry in row] for row in with_unit_density["inertia"]]  # never -0
         inertia = (rows[0][0], rows[1][1], rows[2][2], rows[0][1], rows[0][2], rows[1][2])
-        return Solid(mass, (x, y, z), inertia)
+        centre = (x + middle[0], y + middle[1], z + middle[2])
+        return Solid(times_power(density * volume, 3 * exponent), centre, times_each(inertia, 5 * exponent))
 
     def bounds(self, mesh: Mesh) -> tuple[Vector3, Vector3]:
         """The least and the greatest coordinates of the mesh, in the frame of its shape.
@@ -87,6 +91,24 @@ class Meshes:
             return _hull(mesh, triangles)
         message = f"the mesh {mesh.uri!r} has no inside: {_fault(triangles)}"
         raise MeshError(rules.OPEN_MESH, message, "close it, or use its convex hull")
+
+
+def _in_units(mesh: Mesh, triangles: _Triangles) -> tuple[_Triangles, Vector3, int]:
+    """The mesh with its middle at the origin and of about unit size, where its middle was, and the power of two.
+
+    The integrals of a mesh that is far from the origin are differences of large numbers.
+
+    Raises:
+        MeshError: it is larger than doubles say.
+    """
+    least, greatest = triangles.bounds.tolist()
+    x, y, z = (low / 2 + high / 2 for low, high in zip(least, greatest, strict=True))
+    exponent = common_exponent(high / 2 - low / 2 for low, high in zip(least, greatest, strict=True))
+    if not all(map(math.isfinite, (*least, *greatest))):
+        raise MeshError(rules.UNREADABLE_MESH, f"the mesh {mesh.uri!r} is too large for numbers")
+    half = math.ldexp(1.0, -exponent // 2)  # in two steps: the power itself may be no double
+    triangles.vertices = (triangles.vertices - (x, y, z)) * half * math.ldexp(1.0, -exponent - (-exponent // 2))
+    return triangles, (x, y, z), exponent
 
 
 def _fault(triangles: _Triangles) -> str:

@@ -1,25 +1,58 @@
-import numpy as np
+import math
+from fractions import Fraction
+
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
-from twinform.ir.principal_moments import Symmetric, principal_moments
+from tests.exact import LARGEST, NUMBERS, eigenvalues_below, exact_sum, is_near
+from tests.profile import examples
+from twinform.ir.principal_moments import Symmetric, principal_axes, principal_moments, relative_moments
 
-ELEMENTS = st.floats(-1e150, 1e150)
-
-
-def full(matrix: Symmetric) -> "np.ndarray[tuple[int, int], np.dtype[np.float64]]":
-    xx, yy, zz, xy, xz, yz = matrix
-    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-
-
-@given(
-    st.tuples(*[ELEMENTS] * 6) | st.tuples(*[st.floats(-1, 1)] * 6) | st.tuples(*[st.integers(-2, 2).map(float)] * 6)
+MATRICES = (
+    st.tuples(*[NUMBERS] * 6) | st.tuples(*[st.floats(-1, 1)] * 6) | st.tuples(*[st.integers(-2, 2).map(float)] * 6)
 )
-def test_moments_are_the_eigenvalues_that_numpy_finds(matrix: Symmetric) -> None:
-    expected = np.linalg.eigvalsh(full(matrix))
-    scale = float(np.abs(expected).max())
-    assert principal_moments(matrix) == pytest.approx(expected, rel=0, abs=1e-14 * scale + 1e-320)
+
+
+@example(matrix=(0.0, 0.0, 0.0, 0.0, 1.2e-10, 5.1e149))  # LAPACK's are off by a part in 65,000
+@examples()
+@given(matrix=MATRICES)
+def test_moments_are_the_eigenvalues(matrix: Symmetric) -> None:
+    found = principal_moments(matrix)
+    assert sorted(found) == list(found)
+    error = Fraction(1e-14) * max(Fraction(abs(each)) for each in matrix) + Fraction(1e-320)
+    for number, moment in enumerate(found):
+        exact = Fraction(moment) if math.isfinite(moment) else LARGEST * (1 if moment > 0 else -1)
+        assert eigenvalues_below(matrix, exact - error) <= number or moment == -math.inf
+        assert eigenvalues_below(matrix, exact + error) > number or moment == math.inf
+
+
+@examples()
+@given(matrix=MATRICES)
+def test_relative_moments_are_those_over_a_power_of_two(matrix: Symmetric) -> None:
+    found, moments = relative_moments(matrix), principal_moments(matrix)
+    assert all(map(math.isfinite, (*found, sum(found))))
+    power = math.frexp(max(map(abs, matrix)))[1]
+    assert all(
+        is_near(moment, Fraction(each) * Fraction(2) ** power, Fraction(2) ** power)
+        for each, moment in zip(found, moments, strict=True)
+    )
+
+
+@examples()
+@given(matrix=MATRICES)
+def test_axes_are_unit_vectors_at_right_angles_that_the_matrix_stretches(matrix: Symmetric) -> None:
+    moments, axes = principal_axes(matrix)
+    exact = [[Fraction(part) for part in axis] for axis in axes]
+    for i, one in enumerate(exact):
+        for j, other in enumerate(exact):
+            assert abs(exact_sum(a * b for a, b in zip(one, other, strict=True)) - (i == j)) < 1e-14
+    xx, yy, zz, xy, xz, yz = map(Fraction, matrix)
+    size = max(Fraction(abs(each)) for each in matrix)
+    for moment, axis in zip(moments, exact, strict=True):
+        for row, along in zip(((xx, xy, xz), (xy, yy, yz), (xz, yz, zz)), axis, strict=True):
+            pulled = exact_sum(a * b for a, b in zip(row, axis, strict=True))
+            assert not math.isfinite(moment) or is_near(0.0, pulled - Fraction(moment) * along, size)
 
 
 @given(st.tuples(*[st.floats(1e-6, 1)] * 3), st.tuples(*[st.floats(-0.9, 0.9)] * 3))

@@ -153,3 +153,21 @@ def test_without_the_library_it_says_what_to_install(folder: Path, monkeypatch: 
         meshes(folder).solid(Mesh(uri="box.stl"), 1)
     assert caught.value.rule.name == "mesh-reader-missing"
     assert caught.value.help == "pip install 'twinform[meshes]'"
+
+
+@pytest.mark.parametrize("away", [0.0, 1e3, 1e6, 1e8])
+def test_a_mesh_far_from_the_origin_turns_as_one_that_is_near(tmp_path: Path, away: float):
+    trimesh.creation.box(bounds=[(away, 0, 0), (away + 1, 2, 4)]).export(tmp_path / "far.obj", digits=17)
+    found = Meshes(Folder(tmp_path)).solid(Mesh(uri="far.obj"), 12.0)
+    assert found.mass == pytest.approx(96.0)
+    assert found.centre == pytest.approx((away + 0.5, 1.0, 2.0))
+    assert found.inertia == pytest.approx((8 * 20, 8 * 17, 8 * 5, 0.0, 0.0, 0.0), abs=1e-9)
+
+
+@pytest.mark.parametrize("scale", [1e-60, 1e-30, 1e30, 1e60])
+def test_a_mesh_of_any_size_is_a_solid(tmp_path: Path, scale: float):
+    trimesh.creation.box(extents=(1, 2, 4)).export(tmp_path / "box.stl")
+    found = Meshes(Folder(tmp_path)).solid(Mesh(uri="box.stl", scale=(scale, scale, scale)), 12.0)
+    assert found.mass == pytest.approx(96.0 * scale * scale * scale)
+    squared = 8 * scale * scale * scale * scale * scale
+    assert found.inertia[:3] == pytest.approx((20 * squared, 17 * squared, 5 * squared), rel=1e-9, abs=0)

@@ -6,7 +6,7 @@ from twinform.diagnostics import Location, Notes, Rule, Severity
 from twinform.diagnostics.rules import inertia as rules
 from twinform.ir.inertial import Inertia, Inertial
 from twinform.ir.link import Link
-from twinform.ir.principal_moments import Symmetric, principal_moments
+from twinform.ir.principal_moments import Symmetric, principal_moments, relative_moments
 from twinform.ir.verify.poses import verify_rotation
 
 _ROUNDING = 5e-15
@@ -14,6 +14,8 @@ _ROUNDING = 5e-15
 _HELP = "correct the numbers, or let --passes balance-inertia write the nearest that a body can have"
 _DOUBT = 1e-12
 """Far above what rounding does to the minors of a matrix, as a part of the powers of its trace."""
+_USUAL = (1e-90, 1e90)
+"""Traces whose third power is a double by far."""
 
 
 def verify_inertial(link: Link, default: float | None, notes: Notes) -> None:
@@ -60,6 +62,8 @@ def _is_plain(matrix: Symmetric) -> bool:
     ixx, iyy, izz, ixy, ixz, iyz = matrix
     xx, yy, zz = (iyy + izz - ixx) / 2, (ixx + izz - iyy) / 2, (ixx + iyy - izz) / 2
     trace = xx + yy + zz
+    if not _USUAL[0] < trace < _USUAL[1]:
+        return False
     minor = xx * yy - ixy * ixy
     whole = zz * minor - xx * iyz * iyz - yy * ixz * ixz - 2 * ixy * ixz * iyz
     return xx > _DOUBT * trace and minor > _DOUBT * trace**2 and whole > _DOUBT * trace**3
@@ -76,9 +80,9 @@ def report_moments(
     if not all(map(math.isfinite, matrix)):
         _report(rules.INDEFINITE_INERTIA, f"the inertia of link {link.name!r} is not finite", where, notes)
         return
+    smallest, middle, largest = relative_moments(matrix)
+    trace = abs(smallest + middle + largest)
     moments = principal_moments(matrix)
-    smallest, middle, largest = moments
-    trace = abs(sum(moments))
     listed = ", ".join(f"{moment:.6g}" for moment in moments)
     if smallest <= least * trace if least is not None else smallest < -eps * trace:
         message = f"the inertia of link {link.name!r} is not positive definite: its principal moments are {listed}"
@@ -87,7 +91,7 @@ def report_moments(
         message = (
             f"no body has the principal moments of link {link.name!r}, {listed}: the last exceeds the sum of the others"
         )
-        expected = f"at most {smallest + middle:.6g}"
+        expected = f"at most {moments[0] + moments[1]:.6g}"
         _report(rules.IMPOSSIBLE_INERTIA, f"{message}; Gazebo refuses it", where, notes, listed, expected)
 
 

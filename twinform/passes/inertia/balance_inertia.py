@@ -8,7 +8,8 @@ from pydantic import Field
 from twinform.diagnostics import Notes, Severity
 from twinform.diagnostics.rules.inertia import BALANCED_INERTIA, UNBALANCED_INERTIA
 from twinform.ir import Document, Format, Inertia, Inertial, Link, Model
-from twinform.ir.principal_moments import Symmetric, principal_moments
+from twinform.ir.principal_moments import Symmetric, principal_moments, relative_moments, times_each
+from twinform.ir.scaling import common_exponent, times_power
 from twinform.ir.verify.inertia import inertia_matrix
 from twinform.passes.base import Pass
 from twinform.passes.inertia.nearest import distance, nearest_possible, second_moments
@@ -83,7 +84,12 @@ class BalanceInertia(Pass):
             message = f"the inertia of link {link.name!r} {what}, so no possible one is nearest to it"
             notes.report(UNBALANCED_INERTIA, message, inertial.location, help="fill-inertia{replace=impossible}")
             return link
-        found = nearest_possible(matrix, self._floor(inertial.mass or 0.0, matrix))
+        floor = self._floor(inertial.mass or 0.0, matrix)
+        found = nearest_possible(matrix, floor) if floor < math.inf else None
+        if found is None or not all(map(math.isfinite, found)):
+            message = f"the inertia that is nearest to that of link {link.name!r} is too large for a double"
+            notes.report(UNBALANCED_INERTIA, message, inertial.location)
+            return link
         _report(link, inertial, matrix, found, notes)
         written = inertial.inertia or Inertia()
         update: dict[str, float] = dict(zip(_FIELDS, found, strict=True))
@@ -93,21 +99,30 @@ class BalanceInertia(Pass):
 
     def _floor(self, mass: float, matrix: Symmetric) -> float:
         """The least second moment of mass along an axis, in kg m^2."""
-        return max(self.margin * abs(matrix[0] + matrix[1] + matrix[2]), mass * self.thickness**2)
+        exponent = common_exponent(matrix)
+        trace = abs(sum(times_each(matrix, -exponent)[:3]))
+        return max(times_power(self.margin * trace, exponent), mass * self.thickness * self.thickness)
 
 
 def _is_possible(matrix: Symmetric) -> bool:
     """Whether there is a body with this inertia, without forgiving any rounding but our own."""
-    moments = principal_moments(matrix)
+    moments = relative_moments(matrix)
     least = -1e-15 * abs(sum(moments))
     return moments[0] > 0 and min(second_moments(moments)) >= least
 
 
+def _part(old: Symmetric, new: Symmetric) -> float:
+    """How large a change is beside what is changed."""
+    exponent = common_exponent((*old, *new)) + 1  # so that no difference overflows
+    before, after = times_each(old, -exponent), times_each(new, -exponent)
+    size = distance(before, _NOTHING)
+    return distance(before, after) / size if size else math.inf
+
+
 def _report(link: Link, inertial: Inertial, old: Symmetric, new: Symmetric, notes: Notes) -> None:
     was, now = (", ".join(f"{moment:.6g}" for moment in principal_moments(each)) for each in (old, new))
-    size = distance(old, _NOTHING)
-    part = distance(old, new) / size if size else math.inf
-    change = f"by {part:.2g} of its size" if size else "from nothing"
+    part = _part(old, new)
+    change = f"by {part:.2g} of its size" if any(old) else "from nothing"
     message = f"the inertia of link {link.name!r} is changed {change}: its principal moments were {was} and are {now}"
     severity = Severity.INFO if part < _NOTHING_MUCH else None
     notes.report(BALANCED_INERTIA, message, inertial.location, found=was, expected=now, severity=severity)

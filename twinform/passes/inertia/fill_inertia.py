@@ -1,6 +1,7 @@
 """Compute masses and inertias from shapes."""
 
 import math
+import sys
 from typing import ClassVar, Literal, NamedTuple, Self
 
 from pydantic import Field, model_validator
@@ -9,6 +10,7 @@ from twinform.diagnostics import Notes
 from twinform.diagnostics.rules.inertia import FILLED_INERTIA, UNFILLED_INERTIA
 from twinform.ir import Document, Format, Inertial, Link, Model
 from twinform.ir.frames import FrameError
+from twinform.ir.scaling import common_exponent, times_power
 from twinform.ir.solids import Solid, combined, with_mass
 from twinform.passes.assets import AssetPass
 from twinform.passes.inertia.possible import has_mass, is_possible
@@ -85,11 +87,15 @@ class FillInertia(AssetPass):
         """The document with inertias."""
         fillings = self._fillings(document, notes)
         amounts = [one.solid.mass for one in fillings.values() if not one.keeps_mass]
-        factor = self.total_mass / math.fsum(amounts) if self.total_mass is not None and amounts else 1.0
+        exponent = common_exponent(amounts)
+        units = math.fsum(times_power(amount, -exponent) for amount in amounts)
 
         def fill(link: Link, _model: Model) -> Link:
             filling = fillings.get(id(link))
-            return _filled(link, filling, 1.0 if filling.keeps_mass else factor, notes) if filling else link
+            if filling and self.total_mass is not None and not filling.keeps_mass:
+                part = times_power(filling.solid.mass, -exponent) * (self.total_mass / units)
+                filling = filling._replace(solid=with_mass(filling.solid, part))
+            return _filled(link, filling, notes) if filling else link
 
         filled = map_links(document, fill)
         _report_empty(filled, self.links, notes)
@@ -142,9 +148,9 @@ class FillInertia(AssetPass):
 
 
 def _is_solid(link: Link, whole: Solid, shapes: tuple[PlacedShape, ...], notes: Notes) -> bool:
-    """Whether the numbers are those of a body: sizes may be zero, or so large that their powers overflow."""
+    """Whether the numbers are those of a body: sizes may be zero, or their powers larger or smaller than doubles."""
     numbers = (whole.mass, *whole.centre, *whole.inertia)
-    if all(map(math.isfinite, numbers)) and whole.mass > 0 and all(moment > 0 for moment in whole.inertia[:3]):
+    if all(map(math.isfinite, numbers)) and min(whole.mass, *whole.inertia[:3]) >= sys.float_info.min:
         return True
     names = ", ".join(one.name for one in shapes)
     message = f"the inertia of link {link.name!r} is not computed: {names} fill no volume that has one"
@@ -152,8 +158,8 @@ def _is_solid(link: Link, whole: Solid, shapes: tuple[PlacedShape, ...], notes: 
     return False
 
 
-def _filled(link: Link, filling: _Filling, factor: float, notes: Notes) -> Link:
-    found = with_mass(filling.solid, filling.solid.mass * factor) if factor != 1.0 else filling.solid
+def _filled(link: Link, filling: _Filling, notes: Notes) -> Link:
+    found = filling.solid
     kept = ", which was written" if filling.keeps_mass else ""
     count = f"{filling.shapes} shape{'' if filling.shapes == 1 else 's'}"
     message = f"link {link.name!r} got the inertia of {count}, with {found.mass:.6g} kg{kept}"

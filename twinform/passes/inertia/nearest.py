@@ -10,15 +10,20 @@ three sides: A. Lewis 1996, "Convex analysis on the Hermitian matrices", SIAM Jo
 
 import math
 
-from twinform.ir.principal_moments import Axes, Symmetric, principal_axes
+from twinform.ir.principal_moments import Axes, Symmetric, principal_axes, times_each
+from twinform.ir.scaling import common_exponent
 
 Moments = tuple[float, float, float]
 
 
 def nearest_possible(matrix: Symmetric, floor: float) -> Symmetric:
-    """The nearest inertia of which every second moment of mass is at least `floor`, in kg m^2."""
-    moments, axes = principal_axes(matrix)
-    return _composed(nearest_moments(moments, floor), axes)
+    """The nearest inertia of which every second moment of mass is at least `floor`, in kg m^2, which has to be finite.
+
+    Elements that no double holds are infinite.
+    """
+    exponent = common_exponent((*matrix, floor))
+    moments, axes = principal_axes(times_each(matrix, -exponent))
+    return times_each(_composed(nearest_moments(moments, math.ldexp(floor, -exponent)), axes), exponent)
 
 
 def nearest_moments(moments: Moments, floor: float) -> Moments:
@@ -54,9 +59,8 @@ def second_moments(moments: Moments) -> Moments:
 
 def distance(one: Symmetric, other: Symmetric) -> float:
     """The root of the sum of the squared differences of all nine elements, in kg m^2."""
-    return math.sqrt(
-        math.fsum((a - b) ** 2 * (1 if index < 3 else 2) for index, (a, b) in enumerate(zip(one, other, strict=True)))
-    )
+    gaps = [a - b for a, b in zip(one, other, strict=True)]
+    return math.hypot(*gaps, *gaps[3:])
 
 
 def _composed(moments: Moments, axes: Axes) -> Symmetric:

@@ -61,7 +61,8 @@ class Plausible:
             at = " ".join(f"{part:.4g}" for part in body.centre)
             message = f"the centre of mass of link {link.name!r}, {at}, is {outside:.4g} m outside of its shapes"
             self.notes.report(rules.DISTANT_CENTRE_OF_MASS, message, inertial.location, found=at, expected=_words(box))
-        most = (((length + 2 * slack) / 2) ** 2 * body.mass for length in size)
+        reaches = ((length + 2 * slack) / 2 for length in size)
+        most = (reach * reach * body.mass for reach in reaches)
         spread = zip(_spread(body.inertia), most, _AXES, strict=True)
         factor, axis = max((found / limit if limit else 0.0, axis) for found, limit, axis in spread)
         if factor > 1:
@@ -88,7 +89,8 @@ class Plausible:
 def _spread(inertia: Symmetric) -> tuple[float, float, float]:
     """The second moments of the mass about its centre along x, y and z, in kg m^2."""
     xx, yy, zz, *_ = inertia
-    return (yy + zz - xx) / 2, (xx + zz - yy) / 2, (xx + yy - zz) / 2
+    x, y, z = xx / 2, yy / 2, zz / 2  # halved first: the sum of two may be no double
+    return y + z - x, x + z - y, x + y - z
 
 
 def _words(box: Bounds) -> str:

@@ -3,7 +3,7 @@
 import math
 
 from twinform.ir import Format, Inertial
-from twinform.ir.principal_moments import principal_moments
+from twinform.ir.principal_moments import relative_moments
 from twinform.ir.verify.inertia import inertia_matrix
 
 DEFAULT_MOMENT = {Format.URDF: None, Format.SDF: 1.0}
@@ -24,6 +24,6 @@ def is_possible(inertial: Inertial, format_: Format) -> bool:
     matrix = inertia_matrix(inertial.inertia, DEFAULT_MOMENT[format_])
     if not has_mass(inertial) or matrix is None or not all(map(math.isfinite, matrix)):
         return False
-    smallest, middle, largest = principal_moments(matrix)
+    smallest, middle, largest = relative_moments(matrix)
     trace = abs(smallest + middle + largest)
     return smallest > ROUNDING * trace and largest - smallest - middle <= DIGITS * trace

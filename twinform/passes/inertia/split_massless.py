@@ -45,8 +45,8 @@ class SplitMassless(Pass):
     ends: Literal["weigh", "fix"] = Field(
         default="weigh", description="Whether the end of a chain gets a small ball, or its joint is fixed."
     )
-    mass: float = Field(default=0.001, gt=0, allow_inf_nan=False, description="The mass of the ball, in kg.")
-    radius: float = Field(default=0.01, gt=0, allow_inf_nan=False, description="The radius of the ball, in m.")
+    mass: float = Field(default=0.001, ge=1e-50, le=1e50, description="The mass of the ball, in kg.")
+    radius: float = Field(default=0.01, ge=1e-50, le=1e50, description="The radius of the ball, in m.")
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The document without bodies that weigh nothing."""

@@ -1,7 +1,10 @@
 """Masses of links put together."""
 
+import math
 from collections.abc import Sequence
 
+from twinform.diagnostics import Notes, Severity
+from twinform.diagnostics.rules.inertia import INDEFINITE_INERTIA
 from twinform.ir import Format, Inertia, Inertial, Link, Pose
 from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import Solid, combined, placed
@@ -48,12 +51,21 @@ def _or(value: float | None, default: float) -> float:
     return default if value is None else value
 
 
-def with_guests(link: Link, own: Solid, guests: Sequence[Solid]) -> Link:
-    """The link with the mass of others, which are in its frame. The axes of its inertia stay as they are written."""
+def with_guests(link: Link, own: Solid, guests: Sequence[Solid], notes: Notes) -> Link:
+    """The link with the mass of others, which are in its frame. The axes of its inertia stay as they are written.
+
+    It is an error where no double holds the result.
+    """
     heavy = [guest for guest in guests if guest.mass]
     if not heavy:
         return link
     whole = combined([own, *heavy])
+    if not all(map(math.isfinite, (whole.mass, *whole.centre, *whole.inertia))):
+        message = (
+            f"the mass and inertia of link {link.name!r} with all that is lumped into it are too large for a double"
+        )
+        notes.report(INDEFINITE_INERTIA, message, link.location, severity=Severity.ERROR)
+        return link
     inertial = link.inertial or Inertial()
     written = None if inertial.auto else inertial.pose
     axes = Transform(rotation=Transform.from_pose(written).rotation)

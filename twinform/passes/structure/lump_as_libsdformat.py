@@ -136,7 +136,7 @@ class _Lumping:
         own = body_of(link, self.graph, Format.URDF)
         at = {name: self.graph.pose(name, host) for name in names}
         guests = [placed(body_of(self.links[name], self.graph, Format.URDF), at[name]) for name in names]
-        link = with_guests(link, own, guests)
+        link = with_guests(link, own, guests, self.place.notes)
         for field in _FIELDS:
             self._note_mixed(host, names, field)
             moved = [shape for name in names for shape in _moved(getattr(self.links[name], field), name, at[name])]

@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from functools import cache
 from typing import TypeVar
 
+from twinform.diagnostics import Notes
 from twinform.ir import Collision, Element, Format, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.solids import placed
@@ -33,7 +34,7 @@ def lump_sdf(model: Model, keep: tuple[str, ...], place: Place, meshes: Meshes, 
         return model
     graph = FrameGraph(model)
     planned = plan(model, graph, keep, _Obstacles(graph, named, meshes).why, place)
-    return _lumped(model, graph, planned, meshes) if planned.joints else model
+    return _lumped(model, graph, planned, meshes, place.notes) if planned.joints else model
 
 
 class _Obstacles:
@@ -97,7 +98,7 @@ def _posed() -> frozenset[str]:
     return frozenset(row.name for row in rows if any(inner.name == "pose" for inner in facts.resolve(row).rows))
 
 
-def _lumped(model: Model, graph: FrameGraph, planned: Plan, meshes: Meshes) -> Model:
+def _lumped(model: Model, graph: FrameGraph, planned: Plan, meshes: Meshes, notes: Notes) -> Model:
     links = {link.name: link for link in model.links}
     guests = planned.guests()
     gone = {joint.name for joint in planned.joints.values()}
@@ -105,7 +106,7 @@ def _lumped(model: Model, graph: FrameGraph, planned: Plan, meshes: Meshes) -> M
     made = model.model_copy(
         update={
             "links": tuple(
-                _host(link, [links[name] for name in guests.get(link.name, [])], graph, meshes)
+                _host(link, [links[name] for name in guests.get(link.name, [])], graph, meshes, notes)
                 for link in model.links
                 if link.name not in planned.joints
             ),
@@ -142,11 +143,11 @@ def _based(pose: Pose | None, base: str) -> Pose:
     return pose if pose.relative_to else pose.model_copy(update={"relative_to": base})
 
 
-def _host(link: Link, guests: list[Link], graph: FrameGraph, meshes: Meshes) -> Link:
+def _host(link: Link, guests: list[Link], graph: FrameGraph, meshes: Meshes, notes: Notes) -> Link:
     if not guests:
         return link
     solids = [placed(body_of(guest, graph, Format.SDF, meshes), graph.pose(guest.name, link.name)) for guest in guests]
-    heavy = with_guests(link, body_of(link, graph, Format.SDF, meshes), solids)
+    heavy = with_guests(link, body_of(link, graph, Format.SDF, meshes), solids, notes)
     into = heavy
     for guest in guests:
         collisions = _moved(guest, guest.collisions, into.collisions)

@@ -97,7 +97,7 @@ class _Lumping:
                 self.links[name] = guest.model_copy(update={"inertial": None})
             for field in _KINDS:
                 self._shapes(host, name, field, at)
-        self.links[host] = with_guests(self.links[host], own, solids)
+        self.links[host] = with_guests(self.links[host], own, solids, self.place.notes)
 
     def _shapes(self, host: str, name: str, field: str, at: Transform) -> None:
         """Move the shapes of a kind, unless `<gazebo>` or another tool says something else of the two links' shapes."""

@@ -76,13 +76,16 @@ def worlds(
     max_models: int = 3,
     max_links: int = 4,
     nested: bool = False,
+    anchored: bool = False,
     shapes: tuple[type[Any], ...] = SDF_SHAPES,
 ) -> st.SearchStrategy[Document]:
     """SDF documents of 1.8 or newer with a world, whose models are posed in it and in one another.
 
-    With `nested`, a model may be static, placed by one of its frames, and have another model in it.
+    With `nested`, a model may be static, placed by one of its frames, and have another model in it. With `anchored`,
+    a model may hang from the world by a joint.
     """
     models = _models(version, 1, max_links, None, shapes)
+    models = _anchored(models) if anchored else models
     models = _varied(models) if nested else models
     placed = st.tuples(models, maybe(poses(whole=True)), st.integers(0, _MOST))
 
@@ -95,6 +98,18 @@ def worlds(
         return Document(format=Format.SDF, version=version, worlds=(World(name="arena", models=tuple(models)),))
 
     return st.lists(placed, max_size=max_models).map(world)
+
+
+def _anchored(models: st.SearchStrategy[Model]) -> st.SearchStrategy[Model]:
+    """The models, of which some have a joint to the world, of any type and posed in the model or not."""
+
+    def anchor(model: Model, movement: dict[str, Any] | None, pose: Pose | None) -> Model:
+        if not movement:
+            return model
+        joint = Joint(name="anchor", parent="world", child=model.links[0].name, pose=pose, **movement)
+        return model.model_copy(update={"joints": (*model.joints, joint)})
+
+    return st.builds(anchor, models, movements(with_none=True), maybe(poses(whole=True)))
 
 
 def _varied(models: st.SearchStrategy[Model]) -> st.SearchStrategy[Model]:

@@ -1,5 +1,6 @@
 """The robot that libsdformat sees: it resolves frames and reads URDF, and the kinematics here do the rest."""
 
+import math
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,9 @@ from twinform.testing.oracles.robot import WORLD, Matrix, Robot, View, limit, po
 
 _MOTIONS = {2: Motion.TURNS, 3: Motion.FIXED, 5: Motion.SLIDES, 6: Motion.TURNS}
 """The kinds of joints that move in one way or not at all, by the library's numbers for them."""
+_CONTINUOUS = 2
+_ENDLESS = {"lower": -math.inf, "upper": math.inf}
+"""What a continuous joint has, whatever is written: SDF says that its range has no ends."""
 
 
 def read(path: Path, view: View) -> Robot:
@@ -46,6 +50,8 @@ def link_of(row: LinkRow) -> Link:
 def joint_of(row: JointRow) -> Joint:
     """A joint in the frame of its model."""
     limits = {name: limit(value) for name, value in row.get("limits", {}).items()}
+    if row["kind"] == _CONTINUOUS:
+        limits |= _ENDLESS
     return Joint(
         row["name"],
         _MOTIONS.get(row["kind"], Motion.OTHER),
