@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
 
-from tests.hostile.watched import limit
+from tests.hostile.watched import Order, limit
 from tests.profile import DEEP
 
 MEMORY = 512 * 2**20
@@ -62,8 +62,8 @@ def _forked(words: list[str], folder: Path, seconds: int) -> tuple[int, bytes, b
     """The same in a fork of a process that has imported the program."""
     connection = _server()
     ours, theirs = zip(os.pipe(), os.pipe(), strict=True)
-    order = json.dumps({"words": words, "folder": str(folder), "memory": MEMORY, "seconds": seconds})
-    socket.send_fds(connection, [order.encode()], theirs)
+    order = Order(words=words, folder=str(folder), memory=MEMORY, seconds=seconds)
+    socket.send_fds(connection, [json.dumps(order).encode()], theirs)
     for stream in theirs:
         os.close(stream)
     with ThreadPoolExecutor(len(ours)) as readers:

@@ -11,9 +11,22 @@ import signal
 import socket
 import sys
 from collections.abc import Sequence
+from importlib import import_module
+from typing import TypedDict, cast
 
 _LONGEST_ORDER = 65536
 _STREAMS = (1, 2)
+_USED = ("cli.check", "cli.convert", "compiler.checking", "compiler.driver")
+"""What commands import when they are used."""
+
+
+class Order(TypedDict):
+    """A command, where it runs, and what it may take."""
+
+    words: list[str]
+    folder: str
+    memory: int
+    seconds: int
 
 
 def limit(memory: int, seconds: int) -> None:
@@ -27,8 +40,8 @@ def _run(words: Sequence[str]) -> None:
     seen: set[str] = set()
 
     def hook(event: str, arguments: tuple[object, ...]) -> None:
-        path = arguments[0] if event == "open" else None
-        if isinstance(path, str | bytes | os.PathLike):
+        if event == "open" and not isinstance(arguments[0], int):
+            path = cast("str | bytes | os.PathLike[str]", arguments[0])
             seen.add(os.path.realpath(os.fsdecode(path)))
 
     sys.addaudithook(hook)
@@ -56,30 +69,21 @@ def _ordered(connection: socket.socket) -> list[str]:
         connection.send(json.dumps(os.waitstatus_to_exitcode(status)).encode())
 
 
-def _begun(order: dict[str, object], streams: Sequence[int]) -> list[str]:
-    match order:
-        case {"words": list(words), "folder": str(folder), "memory": int(memory), "seconds": int(seconds)}:
-            for stream, number in zip(streams, _STREAMS, strict=True):
-                os.dup2(stream, number)
-                os.close(stream)
-            os.chdir(folder)
-            limit(memory, seconds)
-            return [str(word) for word in words]
-        case _:
-            raise ValueError(f"no order: {order}")
-
-
-def _imported() -> None:
-    """Import all that the commands import when they are used."""
-    from twinform.cli import check, convert  # noqa: F401, PLC0415 - a single command starts without
-    from twinform.compiler import checking, driver  # noqa: F401, PLC0415 - likewise
+def _begun(order: Order, streams: Sequence[int]) -> list[str]:
+    for stream, number in zip(streams, _STREAMS, strict=True):
+        os.dup2(stream, number)
+        os.close(stream)
+    os.chdir(order["folder"])
+    limit(order["memory"], order["seconds"])
+    return order["words"]
 
 
 if __name__ == "__main__":
     match sys.argv[1:]:
         case ["--serve", number]:
             signal.signal(signal.SIGINT, signal.SIG_IGN)  # the tests end it by closing the socket
-            _imported()
+            for module in _USED:
+                import_module(f"twinform.{module}")
             _run(_ordered(socket.socket(fileno=int(number))))
         case words:
             _run(words)
