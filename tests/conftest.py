@@ -1,6 +1,8 @@
 """What all tests share."""
 
+import gc
 import os
+from collections.abc import Generator
 from pathlib import Path
 
 import pytest
@@ -8,6 +10,8 @@ import pytest
 from tests.corpus.files import CORPUS, MISSING
 
 pytest.register_assert_rewrite("tests.expected")  # so that it shows what differs, as tests do
+
+_SELDOM = (20_000, 20, 100)
 
 
 @pytest.fixture(scope="session")
@@ -24,3 +28,17 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         for item in items:
             if item.get_closest_marker("deep"):
                 item.add_marker(pytest.mark.skip(reason="only with TWINFORM_PROFILE=deep"))
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Generator[None, object, object]:
+    """Let the garbage collector seldom walk all tests and modules: a fifth of the time of properties.
+
+    `gc.freeze` would do more, but Hypothesis counts what is frozen at every example.
+    """
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.set_threshold(*_SELDOM)
+        gc.enable()

@@ -24,7 +24,7 @@ from twinform.schemas.packaged import schema_text
 from twinform.testing.documents import document
 
 CHUNKS = 20
-EACH = 5000 if DEEP else 100
+EACH = 5000 if DEEP else 50
 
 
 @pytest.mark.parametrize("chunk", range(CHUNKS))

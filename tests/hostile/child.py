@@ -1,34 +1,29 @@
-"""The command in a process that is watched: little time and memory, nothing to write, and every file it opens noted."""
+"""The command in a process that is watched: little time and memory, nothing to write, and every file it opens noted.
 
+`make prove` starts Python for each command; the quick tests fork a process that has imported the program.
+"""
+
+import atexit
 import json
 import os
-import resource
+import socket
 import subprocess
 import sys
 import sysconfig
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import cache, partial
 from pathlib import Path
 
+from tests.hostile.watched import Order, limit
 from tests.profile import DEEP
 
 MEMORY = 512 * 2**20
 SECONDS = 2 if DEEP else 4
 """Of processor time. `make prove` holds what is promised; the quick tests must not fail where a machine is slow."""
 _OWN = (sys.prefix, sys.base_prefix, sysconfig.get_path("stdlib"), str(Path(__file__).parents[2] / "twinform"), "/proc")
-_WATCHED = """
-import json, os, sys
-seen = set()
-def hook(event, arguments):
-    if event == "open" and not isinstance(arguments[0], int):
-        seen.add(os.path.realpath(os.fsdecode(arguments[0])))
-sys.addaudithook(hook)
-from twinform.cli import main
-try:
-    main(sys.argv[1:])
-finally:
-    print(json.dumps(sorted(seen)), file=sys.stderr)
-"""
+_WATCHED = Path(__file__).with_name("watched.py")
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,20 +37,71 @@ class Outcome:
 
 def twinform(*words: str | Path, folder: Path, seconds: int = SECONDS) -> Outcome:
     """Run the command where it may write nothing at all."""
-
-    def limit() -> None:
-        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-        resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
-        resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
-
-    command = [sys.executable, "-B", "-c", _WATCHED, *map(str, words)]
-    # a process that may not write cannot be measured either
-    environment = {name: value for name, value in os.environ.items() if not name.startswith("COV")}
-    done = subprocess.run(command, cwd=folder, capture_output=True, preexec_fn=limit, env=environment, check=False)
-    *lines, last = done.stderr.decode(errors="replace").splitlines() or [""]
+    run = _started if DEEP else _forked
+    code, output, errors = run([str(word) for word in words], folder, seconds)
+    *lines, last = errors.decode(errors="replace").splitlines() or [""]
     opened: list[str] = json.loads(last) if last.startswith("[") else []
-    said = done.stdout.decode(errors="replace") + "\n".join([*lines, "" if last.startswith("[") else last])
-    return Outcome(done.returncode, said, frozenset(each for each in opened if not _is_own(each)))
+    said = output.decode(errors="replace") + "\n".join([*lines, "" if last.startswith("[") else last])
+    return Outcome(code, said, frozenset(each for each in opened if not _is_own(each)))
+
+
+def _started(words: list[str], folder: Path, seconds: int) -> tuple[int, bytes, bytes]:
+    """Its exit code and what it said on both streams, in a process that knows nothing, as a user starts it."""
+    done = subprocess.run(
+        [sys.executable, "-B", _WATCHED, *words],
+        cwd=folder,
+        capture_output=True,
+        preexec_fn=partial(limit, MEMORY, seconds),
+        env=_environment(),
+        check=False,
+    )
+    return done.returncode, done.stdout, done.stderr
+
+
+def _forked(words: list[str], folder: Path, seconds: int) -> tuple[int, bytes, bytes]:
+    """The same in a fork of a process that has imported the program."""
+    connection = _server()
+    ours, theirs = zip(os.pipe(), os.pipe(), strict=True)
+    order = Order(words=words, folder=str(folder), memory=MEMORY, seconds=seconds)
+    socket.send_fds(connection, [json.dumps(order).encode()], theirs)
+    for stream in theirs:
+        os.close(stream)
+    with ThreadPoolExecutor(len(ours)) as readers:
+        output, errors = readers.map(_rest, ours)
+    return json.loads(connection.recv(100)), output, errors
+
+
+def _rest(stream: int) -> bytes:
+    with os.fdopen(stream, "rb") as file:
+        return file.read()
+
+
+@cache
+def _server() -> socket.socket:
+    """The connection to the process that forks; it ends when this one does."""
+    ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    with theirs:
+        number = theirs.fileno()
+        nothing = subprocess.DEVNULL
+        process = subprocess.Popen(
+            [sys.executable, "-B", _WATCHED, "--serve", str(number)],
+            pass_fds=[number],
+            stdin=nothing,
+            stdout=nothing,
+            env=_environment(),
+        )
+    atexit.register(_end, ours, process)
+    return ours
+
+
+def _end(connection: socket.socket, process: subprocess.Popen[bytes]) -> None:
+    connection.close()
+    process.wait()
+
+
+def _environment() -> dict[str, str]:
+    # a process that may not write cannot be measured either
+    return {name: value for name, value in os.environ.items() if not name.startswith("COV")}
 
 
 def _is_own(path: str) -> bool:

@@ -10,6 +10,7 @@ from benchmarks.lumping_causes import cause_of
 from benchmarks.lumping_differences import differences
 from benchmarks.probes import MISSING, PROBES
 from tests.corpus.files import ROOT
+from tests.profile import DEEP
 from twinform.testing import oracles
 from twinform.testing.oracles import libsdformat
 from twinform.testing.oracles.libsdformat.library import describe
@@ -26,11 +27,12 @@ _SWAPPED = "019_limit_swapped"
 with_libsdformat = pytest.mark.skipif(not libsdformat.available(), reason=libsdformat.MISSING)
 with_drake = pytest.mark.skipif(not oracles.available("drake"), reason="Drake is not installed")
 _FILES = [*_EXAMPLES, *(path for path in sorted(PROBES.glob("*.urdf")) if b'"fixed"' in path.read_bytes())]
+_SOME = _FILES if DEEP else _FILES[::2]
 
 
 @with_libsdformat
 @pytest.mark.skipif(not PROBES.is_dir(), reason=MISSING)
-@pytest.mark.parametrize("path", _FILES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", _SOME, ids=lambda path: path.stem)
 def test_lumping_as_libsdformat_does_gives_its_result(path: Path, tmp_path: Path) -> None:
     try:
         theirs = describe(path)

@@ -1,12 +1,13 @@
 """What is said of a change is all of it: something wherever documents differ, nothing where they do not."""
 
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 
+from tests.profile import examples
 from twinform.ir import Document, Model
 from twinform.ir.changes import How, changes, count_changes
 from twinform.testing import strategies
 
-_SETTINGS = settings(max_examples=50, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+_SETTINGS = examples()
 _DOCUMENTS = strategies.robots() | strategies.sdf_models()
 
 

@@ -1,9 +1,10 @@
 """Passes over generated models: what comes out is valid, and running a pass again changes nothing."""
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 
 import twinform
+from tests.profile import examples
 from twinform.compiler.emitting import emit
 from twinform.diagnostics import Notes
 from twinform.ir import Document
@@ -11,7 +12,7 @@ from twinform.ir.verify import verify
 from twinform.passes import parse_pipeline
 from twinform.testing import strategies
 
-_SETTINGS = settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+_SETTINGS = examples(0.7)
 _PIPELINES = (
     "check-inertia",
     "fill-inertia{shapes=either}",

@@ -3,10 +3,11 @@
 import numpy as np
 import numpy.typing as npt
 import pytest
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import twinform
+from tests.profile import examples
 from twinform.compiler.emitting import emit
 from twinform.diagnostics import Notes
 from twinform.ir import Document, Model, Pose
@@ -23,11 +24,7 @@ from twinform.passes.structure.rename import Rename
 from twinform.passes.structure.reroot import Reroot
 from twinform.testing import strategies
 
-_SETTINGS = settings(
-    max_examples=30,
-    deadline=None,
-    suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much],
-)
+_SETTINGS = examples(0.7)
 _MODELS = strategies.robots() | strategies.sdf_models()
 _TOLERANCE = 1e-9
 

@@ -10,6 +10,8 @@ from twinform.testing.strategies._joints import NOT_MOVING, URDF_TYPES, axes, mo
 from twinform.testing.strategies._values import maybe, poses
 
 _MOST = 1000
+_PRESENT = 7
+"""To each segment that is absent."""
 _NEWEST_WORDS = "1.8"
 """The oldest version of SDF that says frames as these models do."""
 
@@ -26,12 +28,27 @@ def robots(
     segment = st.tuples(
         bodies(Format.URDF, shapes), st.sampled_from(joint_types), maybe(poses()), axes(), st.integers(0, _MOST)
     )
-    return st.lists(segment, min_size=min_links, max_size=max_links).map(_robot)
+    return _segments(segment, min_links, max_links).map(_robot)
 
 
 def _require(least: int, most: int) -> None:
     if not 1 <= least <= most <= _MOST:
         raise ValueError(f"from {least} to {most} links: a model has at least one, and at most {_MOST}")
+
+
+def _segments(segment: st.SearchStrategy[Any], least: int, most: int) -> st.SearchStrategy[list[Any]]:
+    """So many segments at least and at most, some of the others absent.
+
+    Hypothesis cannot delete what is longer than five choices from the middle of a list. It can make it absent, which is
+    one choice, and delete that.
+    """
+    needed = st.lists(segment, min_size=least, max_size=least)
+    others = st.lists(st.one_of(st.none(), *[segment] * _PRESENT), max_size=most - least)
+
+    def present(parts: tuple[list[Any], list[Any]]) -> list[Any]:
+        return [*parts[0], *(each for each in parts[1] if each is not None)]
+
+    return st.tuples(needed, others).map(present)
 
 
 def _robot(segments: list[tuple[dict[str, Any], Any, Pose | None, Axis, int]]) -> Document:
@@ -132,7 +149,7 @@ def _models(
     pose = poses(whole=True)
     movement = movements(types=types, with_none=True)
     segment = st.tuples(bodies(Format.SDF, shapes), movement, pose, pose, st.integers(0, _MOST), st.booleans())
-    return st.lists(segment, min_size=least, max_size=most).map(_sdf_model)
+    return _segments(segment, least, most).map(_sdf_model)
 
 
 def _sdf_model(segments: list[Any]) -> Model:
