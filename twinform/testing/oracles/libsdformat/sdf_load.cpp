@@ -5,6 +5,7 @@
 //
 // The description of the format, which takes longer to read than most files, is read once. Every file is loaded by a
 // fork of the process, so that one on which the library crashes or hangs spoils no other.
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -232,7 +233,9 @@ std::string verdict(const std::string &path, const sdf::SDFPtr &description, con
   const int answer = child::memory("answer");
   const pid_t process = fork();
   if (process == 0) {
-    alarm(SECONDS_PER_FILE);
+    const itimerval limit{{0, 0}, {SECONDS_PER_FILE, 0}};
+    setitimer(ITIMER_PROF, &limit, nullptr);  // of its own time: on a busy machine a large file waits longer than this
+    alarm(10 * SECONDS_PER_FILE);
     dup2(answer, STDOUT_FILENO);
     dup2(console, STDERR_FILENO);
     judge(path, description, what);
@@ -244,7 +247,8 @@ std::string verdict(const std::string &path, const sdf::SDFPtr &description, con
   const std::string text = child::contents(answer);
   close(answer);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return text;
-  const std::string how = WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM ? "did not come to an end" : "crashed";
+  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  const std::string how = signal == SIGPROF || signal == SIGALRM ? "did not come to an end" : "crashed";
   return "\"ok\": false, \"errors\": [" + error(0, "libsdformat " + how) + "]";
 }
 
