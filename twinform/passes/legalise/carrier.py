@@ -5,13 +5,17 @@ piece belongs to:
 
     <tf:urdf at="limit"><foo/></tf:urdf>                  an element, inside the piece's own `limit`
     <tf:urdf attribute="k" value="1"/>                    an attribute; an empty one without `value`
+    <tf:urdf attribute="k" blanks="20 9"/>                one of blanks, by their code points
     <tf:urdf text="free"/>                                text
 
-libsdformat prints an error for an empty attribute of an element that it does not know, so a piece has none:
+libsdformat strips attributes, and prints an error for an empty one of an element that it does not know, so a piece has
+none:
 
-    <material><tf:empty attribute="name"/></material>     <material name=""/>
+    <material><tf:empty attribute="name"/></material>                  <material name=""/>
+    <material><tf:empty attribute="name" blanks="20"/></material>      <material name=" "/>
 """
 
+import re
 from collections.abc import Iterable
 from typing import TypeVar
 
@@ -101,7 +105,7 @@ def unpack(part: Opaque) -> tuple[Opaque, ...]:
     at = element.get("at") or ""
     name, value, text = element.get("attribute"), element.get("value"), element.get("text")
     if name is not None:
-        return (Opaque(at=at, attribute=(name, value or "")),)
+        return (Opaque(at=at, attribute=(name, _blank_value(element) if value is None else value)),)
     if text is not None:
         return (Opaque(at=at, text=text),)
     return tuple(Opaque(at=at, element=_with_empty(child)) for child in element.children)
@@ -129,20 +133,37 @@ def _carrier(piece: Opaque, dialect: str, about: Attributes) -> Element:
     attributes = [*about, ("at", piece.at)] if piece.at else [*about]
     if piece.attribute is not None:
         name, value = piece.attribute
-        attributes += [("attribute", name), *([("value", value)] if value else [])]
+        attributes += [("attribute", name), *(_blanks(value) if _is_blank(value) else [("value", value)])]
     if piece.text is not None:
         attributes.append(("text", piece.text))
     children = (_without_empty(piece.element),) if piece.element is not None else ()
     return Element(name=f"{{{NAMESPACE}}}{dialect}", attributes=tuple(attributes), children=children)
 
 
+def _is_blank(value: str) -> bool:
+    """Whether a reader that strips values sees none."""
+    return not value.strip()
+
+
+def _blanks(value: str) -> Attributes:
+    """An attribute for the characters of a blank value; none for an empty one."""
+    return (("blanks", " ".join(f"{ord(character):x}" for character in value)),) if value else ()
+
+
+def _blank_value(element: Element) -> str:
+    """The inverse of `_blanks`; what somebody wrote there that is no blank of XML counts for nothing."""
+    codes = (element.get("blanks") or "").split()
+    characters = (chr(int(code, 16)) for code in codes if re.fullmatch("[0-9a-f]{1,4}", code))
+    return "".join(each for each in characters if each.isspace() and (each >= " " or each in "\t\n\r"))
+
+
 def _without_empty(element: Element) -> Element:
-    """The element with its empty attributes, and those of all below, as elements."""
-    if not any("" in dict(each.attributes).values() for each in element.walk()):
+    """The element with its attributes without a value, and those of all below, as elements."""
+    if not any(_is_blank(value) for each in element.walk() for _, value in each.attributes):
         return element
-    empty = [name for name, value in element.attributes if value == ""]
-    marks = [Element(name=_EMPTY, attributes=(("attribute", name),)) for name in empty]
-    attributes = tuple((name, value) for name, value in element.attributes if value != "")
+    empty = [pair for pair in element.attributes if _is_blank(pair[1])]
+    marks = [Element(name=_EMPTY, attributes=(("attribute", name), *_blanks(value))) for name, value in empty]
+    attributes = tuple(pair for pair in element.attributes if pair not in empty)
     children = (*marks, *map(_without_empty, element.children))
     return element.model_copy(update={"attributes": attributes, "children": children})
 
@@ -151,7 +172,7 @@ def _with_empty(element: Element) -> Element:
     """The inverse of `_without_empty`; an attribute that is there by now stays."""
     if not any(each.name == _EMPTY for each in element.walk()):
         return element
-    empty = [child.get("attribute") for child in element.children if child.name == _EMPTY]
-    added = tuple((name, "") for name in empty if name and element.get(name) is None)
+    empty = [(child.get("attribute"), _blank_value(child)) for child in element.children if child.name == _EMPTY]
+    added = tuple((name, value) for name, value in empty if name and element.get(name) is None)
     children = tuple(_with_empty(child) for child in element.children if child.name != _EMPTY)
     return element.model_copy(update={"attributes": (*element.attributes, *added), "children": children})
