@@ -61,7 +61,8 @@ class _Vertex:
     depth: int = -1
     local: Transform | None = None
     in_root: Transform | None = None
-    body: "_Vertex | None" = None
+    body: str | None = None
+    """Its name: the vertex would close a circle of references, which only the garbage collector breaks."""
     visiting: bool = False
 
 
@@ -115,7 +116,7 @@ class FrameGraph:
         Raises:
             FrameError: a name is not known, or the frames go round in a circle.
         """
-        return self._body(self._find(name, kind, source)).name
+        return self._body(self._find(name, kind, source))
 
     def problems(self) -> Iterator[FrameError]:
         """Every frame that cannot be resolved, or that moves with nothing."""
@@ -261,7 +262,7 @@ class FrameGraph:
             transform = each.in_root = transform.compose(self._local(each))
         return transform
 
-    def _body(self, vertex: _Vertex) -> _Vertex:
+    def _body(self, vertex: _Vertex) -> str:
         path: list[_Vertex] = []
         try:
             while vertex.body is None and vertex.moves_with:
@@ -273,7 +274,7 @@ class FrameGraph:
         finally:
             for each in path:
                 each.visiting = False
-        body = vertex.body or vertex
+        body = vertex.name if vertex.body is None else vertex.body
         for each in path:
             each.body = body
         return body

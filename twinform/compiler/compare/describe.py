@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from functools import partial
 
 from twinform.compiler.compare.joint_values import joint_leaves
 from twinform.compiler.compare.leaves import THERE
@@ -54,7 +55,7 @@ class _Description:
         self.model = model
         self.format = format
         self.graph = FrameGraph(model)
-        self.reading = Reading(self._resolve, origins)
+        self.reading = Reading(partial(_resolve, self.graph), origins)
 
     def robot(self, source: Model, shells: Iterable[tuple[Frame, Model]]) -> Robot:
         """All of it."""
@@ -152,10 +153,12 @@ class _Description:
                     part = self.reading.element(element_xml(element), "model", self.reading.place(frame), Transform())
                     yield Part("model", frame.name, part.leaves, part.where, carried=True)
 
-    def _resolve(self, pose: Pose, holder: Transform) -> Transform:
-        if pose.relative_to:
-            holder = self.graph.pose(pose.relative_to, MODEL, kind="joint", base="model")
-        return holder.compose(Transform.from_pose(pose))
+
+def _resolve(graph: FrameGraph, pose: Pose, holder: Transform) -> Transform:
+    """Where a pose is in the model, which is in the frame that `holder` places unless it names another."""
+    if pose.relative_to:
+        holder = graph.pose(pose.relative_to, MODEL, kind="joint", base="model")
+    return holder.compose(Transform.from_pose(pose))
 
 
 def _carried(node: Node) -> Iterator[Element]:
