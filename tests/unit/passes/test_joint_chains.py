@@ -252,6 +252,13 @@ def test_what_was_edited_is_said(kind: str, inside: str, old: str, new: str, why
     assert said == [f"joint 'j' was {kind}, and the chain that it became has changed: {why}"]
 
 
+def test_a_part_that_was_given_a_name_is_one_joint_and_a_warning():
+    made = back(there("ball", "").text.replace('name="j_y"', 'name="elbow"'))
+    assert the("j", robot(made.text)).type == "ball"
+    assert [each.found for each in made.diagnostics if each.rule.name == "stale-carrier"] == ["elbow"]
+    assert "elbow" in next(each.message for each in made.diagnostics)
+
+
 def test_a_limit_that_was_edited_is_the_limit_of_the_axis():
     urdf = there("universal", TWO_AXES).text
     made = robot(back(urdf.replace('lower="-1"', 'lower="-1.25"')).text).joints[0]

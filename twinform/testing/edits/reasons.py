@@ -71,6 +71,9 @@ def _is_of_chain(found: Difference, edited: EditedFile) -> bool:
         return True
     if found.aspect.endswith("mimic/@joint") and (found.a.text or "").strip("'") in edited.parts:
         return True
+    if found.aspect.endswith("mimic/@axis"):
+        followers = (each for each in edited.root.iter("joint") if each.get("name") == found.name)
+        return any(mimic.get("joint") in edited.parts for each in followers for mimic in each.iterfind("mimic"))
     # a joint of a nested model that has come apart has the name that it has outside of it
     scoped = (mark.text or "" for mark in edited.root.iter(f"{OURS}scoped-name"))
     apart = found.name if found.a.text is None else (found.name or "").replace("::", "_")

@@ -21,7 +21,7 @@ class FoldJoints(ModelPass):
     2. the other joints and the links between go; 3. what mimics the first joint of two mimics `axis` of the one, what
     mimics the last `axis2`.
     Never touches: chains that were edited so that they are not such a joint any more; their marks go.
-    Diagnostics: `stale-carrier`.
+    Diagnostics: `stale-carrier`, also for parts whose own names get lost.
     """
 
     name: ClassVar[str] = "fold-joints"
@@ -60,7 +60,16 @@ def _chains(model: Model, notes: Notes) -> Iterator[tuple[Chain, Joint]]:
             message = f"joint {joint.name!r} was {kind}, and the chain that it became has changed: {error}"
             notes.report(rules.STALE_CARRIER, message, joint.location, found=joint.name)
         else:
+            _report_names(chain, notes)
             yield chain, made
+
+
+def _report_names(chain: Chain, notes: Notes) -> None:
+    """Report the parts that somebody has given a name: made ones begin with that of their joint."""
+    for part in (*chain.above, *chain.between):
+        if not part.name.startswith(chain.last.name):
+            message = f"{part.name!r} is a part of the {chain.kind} joint {chain.last.name!r}, and has no name in SDF"
+            notes.report(rules.STALE_CARRIER, message, part.location, found=part.name)
 
 
 def _is_marked(node: Joint | Link) -> bool:
