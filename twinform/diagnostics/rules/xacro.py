@@ -60,8 +60,8 @@ UNEXPANDED_XACRO = Rule(
     name="unexpanded-xacro",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
-    finds="Elements of xacro in a file whose name does not end in `.xacro`; or expressions, `${...}`, in what "
-    "describes the robot itself, and then it is an error.",
+    finds="Elements of xacro in a file whose name does not end in `.xacro`; or expressions, `${...}`: an error in "
+    "what describes the robot itself, a warning in `<gazebo>`, `<ros2_control>` and `<transmission>`.",
     matters="The file is read as it is, and the macros are not: the robot is not the one that is meant.",
     example="`<xacro:wheel side='left'/>` or `<origin xyz='0 ${width/2} 0'/>` in `robot.urdf`.",
     better="Call the file `robot.urdf.xacro`, pass `--xacro`, or expand it first.",
