@@ -86,13 +86,13 @@ def main(arguments: list[str] | None = None) -> int:
     both = (Checkout.at("before", options.checkout), Checkout.at("now", Path.cwd()))
     figures: dict[str, Figures] = defaultdict(Figures)
     for file in list(models())[:: options.every]:
-        _measure(file, both, figures["sdf" if file.kind is Kind.URDF else "urdf"], options.times)
+        to = "sdf" if file.kind is Kind.URDF else "urdf"
+        _measure(file, to, both, figures[to], options.times)
     _report(figures)
     return int(any(each.differ for each in figures.values()))
 
 
-def _measure(file: CorpusFile, both: tuple[Checkout, ...], figures: Figures, times: int) -> None:
-    to = "sdf" if file.kind is Kind.URDF else "urdf"
+def _measure(file: CorpusFile, to: str, both: tuple[Checkout, ...], figures: Figures, times: int) -> None:
     taken: dict[str, list[float]] = defaultdict(list)
     said: dict[str, str] = {}
     for _ in range(times):

@@ -5,6 +5,7 @@ import math
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from pathlib import Path
 
 _TOKEN = re.compile(r'"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'|//[^\n]*|/\*.*?\*/', re.DOTALL)
 _JOINED = re.compile(r'"\s*"')
@@ -25,6 +26,11 @@ _OPERATORS: dict[type[ast.operator], Callable[[float, float], float]] = {
     ast.Mult: lambda left, right: left * right,
     ast.Div: lambda left, right: left / right,
 }
+
+
+def source_text(path: Path) -> str:
+    """A source file without its comments; bytes that are not UTF-8 are replaced."""
+    return without_comments(path.read_text(encoding="utf-8", errors="replace"))
 
 
 def without_comments(text: str) -> str:

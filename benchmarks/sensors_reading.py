@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from benchmarks.cpp_text import without_comments
+from benchmarks.cpp_text import source_text
 
 _FILES = {
     "camera": ("CameraSensor",),
@@ -59,11 +59,11 @@ class SensorSource:
 
 def sensors_in(sim: Path, sensors: Path) -> Iterator[tuple[str, SensorSource]]:
     """The kinds of sensors of a checkout of gz-sensors, with the suffixes of one of gz-sim."""
-    suffixes = suffixes_in(_text(sim / "src" / "rendering" / "RenderUtil.cc"))
+    suffixes = suffixes_in(source_text(sim / "src" / "rendering" / "RenderUtil.cc"))
     for type_, stems in _FILES.items():
         files = [sensors / "src" / f"{stem}.cc" for stem in stems]
         if files[0].is_file():
-            yield type_, read_sensor("\n".join(map(_text, files)), suffixes.get(_RENDERED.get(type_, "")))
+            yield type_, read_sensor("\n".join(map(source_text, files)), suffixes.get(_RENDERED.get(type_, "")))
 
 
 def suffixes_in(text: str) -> dict[str, str]:
@@ -79,7 +79,3 @@ def read_sensor(text: str, suffix: str | None = None) -> SensorSource:
         topics.add(_INFO[0])
         messages.add(_INFO[1])
     return SensorSource(suffix, frozenset(topics), frozenset(messages))
-
-
-def _text(path: Path) -> str:
-    return without_comments(path.read_text(encoding="utf-8", errors="replace"))

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
-from benchmarks.cpp_text import Scope, arguments, without_comments
+from benchmarks.cpp_text import Scope, arguments, source_text
 
 _REGISTERED = re.compile(r"(?:GZ|IGNITION)_ADD_PLUGIN\s*\(\s*([\w:]+)")
 _ALIAS = re.compile(
@@ -80,17 +80,13 @@ def systems_in(checkout: Path) -> dict[str, SystemSource]:
     """The systems of a checkout of gz-sim by the last word of the class that files name."""
     found: dict[str, SystemSource] = {}
     for folder in sorted(each for each in (checkout / "src" / "systems").iterdir() if each.is_dir()):
-        texts = {each: _text(each) for each in sorted(folder.rglob("*.[ch][ch]")) if "_TEST" not in each.name}
+        texts = {each: source_text(each) for each in sorted(folder.rglob("*.[ch][ch]")) if "_TEST" not in each.name}
         owners = {path: _ALIAS.search(text) or _REGISTERED.search(text) for path, text in texts.items()}
         names = {path.stem: match[1].rpartition("::")[2] for path, match in owners.items() if match}
         for stem, name in names.items():
             mine = [text for path, text in texts.items() if path.stem == stem or path.stem not in names]
             found[name] = read_system(*mine)
     return found
-
-
-def _text(path: Path) -> str:
-    return without_comments(path.read_text(encoding="utf-8", errors="replace"))
 
 
 def read_system(*texts: str) -> SystemSource:

@@ -8,8 +8,8 @@ from twinform.schemas import XmlElement
 from twinform.schemas.xml import path_of
 
 _HELP = "name it .xacro, or pass --xacro"
-_SETTINGS = frozenset({"gazebo", "ros2_control", "transmission"})
-"""What a robot can be read without: expressions left there are the business of whoever reads it."""
+_SETTINGS = frozenset({"ros2_control", "transmission"})
+"""What is neither the robot nor becomes a part of it in Gazebo: expressions there are for whoever reads it."""
 
 
 def report_unexpanded(root: XmlElement, notes: Notes) -> None:
@@ -19,17 +19,18 @@ def report_unexpanded(root: XmlElement, notes: Notes) -> None:
         where = Location(line=macros[0].sourceline or 0, path=f"/{root.tag}")
         message = f"{_count(len(macros), 'element')} of xacro will not be expanded"
         notes.report(rules.UNEXPANDED_XACRO, message, where, found="xacro", help=_HELP)
-    in_robot, in_settings = list(_with_expressions(root, _SETTINGS)), list(_with_expressions(root, frozenset()))
-    for found, severity in ((in_robot, Severity.ERROR), ([] if in_robot else in_settings, Severity.WARNING)):
-        if found:
-            element, text = found[0]
-            shown = text if len(text) <= 60 else text[:57] + "..."
-            message = f"{shown!r} is an expression of xacro, as in {_count(len(found), 'element')}, and not expanded"
-            where = Location(line=element.sourceline or 0, path=path_of(element))
-            notes.report(rules.UNEXPANDED_XACRO, message, where, found=shown, help=_HELP, severity=severity)
+    expressions, severity = list(_with_expressions(root, aside=_SETTINGS)), Severity.ERROR
+    if not expressions:
+        expressions, severity = list(_with_expressions(root)), Severity.WARNING
+    if expressions:
+        element, text = expressions[0]
+        shown = text if len(text) <= 60 else text[:57] + "..."
+        message = f"{shown!r} is an expression of xacro, as in {_count(len(expressions), 'element')}, and not expanded"
+        where = Location(line=element.sourceline or 0, path=path_of(element))
+        notes.report(rules.UNEXPANDED_XACRO, message, where, found=shown, help=_HELP, severity=severity)
 
 
-def _with_expressions(root: XmlElement, aside: frozenset[str]) -> Iterator[tuple[XmlElement, str]]:
+def _with_expressions(root: XmlElement, aside: frozenset[str] = frozenset()) -> Iterator[tuple[XmlElement, str]]:
     """The elements that have `${...}`, but for those `aside`: what only plugins and xacro read is theirs."""
     stack = [root]
     while stack:

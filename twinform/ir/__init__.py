@@ -27,7 +27,7 @@ from twinform.ir.link import Link
 from twinform.ir.material import Material, Script
 from twinform.ir.model import Include, Model
 from twinform.ir.node import Color, Node, Quaternion, Vector3
-from twinform.ir.opaque_inside import holds_opaque, map_opaque
+from twinform.ir.opaque_inside import holds_opaque, map_opaque, untyped_elements
 from twinform.ir.plugin import Plugin
 from twinform.ir.pose import Pose
 from twinform.ir.sensor import Sensor
@@ -90,5 +90,6 @@ __all__ = [
     "map_opaque",
     "node_fields",
     "node_values",
+    "untyped_elements",
     "walk",
 ]

@@ -2,12 +2,14 @@
 
 from collections.abc import Mapping
 from functools import cache
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, Self, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, SkipValidation
 from pydantic.json_schema import SkipJsonSchema
 
 from twinform.diagnostics import NOWHERE, Location, Source
+
+AnyPart = TypeVar("AnyPart", bound="Sourced")
 
 _UNSEEN = frozenset({"source", "spelling"})
 
@@ -27,12 +29,7 @@ class Sourced(BaseModel):
     @classmethod
     def unchecked(cls, **values: Any) -> Self:
         """A part with values that need no validation, since they come from parts or trees that had it."""
-        made = object.__new__(cls)
-        object.__setattr__(made, "__dict__", {**_defaults(cls), **values})
-        object.__setattr__(made, "__pydantic_fields_set__", set(values))
-        object.__setattr__(made, "__pydantic_extra__", None)
-        object.__setattr__(made, "__pydantic_private__", None)
-        return made
+        return _assembled(cls, {**_defaults(cls), **values}, set(values))
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
         """The same part with other values, which are not validated.
@@ -42,12 +39,7 @@ class Sourced(BaseModel):
         """
         if deep or not update:
             return super().model_copy(update=update, deep=deep)
-        made = object.__new__(type(self))
-        object.__setattr__(made, "__dict__", {**self.__dict__, **update})
-        object.__setattr__(made, "__pydantic_fields_set__", self.__pydantic_fields_set__ | update.keys())
-        object.__setattr__(made, "__pydantic_extra__", None)
-        object.__setattr__(made, "__pydantic_private__", None)
-        return made
+        return _assembled(type(self), {**self.__dict__, **update}, self.__pydantic_fields_set__ | update.keys())
 
     def __eq__(self, other: object) -> bool:
         if self.__class__ is not other.__class__:
@@ -57,6 +49,16 @@ class Sourced(BaseModel):
 
     def __hash__(self) -> int:
         return hash((self.__class__, *(value for name, value in self.__dict__.items() if name not in _UNSEEN)))
+
+
+def _assembled(kind: type[AnyPart], values: dict[str, Any], written: set[str]) -> AnyPart:
+    """A part with all its values, of which some were written. `model_construct` would look at each field again."""
+    made = object.__new__(kind)
+    object.__setattr__(made, "__dict__", values)
+    object.__setattr__(made, "__pydantic_fields_set__", written)
+    object.__setattr__(made, "__pydantic_extra__", None)
+    object.__setattr__(made, "__pydantic_private__", None)
+    return made
 
 
 @cache

@@ -61,7 +61,7 @@ UNEXPANDED_XACRO = Rule(
     severity=Severity.WARNING,
     strict=Severity.ERROR,
     finds="Elements of xacro in a file whose name does not end in `.xacro`; or expressions, `${...}`: an error in "
-    "what describes the robot itself, a warning in `<gazebo>`, `<ros2_control>` and `<transmission>`.",
+    "what describes the robot itself, a warning in `<ros2_control>` and `<transmission>`.",
     matters="The file is read as it is, and the macros are not: the robot is not the one that is meant.",
     example="`<xacro:wheel side='left'/>` or `<origin xyz='0 ${width/2} 0'/>` in `robot.urdf`.",
     better="Call the file `robot.urdf.xacro`, pass `--xacro`, or expand it first.",

@@ -21,7 +21,7 @@ from typing import TypeVar
 
 from lxml import etree
 
-from twinform.ir import Element, GazeboExtension, Node, Opaque, children_of, holds_opaque
+from twinform.ir import Element, Node, Opaque, untyped_elements
 from twinform.schemas import XmlElement, parse_version, table, writer
 
 NAMESPACE = "urn:twinform:1"
@@ -89,12 +89,7 @@ def is_memory(part: Opaque) -> bool:
 
 def has_ours(node: Node) -> bool:
     """Whether a carrier or mark is anywhere in a node."""
-    if not holds_opaque(node):
-        return False
-    own = (part.element for part in node.opaque if part.element)
-    content = node.content if isinstance(node, GazeboExtension) else ()
-    said = (inner.name.startswith(_OURS) for each in (*own, *content) for inner in each.walk())
-    return any(said) or any(map(has_ours, children_of(node)))
+    return any(element.name.startswith(_OURS) for element in untyped_elements(node))
 
 
 def unpack(part: Opaque) -> tuple[Opaque, ...]:

@@ -5,7 +5,7 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Document, Element, Model, Node, Opaque, World, children_of, holds_opaque, map_children
+from twinform.ir import Document, Element, Model, Node, Opaque, World, holds_opaque, map_children, untyped_elements
 from twinform.ir.verify.joints import verify_mimics
 from twinform.passes.legalise.carrier import NAMESPACE
 from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb, says_already
@@ -163,12 +163,4 @@ def _with_attribute(element: Element, piece: Opaque) -> Element:
 
 def _has_carriers(document: Document) -> bool:
     carrier = f"{{{NAMESPACE}}}{DIALECT}"
-    return _has(document, carrier)
-
-
-def _has(node: Node, carrier: str) -> bool:
-    if not holds_opaque(node):
-        return False
-    elements = (part.element for part in node.opaque if part.element)
-    named = (each.name == carrier for element in elements for each in element.walk())
-    return any(named) or any(_has(child, carrier) for child in children_of(node))
+    return any(element.name == carrier for element in untyped_elements(document))
