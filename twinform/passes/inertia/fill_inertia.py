@@ -24,11 +24,11 @@ _AMOUNTS = ("density", "mass", "total_mass")
 
 
 class _Filling(NamedTuple):
-    """What a link is to get: a solid in its frame, whether its mass was written, and of how many shapes it is made."""
+    """What a link is to get: a solid in its frame, whether its mass was written, and of what shapes it is made."""
 
     solid: Solid
     keeps_mass: bool
-    shapes: int
+    shapes: tuple[PlacedShape, ...]
 
 
 class FillInertia(AssetPass):
@@ -92,10 +92,12 @@ class FillInertia(AssetPass):
 
         def fill(link: Link, _model: Model) -> Link:
             filling = fillings.get(id(link))
-            if filling and self.total_mass is not None and not filling.keeps_mass:
+            if not filling:
+                return link
+            if self.total_mass is not None and not filling.keeps_mass:
                 part = times_power(filling.solid.mass, -exponent) * (self.total_mass / units)
                 filling = filling._replace(solid=with_mass(filling.solid, part))
-            return _filled(link, filling, notes) if filling else link
+            return _filled(link, filling, notes) if _is_solid(link, filling.solid, filling.shapes, notes) else link
 
         filled = map_links(document, fill)
         _report_empty(filled, self.links, notes)
@@ -137,9 +139,9 @@ class FillInertia(AssetPass):
             return None
         if not shapes or not _is_solid(link, whole, shapes, notes):
             return None
-        return self._weighed(link.inertial, whole, len(shapes))
+        return self._weighed(link.inertial, whole, shapes)
 
-    def _weighed(self, inertial: Inertial | None, whole: Solid, shapes: int) -> _Filling:
+    def _weighed(self, inertial: Inertial | None, whole: Solid, shapes: tuple[PlacedShape, ...]) -> _Filling:
         """The solid with the mass that it is to have, but for its part of the total."""
         overrides = self.replace == "all" and any(getattr(self, name) is not None for name in _AMOUNTS)
         if inertial is not None and inertial.mass is not None and has_mass(inertial) and not overrides:
@@ -153,7 +155,7 @@ def _is_solid(link: Link, whole: Solid, shapes: tuple[PlacedShape, ...], notes: 
     if all(map(math.isfinite, numbers)) and min(whole.mass, *whole.inertia[:3]) >= sys.float_info.min:
         return True
     names = ", ".join(one.name for one in shapes)
-    message = f"the inertia of link {link.name!r} is not computed: {names} fill no volume that has one"
+    message = f"the inertia of link {link.name!r} is not computed: no usable volume in {names}"
     notes.report(UNFILLED_INERTIA, message, shapes[0].holder.location, found=f"{whole.mass:g} kg")
     return False
 
@@ -161,7 +163,7 @@ def _is_solid(link: Link, whole: Solid, shapes: tuple[PlacedShape, ...], notes: 
 def _filled(link: Link, filling: _Filling, notes: Notes) -> Link:
     found = filling.solid
     kept = ", which was written" if filling.keeps_mass else ""
-    count = f"{filling.shapes} shape{'' if filling.shapes == 1 else 's'}"
+    count = f"{len(filling.shapes)} shape{'' if len(filling.shapes) == 1 else 's'}"
     message = f"link {link.name!r} got the inertia of {count}, with {found.mass:.6g} kg{kept}"
     place = link.inertial.location if link.inertial and link.inertial.source else link.location
     notes.report(FILLED_INERTIA, message, place, found=f"{found.mass:.6g} kg")

@@ -46,7 +46,9 @@ def _onto_cone(smallest: float, middle: float, largest: float) -> Moments:
     if excess <= 0 <= smallest:
         return smallest, middle, largest
     if smallest + excess / 3 >= 0 < excess:  # onto the side where the largest is the sum of the others
-        return smallest + excess / 3, middle + excess / 3, largest - excess / 3
+        low = smallest + excess / 3
+        high = max(middle + excess / 3, low)  # which rounding can deny
+        return low, high, low + high
     edge = max((middle + largest) / 2, 0.0)  # onto the edge where the smallest is zero: a rod without thickness
     return 0.0, edge, edge
 

@@ -49,6 +49,7 @@ def row(numbers: tuple[float, ...]) -> str:
 VECTORS = st.tuples(NUMBERS, NUMBERS, NUMBERS).map(row)
 SIZES = st.tuples(*[MAGNITUDES] * 3).map(row)
 ROBOTS = st.tuples(VECTORS, MAGNITUDES, *[NUMBERS] * 6, VECTORS, SIZES, MAGNITUDES, VECTORS)
+HEAVY = ("0 0 0", 1.7e308, *[0.0] * 6, "0 0 0", "0.5 1e-10 4.0", 5e-324, "0 0 0")
 HUGE = ("0 0 0", 1.0, 1e150, 1e150, 1e150, 0.0, 0.0, 0.0, "0 0 0", "1e200 1 1", 1e308, "1e308 1e308 0")
 
 
@@ -56,6 +57,7 @@ HUGE = ("0 0 0", 1.0, 1e150, 1e150, 1e150, 0.0, 0.0, 0.0, "0 0 0", "1e200 1 1", 
 @pytest.mark.parametrize("passes", PASSES)
 @examples(0.3)
 @example(numbers=HUGE)
+@example(numbers=HEAVY)
 @given(numbers=ROBOTS)
 def test_every_pass_over_inertias_ends_with_numbers_or_findings(source: str, passes: str, numbers: tuple[object, ...]):
     text = source.format(*numbers)
@@ -79,6 +81,7 @@ def test_the_nearest_inertia_is_the_same_in_every_unit(matrix: Symmetric, floor:
 
 
 @examples()
+@example(matrix=(0.0, -6575004066826970.0, 0.0, 0.0, 6575004066826970.0, 0.0), floor=5e-324)
 @given(matrix=st.tuples(*[NUMBERS] * 6), floor=MAGNITUDES)
 def test_the_nearest_inertia_is_one_that_a_body_can_have_or_too_large(matrix: Symmetric, floor: float):
     found = nearest_possible(matrix, floor)
