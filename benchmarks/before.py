@@ -1,47 +1,88 @@
-"""This tree beside an older one: `python -m benchmarks.before CHECKOUT [--every N] [--times N]`.
+"""This tree beside an older one: `python -m benchmarks.before CHECKOUT [--every N] [--times N] [--all]`.
 
-Every file of the corpus is converted both ways by the package of both checkouts, one after the other, each in a process
-of its own. Said is whether text, findings and ledger are the same bytes, and how much CPU time each takes: the least of
-several times for each file, and the sums of these. The processes take turns, so that whatever else the machine does
-slows both.
+Every file of the corpus is converted to the other format by the package of both checkouts, one after the other, each in
+a process of its own. Compared are text, findings and ledger, byte by byte, and CPU time: the least of several times for
+each file, and the sums of these. The processes take turns, so that whatever else the machine does slows both.
+
+With `--all` each file is also converted to its own format, to JSON and without carriers, checked, checked strictly, and
+converted with three passes, which are others for each file.
 """
 
 import argparse
+import json
 import subprocess
 import sys
 from collections import defaultdict
+from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
+from random import Random
 
+from lxml import etree
+
+from benchmarks import edit_passes
 from benchmarks.converting import SDF_VERSION
 from benchmarks.markdown import table
 from tests.corpus.files import CORPUS, MISSING, CorpusFile, Kind, models
 
 _SHOWN = 20
 """So many files that differ are named."""
-_WORKER = f"""
-import hashlib, sys, time
+_PASSES = 3
+_WRITES_FILES = "bridge-config"
+_WORKER = """
+import hashlib, json, sys, time
 sys.path.insert(0, ".")
 import twinform
+
+def words(diagnostics):
+    keys = ("message", "location", "severity", "found", "expected", "help", "related")
+    return [str([each.rule.name, *(str(getattr(each, key)) for key in keys)]) for each in diagnostics]
+
+def entries(ledger):
+    keys = ("fate", "message", "location", "weight")
+    return [str([each.rule.name, *(str(getattr(each, key)) for key in keys)]) for each in ledger.entries]
+
 for line in sys.stdin:
-    to, path = line.rstrip("\\n").split(" ", 1)
-    version = {{"sdf_version": {SDF_VERSION!r}}} if to == "sdf" else {{}}
+    path, function, options = json.loads(line)
     start = time.process_time()
     try:
-        made = twinform.convert(path, to=to, **version)
+        made = getattr(twinform, function)(path, **options)
         taken = time.process_time() - start
-        said = "\\n".join([made.text, *map(str, made.diagnostics), *map(str, made.ledger.entries)])
+        said = "\\n".join(words(made.diagnostics))
+        if function == "convert":
+            said = "\\n".join([made.text, said, str(made.ledger.expressed), *entries(made.ledger)])
     except twinform.CompileError as error:
-        taken, said = -1.0, "\\n".join(map(str, error.diagnostics))
+        taken, said = -1.0, "\\n".join(words(error.diagnostics))
     except Exception as error:
         taken, said = -1.0, repr(error)
-    print(taken, hashlib.sha256(said.encode()).hexdigest(), flush=True)
+    print(taken, hashlib.sha256(said.encode("utf-8", "surrogatepass")).hexdigest(), flush=True)
 """
 
 
 @dataclass(frozen=True, slots=True)
+class Call:
+    """What is asked of both packages about one file: `kind` is the row of the table that it belongs to."""
+
+    kind: str
+    path: Path
+    function: str = "convert"
+    options: dict[str, object] = field(default_factory=dict[str, object])
+
+    @property
+    def line(self) -> str:
+        """The call as the process reads it."""
+        return json.dumps([str(self.path), self.function, self.options])
+
+    @property
+    def name(self) -> str:
+        """The file and what is done with it."""
+        return f"{self.path.relative_to(CORPUS)} {self.options}"
+
+
+@dataclass(frozen=True, slots=True)
 class Checkout:
-    """The package of a folder, in a process that converts what it is asked to."""
+    """The package of a folder, in a process that does what it is asked to."""
 
     name: str
     process: "subprocess.Popen[str]"
@@ -53,11 +94,11 @@ class Checkout:
         pipe = subprocess.PIPE
         return cls(name, subprocess.Popen(command, cwd=folder, stdin=pipe, stdout=pipe, text=True))
 
-    def convert(self, path: Path, to: str) -> tuple[float, str]:
+    def answer(self, call: Call) -> tuple[float, str]:
         """The CPU time in seconds, below 0 where the file is refused, and a hash of all that came out."""
         if self.process.stdin is None or self.process.stdout is None:
             raise ValueError("the process has no pipes")
-        self.process.stdin.write(f"{to} {path}\n")
+        self.process.stdin.write(f"{call.line}\n")
         self.process.stdin.flush()
         taken, said = self.process.stdout.readline().split()
         return float(taken), said
@@ -65,11 +106,11 @@ class Checkout:
 
 @dataclass(slots=True)
 class Figures:
-    """What was seen of one direction."""
+    """What was seen of one kind of call."""
 
     differ: list[str] = field(default_factory=list[str])
-    files: int = 0
-    converted: int = 0
+    calls: int = 0
+    answered: int = 0
     seconds: dict[str, float] = field(default_factory=lambda: defaultdict[str, float](float))
 
 
@@ -79,6 +120,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("checkout", type=Path, help="the folder of the older tree")
     parser.add_argument("--every", type=int, default=1, help="one of so many files of the corpus")
     parser.add_argument("--times", type=int, default=3, help="how often each file is converted")
+    parser.add_argument("--all", action="store_true", help="everything that can be made of a file, not one conversion")
     options = parser.parse_args(arguments)
     if not CORPUS.is_dir():
         print(MISSING, file=sys.stderr)
@@ -86,24 +128,47 @@ def main(arguments: list[str] | None = None) -> int:
     both = (Checkout.at("before", options.checkout), Checkout.at("now", Path.cwd()))
     figures: dict[str, Figures] = defaultdict(Figures)
     for file in list(models())[:: options.every]:
-        to = "sdf" if file.kind is Kind.URDF else "urdf"
-        _measure(file, to, both, figures[to], options.times)
+        for call in _all_calls(file) if options.all else [_other_format(file)]:
+            _measure(call, both, figures[call.kind], options.times)
     _report(figures)
     return int(any(each.differ for each in figures.values()))
 
 
-def _measure(file: CorpusFile, to: str, both: tuple[Checkout, ...], figures: Figures, times: int) -> None:
+def _other_format(file: CorpusFile, **options: object) -> Call:
+    if file.kind is Kind.URDF:
+        return Call("to SDF", file.path, options={"to": "sdf", "sdf_version": SDF_VERSION, **options})
+    return Call("to URDF", file.path, options={"to": "urdf", **options})
+
+
+def _all_calls(file: CorpusFile) -> Iterator[Call]:
+    own = "urdf" if file.kind is Kind.URDF else "sdf"
+    yield _other_format(file)
+    yield Call("to its own format", file.path, options={"to": own})
+    yield Call("to JSON", file.path, options={"to": "json"})
+    other = _other_format(file, carriers=False)
+    yield Call("without carriers", file.path, options=other.options)
+    for strict in (False, True):
+        yield Call("check", file.path, "check", {"strict": strict})
+    random = Random(file.name)
+    names = [name for name in edit_passes.NAMES if name != _WRITES_FILES]
+    with suppress(etree.XMLSyntaxError):  # links to choose from are looked up in files that need no repair
+        chosen = [edit_passes.pipeline(name, file.path.read_bytes(), random) for name in random.sample(names, _PASSES)]
+        for pipeline in filter(None, chosen):
+            yield Call("with a pass", file.path, options={"to": own, "passes": pipeline})
+
+
+def _measure(call: Call, both: tuple[Checkout, ...], figures: Figures, times: int) -> None:
     taken: dict[str, list[float]] = defaultdict(list)
     said: dict[str, str] = {}
     for _ in range(times):
         for checkout in both:
-            seconds, said[checkout.name] = checkout.convert(file.path, to)
+            seconds, said[checkout.name] = checkout.answer(call)
             taken[checkout.name].append(seconds)
-    figures.files += 1
+    figures.calls += 1
     if len({*said.values()}) > 1:
-        figures.differ.append(file.name)
+        figures.differ.append(call.name)
     if all(min(each) >= 0 for each in taken.values()):
-        figures.converted += 1
+        figures.answered += 1
         for name, each in taken.items():
             figures.seconds[name] += min(each)
 
@@ -111,20 +176,20 @@ def _measure(file: CorpusFile, to: str, both: tuple[Checkout, ...], figures: Fig
 def _report(figures: dict[str, Figures]) -> None:
     rows = [
         [
-            f"to {to.upper()}",
-            str(each.files),
-            str(each.files - len(each.differ)),
-            str(each.converted),
+            kind,
+            str(each.calls),
+            str(each.calls - len(each.differ)),
+            str(each.answered),
             f"{each.seconds['before']:.2f} s",
             f"{each.seconds['now']:.2f} s",
             f"{each.seconds['before'] / each.seconds['now']:.2f}" if each.seconds["now"] else "",
         ]
-        for to, each in figures.items()
+        for kind, each in figures.items()
     ]
-    print(table(["", "files", "the same bytes", "both convert", "before", "now", "times as fast"], rows))
-    for to, each in figures.items():
+    print(table(["", "calls", "the same bytes", "neither refuses", "before", "now", "times as fast"], rows))
+    for kind, each in figures.items():
         for name in each.differ[:_SHOWN]:
-            print(f"to {to.upper()}, not the same: {name}")
+            print(f"{kind}, not the same: {name}")
 
 
 if __name__ == "__main__":
