@@ -8,12 +8,13 @@ from pydantic import Field
 from twinform.diagnostics import Notes, Severity
 from twinform.diagnostics.rules.inertia import BALANCED_INERTIA, UNBALANCED_INERTIA
 from twinform.ir import Document, Format, Inertia, Inertial, Link, Model
+from twinform.ir.defaults import MOMENT
 from twinform.ir.principal_moments import Symmetric, principal_moments, relative_moments, times_each
 from twinform.ir.scaling import common_exponent, times_power
 from twinform.ir.verify.inertia import inertia_matrix
 from twinform.passes.base import Pass
 from twinform.passes.inertia.nearest import distance, nearest_possible, second_moments
-from twinform.passes.inertia.possible import DEFAULT_MOMENT, has_mass
+from twinform.passes.inertia.possible import has_mass
 from twinform.passes.map_links import map_links
 from twinform.passes.patterns import matches
 
@@ -68,7 +69,7 @@ class BalanceInertia(Pass):
             inertial = link.inertial
             if inertial is None or inertial.auto or not matches(link.name, self.links):
                 return link
-            matrix = inertia_matrix(inertial.inertia, DEFAULT_MOMENT[document.format])
+            matrix = inertia_matrix(inertial.inertia, MOMENT[document.format])
             if inertial.inertia is None and document.format is Format.URDF and has_mass(inertial):
                 matrix = _NOTHING
             return link if matrix is None else self._balance(link, inertial, matrix, notes)

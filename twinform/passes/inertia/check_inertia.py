@@ -8,10 +8,11 @@ from pydantic import Field, model_validator
 from twinform.diagnostics import Notes, Severity
 from twinform.diagnostics.rules.inertia import MASS_RATIO, MISSING_INERTIAL, NON_POSITIVE_MASS
 from twinform.ir import Document, Format, Inertial, Link
+from twinform.ir.defaults import MOMENT
 from twinform.ir.verify.inertia import inertia_matrix, report_moments
 from twinform.passes.assets import AssetPass
 from twinform.passes.inertia.plausible import Plausible
-from twinform.passes.inertia.possible import DEFAULT_MOMENT, DIGITS, ROUNDING
+from twinform.passes.inertia.possible import DIGITS, ROUNDING
 from twinform.passes.inertia.shapes import Places
 from twinform.passes.map_links import movable_models
 from twinform.passes.meshes import Meshes
@@ -86,7 +87,7 @@ class CheckInertia(AssetPass):
         meshes = Meshes(self._assets) if self.meshes else None
         densities = (self.least_density, self.greatest_density)
         for model in movable_models(document):
-            check = Plausible(Places(model), meshes, densities, DEFAULT_MOMENT[document.format], notes)
+            check = Plausible(Places(model), meshes, densities, MOMENT[document.format], notes)
             for link in model.links:
                 if id(link) in moving and link.inertial and not link.inertial.auto:
                     check.link(link, link.inertial)
@@ -107,7 +108,7 @@ def _check_presence(body: Body, format_: Format, notes: Notes) -> None:
 
 
 def _check_inertial(link: Link, inertial: Inertial, format_: Format, eps: float, notes: Notes) -> None:
-    mass, matrix = inertial.mass, inertia_matrix(inertial.inertia, DEFAULT_MOMENT[format_])
+    mass, matrix = inertial.mass, inertia_matrix(inertial.inertia, MOMENT[format_])
     if mass is not None and not mass > 0 and not notes.has(NON_POSITIVE_MASS, inertial.location, Severity.WARNING):
         message = f"the mass of link {link.name!r}, which moves, is {mass:g}; it has to be positive"
         notes.report(NON_POSITIVE_MASS, message, inertial.location, found=f"{mass:g}", expected="more than 0")

@@ -4,11 +4,12 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from twinform.ir import Document, Inertia, Inertial, Link, Model
+from twinform.ir.defaults import MOMENT
 from twinform.ir.frames import FrameGraph
 from twinform.ir.principal_moments import Symmetric
 from twinform.ir.solids import Solid, placed, with_mass
 from twinform.ir.verify.inertia import inertia_matrix
-from twinform.passes.inertia.possible import DEFAULT_MOMENT, is_possible
+from twinform.passes.inertia.possible import is_possible
 from twinform.passes.inertia.shapes import inertial_of
 
 _NOTHING: Symmetric = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -26,7 +27,7 @@ class Masses:
     """What the links of a document have by now. Links are known by their identity: equal ones are still two."""
 
     def __init__(self, document: Document) -> None:
-        self._default = DEFAULT_MOMENT[document.format]
+        self._default = MOMENT[document.format]
         self._format = document.format
         self._homes = dict(_homes(document))
         self._graphs: dict[int, FrameGraph] = {}

@@ -6,13 +6,11 @@ from typing import Literal, NamedTuple
 from twinform.diagnostics import Location
 from twinform.ir import Collision, Inertia, Inertial, Link, Mesh, Model, Node, Pose, Shape, Visual
 from twinform.ir.bounds import Bounds, bounds, placed_bounds, united
+from twinform.ir.defaults import DENSITY
 from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import Solid, placed, solid
 from twinform.ir.transform import Transform
 from twinform.passes.meshes import MeshError, Meshes
-
-WATER = 1000.0
-"""The density that SDF takes where none is written, kg/m^3."""
 
 Kind = Literal["collision", "visual", "either"]
 
@@ -84,7 +82,7 @@ def solid_of(one: PlacedShape, density: float | None, meshes: Meshes) -> Solid:
         NoSolidError: the shape has no inside, or its mesh cannot be used.
     """
     own = own_density(one.holder)
-    chosen = density if density is not None else WATER if own is None else own
+    chosen = density if density is not None else DENSITY if own is None else own
     try:
         found = meshes.solid(one.shape, chosen) if isinstance(one.shape, Mesh) else solid(one.shape, chosen)
     except MeshError as error:

@@ -11,6 +11,7 @@ from twinform.diagnostics import Location, Notes, Rule
 from twinform.diagnostics.rules import limits as rules
 from twinform.diagnostics.rules.to_urdf import UNBOUNDED_LIMIT
 from twinform.ir import Axis, Document, Format, Joint, Limit
+from twinform.ir.defaults import UNLIMITED, with_range
 from twinform.passes.base import Pass
 from twinform.passes.limits.soft_limits import soft_limits
 from twinform.passes.map_joints import map_joints
@@ -18,8 +19,6 @@ from twinform.passes.map_joints import map_joints
 _BOUNDED = frozenset({"revolute", "prismatic"})
 _TURNING = frozenset({"revolute", "universal", "revolute2"})
 _DRIVEN = _BOUNDED | {"continuous"}
-_UNLIMITED = 1e16
-"""What stands for infinity in SDF before 1.10, and in URDF."""
 
 
 class _Finding(NamedTuple):
@@ -80,9 +79,8 @@ class CheckLimits(Pass):
         yield from _soft(joint)
 
     def _range(self, joint: Joint, limit: Limit, format_: Format) -> Iterator[_Finding]:
-        lower, upper = limit.lower, limit.upper
-        if format_ is Format.URDF and limit.source:  # what a <limit> of URDF does not say is zero
-            lower, upper = lower or 0.0, upper or 0.0
+        said = with_range(limit, format_) if format_ is Format.URDF and limit.source else limit
+        lower, upper = said.lower, said.upper
         if lower is None or upper is None or not lower <= upper:
             return
         where, found = _place(joint, limit), f"{lower:g} to {upper:g}"
@@ -90,7 +88,7 @@ class CheckLimits(Pass):
         if lower == upper:
             yield _Finding(rules.EMPTY_RANGE, f"joint {joint.name!r} can only be at {lower:g}", where, found)
         most = self.turns * math.tau
-        if joint.type in _TURNING and most < max(-lower, upper) < _UNLIMITED:
+        if joint.type in _TURNING and most < max(-lower, upper) < UNLIMITED:
             message = f"joint {joint.name!r} turns from {lower:g} to {upper:g} rad; are these degrees?"
             yield _Finding(rules.RANGE_IN_DEGREES, message, where, found, f"at most {most:.4g}")
         if not lower <= 0 <= upper:
@@ -111,7 +109,7 @@ class CheckLimits(Pass):
 
 def _is_open(value: float | None) -> bool:
     """Whether a limit is none: SDF also says so by a negative one, and by a number that stands for infinity."""
-    return value is None or value < 0 or value >= _UNLIMITED
+    return value is None or value < 0 or value >= UNLIMITED
 
 
 def _dynamics(joint: Joint, axis: Axis) -> Iterator[_Finding]:

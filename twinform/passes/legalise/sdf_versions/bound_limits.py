@@ -6,6 +6,7 @@ from typing import ClassVar
 
 from twinform.diagnostics.rules import sdf_versions as rules
 from twinform.ir import Axis, Document, Joint, Opaque
+from twinform.ir.defaults import UNLIMITED, UNLIMITED_STRENGTH
 from twinform.passes.legalise.nodes import text_piece
 from twinform.passes.legalise.sdf_versions.base import VersionPass
 from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms
@@ -13,7 +14,9 @@ from twinform.passes.map_joints import map_joints
 from twinform.schemas import format_value
 
 _SINCE = (1, 10)
-_UNLIMITED = {"lower": 1e16, "upper": 1e16, "effort": -1.0, "velocity": -1.0}
+_UNLIMITED = {
+    "lower": UNLIMITED, "upper": UNLIMITED, "effort": UNLIMITED_STRENGTH, "velocity": UNLIMITED_STRENGTH,
+}  # fmt: skip
 """What readers of older versions take for no limit: rad or m, N m or N, rad/s or m/s. A range keeps its sign."""
 
 

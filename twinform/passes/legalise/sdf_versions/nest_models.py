@@ -6,7 +6,8 @@ from typing import ClassVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import sdf_versions as rules
-from twinform.ir import Axis, Document, Frame, Joint, Link, Model, Pose
+from twinform.ir import Axis, Document, Format, Frame, Joint, Link, Model, Pose
+from twinform.ir.defaults import direction
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.passes.legalise.nodes import map_poses
 from twinform.passes.legalise.sdf_versions.base import VersionPass, map_models
@@ -209,7 +210,7 @@ def _axis(joint: Joint, axis: Axis | None, inner: _Inner, graph: FrameGraph) -> 
     if axis.expressed_in == MODEL and inner.own is None:
         return axis
     turn = graph.pose(axis.expressed_in, joint.name, kind="frame", base="joint")
-    return axis.model_copy(update={"xyz": turn.rotate(axis.xyz or (0.0, 0.0, 1.0)), "expressed_in": None})
+    return axis.model_copy(update={"xyz": turn.rotate(direction(axis, Format.SDF)), "expressed_in": None})
 
 
 def _merged(nested: Model, made: list[Model]) -> Model:
