@@ -1,0 +1,51 @@
+"""Every pass has a name of its own, whether a user's pipeline has it or a target asks for it."""
+
+import pkgutil
+from collections import defaultdict
+from collections.abc import Iterator
+from importlib import import_module
+from inspect import isabstract
+
+import pytest
+
+import twinform.passes
+from twinform.ir import Document, Format, Model
+from twinform.passes import FailedPassError, Pass, registered_passes
+from twinform.passes.hooks.reproducer import Reproducer
+from twinform.passes.legalise.known import legalisation_kinds
+from twinform.passes.legalise.to_urdf.flatten_for_urdf import FlattenForUrdf
+
+
+def passes(kind: type[Pass] = Pass) -> Iterator[type[Pass]]:
+    """The passes of this package, all of them."""
+    for each in kind.__subclasses__():
+        if each.__module__.startswith("twinform.passes.") and not isabstract(each) and hasattr(each, "name"):
+            yield each
+        yield from passes(each)
+
+
+def test_no_two_passes_have_one_name() -> None:
+    for module in pkgutil.walk_packages(twinform.passes.__path__, "twinform.passes."):
+        if not module.name.endswith("__main__"):
+            import_module(module.name)
+    kinds = defaultdict[str, set[type[Pass]]](set)
+    for kind in passes():
+        kinds[kind.name].add(kind)
+    assert {name: found for name, found in kinds.items() if len(found) > 1} == {}
+    own = {name for name, each in registered_passes().items() if each.owner == "twinform"}
+    assert own.isdisjoint(legalisation_kinds())
+    assert own | set(legalisation_kinds()) <= set(kinds)
+
+
+def test_a_pass_of_legalisation_is_reproduced_by_itself(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object) -> Model:
+        raise ZeroDivisionError
+
+    monkeypatch.setattr(FlattenForUrdf, "run_model", fail)
+    document = Document(format=Format.SDF, models=(Model(name="m"),))
+    step = FlattenForUrdf()
+    found = Reproducer.of(FailedPassError(step, document, ZeroDivisionError()), "m.sdf", "0")
+    again = found.run()
+    assert found.again
+    assert again is not None
+    assert type(again.step) is FlattenForUrdf
