@@ -14,6 +14,7 @@ from twinform.passes import FailedPassError, Pass, registered_passes
 from twinform.passes.hooks.reproducer import Reproducer
 from twinform.passes.legalise.known import legalisation_kinds
 from twinform.passes.legalise.to_urdf.flatten_for_urdf import FlattenForUrdf
+from twinform.passes.structure.flatten_models import FlattenModels
 
 
 def passes(kind: type[Pass] = Pass) -> Iterator[type[Pass]]:
@@ -37,15 +38,13 @@ def test_no_two_passes_have_one_name() -> None:
     assert own | set(legalisation_kinds()) <= set(kinds)
 
 
-def test_a_pass_of_legalisation_is_reproduced_by_itself(monkeypatch: pytest.MonkeyPatch) -> None:
-    def fail(*_: object) -> Model:
+@pytest.mark.parametrize("step", [FlattenModels(), FlattenForUrdf()], ids=lambda step: step.name)
+def test_a_fault_comes_again_from_the_pass_that_made_it(step: Pass, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object) -> Document:
         raise ZeroDivisionError
 
-    monkeypatch.setattr(FlattenForUrdf, "run_model", fail)
+    monkeypatch.setattr(type(step), "run", fail)
     document = Document(format=Format.SDF, models=(Model(name="m"),))
-    step = FlattenForUrdf()
-    found = Reproducer.of(FailedPassError(step, document, ZeroDivisionError()), "m.sdf", "0")
-    again = found.run()
-    assert found.again
+    again = Reproducer.of(FailedPassError(step, document, ZeroDivisionError()), "m.sdf", "0").run()
     assert again is not None
-    assert type(again.step) is FlattenForUrdf
+    assert type(again.step) is type(step)

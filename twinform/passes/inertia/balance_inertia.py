@@ -16,7 +16,7 @@ from twinform.passes.base import Pass
 from twinform.passes.inertia.nearest import distance, nearest_possible, second_moments
 from twinform.passes.inertia.possible import has_mass
 from twinform.passes.map_links import map_links
-from twinform.passes.patterns import matches
+from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 _NOTHING_MUCH = 1e-3
 """A change of so small a part of an inertia is that of digits which were cut off, and no news."""
@@ -45,9 +45,7 @@ class BalanceInertia(Pass):
     name = "balance-inertia"
     example: ClassVar[str] = "balance-inertia{thickness=0.001}"
 
-    links: tuple[str, ...] = Field(
-        default=("*",), description="Only links with such a name; `*`, `?` and `[...]` are wildcards."
-    )
+    links: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only links"))
     thickness: float = Field(
         default=1e-4,
         ge=0,

@@ -18,7 +18,7 @@ from twinform.passes.inertia.shapes import Kind, NoSolidError, PlacedShape, Plac
 from twinform.passes.map_links import map_links, movable_models
 from twinform.passes.meshes import Meshes
 from twinform.passes.moving_bodies import moving_bodies
-from twinform.passes.patterns import matches
+from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 _AMOUNTS = ("density", "mass", "total_mass")
 
@@ -55,9 +55,7 @@ class FillInertia(AssetPass):
     name = "fill-inertia"
     example: ClassVar[str] = "fill-inertia{density=2700 shapes=visual},check-inertia"
 
-    links: tuple[str, ...] = Field(
-        default=("*",), description="Only links with such a name; `*`, `?` and `[...]` are wildcards."
-    )
+    links: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only links"))
     shapes: Kind = Field(
         default="collision", description="Which shapes are filled; `either`: visuals of links without collisions."
     )

@@ -15,7 +15,7 @@ from twinform.passes.inertia.possible import has_mass
 from twinform.passes.map_joints import map_joints
 from twinform.passes.map_links import map_links
 from twinform.passes.moving_bodies import Body, Neighbours, moving_bodies, neighbours
-from twinform.passes.patterns import matches
+from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 _NOTHING = Solid(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
 
@@ -38,9 +38,7 @@ class SplitMassless(Pass):
     name = "split-massless"
     example: ClassVar[str] = "split-massless{share=0.05},check-inertia"
 
-    links: tuple[str, ...] = Field(
-        default=("*",), description="Only bodies with such a link; `*`, `?` and `[...]` are wildcards."
-    )
+    links: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only bodies that have a link"))
     share: float = Field(default=0.01, gt=0, lt=1, description="The part of the carried body that the carrier takes.")
     ends: Literal["weigh", "fix"] = Field(
         default="weigh", description="Whether the end of a chain gets a small ball, or its joint is fixed."

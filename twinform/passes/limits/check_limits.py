@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterator
-from fnmatch import fnmatchcase
 from typing import ClassVar, NamedTuple
 
 from pydantic import Field
@@ -15,6 +14,7 @@ from twinform.ir.defaults import UNLIMITED, with_range
 from twinform.passes.base import Pass
 from twinform.passes.limits.soft_limits import soft_limits
 from twinform.passes.map_joints import map_joints
+from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 _BOUNDED = frozenset({"revolute", "prismatic"})
 _TURNING = frozenset({"revolute", "universal", "revolute2"})
@@ -52,13 +52,13 @@ class CheckLimits(Pass):
     turns: float = Field(default=2.0, gt=0, description="The most turns either way; `inf` for any.")
     effort: float = Field(default=1e5, gt=0, description="The greatest plausible effort, in N m or N; `inf` for any.")
     velocity: float = Field(default=1e3, gt=0, description="The greatest plausible speed, in rad/s or m/s.")
-    joints: str = Field(default="*", description="Only joints with such a name; `*`, `?` and `[...]` are wildcards.")
+    joints: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only joints"))
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The same document."""
 
         def look(joint: Joint) -> Joint:
-            if fnmatchcase(joint.name, self.joints):
+            if matches(joint.name, self.joints):
                 for each in self._findings(joint, document.format):
                     if each.rule is rules.RANGE_IN_DEGREES and notes.has(each.rule, each.where):
                         continue  # verifying has seen what cannot be but degrees

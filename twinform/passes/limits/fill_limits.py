@@ -1,6 +1,5 @@
 """Fill the limits, damping and friction that joints lack."""
 
-from fnmatch import fnmatchcase
 from typing import ClassVar, Self
 
 from pydantic import Field, model_validator
@@ -10,6 +9,7 @@ from twinform.diagnostics.rules.limits import FILLED_LIMIT, UNFILLED_LIMIT
 from twinform.ir import Axis, Document, Dynamics, Format, Joint, Limit, Node
 from twinform.passes.base import Pass
 from twinform.passes.map_joints import map_joints
+from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 _BOUNDED = frozenset({"revolute", "prismatic"})
 _DRIVEN = _BOUNDED | {"continuous"}
@@ -50,7 +50,7 @@ class FillLimits(Pass):
     friction: float | None = Field(
         default=None, ge=0, allow_inf_nan=False, description="The static friction, in N m or N."
     )
-    joints: str = Field(default="*", description="Only joints with such a name; `*`, `?` and `[...]` are wildcards.")
+    joints: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only joints"))
 
     @model_validator(mode="after")
     def _check_range(self) -> Self:
@@ -63,7 +63,7 @@ class FillLimits(Pass):
         return map_joints(document, lambda joint: self._fill(joint, document.format, notes))
 
     def _fill(self, joint: Joint, format_: Format, notes: Notes) -> Joint:
-        if joint.type not in _DRIVEN or not fnmatchcase(joint.name, self.joints):
+        if joint.type not in _DRIVEN or not matches(joint.name, self.joints):
             return joint
         if joint.axis is None and format_ is Format.SDF:
             return joint

@@ -1,7 +1,6 @@
 """Move the limits of joints inward."""
 
 import math
-from fnmatch import fnmatchcase
 from typing import ClassVar
 
 from pydantic import Field
@@ -12,6 +11,7 @@ from twinform.ir import Document, Joint, Limit
 from twinform.passes.base import Pass
 from twinform.passes.limits.soft_limits import SoftLimits, soft_limits
 from twinform.passes.map_joints import map_joints
+from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 _BOUNDED = frozenset({"revolute", "prismatic"})
 
@@ -36,14 +36,14 @@ class TightenLimits(Pass):
 
     soft: bool = Field(default=True, description="Whether soft limits become hard ones.")
     margin: float = Field(default=0.0, ge=0, allow_inf_nan=False, description="How far inward, in rad or m.")
-    joints: str = Field(default="*", description="Only joints with such a name; `*`, `?` and `[...]` are wildcards.")
+    joints: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only joints"))
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The document with tighter limits."""
         return map_joints(document, lambda joint: self._tighten(joint, notes))
 
     def _tighten(self, joint: Joint, notes: Notes) -> Joint:
-        if joint.type not in _BOUNDED or joint.axis is None or not fnmatchcase(joint.name, self.joints):
+        if joint.type not in _BOUNDED or joint.axis is None or not matches(joint.name, self.joints):
             return joint
         limit = joint.axis.limit or Limit()
         lower, upper = self._range(limit, (soft_limits(joint) if self.soft else None) or SoftLimits(None, None))

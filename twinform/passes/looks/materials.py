@@ -12,7 +12,7 @@ from twinform.ir.node import Node
 from twinform.passes.base import Pass
 from twinform.passes.legalise.carrier import to_element
 from twinform.passes.looks.classic_materials import ClassicMaterial, classic_materials
-from twinform.passes.patterns import matches
+from twinform.passes.patterns import EVERY, matches, with_such_a_name
 from twinform.schemas import format_value, parse_version, table
 
 _PBR = "pbr/metal"
@@ -43,9 +43,7 @@ class Materials(Pass):
     pbr: bool = Field(default=False, description="Whether colours become those of PBR.")
     metalness: float = Field(default=0.0, ge=0, le=1, description="From 0, paint, to 1, bare metal.")
     roughness: float | None = Field(default=None, ge=0, le=1, description="From 0, a mirror, to 1.")
-    links: tuple[str, ...] = Field(
-        default=("*",), description="Only links with such a name; `*`, `?` and `[...]` are wildcards."
-    )
+    links: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only links"))
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The document with other materials."""

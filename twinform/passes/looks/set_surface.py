@@ -10,7 +10,7 @@ from twinform.ir import Collision, Document, Format, Link, Model, Surface, map_c
 from twinform.ir.node import Node
 from twinform.passes.base import Pass
 from twinform.passes.gazebo_tags import with_element, with_tags
-from twinform.passes.patterns import matches
+from twinform.passes.patterns import EVERY, matches, with_such_a_name
 from twinform.schemas import format_value
 
 _TAGS = {"mu": "mu1", "mu2": "mu2", "kp": "kp", "kd": "kd", "max_vel": "maxVel", "min_depth": "minDepth"}
@@ -39,10 +39,8 @@ class SetSurface(Pass):
     name = "set-surface"
     example: ClassVar[str] = 'set-surface{links="*wheel*" mu=0.9 mu2=0.5}'
 
-    links: tuple[str, ...] = Field(
-        default=("*",), description="Only links with such a name; `*`, `?` and `[...]` are wildcards."
-    )
-    collisions: tuple[str, ...] = Field(default=("*",), description="Only collisions with such a name.")
+    links: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only links"))
+    collisions: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only collisions"))
     mu: float | None = Field(default=None, ge=0, description="Coulomb friction along the first direction.")
     mu2: float | None = Field(default=None, ge=0, description="Likewise along the second; not set, it stays as it is.")
     restitution: float | None = Field(default=None, ge=0, le=1, description="From 0, no bounce, to 1.")

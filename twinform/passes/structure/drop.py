@@ -24,7 +24,7 @@ from twinform.ir import (
 )
 from twinform.passes.base import Pass
 from twinform.passes.legalise.carrier import is_ours
-from twinform.passes.patterns import matches
+from twinform.passes.patterns import EVERY, matches, with_such_a_name
 from twinform.passes.structure.dangling import Gone, report_dangling
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -61,14 +61,12 @@ class Drop(Pass):
     name = "drop"
     example: ClassVar[str] = 'drop{sensors="*" plugins="*gazebo_ros*"}'
 
-    visuals: tuple[str, ...] = Field(
-        default=(), description="Visuals; `*`, `?` and `[...]` are wildcards in all of these."
-    )
-    collisions: tuple[str, ...] = Field(default=(), description="Collisions.")
-    sensors: tuple[str, ...] = Field(default=(), description="Sensors, with their plugins.")
-    plugins: tuple[str, ...] = Field(default=(), description="Plugins, by name or file name.")
-    lights: tuple[str, ...] = Field(default=(), description="Lights of links, models and worlds.")
-    links: tuple[str, ...] = Field(default=("*",), description="Only on links with such a name.")
+    visuals: tuple[str, ...] = Field(default=(), description=with_such_a_name("Visuals"))
+    collisions: tuple[str, ...] = Field(default=(), description=with_such_a_name("Collisions"))
+    sensors: tuple[str, ...] = Field(default=(), description=with_such_a_name("Sensors, and the plugins in them,"))
+    plugins: tuple[str, ...] = Field(default=(), description=with_such_a_name("Plugins, or those of a file,"))
+    lights: tuple[str, ...] = Field(default=(), description=with_such_a_name("Lights of links, models and worlds"))
+    links: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only on links"))
 
     @model_validator(mode="after")
     def _check_any(self) -> Self:
