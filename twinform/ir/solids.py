@@ -14,6 +14,8 @@ from twinform.ir.principal_moments import Symmetric, times_each
 from twinform.ir.scaling import common_exponent, safe_sum, times_power
 from twinform.ir.transform import Transform
 
+ELEMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+"""The fields of an inertia in the order of a tensor."""
 ORIGIN: Vector3 = (0.0, 0.0, 0.0)
 _THINNEST = 1e-70
 """What is thinner than this part of its length fills no volume: the fourth powers of thinner ones lose digits."""
@@ -122,6 +124,12 @@ def tensor(inertia: Inertia | None, moment: float = 0.0) -> Symmetric:
     return xx, yy, zz, written.ixy or 0.0, written.ixz or 0.0, written.iyz or 0.0
 
 
+def with_tensor(inertia: Inertia | None, elements: Symmetric) -> Inertia:
+    """The inertia with these elements, and with what else is written in it."""
+    update: dict[str, float] = dict(zip(ELEMENTS, elements, strict=True))
+    return (inertia or Inertia()).model_copy(update=update)
+
+
 def written_solid(inertial: Inertial | None, format_: Format) -> Solid:
     """What an inertial says, in its own frame, with the defaults of the format; nothing weighs nothing in URDF."""
     written = inertial or Inertial()
@@ -130,18 +138,23 @@ def written_solid(inertial: Inertial | None, format_: Format) -> Solid:
 
 
 def placed(one: Solid, at: Transform) -> Solid:
-    """A solid seen from the frame that `at` places its own in: R I R^T."""
-    exponent = common_exponent(one.inertia)
+    """A solid seen from the frame that `at` places its own in."""
+    return Solid(one.mass, at.apply(one.centre), turned(one.inertia, at))
+
+
+def turned(inertia: Symmetric, at: Transform) -> Symmetric:
+    """An inertia in the axes of the frame that `at` turns its own in: R I R^T."""
+    exponent = common_exponent(inertia)
     rows = (at.rotation[0:3], at.rotation[3:6], at.rotation[6:9])
-    xx, yy, zz, xy, xz, yz = times_each(one.inertia, -exponent)
+    xx, yy, zz, xy, xz, yz = times_each(inertia, -exponent)
     matrix = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
     half = [[sum(row[k] * matrix[k][j] for k in range(3)) for j in range(3)] for row in rows]
 
     def entry(i: int, j: int) -> float:
         return sum(half[i][k] * rows[j][k] for k in range(3)) + 0.0
 
-    turned = (entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2))
-    return Solid(one.mass, at.apply(one.centre), times_each(turned, exponent))
+    found = (entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2))
+    return times_each(found, exponent)
 
 
 def combined(parts: Sequence[Solid]) -> Solid:

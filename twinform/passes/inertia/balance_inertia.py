@@ -7,10 +7,11 @@ from pydantic import Field
 
 from twinform.diagnostics import Notes, Severity
 from twinform.diagnostics.rules.inertia import BALANCED_INERTIA, UNBALANCED_INERTIA
-from twinform.ir import Document, Format, Inertia, Inertial, Link, Model
+from twinform.ir import Document, Format, Inertial, Link, Model
 from twinform.ir.defaults import MOMENT
 from twinform.ir.principal_moments import Symmetric, principal_moments, relative_moments, times_each
 from twinform.ir.scaling import common_exponent, times_power
+from twinform.ir.solids import with_tensor
 from twinform.ir.verify.inertia import inertia_matrix
 from twinform.passes.base import Pass
 from twinform.passes.inertia.nearest import distance, nearest_possible, second_moments
@@ -21,7 +22,6 @@ from twinform.passes.patterns import EVERY, matches, with_such_a_name
 _NOTHING_MUCH = 1e-3
 """A change of so small a part of an inertia is that of digits which were cut off, and no news."""
 _NOTHING: Symmetric = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-_FIELDS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 
 
 class BalanceInertia(Pass):
@@ -90,11 +90,8 @@ class BalanceInertia(Pass):
             notes.report(UNBALANCED_INERTIA, message, inertial.location)
             return link
         _report(link, inertial, matrix, found, notes)
-        written = inertial.inertia or Inertia()
-        update: dict[str, float] = dict(zip(_FIELDS, found, strict=True))
-        return link.model_copy(
-            update={"inertial": inertial.model_copy(update={"inertia": written.model_copy(update=update)})}
-        )
+        inertia = with_tensor(inertial.inertia, found)
+        return link.model_copy(update={"inertial": inertial.model_copy(update={"inertia": inertia})})
 
     def _floor(self, mass: float, matrix: Symmetric) -> float:
         """The least second moment of mass along an axis, in kg m^2."""

@@ -4,11 +4,11 @@ from collections.abc import Iterator
 from typing import Literal, NamedTuple
 
 from twinform.diagnostics import Location
-from twinform.ir import Collision, Inertia, Inertial, Link, Mesh, Model, Node, Pose, Shape, Visual
+from twinform.ir import Collision, Inertial, Link, Mesh, Model, Node, Pose, Shape, Visual
 from twinform.ir.bounds import Bounds, bounds, placed_bounds, united
 from twinform.ir.defaults import DENSITY
 from twinform.ir.frames import FrameGraph
-from twinform.ir.solids import Solid, placed, solid
+from twinform.ir.solids import ORIGIN, Solid, placed, solid, with_tensor
 from twinform.ir.transform import Transform
 from twinform.passes.meshes import MeshError, Meshes
 
@@ -125,12 +125,11 @@ def own_density(node: Node) -> float | None:
 
 def inertial_of(found: Solid, written: Inertial | None) -> Inertial:
     """An inertial with the numbers of a solid in the link frame; what else is written in the old one stays."""
-    xx, yy, zz, xy, xz, yz = found.inertia
     return (written or Inertial()).model_copy(
         update={
             "auto": None,
             "mass": found.mass,
-            "pose": Pose(xyz=found.centre, rpy=(0.0, 0.0, 0.0)) if any(found.centre) else None,
-            "inertia": Inertia(ixx=xx, ixy=xy, ixz=xz, iyy=yy, iyz=yz, izz=zz),
+            "pose": Pose(xyz=found.centre, rpy=ORIGIN) if any(found.centre) else None,
+            "inertia": with_tensor(None, found.inertia),
         }
     )

@@ -8,7 +8,7 @@ from twinform.diagnostics import Notes
 from twinform.diagnostics.rules.massless import SPLIT_MASS, TOKEN_MASS
 from twinform.ir import Document, Format, Joint, Link, Sphere
 from twinform.ir.frames import FrameError
-from twinform.ir.solids import Solid, solid, with_mass
+from twinform.ir.solids import NOTHING, solid, with_mass
 from twinform.passes.base import Pass
 from twinform.passes.inertia.masses import Masses
 from twinform.passes.inertia.possible import has_mass
@@ -16,8 +16,6 @@ from twinform.passes.map_joints import map_joints
 from twinform.passes.map_links import map_links
 from twinform.passes.moving_bodies import Body, Neighbours, moving_bodies, neighbours
 from twinform.passes.patterns import EVERY, matches, with_such_a_name
-
-_NOTHING = Solid(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
 
 
 class SplitMassless(Pass):
@@ -81,7 +79,7 @@ class SplitMassless(Pass):
         return True
 
     def _weigh(self, link: Link, masses: Masses, notes: Notes) -> None:
-        masses.give(link, with_mass(solid(Sphere(radius=self.radius), 1.0) or _NOTHING, self.mass))
+        masses.give(link, with_mass(solid(Sphere(radius=self.radius), 1.0) or NOTHING, self.mass))
         message = (
             f"link {link.name!r}, which moves and weighs nothing, got a ball of {self.mass:g} kg and {self.radius:g} m"
         )

@@ -5,9 +5,9 @@ from collections.abc import Sequence
 
 from twinform.diagnostics import Notes, Severity
 from twinform.diagnostics.rules.inertia import INDEFINITE_INERTIA
-from twinform.ir import Format, Inertia, Inertial, Link, Pose
+from twinform.ir import Format, Inertial, Link, Pose
 from twinform.ir.frames import FrameGraph
-from twinform.ir.solids import Solid, combined, placed, written_solid
+from twinform.ir.solids import Solid, combined, placed, turned, with_tensor, written_solid
 from twinform.ir.transform import Transform
 from twinform.passes.assets import NO_ASSETS
 from twinform.passes.legalise.automatic_inertias import automatic
@@ -52,15 +52,12 @@ def with_guests(link: Link, own: Solid, guests: Sequence[Solid], notes: Notes) -
     inertial = link.inertial or Inertial()
     written = None if inertial.auto else inertial.pose
     axes = Transform(rotation=Transform.from_pose(written).rotation)
-    xx, yy, zz, xy, xz, yz = placed(whole, axes.inverse()).inertia
     made = inertial.model_copy(
         update={
             "auto": None,
             "mass": whole.mass,
             "pose": _pose(written, whole),
-            "inertia": (inertial.inertia or Inertia()).model_copy(
-                update={"ixx": xx, "iyy": yy, "izz": zz, "ixy": xy, "ixz": xz, "iyz": yz}
-            ),
+            "inertia": with_tensor(inertial.inertia, turned(whole.inertia, axes.inverse())),
         }
     )
     return link.model_copy(update={"inertial": made})
