@@ -14,7 +14,7 @@ def test_all_passes_are_listed_with_options_defaults_and_an_example(run: Run) ->
     text = run("passes").stdout
     assert [line for line in text.splitlines() if not line.startswith(" ")] == list(registered_passes())
     assert text.count("\n    example: ") == len(registered_passes())
-    assert "\ncheck-inertia\n    Finds masses" in f"\n{text}"
+    assert "\ncheck-inertia\n    Find masses" in f"\n{text}"
     assert "    options: effort, velocity, lower, upper, " in text
     assert ", joints=[*]\n" in text
 

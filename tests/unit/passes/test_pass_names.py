@@ -1,6 +1,7 @@
-"""Every pass has a name of its own, whether a user's pipeline has it or a target asks for it."""
+"""Names and docstrings of passes, of those for pipelines and those that targets ask for."""
 
 import pkgutil
+import re
 from collections import defaultdict
 from collections.abc import Iterator
 from importlib import import_module
@@ -14,6 +15,7 @@ from twinform.passes import FailedPassError, Pass, registered_passes
 from twinform.passes.hooks.reproducer import Reproducer
 from twinform.passes.legalise.known import legalisation_kinds
 from twinform.passes.legalise.to_urdf.flatten_for_urdf import FlattenForUrdf
+from twinform.passes.pages import description
 from twinform.passes.structure.flatten_models import FlattenModels
 
 
@@ -36,6 +38,15 @@ def test_no_two_passes_have_one_name() -> None:
     own = {name for name, each in registered_passes().items() if each.owner == "twinform"}
     assert own.isdisjoint(legalisation_kinds())
     assert own | set(legalisation_kinds()) <= set(kinds)
+
+
+def test_docstrings_have_one_form() -> None:
+    own = {name: each.load() for name, each in registered_passes().items() if each.owner == "twinform"}
+    for name, kind in {**own, **legalisation_kinds()}.items():
+        lines = description(kind).splitlines()
+        assert not re.fullmatch(r"\w*[^s]s", lines[0].split()[0]), f"{name}: not imperative"
+        assert any(line.startswith("Changes") for line in lines), name
+        assert name not in own or any(line.startswith("Diagnostics") for line in lines), name
 
 
 @pytest.mark.parametrize("step", [FlattenModels(), FlattenForUrdf()], ids=lambda step: step.name)

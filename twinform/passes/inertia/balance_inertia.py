@@ -25,9 +25,9 @@ _NOTHING: Symmetric = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class BalanceInertia(Pass):
-    """Replaces inertias that no body can have by the nearest one that a body can have, with the same axes.
+    """Replace inertias that no body can have by the nearest one that a body can have, with the same axes.
 
-    It changes the `<inertia>` of links whose name matches `links`, where
+    Changes the `<inertia>` of links whose name matches `links`, where
 
     1. a principal moment is zero or less;
     2. a principal moment exceeds the sum of the other two, be it by a digit that was cut off: libsdformat refuses that;
@@ -37,8 +37,8 @@ class BalanceInertia(Pass):
     mass is left with some extent along every axis: `thickness`, or the part `margin` of the trace if that is more. It
     runs only where it is asked for: the numbers that come out are possible, not measured.
 
-    It never touches an inertia that is possible, masses, centres of mass, and inertias that the simulator computes.
-    It reports `balanced-inertia` with the change for each link, and `unbalanced-inertia` for links without a positive
+    Never touches: an inertia that is possible, masses, centres of mass, and inertias that the simulator computes.
+    Diagnostics: `balanced-inertia` with the change for each link, and `unbalanced-inertia` for links without a positive
     mass and for numbers that are not finite.
     """
 

@@ -20,9 +20,10 @@ from twinform.passes.moving_bodies import Body, Neighbours, moving_bodies, neigh
 
 
 class CheckInertia(AssetPass):
-    """Finds masses and inertias that no moving body can have, or that none is likely to have.
+    """Find masses and inertias that no moving body can have, or that none is likely to have.
 
-    It changes nothing. It reports, at the `<inertial>` of a link, or at the link where it has none:
+    Changes nothing.
+    Diagnostics, at the `<inertial>` of a link, or at the link where it has none:
 
     1. `missing-inertial`: in URDF a body, that is links held together by fixed joints, of which no link has an
        `<inertial>`; in SDF a link without one;
@@ -34,8 +35,8 @@ class CheckInertia(AssetPass):
     7. `implausible-density`: a mass that is too small or too large for the volume of the shapes;
     8. `mass-ratio`, at the joint: two bodies of which one weighs more than `ratio` times as much as the other.
 
-    It never looks at what cannot move (static models, and links that fixed joints hold to the world), at inertias that
-    the simulator computes (`auto`), and at models that an `<include>` names. 5 to 7 are left out for links with a mesh
+    Never looks at: what cannot move (static models, and links that fixed joints hold to the world), inertias that
+    the simulator computes (`auto`), and models that an `<include>` names. 5 to 7 are left out for links with a mesh
     unless `meshes=true`, and with shapes that have no ends.
     """
 

@@ -32,9 +32,9 @@ class _Filling(NamedTuple):
 
 
 class FillInertia(AssetPass):
-    """Computes mass, centre of mass and inertia of links from their shapes, filled evenly.
+    """Compute mass, centre of mass and inertia of links from their shapes, filled evenly.
 
-    It changes the `<inertial>` of links whose name matches `links`, which are, by `replace`:
+    Changes the `<inertial>` of links whose name matches `links`, which are, by `replace`:
 
     1. `missing`: links without an inertial, or with one that lacks its mass or its inertia;
     2. `impossible`: those, and links whose mass or moments no body can have;
@@ -46,10 +46,10 @@ class FillInertia(AssetPass):
     `replace=all`. All other links get their mass from one of `density`, `mass` and `total-mass`; without these, from
     the `<density>` of each SDF collision, or water.
 
-    It never touches links without shapes, links of static models, and inertias that the simulator computes (`auto`,
+    Never touches: links without shapes, links of static models, and inertias that the simulator computes (`auto`,
     unless `replace=all`). A link of which one shape cannot be used stays as it is. Shapes that overlap count twice.
-    It reports `filled-inertia` for each link that it fills, and `unfilled-inertia` at a shape that it cannot use and at
-    a body that moves and is left without a mass.
+    Diagnostics: `filled-inertia` for each link that it fills, and `unfilled-inertia` at a shape that it cannot use
+    and at a body that moves and is left without a mass.
     """
 
     name = "fill-inertia"

@@ -19,9 +19,11 @@ from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 
 class SplitMassless(Pass):
-    """Gives bodies that move and weigh nothing a mass, so that simulators neither drop them nor divide by zero.
+    """Give bodies that move and weigh nothing a mass, so that simulators neither drop them nor divide by zero.
 
-    A body is what fixed joints hold together. It changes, for bodies of which no link has a positive mass:
+    A body is what fixed joints hold together.
+
+    Changes bodies of which no link has a positive mass:
 
     1. a body that carries others by joints: it takes the part `share` of the nearest one with a mass, as if that had
        been split: with the joints at zero, mass, centre of mass and inertia of the whole robot stay what they were;
@@ -29,8 +31,8 @@ class SplitMassless(Pass):
        its link, with `ends=fix` the joint that moves it becomes a fixed one, unless others mimic it.
 
     Bodies without an `<inertial>` are those of URDF; in SDF they weigh 1 kg, and a mass of zero has to be written.
-    It never touches bodies that weigh something, but for what they give, and what cannot move.
-    It reports `split-mass` for case 1, and `token-mass` for case 2.
+    Never touches: bodies that weigh something, but for what they give, and what cannot move.
+    Diagnostics: `split-mass` for case 1, and `token-mass` for case 2.
     """
 
     name = "split-massless"

@@ -30,9 +30,10 @@ class _Finding(NamedTuple):
 
 
 class CheckLimits(Pass):
-    """Finds limits, damping and friction of joints that a robot is not likely to have.
+    """Find limits, damping and friction of joints that a robot is not likely to have.
 
-    It changes nothing. Of joints whose name matches `joints` it reports:
+    Changes nothing.
+    Diagnostics, for joints whose name matches `joints`:
 
     1. `empty-range`: lower and upper limits that are equal;
     2. `range-in-degrees`: a turning joint that may turn more than `turns` times;
@@ -43,7 +44,7 @@ class CheckLimits(Pass):
     7. `negative-dynamics`: damping or friction below zero.
 
     What `check` finds already it leaves alone: limits that are missing or upside down, and those of zero.
-    It never looks at joints without an axis, and at models that an `<include>` names.
+    Never looks at: joints without an axis, and models that an `<include>` names.
     """
 
     name = "check-limits"

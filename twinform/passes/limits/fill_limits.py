@@ -16,17 +16,19 @@ _DRIVEN = _BOUNDED | {"continuous"}
 
 
 class FillLimits(Pass):
-    """Fills limits, damping and friction that are missing with the user's values; without options it changes nothing.
+    """Fill limits, damping and friction that are missing with the user's values.
 
-    It changes joints with one axis whose name matches `joints`:
+    Without options it changes nothing.
+
+    Changes joints with one axis whose name matches `joints`:
 
     1. `effort` and `velocity` of revolute, prismatic and continuous joints;
     2. `lower` and `upper` of revolute and prismatic joints, unless the range would be upside down;
     3. where the whole `<limit>` is missing it is made, in URDF for joints without an `<axis>` too;
     4. `damping` and `friction` of the same joints as 1, and a whole `<dynamics>` where it is missing.
 
-    It never touches a value that is written, nor joints of SDF without an `<axis>`.
-    It reports `filled-limit` for each joint that it fills, and `unfilled-limit` where case 2 left an end open.
+    Never touches: a value that is written, nor joints of SDF without an `<axis>`.
+    Diagnostics: `filled-limit` for each joint that it fills, and `unfilled-limit` where case 2 left an end open.
     """
 
     name = "fill-limits"

@@ -17,17 +17,17 @@ _BOUNDED = frozenset({"revolute", "prismatic"})
 
 
 class TightenLimits(Pass):
-    """Moves the limits of joints inward: to the soft ones of a `<safety_controller>`, and by a margin.
+    """Move the limits of joints inward: to the soft ones of a `<safety_controller>`, and by a margin.
 
-    It changes revolute and prismatic joints whose name matches `joints`:
+    Changes revolute and prismatic joints whose name matches `joints`:
 
     1. with `soft`, a lower or upper limit that is outside of the soft one becomes that, also where it comes from a URDF
        file and travels in a carrier; one that is not written is made;
     2. limits that are written are moved inward by `margin`, on top of that.
 
-    It never moves a limit outward, and never touches the `<safety_controller>`, effort and velocity, or joints without
+    Never touches: limits that would move outward, the `<safety_controller>`, effort and velocity, or joints without
     an `<axis>`.
-    It reports `tightened-limit` for each joint that it changes, and `untightened-limit` where no range would be left.
+    Diagnostics: `tightened-limit` for each joint that it changes, and `untightened-limit` where no range would be left.
     With a margin it moves limits again when it runs again.
     """
 

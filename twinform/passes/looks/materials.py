@@ -20,9 +20,9 @@ _PBR_SINCE = (1, 6)
 
 
 class Materials(Pass):
-    """Turns material scripts of Gazebo Classic into colours, and colours into those of PBR.
+    """Turn material scripts of Gazebo Classic into colours, and colours into those of PBR.
 
-    It changes, on links whose name matches `links`:
+    Changes, on links whose name matches `links`:
 
     1. with `scripts`, in SDF, a `<script>` that names a material of Classic: the colours of it are written instead, but
        for those that the visual says itself;
@@ -31,8 +31,8 @@ class Materials(Pass):
     3. with `pbr`, materials that have a colour and no `<pbr>`: they get its `metalness` and `roughness`; where that is
        not given, it comes from the script's highlight: sqrt(2 / (shininess + 2)).
 
-    It never touches materials of URDF, textures, and scripts of others.
-    It reports `unknown-script` for scripts whose colours are not known, which stay, and `textured-script` for those
+    Never touches: materials of URDF, textures, and scripts of others.
+    Diagnostics: `unknown-script` for scripts whose colours are not known, which stay, and `textured-script` for those
     that have an image as well, which newer Gazebo does not bring, and `pbr-too-old` for SDF before 1.6.
     """
 

@@ -23,17 +23,17 @@ _PATHS = {
 
 
 class SetSurface(Pass):
-    """Sets friction, restitution and contact parameters of collisions.
+    """Set friction, restitution and contact parameters of collisions.
 
-    It changes the collisions whose name matches `collisions` on links whose name matches `links`:
+    Changes the collisions whose name matches `collisions` on links whose name matches `links`:
 
     1. in SDF, the `<surface>` of each;
     2. in URDF, the `<gazebo reference="LINK">` tags `mu1`, `mu2`, `kp`, `kd`, `maxVel` and `minDepth`, and for what has
        no tag, restitution and slip, the `<collision>` in such an element. These are about all collisions of a link.
 
     Only what an option is given for is set; all else that is written of a surface stays.
-    It never touches links without collisions, and models that an `<include>` names.
-    It reports `unset-surface` where URDF cannot say it for one of several collisions, and `nothing-matched`.
+    Never touches: links without collisions, and models that an `<include>` names.
+    Diagnostics: `unset-surface` where URDF cannot say it for one of several collisions, and `nothing-matched`.
     """
 
     name = "set-surface"

@@ -43,17 +43,17 @@ _FREE_CONTENT = {option.removesuffix("s"): option for option in _OPTIONS}
 
 
 class Drop(Pass):
-    """Takes out what a simulation or a viewer does not need.
+    """Take out what a simulation or a viewer does not need.
 
-    It changes, by patterns for each kind:
+    Changes, by patterns for each kind:
 
     1. `visuals`, `collisions`, `sensors` and `lights` whose name matches; one without a name is matched by `*` alone;
     2. `plugins` whose name or file name matches, wherever they are;
     3. in URDF, such elements in `<gazebo>` too, and a `<gazebo>` element that has nothing left goes with them.
 
     With `links`, only what is on links with such a name, or about them, goes.
-    It never touches links, joints, inertias, models that an `<include>` names, and what travels in carriers.
-    It reports `dropped-reference` for plugins that name what is gone, `nothing-matched` for a pattern that matches
+    Never touches: links, joints, inertias, models that an `<include>` names, and what travels in carriers.
+    Diagnostics: `dropped-reference` for plugins that name what is gone, `nothing-matched` for a pattern that matches
     nothing, and what `check` would find in the result and did not in the source, such as a contact sensor without its
     collision.
     """
