@@ -2,6 +2,7 @@
 
 import pkgutil
 import re
+import sys
 from collections import defaultdict
 from collections.abc import Iterator
 from importlib import import_module
@@ -20,9 +21,11 @@ from twinform.passes.structure.flatten_models import FlattenModels
 
 
 def passes(kind: type[Pass] = Pass) -> Iterator[type[Pass]]:
-    """The passes of this package, all of them."""
+    """The passes that stand in this package; not the narrower ones that some make of themselves."""
     for each in kind.__subclasses__():
-        if each.__module__.startswith("twinform.passes.") and not isabstract(each) and hasattr(each, "name"):
+        here = each.__module__.startswith("twinform.passes.")
+        stands = here and getattr(sys.modules[each.__module__], each.__name__, None) is each
+        if stands and not isabstract(each) and hasattr(each, "name"):
             yield each
         yield from passes(each)
 
