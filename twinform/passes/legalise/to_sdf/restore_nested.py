@@ -6,13 +6,12 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Notes, Severity
 from twinform.diagnostics.rules.to_urdf import NESTED_MODEL, STALE_CARRIER
-from twinform.ir import Axis, Element, Format, Frame, Joint, Link, Model, Node, Opaque, Pose
+from twinform.ir import Axis, Element, Format, Frame, Joint, Link, Model, Node, Opaque, Pose, rewrite
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.marks import find_mark, without_mark
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.names import renamed
-from twinform.passes.legalise.nodes import map_poses
 from twinform.passes.legalise.notation import NESTED
 from twinform.passes.legalise.provenance import wrote_scopes
 from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb
@@ -172,12 +171,12 @@ def _tidy(model: Model) -> Model:
     model = model.model_copy(
         update={
             "models": tuple(_tidy(inner) for inner in model.models),
-            "links": tuple(_posed(map_poses(link, pose)) for link in model.links),
-            "joints": tuple(_tidy_joint(map_poses(joint, pose), short) for joint in model.joints),
-            "frames": tuple(_tidy_frame(map_poses(frame, pose), short) for frame in model.frames),
+            "links": tuple(_posed(rewrite(link, Pose, pose)) for link in model.links),
+            "joints": tuple(_tidy_joint(rewrite(joint, Pose, pose), short) for joint in model.joints),
+            "frames": tuple(_tidy_frame(rewrite(frame, Pose, pose), short) for frame in model.frames),
         }
     )
-    return _posed(map_poses(model, pose))
+    return _posed(rewrite(model, Pose, pose))
 
 
 def _posed(node: AnyNode) -> AnyNode:
