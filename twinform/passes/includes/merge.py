@@ -5,11 +5,11 @@ from typing import TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import includes as rules
-from twinform.ir import Axis, Element, Frame, Include, Joint, Link, Model, Node, Pose, World
+from twinform.ir import Axis, Element, Frame, Include, Joint, Link, Model, Node, Pose, World, rewrite
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.includes.place import placed_model
-from twinform.passes.legalise.nodes import map_elements, map_poses
+from twinform.passes.legalise.nodes import map_elements
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 Posed = TypeVar("Posed", Link, Model, Include)
@@ -113,7 +113,7 @@ class _Contents:
 
     def _inside(self, node: AnyNode) -> AnyNode:
         """The node with all poses in it, typed or not."""
-        node = map_poses(node, self._pose)
+        node = rewrite(node, Pose, self._pose)
         if isinstance(node, Link | Joint) and node.sensors:
             sensors = tuple(self._opaque(sensor) for sensor in node.sensors)
             node = node.model_copy(update={"sensors": sensors})

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TypeVar
 
-from twinform.ir import Axis, Element, Frame, Joint, Link, Model, Node, Pose
+from twinform.ir import Axis, Element, Frame, Joint, Link, Model, Node, Pose, rewrite
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.passes.legalise.marks import mark_made
-from twinform.passes.legalise.nodes import map_elements, map_poses
+from twinform.passes.legalise.nodes import map_elements
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 _FRAME_ATTRIBUTES = frozenset({"relative_to", "frame"})
@@ -90,7 +90,7 @@ class _Scope:
 
     def _inside(self, node: AnyNode) -> AnyNode:
         """The node with the frames renamed that poses in it name, in typed and in opaque parts."""
-        node = map_poses(node, self._pose)
+        node = rewrite(node, Pose, self._pose)
         return _map_opaque(node, self)
 
 

@@ -1,12 +1,9 @@
 """Small things that several passes do with nodes."""
 
 from collections.abc import Callable, Container, Iterable
-from typing import TypeVar
 
-from twinform.ir import Element, Node, Opaque, Pose, replace_fields, rewrite
+from twinform.ir import Element, Node, Opaque, Pose, replace_fields
 from twinform.passes.legalise.carrier import to_element
-
-AnyNode = TypeVar("AnyNode", bound=Node)
 
 
 def unique_name(name: str, taken: Container[str]) -> str:
@@ -30,11 +27,6 @@ def pose_piece(pose: Pose) -> Opaque:
 def text_piece(name: str, text: str, at: str = "") -> Opaque:
     """An element with text."""
     return Opaque(at=at, element=Element(name=name, text=text))
-
-
-def map_poses(node: AnyNode, change: Callable[[Pose], Pose]) -> AnyNode:
-    """The node with every pose in it changed; the same node where none is."""
-    return rewrite(node, Pose, change)
 
 
 def map_elements(parts: Iterable[Opaque], change: Callable[[Element], Element]) -> tuple[Opaque, ...]:

@@ -23,9 +23,10 @@ from twinform.ir import (
     Pose,
     Sensor,
     Visual,
+    rewrite,
 )
 from twinform.ir.sourced import Sourced
-from twinform.passes.legalise.nodes import map_elements, map_poses
+from twinform.passes.legalise.nodes import map_elements
 from twinform.passes.structure.reference_words import Kind, kind_of_attribute, kind_of_text
 from twinform.passes.structure.scopes import Scope
 
@@ -149,7 +150,7 @@ class _Renamer:
 
     def inside(self, node: AnyNode) -> AnyNode:
         """A node with what is in it, except for its own name and what else its kind has."""
-        node = map_poses(node, lambda pose: self.pose(pose, "any") or pose)
+        node = rewrite(node, Pose, lambda pose: self.pose(pose, "any") or pose)
         update: dict[str, object] = {"opaque": self.opaque(node.opaque, node.location)}
         if isinstance(node, Link | Joint):
             update["sensors"] = tuple(map(self.sensor, node.sensors))

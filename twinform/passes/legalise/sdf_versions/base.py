@@ -7,7 +7,7 @@ from typing import TypeVar
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules.frames import DANGLING_FRAME
 from twinform.diagnostics.rules.to_urdf import INCLUDE_NOT_EXPANDED
-from twinform.ir import Document, Element, Model, Node, World, replace_fields, rewrite
+from twinform.ir import Document, Element, Node, replace_fields
 from twinform.ir.frames import FrameError
 from twinform.passes.base import Pass
 from twinform.passes.legalise.nodes import map_elements
@@ -59,16 +59,6 @@ def _report(error: FrameError, document: Document, version: str, notes: Notes) -
 def _has_includes(node: Node) -> bool:
     inner = (*getattr(node, "worlds", ()), *getattr(node, "models", ()))
     return bool(getattr(node, "includes", ())) or any(map(_has_includes, inner))
-
-
-def map_models(document: Document, change: Callable[[Model], Model]) -> Document:
-    """The document with every model changed, from the inside out."""
-    return rewrite(document, Model, change)
-
-
-def map_worlds(document: Document, change: Callable[[World], World]) -> Document:
-    """The document with every world changed."""
-    return rewrite(document, World, change)
 
 
 def map_own_elements(node: AnyNode, change: Callable[[Element], Element]) -> AnyNode:

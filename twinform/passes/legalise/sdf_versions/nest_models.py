@@ -6,10 +6,9 @@ from typing import ClassVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import sdf_versions as rules
-from twinform.ir import Axis, Document, Frame, Joint, Link, Model, Pose
+from twinform.ir import Axis, Document, Frame, Joint, Link, Model, Pose, rewrite
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
-from twinform.passes.legalise.nodes import map_poses
-from twinform.passes.legalise.sdf_versions.base import VersionPass, map_models
+from twinform.passes.legalise.sdf_versions.base import VersionPass
 from twinform.passes.legalise.sdf_versions.carriers import Keeper
 
 _SCOPE = "::"
@@ -28,7 +27,7 @@ class NestModels(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document without scoped names."""
-        return map_models(document, lambda model: nest(model, keeper.notes))
+        return rewrite(document, Model, lambda model: nest(model, keeper.notes))
 
 
 @dataclass(slots=True)
@@ -152,7 +151,7 @@ def _link(link: Link, inner: _Inner, base: str, graph: FrameGraph) -> Link:
     pose = link.pose
     if not inner.holds(pose.relative_to if pose else None) and (base != MODEL or (pose and pose.relative_to)):
         pose = graph.pose(link.name, base, base="frame").to_pose()
-    inside = map_poses(link.model_copy(update={"pose": None}), inner.pose)
+    inside = rewrite(link.model_copy(update={"pose": None}), Pose, inner.pose)
     return inside.model_copy(update={"name": inner.strip(link.name), "pose": inner.pose(pose) if pose else None})
 
 
@@ -184,7 +183,7 @@ def _joint(joint: Joint, inner: _Inner, graph: FrameGraph) -> Joint:
     pose = joint.pose
     if pose is not None and pose.relative_to and not inner.holds(pose.relative_to):
         pose = graph.pose(joint.name, joint.child or "", kind="joint").to_pose()
-    inside = map_poses(joint.model_copy(update={"pose": None}), inner.pose)
+    inside = rewrite(joint.model_copy(update={"pose": None}), Pose, inner.pose)
     update: dict[str, object] = {
         "name": inner.strip(joint.name),
         "pose": inner.pose(pose) if pose else None,
