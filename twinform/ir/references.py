@@ -14,8 +14,9 @@ from twinform.ir.material import Material
 from twinform.ir.model import Include, Model
 from twinform.ir.node import Node
 from twinform.ir.pose import Pose
+from twinform.ir.rewrite import map_children
 from twinform.ir.sensor import Sensor
-from twinform.ir.tree import fields_towards, map_children
+from twinform.ir.tree import classes_below, classes_in, node_fields
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -87,4 +88,5 @@ class _Mapper:
 @cache
 def _has_more(kind: type[Node]) -> bool:
     """Whether a node of this class may have references in the nodes inside it."""
-    return any(fields_towards(kind, each) for each in REFERENCES)
+    inside = (inner for name in node_fields(kind) for inner in classes_in(kind, name))
+    return any(not REFERENCES.keys().isdisjoint(classes_below(inner)) for inner in inside)

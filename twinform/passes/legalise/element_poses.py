@@ -6,7 +6,7 @@ from functools import cache, partial
 from typing import TypeVar
 
 from twinform.diagnostics import Notes
-from twinform.ir import Element, Node, Opaque, Pose, ReferenceChange, Sensor, map_opaque, map_references
+from twinform.ir import Element, Node, Opaque, Pose, ReferenceChange, Sensor, holds_opaque, map_references, rewrite
 from twinform.ir.frames import FrameGraph, Kind
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import NAMESPACE, to_element
@@ -155,8 +155,7 @@ def read_pose(element: Element) -> Pose:
 
 def map_frames(node: AnyNode, change: ReferenceChange) -> AnyNode:
     """The node with every reference in it changed, also those of poses in its opaque parts."""
-    follow = partial(_map_opaque_poses, change)
-    return follow(map_opaque(map_references(node, change), follow))
+    return rewrite(map_references(node, change), Node, partial(_map_opaque_poses, change), enter=holds_opaque)
 
 
 def _map_opaque_poses(change: ReferenceChange, node: AnyNode) -> AnyNode:

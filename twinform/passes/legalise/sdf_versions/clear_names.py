@@ -6,9 +6,9 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf as rules
-from twinform.ir import Document, Frame, Joint, Link, Model, ReferenceKind, World, map_references
+from twinform.ir import Document, Frame, Joint, Link, Model, ReferenceKind, World, map_references, rewrite
 from twinform.passes.legalise.nodes import unique_name
-from twinform.passes.legalise.sdf_versions.base import VersionPass, map_models, map_worlds
+from twinform.passes.legalise.sdf_versions.base import VersionPass
 from twinform.passes.legalise.sdf_versions.carriers import Keeper
 
 Named = TypeVar("Named", Link, Joint, Frame)
@@ -29,8 +29,8 @@ class ClearNames(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with one name for each thing."""
-        document = map_models(document, lambda model: _clear(model, keeper.notes))
-        return map_worlds(document, lambda world: _clear_world(world, keeper.notes))
+        document = rewrite(document, Model, lambda model: _clear(model, keeper.notes))
+        return rewrite(document, World, lambda world: _clear_world(world, keeper.notes))
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,9 +6,21 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import sdf_versions as rules
-from twinform.ir import IN_MODELS, Axis, Document, Frame, Joint, Link, Model, Pose, ReferenceKind, map_references
+from twinform.ir import (
+    IN_MODELS,
+    Axis,
+    Document,
+    Frame,
+    Joint,
+    Link,
+    Model,
+    Pose,
+    ReferenceKind,
+    map_references,
+    rewrite,
+)
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
-from twinform.passes.legalise.sdf_versions.base import VersionPass, map_models
+from twinform.passes.legalise.sdf_versions.base import VersionPass
 from twinform.passes.legalise.sdf_versions.carriers import Keeper
 
 Part = TypeVar("Part", Link, Joint, Frame)
@@ -28,7 +40,7 @@ class NestModels(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document without scoped names."""
-        return map_models(document, lambda model: nest(model, keeper.notes))
+        return rewrite(document, Model, lambda model: nest(model, keeper.notes))
 
 
 @dataclass(slots=True)

@@ -2,7 +2,7 @@
 
 from typing import ClassVar
 
-from twinform.ir import Inertia, Inertial, Link, Model
+from twinform.ir import Inertia, Inertial, Link, Model, replace_fields
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 
@@ -32,7 +32,7 @@ def _fill_link(link: Link) -> Link:
         made = Inertial(mass=_MASS, inertia=Inertia().model_copy(update=_UNIT))
         return link.model_copy(update={"inertial": made})
     inertial = _fill(link.inertial)
-    return link if inertial is link.inertial else link.model_copy(update={"inertial": inertial})
+    return replace_fields(link, inertial=inertial)
 
 
 def _fill(inertial: Inertial) -> Inertial:
