@@ -27,16 +27,19 @@ from twinform.ir.link import Link
 from twinform.ir.material import Material, Script
 from twinform.ir.model import Include, Model
 from twinform.ir.node import Color, Node, Quaternion, Vector3
-from twinform.ir.opaque_inside import holds_opaque, map_opaque, untyped_elements
+from twinform.ir.opaque_inside import holds_opaque, untyped_elements
 from twinform.ir.plugin import Plugin
 from twinform.ir.pose import Pose
+from twinform.ir.references import IN_MODELS, ReferenceChange, ReferenceKind, map_references
+from twinform.ir.rewrite import map_children, replace_fields, replace_node, rewrite
 from twinform.ir.sensor import Sensor
 from twinform.ir.surface import Surface
-from twinform.ir.tree import children_of, count_parts, map_children, map_kind, node_fields, node_values, walk
+from twinform.ir.tree import children_of, count_parts, node_fields, node_values, walk
 from twinform.ir.visual import Collision, Visual
 from twinform.ir.world import World
 
 __all__ = [
+    "IN_MODELS",
     "Axis",
     "Box",
     "Capsule",
@@ -74,6 +77,8 @@ __all__ = [
     "Polyline",
     "Pose",
     "Quaternion",
+    "ReferenceChange",
+    "ReferenceKind",
     "Script",
     "Sensor",
     "Shape",
@@ -86,10 +91,12 @@ __all__ = [
     "count_parts",
     "holds_opaque",
     "map_children",
-    "map_kind",
-    "map_opaque",
+    "map_references",
     "node_fields",
     "node_values",
+    "replace_fields",
+    "replace_node",
+    "rewrite",
     "untyped_elements",
     "walk",
 ]

@@ -1,14 +1,12 @@
 """Whether anything untyped is inside a node, found once for each: most passes that look for it need not walk there."""
 
-from collections.abc import Callable, Iterator
-from typing import Any, TypeVar
+from collections.abc import Iterator
+from typing import Any
 
 from twinform.ir.element import Element
 from twinform.ir.extension import GazeboExtension
 from twinform.ir.node import Node
-from twinform.ir.tree import children_of, map_children, node_fields
-
-AnyNode = TypeVar("AnyNode", bound=Node)
+from twinform.ir.tree import children_of, node_fields
 
 _SLOT: Any = Node.__dict__["_holds_opaque"]
 """Where a node keeps what was found; asked for in the usual way, pydantic would look for an unset one in vain."""
@@ -26,15 +24,6 @@ def holds_opaque(node: Node) -> bool:
         found = any(map(holds_opaque, children_of(node)))
         _SLOT.__set__(node, found)
         return found
-
-
-def map_opaque(node: AnyNode, change: Callable[[Node], Node]) -> AnyNode:
-    """The node with every node below it that holds opaque parts changed, from the inside out; `node` itself is not."""
-
-    def visit(child: Node) -> Node:
-        return change(map_opaque(child, change)) if holds_opaque(child) else child
-
-    return map_children(node, visit)
 
 
 def untyped_elements(node: Node) -> Iterator[Element]:

@@ -1,14 +1,11 @@
-"""Walking and rebuilding trees of nodes."""
+"""Walking trees of nodes."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import cache
-from typing import Any, Self, TypeVar, get_args
+from typing import Any, Self, get_args
 
 from twinform.ir.element import Element, Opaque
 from twinform.ir.node import Node
-
-AnyNode = TypeVar("AnyNode", bound=Node)
-Wanted = TypeVar("Wanted", bound=Node)
 
 _ABOUT = frozenset({"source", "spelling", "namespaces", "format", "kind", "version"})
 
@@ -16,13 +13,35 @@ _ABOUT = frozenset({"source", "spelling", "namespaces", "format", "kind", "versi
 @cache
 def node_fields(kind: type[Node]) -> tuple[str, ...]:
     """The fields of a class of nodes that may hold nodes."""
-    return tuple(name for name, field in kind.model_fields.items() if _holds_nodes(field.annotation))
+    return tuple(name for name in kind.model_fields if classes_in(kind, name))
 
 
-def _holds_nodes(annotation: Any) -> bool:
-    if isinstance(annotation, type):
-        return issubclass(annotation, Node)
-    return annotation is Self or any(map(_holds_nodes, get_args(annotation)))
+@cache
+def classes_in(kind: type[Node], field: str) -> frozenset[type[Node]]:
+    """The classes of the nodes that a field may hold."""
+    return frozenset(_classes(kind.model_fields[field].annotation, kind))
+
+
+def _classes(annotation: Any, own: type[Node]) -> Iterator[type[Node]]:
+    if annotation is Self:
+        yield own
+    elif not isinstance(annotation, type):
+        for each in get_args(annotation):
+            yield from _classes(each, own)
+    elif issubclass(annotation, Node):
+        yield annotation
+
+
+@cache
+def classes_below(kind: type[Node]) -> frozenset[type[Node]]:
+    """A class of nodes with those of all nodes that may be in it, at any depth."""
+    found = {kind}
+    queue = [kind]
+    for each in queue:  # grows while it is walked
+        fresh = {one for name in node_fields(each) for one in classes_in(each, name)} - found
+        found |= fresh
+        queue.extend(fresh)
+    return frozenset(found)
 
 
 def node_values(node: Node) -> Iterator[tuple[str, Node | tuple[Node, ...]]]:
@@ -39,10 +58,10 @@ def children_of(node: Node) -> Iterator[Node]:
     values = node.__dict__
     for name in node_fields(type(node)):
         value = values[name]
-        if isinstance(value, Node):
-            yield value
-        elif value:
+        if isinstance(value, tuple):
             yield from value
+        elif value:
+            yield value
 
 
 def walk(node: Node) -> Iterator[Node]:
@@ -54,76 +73,6 @@ def walk(node: Node) -> Iterator[Node]:
         if inside := [*children_of(current)]:
             inside.reverse()
             stack += inside
-
-
-def map_children(node: AnyNode, change: Callable[[Node], Node]) -> AnyNode:
-    """The node with each node directly inside it changed; the same object where nothing changes."""
-    values = node.__dict__
-    update: dict[str, Any] = {}
-    for name in node_fields(type(node)):
-        value = values[name]
-        if isinstance(value, Node):
-            changed = change(value)
-            if changed is not value:
-                update[name] = changed
-        elif value:
-            many = tuple([change(one) for one in value])
-            if any(new is not old for new, old in zip(many, value, strict=True)):
-                update[name] = many
-    return node.model_copy(update=update) if update else node
-
-
-@cache
-def fields_towards(kind: type[Node], wanted: type[Node]) -> tuple[str, ...]:
-    """The fields of a class of nodes in which, at any depth, a node of another class may be."""
-    return tuple(name for name in node_fields(kind) if any(issubclass(each, wanted) for each in _inside(kind, name)))
-
-
-def _inside(kind: type[Node], field: str) -> set[type[Node]]:
-    """The classes of the nodes that may be in a field, and in those."""
-    found: set[type[Node]] = set()
-    fresh = set(_kinds(kind.model_fields[field].annotation, kind))
-    while fresh:
-        found |= fresh
-        below = ((each, name) for each in fresh for name in node_fields(each))
-        fresh = {one for each, name in below for one in _kinds(each.model_fields[name].annotation, each)} - found
-    return found
-
-
-def _kinds(annotation: Any, own: type[Node]) -> Iterator[type[Node]]:
-    if annotation is Self:
-        yield own
-    elif isinstance(annotation, type):
-        if issubclass(annotation, Node):
-            yield annotation
-    else:
-        for each in get_args(annotation):
-            yield from _kinds(each, own)
-
-
-def map_kind(node: AnyNode, wanted: type[Wanted], change: Callable[[Wanted], Node]) -> AnyNode:
-    """The node with every node of a class below it changed, from the inside out; `node` itself is not.
-
-    It looks only where such a node may be.
-    """
-    values = node.__dict__
-    update: dict[str, Any] = {}
-    for name in fields_towards(type(node), wanted):
-        value = values[name]
-        if isinstance(value, Node):
-            changed = _of_kind(value, wanted, change)
-            if changed is not value:
-                update[name] = changed
-        elif value:
-            many = tuple([_of_kind(one, wanted, change) for one in value])
-            if any(new is not old for new, old in zip(many, value, strict=True)):
-                update[name] = many
-    return node.model_copy(update=update) if update else node
-
-
-def _of_kind(node: Node, wanted: type[Wanted], change: Callable[[Wanted], Node]) -> Node:
-    node = map_kind(node, wanted, change)
-    return change(node) if isinstance(node, wanted) else node
 
 
 def count_parts(node: Node) -> int:

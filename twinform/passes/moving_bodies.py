@@ -1,4 +1,4 @@
-"""Which links are one rigid body, and which of these bodies move."""
+"""Which models may move, which links are one rigid body, and which of these bodies move."""
 
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
@@ -19,6 +19,15 @@ class Neighbours(NamedTuple):
     joint: Joint
     parent: Body
     child: Body
+
+
+def movable_models(document: Document) -> Iterator[Model]:
+    """Every model that is not static, nor in a static one; nested ones after those around them."""
+    models = [*document.models, *(model for world in document.worlds for model in world.models)]
+    for model in models:  # grows while it is walked
+        if not model.static:
+            yield model
+            models.extend(model.models)
 
 
 def moving_bodies(document: Document) -> list[Body]:

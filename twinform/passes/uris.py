@@ -16,7 +16,7 @@ from twinform.ir import (
     Node,
     Plugin,
     Script,
-    map_children,
+    rewrite,
 )
 from twinform.passes.legalise.nodes import map_elements
 
@@ -46,9 +46,10 @@ _HOLDERS: dict[str, Kind] = {"mesh": "mesh", "skin": "mesh", "animation": "mesh"
 
 def map_uris(node: AnyNode, change: Change) -> AnyNode:
     """The node with every URI of a file in it changed; parameters of plugins are theirs alone."""
-    if isinstance(node, Plugin):
-        return node
-    node = map_children(node, lambda child: map_uris(child, change))
+    return rewrite(node, Node, partial(_with_uris, change), enter=lambda each: not isinstance(each, Plugin))
+
+
+def _with_uris(change: Change, node: Node) -> Node:
     update: dict[str, object] = {}
     kind, names = _FIELDS.get(type(node), ("texture", ()))
     for name in names:

@@ -1,11 +1,10 @@
 """What is found once about a node holds for every copy of it."""
 
-from collections.abc import Callable
 from typing import Any
 
 from hypothesis import given
 
-from twinform.ir import Document, Element, GazeboExtension, Link, Node, Opaque, Visual, holds_opaque, map_opaque, walk
+from twinform.ir import Document, Element, GazeboExtension, Link, Node, Opaque, Visual, holds_opaque, walk
 from twinform.ir.sourced import Sourced
 from twinform.testing import strategies
 
@@ -29,22 +28,6 @@ def test_a_copy_is_asked_for_itself() -> None:
     marked = link.model_copy(update={"visuals": (Visual(name="v", opaque=(MARK,)),)})
     assert holds_opaque(marked)
     assert not holds_opaque(marked.model_copy(update={"visuals": ()}))
-
-
-@given(strategies.robots())
-def test_each_node_with_opaque_parts_is_changed_once_and_no_other(robot: Document) -> None:
-    seen: list[Node] = []
-    assert map_opaque(robot, _noted(seen)) is robot
-    assert {id(each) for each in seen} == {id(each) for each in walk(robot) if _is_there(each)} - {id(robot)}
-    assert len(seen) == len({id(each) for each in seen})
-
-
-def _noted(seen: list[Node]) -> Callable[[Node], Node]:
-    def change(node: Node) -> Node:
-        seen.append(node)
-        return node
-
-    return change
 
 
 @given(strategies.robots())

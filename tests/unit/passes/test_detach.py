@@ -4,9 +4,8 @@ import pytest
 
 import twinform
 from twinform.diagnostics import Notes
-from twinform.ir import Pose, World
+from twinform.ir import Pose, World, rewrite
 from twinform.passes.includes import detach
-from twinform.passes.legalise.nodes import map_poses
 
 MODELS = """<model name="m"><pose>5 0 0 0 0 0</pose><link name="a"/><link name="b"><pose>0 1 0 0 0 0</pose></link>
 <frame name="f" attached_to="b"><pose>0 0 2 0 0 0</pose></frame></model>
@@ -36,7 +35,7 @@ def without_zeros(world: World) -> World:
     def short(pose: Pose) -> Pose:
         return pose.model_copy(update={name: None for name in ("xyz", "rpy") if getattr(pose, name) == (0, 0, 0)})
 
-    return map_poses(world, short)
+    return rewrite(world, Pose, short)
 
 
 def detached(world: World, notes: Notes) -> World:

@@ -4,7 +4,19 @@ from collections import defaultdict
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from twinform.ir import Axis, Document, Format, GazeboExtension, Joint, Mimic, Model, Plugin, Sensor, World
+from twinform.ir import (
+    Axis,
+    Document,
+    Format,
+    GazeboExtension,
+    Joint,
+    Mimic,
+    Model,
+    Plugin,
+    Sensor,
+    World,
+    replace_fields,
+)
 from twinform.ir.element import Element
 from twinform.passes.plugins.editing import add_sensor, add_world_plugin
 from twinform.passes.plugins.sites import Site
@@ -51,9 +63,7 @@ class Deeds:
 
     def _model(self, model: Model, above: Path) -> Model:
         path = (*above, model.name)
-        nested = tuple(self._model(each, path) for each in model.models)
-        if any(new is not old for new, old in zip(nested, model.models, strict=True)):
-            model = model.model_copy(update={"models": nested})
+        model = replace_fields(model, models=tuple(self._model(each, path) for each in model.models))
         for deed in self.models.get(path, ()):
             model = deed(model)
         return model

@@ -1,21 +1,18 @@
 """`<gazebo>` elements that nothing is left of."""
 
-from twinform.ir import Document, GazeboExtension, Model
+from twinform.ir import Document, GazeboExtension, Model, replace_fields
 
 
 def without_emptied(before: Document, after: Document) -> Document:
     """The document without the `<gazebo>` elements from which everything has gone; empty ones of the source stay."""
     if before is after:
         return after
-    models = tuple(_in_model(old, new) for old, new in zip(before.models, after.models, strict=True))
-    same = all(new is old for new, old in zip(models, after.models, strict=True))
-    return after if same else after.model_copy(update={"models": models})
+    return replace_fields(after, models=tuple(map(_in_model, before.models, after.models)))
 
 
 def _in_model(before: Model, after: Model) -> Model:
     pairs = zip(before.extensions, after.extensions, strict=True)
-    kept = tuple(new for old, new in pairs if not _is_emptied(old, new))
-    return after if len(kept) == len(after.extensions) else after.model_copy(update={"extensions": kept})
+    return replace_fields(after, extensions=tuple(new for old, new in pairs if not _is_emptied(old, new)))
 
 
 def _is_emptied(before: GazeboExtension, after: GazeboExtension) -> bool:

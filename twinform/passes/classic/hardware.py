@@ -2,10 +2,10 @@
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import classic as rules
-from twinform.ir import Document, Element, Format, Model
+from twinform.ir import Document, Element, Format, Model, rewrite
 from twinform.passes.classic.element_edits import text_at, with_text
 from twinform.passes.classic.tables import hardware_names
-from twinform.passes.control.carried_elements import as_parts, elements, map_models, place_of, replace
+from twinform.passes.control.carried_elements import as_parts, elements, place_of, replace
 from twinform.passes.plugins.parts import Release
 
 _OWN_NAMES = 6
@@ -17,7 +17,7 @@ def modern_hardware(document: Document, release: Release, notes: Notes) -> Docum
     """The document with the simulator's hardware in `<ros2_control>` under the name for a release."""
     if release.sim <= _OWN_NAMES:
         return document
-    return map_models(document, lambda model: _in_model(model, document.format, notes))
+    return rewrite(document, Model, lambda model: _in_model(model, document.format, notes))
 
 
 def _in_model(model: Model, format_: Format, notes: Notes) -> Model:

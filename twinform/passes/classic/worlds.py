@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 from twinform.diagnostics import Fate, Location, Notes
 from twinform.diagnostics.rules import classic as rules
 from twinform.diagnostics.rules import plugins as plugin_rules
-from twinform.ir import Document, Format, Include, Node, World, map_children
+from twinform.ir import Document, Format, Include, World, rewrite
 from twinform.ir.element import Element, Opaque
 from twinform.passes.classic.tables import unread_parts
 from twinform.passes.plugins.editing import add_world_plugin
@@ -27,16 +27,17 @@ def ship_models(document: Document, notes: Notes) -> Document:
     """The document with models that came with Gazebo Classic included from Fuel."""
     models = unread_parts()["models"]
 
-    def change(node: Node) -> Node:
-        if not isinstance(node, Include) or (node.uri or "").rstrip("/") not in models:
-            return map_children(node, change)
-        old, new = node.uri or "", models[(node.uri or "").rstrip("/")]
+    def change(include: Include) -> Include:
+        old = include.uri or ""
+        new = models.get(old.rstrip("/"))
+        if new is None:
+            return include
         message = f"{old} came with Gazebo Classic; it is {new} now"
-        notes.report(rules.SHIPPED_MODEL, message, node.location, found=old)
-        notes.account(Fate.APPROXIMATED, rules.SHIPPED_MODEL, message, node.location)
-        return node.model_copy(update={"uri": new})
+        notes.report(rules.SHIPPED_MODEL, message, include.location, found=old)
+        notes.account(Fate.APPROXIMATED, rules.SHIPPED_MODEL, message, include.location)
+        return include.model_copy(update={"uri": new})
 
-    return map_children(document, change)
+    return rewrite(document, Include, change)
 
 
 def complete_worlds(document: Document, release: Release, notes: Notes) -> Document:

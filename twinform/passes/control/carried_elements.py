@@ -3,13 +3,11 @@
 In a URDF document they are opaque parts of the model; in SDF each stands in a carrier.
 """
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 
 from twinform.diagnostics import Location
-from twinform.ir import Document, Element, Format, Model, Opaque, World
+from twinform.ir import Document, Element, Format, Model, Opaque
 from twinform.passes.legalise.carrier import NAMESPACE, PREFIX, is_carrier, pack, unpack
-
-ModelChange = Callable[[Model], Model]
 
 
 def element_of(part: Opaque, format_: Format) -> Element | None:
@@ -48,14 +46,6 @@ def replace(model: Model, gone: Iterable[Opaque], new: Iterable[Opaque], *, afte
     return model.model_copy(update={"opaque": tuple(parts)})
 
 
-def map_models(document: Document, change: ModelChange) -> Document:
-    """The document with every model changed, nested ones first; the same object where none is."""
-    models = _all(document.models, change)
-    worlds = tuple(_in_world(world, change) for world in document.worlds)
-    same = models is document.models and all(new is old for new, old in zip(worlds, document.worlds, strict=True))
-    return document if same else document.model_copy(update={"models": models, "worlds": worlds})
-
-
 def declare_carriers(document: Document) -> Document:
     """The document with the prefix of carriers declared, where it is SDF."""
     pair = (PREFIX, NAMESPACE)
@@ -67,18 +57,3 @@ def declare_carriers(document: Document) -> Document:
 def place_of(part: Opaque, model: Model) -> Location:
     """Where a part was written; where its model was, if a pass has made the part."""
     return part.location if part.source else model.location
-
-
-def _in_world(world: World, change: ModelChange) -> World:
-    models = _all(world.models, change)
-    return world if models is world.models else world.model_copy(update={"models": models})
-
-
-def _all(models: tuple[Model, ...], change: ModelChange) -> tuple[Model, ...]:
-    changed = tuple(_one(model, change) for model in models)
-    return changed if any(new is not old for new, old in zip(changed, models, strict=True)) else models
-
-
-def _one(model: Model, change: ModelChange) -> Model:
-    inner = _all(model.models, change)
-    return change(model if inner is model.models else model.model_copy(update={"models": inner}))

@@ -8,9 +8,9 @@ from pydantic import Field
 
 from twinform.diagnostics import Fate, Location, Notes
 from twinform.diagnostics.rules import control as rules
-from twinform.ir import Document, Element, Format, Joint, Model, Opaque
+from twinform.ir import Document, Element, Format, Joint, Model, Opaque, rewrite
 from twinform.passes.base import Pass
-from twinform.passes.control.carried_elements import as_parts, declare_carriers, elements, map_models, place_of, replace
+from twinform.passes.control.carried_elements import as_parts, declare_carriers, elements, place_of, replace
 from twinform.passes.control.interfaces import PLUGINS, STATES, commands_of
 from twinform.passes.control.transmission import Transmission, new_transmission, read_transmission
 from twinform.passes.legalise.nodes import unique_name
@@ -53,7 +53,7 @@ class Ros2ControlFromTransmissions(Pass):
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The document with systems in place of transmissions."""
-        changed = map_models(document, lambda model: self.convert(model, document.format, notes))
+        changed = rewrite(document, Model, lambda model: self.convert(model, document.format, notes))
         return document if changed is document else declare_carriers(changed)
 
     def convert(self, model: Model, format_: Format, notes: Notes) -> Model:

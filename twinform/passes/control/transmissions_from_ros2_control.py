@@ -8,9 +8,9 @@ from pydantic import Field
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import control as rules
-from twinform.ir import Document, Element, Format, Model, Opaque
+from twinform.ir import Document, Element, Format, Model, Opaque, rewrite
 from twinform.passes.base import Pass
-from twinform.passes.control.carried_elements import as_parts, declare_carriers, elements, map_models, place_of, replace
+from twinform.passes.control.carried_elements import as_parts, declare_carriers, elements, place_of, replace
 from twinform.passes.control.interfaces import CLASSES, PLUGINS, SIMPLE, STATE_CLASS
 from twinform.passes.control.transmission import End, Transmission, old_transmission, read_transmission
 from twinform.passes.legalise.nodes import unique_name
@@ -44,7 +44,7 @@ class TransmissionsFromRos2Control(Pass):
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The document with transmissions in place of systems."""
-        made = map_models(document, lambda model: self.convert(model, document.format, notes))
+        made = rewrite(document, Model, lambda model: self.convert(model, document.format, notes))
         return document if made is document else declare_carriers(made)
 
     def convert(self, model: Model, format_: Format, notes: Notes) -> Model:

@@ -8,9 +8,8 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 from twinform.diagnostics import Notes
-from twinform.ir import Frame, Joint, Pose, World
+from twinform.ir import Frame, Joint, Pose, World, rewrite
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
-from twinform.passes.legalise.nodes import map_poses
 
 _INSIDE = "::"
 
@@ -39,7 +38,7 @@ class _Detached:
         joints = tuple(self._joint(joint) for joint in world.joints)
         rest = world.model_copy(update={"frames": frames, "joints": joints, "models": ()})
         models = tuple(model.model_copy(update={"pose": self._own(model.pose)}) for model in world.models)
-        return map_poses(rest, self._pose).model_copy(update={"models": models})
+        return rewrite(rest, Pose, self._pose).model_copy(update={"models": models})
 
     def _base_for(self, name: str | None) -> str | None:
         """The frame that stays of the model that a name is, or is inside of; None where that frame may stay."""

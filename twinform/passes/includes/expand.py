@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import includes as rules
-from twinform.ir import Document, Include, Model, World
+from twinform.ir import Document, Include, Model, World, replace_fields
 from twinform.ir.namespaces import joined
 from twinform.ir.transform import Transform
 from twinform.passes.includes.merge import merge_into_model, merge_into_world
@@ -124,9 +124,7 @@ class _Expansion:
         return world.model_copy(update={"includes": self._kept(world.includes)})
 
     def model(self, model: Model) -> Model:
-        models = tuple(map(self.model, model.models))
-        if any(now is not was for now, was in zip(models, model.models, strict=True)):
-            model = model.model_copy(update={"models": models})
+        model = replace_fields(model, models=tuple(map(self.model, model.models)))
         if not model.includes:
             return model
         for include, source in self._split(model.includes):

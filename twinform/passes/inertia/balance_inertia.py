@@ -7,7 +7,7 @@ from pydantic import Field
 
 from twinform.diagnostics import Notes, Severity
 from twinform.diagnostics.rules.inertia import BALANCED_INERTIA, UNBALANCED_INERTIA
-from twinform.ir import Document, Format, Inertial, Link, Model
+from twinform.ir import Document, Format, Inertial, Link, rewrite
 from twinform.ir.defaults import MOMENT
 from twinform.ir.principal_moments import Symmetric, principal_moments, relative_moments, times_each
 from twinform.ir.scaling import common_exponent, times_power
@@ -16,7 +16,6 @@ from twinform.ir.verify.inertia import inertia_matrix
 from twinform.passes.base import Pass
 from twinform.passes.inertia.nearest import distance, nearest_possible, second_moments
 from twinform.passes.inertia.possible import has_mass
-from twinform.passes.map_links import map_links
 from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 _NOTHING_MUCH = 1e-3
@@ -63,7 +62,7 @@ class BalanceInertia(Pass):
     def run(self, document: Document, notes: Notes) -> Document:
         """The document with inertias that bodies can have."""
 
-        def balance(link: Link, _model: Model) -> Link:
+        def balance(link: Link) -> Link:
             inertial = link.inertial
             if inertial is None or inertial.auto or not matches(link.name, self.links):
                 return link
@@ -72,7 +71,7 @@ class BalanceInertia(Pass):
                 matrix = _NOTHING
             return link if matrix is None else self._balance(link, inertial, matrix, notes)
 
-        return map_links(document, balance)
+        return rewrite(document, Link, balance)
 
     def _balance(self, link: Link, inertial: Inertial, matrix: Symmetric, notes: Notes) -> Link:
         finite = all(map(math.isfinite, matrix))

@@ -14,9 +14,8 @@ from twinform.passes.assets import AssetPass
 from twinform.passes.inertia.plausible import Plausible
 from twinform.passes.inertia.possible import DIGITS, ROUNDING
 from twinform.passes.inertia.shapes import Places
-from twinform.passes.map_links import movable_models
 from twinform.passes.meshes import Meshes
-from twinform.passes.moving_bodies import Body, Neighbours, moving_bodies, neighbours
+from twinform.passes.moving_bodies import Body, Neighbours, movable_models, moving_bodies, neighbours
 
 
 class CheckInertia(AssetPass):

@@ -8,16 +8,15 @@ from pydantic import Field, model_validator
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules.inertia import FILLED_INERTIA, UNFILLED_INERTIA
-from twinform.ir import Document, Format, Inertial, Link, Model
+from twinform.ir import Document, Format, Inertial, Link, rewrite
 from twinform.ir.frames import FrameError
 from twinform.ir.scaling import common_exponent, times_power
 from twinform.ir.solids import Solid, combined, with_mass
 from twinform.passes.assets import AssetPass
 from twinform.passes.inertia.possible import has_mass, is_possible
 from twinform.passes.inertia.shapes import Kind, NoSolidError, PlacedShape, Places, inertial_of, solid_of
-from twinform.passes.map_links import map_links, movable_models
 from twinform.passes.meshes import Meshes
-from twinform.passes.moving_bodies import moving_bodies
+from twinform.passes.moving_bodies import movable_models, moving_bodies
 from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 _AMOUNTS = ("density", "mass", "total_mass")
@@ -88,7 +87,7 @@ class FillInertia(AssetPass):
         exponent = common_exponent(amounts)
         units = math.fsum(times_power(amount, -exponent) for amount in amounts)
 
-        def fill(link: Link, _model: Model) -> Link:
+        def fill(link: Link) -> Link:
             filling = fillings.get(id(link))
             if not filling:
                 return link
@@ -97,7 +96,7 @@ class FillInertia(AssetPass):
                 filling = filling._replace(solid=with_mass(filling.solid, part))
             return _filled(link, filling, notes) if _is_solid(link, filling.solid, filling.shapes, notes) else link
 
-        filled = map_links(document, fill)
+        filled = rewrite(document, Link, fill)
         _report_empty(filled, self.links, notes)
         return filled
 

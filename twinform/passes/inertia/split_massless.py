@@ -6,14 +6,12 @@ from pydantic import Field
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules.massless import SPLIT_MASS, TOKEN_MASS
-from twinform.ir import Document, Format, Joint, Link, Sphere
+from twinform.ir import Document, Format, Joint, Link, Sphere, rewrite
 from twinform.ir.frames import FrameError
 from twinform.ir.solids import NOTHING, solid, with_mass
 from twinform.passes.base import Pass
 from twinform.passes.inertia.masses import Masses
 from twinform.passes.inertia.possible import has_mass
-from twinform.passes.map_joints import map_joints
-from twinform.passes.map_links import map_links
 from twinform.passes.moving_bodies import Body, Neighbours, moving_bodies, neighbours
 from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
@@ -64,8 +62,8 @@ class SplitMassless(Pass):
                 _report_fixed(taker, joints, notes)
             else:
                 self._weigh(taker, masses, notes)
-        document = map_joints(document, lambda joint: _fixed(joint) if id(joint) in fixed else joint)
-        return map_links(document, lambda link, _: masses.applied(link))
+        document = rewrite(document, Joint, lambda joint: _fixed(joint) if id(joint) in fixed else joint)
+        return rewrite(document, Link, masses.applied)
 
     def _is_meant(self, body: Body) -> bool:
         return any(matches(link.name, self.links) for link in body)

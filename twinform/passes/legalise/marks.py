@@ -16,7 +16,7 @@ and never attributes: other readers skip foreign elements, and some fail on fore
 from collections.abc import Mapping
 from typing import TypeVar
 
-from twinform.ir import Element, Node, Opaque, holds_opaque, map_children
+from twinform.ir import Element, Node, Opaque, holds_opaque, rewrite
 from twinform.passes.legalise.carrier import NAMESPACE
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -68,4 +68,4 @@ def is_made(node: Node) -> bool:
 
 def without_made(node: AnyNode) -> AnyNode:
     """The node without marks of what was made up, on it and in it."""
-    return map_children(without_mark(node, MADE), without_made) if holds_opaque(node) else node
+    return rewrite(node, Node, lambda each: without_mark(each, MADE), enter=holds_opaque)

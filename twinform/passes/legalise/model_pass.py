@@ -3,7 +3,7 @@
 from abc import abstractmethod
 
 from twinform.diagnostics import Notes
-from twinform.ir import Document, Model
+from twinform.ir import Document, Model, replace_fields
 from twinform.passes.base import Pass
 
 
@@ -12,9 +12,7 @@ class ModelPass(Pass):
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The document with every model passed through."""
-        models = tuple(self.run_model(model, notes) for model in document.models)
-        same = all(new is old for new, old in zip(models, document.models, strict=True))
-        return document if same else document.model_copy(update={"models": models})
+        return replace_fields(document, models=tuple(self.run_model(model, notes) for model in document.models))
 
     @abstractmethod
     def run_model(self, model: Model, notes: Notes) -> Model:

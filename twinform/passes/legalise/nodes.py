@@ -1,12 +1,9 @@
 """Small things that several passes do with nodes."""
 
 from collections.abc import Callable, Container, Iterable
-from typing import TypeVar
 
-from twinform.ir import Element, Node, Opaque, Pose, map_kind
+from twinform.ir import Element, Node, Opaque, Pose, replace_fields
 from twinform.passes.legalise.carrier import to_element
-
-AnyNode = TypeVar("AnyNode", bound=Node)
 
 
 def unique_name(name: str, taken: Container[str]) -> str:
@@ -32,15 +29,8 @@ def text_piece(name: str, text: str, at: str = "") -> Opaque:
     return Opaque(at=at, element=Element(name=name, text=text))
 
 
-def map_poses(node: AnyNode, change: Callable[[Pose], Pose]) -> AnyNode:
-    """The node with every pose in it changed; the same node where none is."""
-    return map_kind(node, Pose, change)
-
-
 def map_elements(parts: Iterable[Opaque], change: Callable[[Element], Element]) -> tuple[Opaque, ...]:
     """Opaque parts with every element changed; it is for `change` to look further down."""
-    return tuple([part if part.element is None else _with_element(part, change(part.element)) for part in parts])
-
-
-def _with_element(part: Opaque, element: Element) -> Opaque:
-    return part if element is part.element else part.model_copy(update={"element": element})
+    return tuple(
+        [part if part.element is None else replace_fields(part, element=change(part.element)) for part in parts]
+    )

@@ -9,11 +9,10 @@ from pydantic import Field
 from twinform.diagnostics import Location, Notes, Rule
 from twinform.diagnostics.rules import limits as rules
 from twinform.diagnostics.rules.to_urdf import UNBOUNDED_LIMIT
-from twinform.ir import Axis, Document, Format, Joint, Limit
+from twinform.ir import Axis, Document, Format, Joint, Limit, rewrite
 from twinform.ir.defaults import UNLIMITED, with_range
 from twinform.passes.base import Pass
 from twinform.passes.limits.soft_limits import soft_limits
-from twinform.passes.map_joints import map_joints
 from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 _BOUNDED = frozenset({"revolute", "prismatic"})
@@ -66,7 +65,7 @@ class CheckLimits(Pass):
                     notes.report(each.rule, each.message, each.where, found=each.found, expected=each.expected)
             return joint
 
-        return map_joints(document, look)
+        return rewrite(document, Joint, look)
 
     def _findings(self, joint: Joint, format_: Format) -> Iterator[_Finding]:
         for axis in (joint.axis, joint.axis2):

@@ -6,9 +6,8 @@ from pydantic import Field, model_validator
 
 from twinform.diagnostics import Location, Notes
 from twinform.diagnostics.rules.limits import FILLED_LIMIT, UNFILLED_LIMIT
-from twinform.ir import Axis, Document, Dynamics, Format, Joint, Limit, Node
+from twinform.ir import Axis, Document, Dynamics, Format, Joint, Limit, Node, rewrite
 from twinform.passes.base import Pass
-from twinform.passes.map_joints import map_joints
 from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 _BOUNDED = frozenset({"revolute", "prismatic"})
@@ -62,7 +61,7 @@ class FillLimits(Pass):
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The document with the limits filled."""
-        return map_joints(document, lambda joint: self._fill(joint, document.format, notes))
+        return rewrite(document, Joint, lambda joint: self._fill(joint, document.format, notes))
 
     def _fill(self, joint: Joint, format_: Format, notes: Notes) -> Joint:
         if joint.type not in _DRIVEN or not matches(joint.name, self.joints):

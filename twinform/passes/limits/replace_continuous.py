@@ -4,9 +4,8 @@ from typing import ClassVar
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules.joints import REPLACED_CONTINUOUS
-from twinform.ir import Axis, Document, Format, Joint, Limit
+from twinform.ir import Axis, Document, Format, Joint, Limit, rewrite
 from twinform.passes.base import Pass
-from twinform.passes.map_joints import map_joints
 
 
 class ReplaceContinuous(Pass):
@@ -28,7 +27,7 @@ class ReplaceContinuous(Pass):
         """The document without continuous joints."""
         if document.format is not Format.SDF:
             return document
-        return map_joints(document, lambda joint: _revolute(joint, notes))
+        return rewrite(document, Joint, lambda joint: _revolute(joint, notes))
 
 
 def _revolute(joint: Joint, notes: Notes) -> Joint:

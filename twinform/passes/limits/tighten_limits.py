@@ -7,10 +7,9 @@ from pydantic import Field
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules.limits import TIGHTENED_LIMIT, UNTIGHTENED_LIMIT
-from twinform.ir import Document, Joint, Limit
+from twinform.ir import Document, Joint, Limit, rewrite
 from twinform.passes.base import Pass
 from twinform.passes.limits.soft_limits import SoftLimits, soft_limits
-from twinform.passes.map_joints import map_joints
 from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 _BOUNDED = frozenset({"revolute", "prismatic"})
@@ -40,7 +39,7 @@ class TightenLimits(Pass):
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The document with tighter limits."""
-        return map_joints(document, lambda joint: self._tighten(joint, notes))
+        return rewrite(document, Joint, lambda joint: self._tighten(joint, notes))
 
     def _tighten(self, joint: Joint, notes: Notes) -> Joint:
         if joint.type not in _BOUNDED or joint.axis is None or not matches(joint.name, self.joints):

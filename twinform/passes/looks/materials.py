@@ -7,8 +7,7 @@ from pydantic import Field
 
 from twinform.diagnostics import Location, Notes
 from twinform.diagnostics.rules.looks import PBR_TOO_OLD, TEXTURED_SCRIPT, UNKNOWN_SCRIPT
-from twinform.ir import Document, Element, Format, GazeboExtension, Link, Material, Model, Opaque, Visual, map_children
-from twinform.ir.node import Node
+from twinform.ir import Document, Element, Format, GazeboExtension, Link, Material, Opaque, replace_fields, rewrite
 from twinform.passes.base import Pass
 from twinform.passes.legalise.carrier import to_element
 from twinform.passes.looks.classic_materials import ClassicMaterial, classic_materials
@@ -52,23 +51,17 @@ class Materials(Pass):
             notes.report(PBR_TOO_OLD, message, document.location, found=document.version, expected="1.6 or newer")
             return self.model_copy(update={"pbr": False}).run(document, notes)
 
-        def visit(node: Node) -> Node:
-            if isinstance(node, Link):
-                return map_children(node, lambda part: self._visual(part, notes)) if self._is_meant(node.name) else node
-            if isinstance(node, Model) and document.format is Format.URDF:
-                return map_children(node, lambda part: self._extension(part, notes))
-            return map_children(node, visit)
-
-        return map_children(document, visit)
+        if document.format is Format.URDF:
+            return rewrite(document, GazeboExtension, lambda extension: self._extension(extension, notes))
+        return rewrite(document, Link, lambda link: self._link(link, notes))
 
     def _is_meant(self, link: str | None) -> bool:
         return link is not None and matches(link, self.links)
 
-    def _visual(self, node: Node, notes: Notes) -> Node:
-        if not isinstance(node, Visual) or node.material is None:
-            return node
-        material = self._material(node.material, notes)
-        return node if material is node.material else node.model_copy(update={"material": material})
+    def _link(self, link: Link, notes: Notes) -> Link:
+        if not self._is_meant(link.name):
+            return link
+        return rewrite(link, Material, lambda material: self._material(material, notes))
 
     def _material(self, material: Material, notes: Notes) -> Material:
         script, found = material.script, None
@@ -97,12 +90,11 @@ class Materials(Pass):
             return self.roughness
         return min(1.0, math.sqrt(2 / (script.shininess + 2)))
 
-    def _extension(self, node: Node, notes: Notes) -> Node:
+    def _extension(self, extension: GazeboExtension, notes: Notes) -> GazeboExtension:
         """A `<gazebo>` element of URDF with the colours of the script that it names."""
-        if not self.scripts or not isinstance(node, GazeboExtension) or not self._is_meant(node.reference):
-            return node
-        content = tuple(self._tag(element, notes) for element in node.content)
-        return node if content == node.content else node.model_copy(update={"content": content})
+        if not self.scripts or not self._is_meant(extension.reference):
+            return extension
+        return replace_fields(extension, content=tuple(self._tag(element, notes) for element in extension.content))
 
     def _tag(self, element: Element, notes: Notes) -> Element:
         name = (element.get("value") or element.text or "").strip()

@@ -6,8 +6,7 @@ from pydantic import Field, model_validator
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules.looks import NOTHING_MATCHED, UNSET_SURFACE
-from twinform.ir import Collision, Document, Format, Link, Model, Surface, map_children
-from twinform.ir.node import Node
+from twinform.ir import Collision, Document, Format, Link, Model, Surface, rewrite
 from twinform.passes.base import Pass
 from twinform.passes.gazebo_tags import with_element, with_tags
 from twinform.passes.patterns import EVERY, matches, with_such_a_name
@@ -67,14 +66,10 @@ class SetSurface(Pass):
         """The document with other surfaces."""
         matched: list[Collision] = []
 
-        def visit(node: Node) -> Node:
-            if isinstance(node, Model) and document.format is Format.URDF:
-                return self._in_urdf(node, matched, notes)
-            if isinstance(node, Link):
-                return self._in_sdf(node, matched)
-            return map_children(node, visit)
-
-        made = map_children(document, visit)
+        if document.format is Format.URDF:
+            made = rewrite(document, Model, lambda model: self._in_urdf(model, matched, notes))
+        else:
+            made = rewrite(document, Link, lambda link: self._in_sdf(link, matched))
         if not matched:
             collisions, links = ", ".join(self.collisions), ", ".join(self.links)
             message = f"no collision {collisions!r} on a link {links!r}"

@@ -7,16 +7,16 @@ from pydantic import Field, model_validator
 
 from twinform.diagnostics import Notes, Severity
 from twinform.diagnostics.rules import plugins as rules
-from twinform.ir import Document, Model, Plugin, Sensor, World
+from twinform.ir import Document, Model, Plugin, Sensor, World, replace_node
 from twinform.passes.plugins.base_link import base_link
 from twinform.passes.plugins.catalogue import nearest, releases, system
-from twinform.passes.plugins.editing import add_plugin, add_visual_plugin, add_world_plugin, replace_model
+from twinform.passes.plugins.editing import add_plugin, add_visual_plugin, add_world_plugin
 from twinform.passes.plugins.options import MissingError, content_of, field_of, options_of
 from twinform.passes.plugins.parameters import names_in
 from twinform.passes.plugins.parts import PluginKind, ReleaseName
 from twinform.passes.plugins.selecting import Fields, SelectingPass
 from twinform.passes.plugins.sites import Site, map_sensors
-from twinform.passes.plugins.targets import find_model, find_world, missing, replace_world, world_of
+from twinform.passes.plugins.targets import find_model, find_world, missing, world_of
 from twinform.passes.plugins.wheels import MEASURES, Measured, NotMeasuredError
 from twinform.passes.plugins.worlds import as_xml, lacking_for, system_plugin, with_defaults, with_systems
 
@@ -99,7 +99,7 @@ class AddPlugin(SelectingPass):
         plugin = self._plugin({**self._measured(model, document, notes), **self._frames(model, document)})
         if notes.has_errors:
             return document
-        made = replace_model(document, model, add_plugin(model, plugin, document.format))
+        made = replace_node(document, model, add_plugin(model, plugin, document.format))
         return self._with_needs(made, model, world_of(document, model), notes)
 
     def _with_needs(self, document: Document, model: Model, world: World | None, notes: Notes) -> Document:
@@ -115,14 +115,14 @@ class AddPlugin(SelectingPass):
         message = f"world {world.name!r} gets {needed.class_name}"
         notes.report(rules.ADDED_WORLD_SYSTEM, message, world.location)
         now = next(each for each in document.worlds if each.name == world.name)
-        return replace_world(document, now, with_systems(now, [needed]))
+        return replace_node(document, now, with_systems(now, [needed]))
 
     def _in_world(self, document: Document, notes: Notes) -> Document:
         world = find_world(document, self.world, notes)
         if world is None:
             return document
         made = add_world_plugin(with_defaults(world, self._kind()), self._plugin({}))
-        return document if made is world else replace_world(document, world, made)
+        return document if made is world else replace_node(document, world, made)
 
     def _on_sensor(self, document: Document, notes: Notes) -> Document:
         plugin, seen = self._plugin({}), list[str]()
@@ -147,7 +147,7 @@ class AddPlugin(SelectingPass):
             names = [link.name for link in model.links]
             missing(document, "visual or link", self.on, names, notes)
             return document
-        return replace_model(document, model, made)
+        return replace_node(document, model, made)
 
     def _kind(self) -> PluginKind:
         return system(self.system)

@@ -8,16 +8,16 @@ from pydantic import Field, model_validator
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import plugins as rules
-from twinform.ir import Document, Element, Format, Joint, Link, Model, Opaque, Pose, Sensor
+from twinform.ir import Document, Element, Format, Joint, Link, Model, Opaque, Pose, Sensor, replace_node
 from twinform.ir.frames import WORLD
 from twinform.passes.legalise.nodes import unique_name
 from twinform.passes.plugins.catalogue import release, releases, sensor
-from twinform.passes.plugins.editing import add_sensor, replace_model
+from twinform.passes.plugins.editing import add_sensor
 from twinform.passes.plugins.parts import ReleaseName, SensorKind
 from twinform.passes.plugins.selecting import Fields, SelectingPass
 from twinform.passes.plugins.sensor_settings import addable, element_of, fields_of, settings_of
 from twinform.passes.plugins.sites import sensors_of
-from twinform.passes.plugins.targets import find_model, missing, replace_world, world_of
+from twinform.passes.plugins.targets import find_model, missing, world_of
 from twinform.passes.plugins.values import is_topic
 from twinform.passes.plugins.worlds import as_xml, has_element, has_system, needed_for, with_systems
 
@@ -105,7 +105,7 @@ class AddSensor(SelectingPass):
         if is_new:
             kept = isinstance(holder, Joint) and holder.type == "fixed"
             new = add_sensor(model, holder.name, made, document.format, kept=kept)
-            document = replace_model(document, model, new)
+            document = replace_node(document, model, new)
         if world is None:
             self._say_what_is_needed(made, holder, notes)
             return document
@@ -193,7 +193,7 @@ class AddSensor(SelectingPass):
             return document
         listed = ", ".join(each.class_name for each in lacks)
         notes.report(rules.ADDED_WORLD_SYSTEM, f"world {world.name!r} gets {listed}", world.location)
-        return replace_world(document, world, with_systems(world, lacks))
+        return replace_node(document, world, with_systems(world, lacks))
 
 
 def usual_topic(kind: SensorKind, name: str, usual: str) -> str:

@@ -1,12 +1,7 @@
 """Adding plugins and sensors to models and worlds, in the language that they are in."""
 
-from collections.abc import Callable
-from typing import TypeVar
-
-from twinform.ir import Document, Element, Format, GazeboExtension, Link, Model, Node, Plugin, Sensor, World
+from twinform.ir import Element, Format, GazeboExtension, Link, Model, Plugin, Sensor, World, replace_fields
 from twinform.passes.plugins.elements import plugin_element, sensor_element
-
-AnyNode = TypeVar("AnyNode", bound=Node)
 
 
 def add_plugin(model: Model, plugin: Plugin, format_: Format) -> Model:
@@ -27,10 +22,8 @@ def add_visual_plugin(model: Model, on: str, plugin: Plugin, format_: Format) ->
             return None
         content = (Element(name="visual", children=(plugin_element(plugin),)),)
         return _extended(model, GazeboExtension(reference=link.name, content=content))
-    links = tuple(_with_visual_plugin(link, on, plugin) for link in model.links)
-    if all(new is old for new, old in zip(links, model.links, strict=True)):
-        return None
-    return model.model_copy(update={"links": links})
+    made = replace_fields(model, links=tuple(_with_visual_plugin(link, on, plugin) for link in model.links))
+    return None if made is model else made
 
 
 def _with_visual_plugin(link: Link, on: str, plugin: Plugin) -> Link:
@@ -66,25 +59,6 @@ def add_world_plugin(world: World, plugin: Plugin) -> World:
     return world if plugin in world.plugins else world.model_copy(update={"plugins": (*world.plugins, plugin)})
 
 
-def replace_model(document: Document, old: Model, new: Model) -> Document:
-    """The document with one model, wherever it is nested, replaced by another; models are told apart by identity."""
-
-    def change(model: Model) -> Model:
-        if model is old:
-            return new
-        models = _each(model.models, change)
-        return model if models is model.models else model.model_copy(update={"models": models})
-
-    def in_world(world: World) -> World:
-        models = _each(world.models, change)
-        return world if models is world.models else world.model_copy(update={"models": models})
-
-    models, worlds = _each(document.models, change), _each(document.worlds, in_world)
-    if models is document.models and worlds is document.worlds:
-        return document
-    return document.model_copy(update={"models": models, "worlds": worlds})
-
-
 def _extended(model: Model, extension: GazeboExtension) -> Model:
     """The model with one more `<gazebo>`; itself, if it has the same already."""
     return (
@@ -92,8 +66,3 @@ def _extended(model: Model, extension: GazeboExtension) -> Model:
         if extension in model.extensions
         else model.model_copy(update={"extensions": (*model.extensions, extension)})
     )
-
-
-def _each(nodes: tuple[AnyNode, ...], change: Callable[[AnyNode], AnyNode]) -> tuple[AnyNode, ...]:
-    made = tuple(map(change, nodes))
-    return nodes if all(new is old for new, old in zip(made, nodes, strict=True)) else made

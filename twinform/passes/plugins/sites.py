@@ -4,7 +4,7 @@ In SDF they are nodes of worlds, models, includes, links, joints, sensors and vi
 stand in elements without a typed form. In URDF they are elements in `<gazebo>`. A pass need not know which.
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
@@ -22,6 +22,7 @@ from twinform.ir import (
     Sensor,
     Visual,
     World,
+    replace_fields,
 )
 from twinform.ir.tree import node_fields
 from twinform.passes.plugins.elements import plugin_element, plugin_of, sensor_element, sensor_of
@@ -144,33 +145,19 @@ class _Walk:
             if not old:
                 continue
             if isinstance(old, Node):
-                new: Any = self.node(old, site)
+                update[field] = self.node(old, site)
             elif field in _LEAVES:
-                new = self._leaves(field, old, site)
+                update[field] = self._leaves(field, old, site)
             else:
-                many = tuple([self.node(each, site) for each in old])
-                new = many if any(mine is not each for mine, each in zip(many, old, strict=True)) else old
-            if new is not old:
-                update[field] = new
-        update |= self._free(node, site)
-        return node.model_copy(update=update) if update else node
+                update[field] = tuple([self.node(each, site) for each in old])
+        if isinstance(node, GazeboExtension):
+            update["content"] = self._elements(node.content, site)
+        return replace_fields(node, opaque=self._opaque(node.opaque, site), **update)
 
     def _leaves(self, field: str, old: Any, site: Site) -> Any:
         if field == "plugins":
             return _replaced(old, lambda plugin: self._plugins(plugin, site))
         return _replaced(old, lambda sensor: self._sensors(sensor, site))
-
-    def _free(self, node: Node, site: Site) -> dict[str, Any]:
-        """What changes among the parts of a node that have no typed form."""
-        update: dict[str, Any] = {}
-        opaque = self._opaque(node.opaque, site)
-        if opaque is not node.opaque:
-            update["opaque"] = opaque
-        if isinstance(node, GazeboExtension):
-            content = self._elements(node.content, site)
-            if content is not node.content:
-                update["content"] = content
-        return update
 
     def _plugins(self, plugin: Plugin, site: Site) -> Iterable[Plugin]:
         return self._plugin(plugin, site) if self._plugin else (plugin,)
@@ -204,8 +191,7 @@ class _Walk:
         inside = replace(site, scope=element.name, holder=element.get("name") or "")
         if element.name in {"link", "joint"}:
             inside = replace(inside, link_or_joint=inside.holder)
-        children = self._elements(element.children, inside)
-        return (element if children is element.children else element.model_copy(update={"children": children}),)
+        return (replace_fields(element, children=self._elements(element.children, inside)),)
 
     def _plugin_element(self, element: Element, site: Site) -> Iterable[Element]:
         if self._plugin is None:
@@ -224,8 +210,5 @@ One = TypeVar("One")
 
 
 def _replaced(old: tuple[One, ...], change: Callable[[One], Iterable[One]]) -> tuple[One, ...]:
-    """What becomes of each, in a row; the same tuple where each becomes itself."""
-    made: list[Sequence[One]] = [tuple(change(each)) for each in old]
-    if all(len(new) == 1 and new[0] is each for new, each in zip(made, old, strict=True)):
-        return old
-    return tuple(each for new in made for each in new)
+    """What becomes of each, in a row."""
+    return tuple([new for each in old for new in change(each)])

@@ -65,9 +65,3 @@ def missing(document: Document | Model, what: str, name: str | None, known: list
     help_ = f"did you mean {near}?" if near else f"there are {', '.join(known)}" if known else None
     message = f"there is no {what} {name!r} to add to"
     notes.report(rules.NOTHING_TO_ADD_TO, message, document.location, found=name, help=help_)
-
-
-def replace_world(document: Document, old: World, new: World) -> Document:
-    """The document with one world replaced."""
-    worlds = tuple(new if world is old else world for world in document.worlds)
-    return document.model_copy(update={"worlds": worlds})

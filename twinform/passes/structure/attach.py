@@ -7,7 +7,7 @@ from pydantic import Field
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import edits as rules
-from twinform.ir import Document, Format, Model
+from twinform.ir import Document, Format, Model, replace_node
 from twinform.ir.namespaces import joined
 from twinform.ir.node import Vector3
 from twinform.passes.other_documents import DocumentPass, DocumentReader
@@ -59,7 +59,7 @@ class Attach(DocumentPass):
         if made is target:
             return document
         namespaces = joined(document.namespaces, [other.namespaces])
-        return _replaced(document, target, made).model_copy(update={"namespaces": namespaces})
+        return replace_node(document, target, made).model_copy(update={"namespaces": namespaces})
 
     def _joined(self, target: Model, guest: Model, format_: Format, notes: Notes) -> Model:
         scope = scope_of(guest, self._choose, deep=False)
@@ -101,12 +101,3 @@ class Attach(DocumentPass):
 
 def _models(document: Document) -> chain[Model]:
     return chain(document.models, *(world.models for world in document.worlds))
-
-
-def _replaced(document: Document, old: Model, new: Model) -> Document:
-    models = tuple(new if each is old else each for each in document.models)
-    worlds = tuple(
-        world.model_copy(update={"models": tuple(new if each is old else each for each in world.models)})
-        for world in document.worlds
-    )
-    return document.model_copy(update={"models": models, "worlds": worlds})

@@ -21,6 +21,7 @@ from twinform.ir import (
     Visual,
     map_children,
     node_fields,
+    replace_fields,
 )
 from twinform.passes.base import Pass
 from twinform.passes.legalise.carrier import is_ours
@@ -117,8 +118,7 @@ class Drop(Pass):
         """A part that the IR keeps as it is, such as `<gui>`, without what is to go in it."""
         if part.element is None or is_ours(part):
             return part
-        inside = self._inside(part.element, gone)
-        return part if inside is part.element else part.model_copy(update={"element": inside})
+        return replace_fields(part, element=self._inside(part.element, gone))
 
     def _goes(self, node: Node, gone: Gone) -> bool:
         option = _KINDS.get(type(node))
@@ -137,18 +137,16 @@ class Drop(Pass):
         """A `<gazebo>` element of URDF without what is to go in it."""
         if not matches(extension.reference, self.links):
             return extension
-        kept = self._kept(extension.content, gone)
-        return extension if kept is extension.content else extension.model_copy(update={"content": kept})
+        return replace_fields(extension, content=self._kept(extension.content, gone))
 
     def _kept(self, elements: tuple[Element, ...], gone: Gone) -> tuple[Element, ...]:
         """The elements that stay, without what is to go in them; the parameters of plugins are theirs alone."""
-        kept = tuple(self._inside(each, gone) for each in elements if not self._element_goes(each, gone))
-        same = len(kept) == len(elements) and all(new is old for new, old in zip(kept, elements, strict=True))
-        return elements if same else kept
+        return tuple(self._inside(each, gone) for each in elements if not self._element_goes(each, gone))
 
     def _inside(self, element: Element, gone: Gone) -> Element:
-        children = element.children if element.name == "plugin" else self._kept(element.children, gone)
-        return element if children is element.children else element.model_copy(update={"children": children})
+        if element.name == "plugin":
+            return element
+        return replace_fields(element, children=self._kept(element.children, gone))
 
     def _element_goes(self, element: Element, gone: Gone) -> bool:
         option = _FREE_CONTENT.get(element.name)

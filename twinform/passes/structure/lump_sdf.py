@@ -4,7 +4,21 @@ from collections.abc import Iterable
 from typing import TypeVar
 
 from twinform.diagnostics import Notes
-from twinform.ir import Collision, Element, Format, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual
+from twinform.ir import (
+    Collision,
+    Element,
+    Format,
+    Frame,
+    Joint,
+    Light,
+    Link,
+    Model,
+    Opaque,
+    Pose,
+    Sensor,
+    Visual,
+    replace_fields,
+)
 from twinform.ir.defaults import BODY
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.solids import placed
@@ -27,9 +41,8 @@ _OF_BODY = frozenset({"velocity_decay"})
 def lump_sdf(model: Model, keep: tuple[str, ...], place: Place, meshes: Meshes, named: Mentions | None = None) -> Model:
     """The model, and the models in it, with one link for each rigid body; the same one where nothing changes."""
     named = named or mentions(model)
-    inner = tuple(lump_sdf(nested, keep, place, meshes, named) for nested in model.models)
-    if any(new is not old for new, old in zip(inner, model.models, strict=True)):
-        model = model.model_copy(update={"models": inner})
+    inner = (lump_sdf(nested, keep, place, meshes, named) for nested in model.models)
+    model = replace_fields(model, models=tuple(inner))
     if not any(joint.type == "fixed" for joint in model.joints):
         return model
     graph = FrameGraph(model)

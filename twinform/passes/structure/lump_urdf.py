@@ -3,7 +3,7 @@
 from typing import TypeVar
 
 from twinform.diagnostics.rules import edits as rules
-from twinform.ir import Collision, Element, Format, GazeboExtension, Joint, Link, Model, Visual
+from twinform.ir import Collision, Element, Format, GazeboExtension, Joint, Link, Model, Visual, replace_fields
 from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import Solid, placed
 from twinform.ir.transform import Transform
@@ -78,12 +78,12 @@ class _Lumping:
     def run(self) -> Model:
         for host, names in self.guests.items():
             self._host(host, names)
-        links = tuple(self.links[link.name] for link in self.model.links)
-        if all(new is old for new, old in zip(links, self.model.links, strict=True)):
-            return self.model
+        made = replace_fields(self.model, links=tuple(self.links[link.name] for link in self.model.links))
+        if made is self.model:
+            return made
         taken = {host: posed_names(content(self.there, host)) for host in self.guests}
         extensions = tuple(each for one in self.model.extensions if (each := self._rest(one, taken)) is not None)
-        return self.model.model_copy(update={"links": links, "extensions": extensions})
+        return made.model_copy(update={"extensions": extensions})
 
     def _host(self, host: str, names: list[str]) -> None:
         solids: list[Solid] = []

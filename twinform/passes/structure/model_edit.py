@@ -9,7 +9,7 @@ from pydantic import Field
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import edits as rules
-from twinform.ir import Document, Format, Model, World
+from twinform.ir import Document, Format, Model, World, replace_fields
 from twinform.ir.frames import FrameError
 from twinform.passes.base import Pass
 from twinform.schemas import parse_version, table
@@ -47,19 +47,12 @@ class ModelEdit(Pass):
         place = Place(document.format, notes)
         models = tuple(self._one(model, place) for model in document.models)
         worlds = tuple(self._world(world, document, notes) for world in document.worlds)
-        update: dict[str, object] = {}
-        if any(new is not old for new, old in zip(models, document.models, strict=True)):
-            update["models"] = models
-        if any(new is not old for new, old in zip(worlds, document.worlds, strict=True)):
-            update["worlds"] = worlds
-        return document.model_copy(update=update) if update else document
+        return replace_fields(document, models=models, worlds=worlds)
 
     def _world(self, world: World, document: Document, notes: Notes) -> World:
         place = Place(document.format, notes)
-        models = tuple(self._one(model, place) for model in world.models)
-        if all(new is old for new, old in zip(models, world.models, strict=True)):
-            return world
-        return self.in_world(world, world.model_copy(update={"models": models}))
+        made = replace_fields(world, models=tuple(self._one(model, place) for model in world.models))
+        return world if made is world else self.in_world(world, made)
 
     def _one(self, model: Model, place: Place) -> Model:
         return self.edit_model(model, place) if self.model in (None, model.name) else model

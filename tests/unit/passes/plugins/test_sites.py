@@ -3,8 +3,8 @@ from collections.abc import Iterable
 import pytest
 
 import twinform
-from twinform.ir import Document, Plugin, Sensor
-from twinform.passes.plugins.editing import add_plugin, add_sensor, add_world_plugin, replace_model
+from twinform.ir import Document, Plugin, Sensor, replace_node
+from twinform.passes.plugins.editing import add_plugin, add_sensor, add_world_plugin
 from twinform.passes.plugins.sites import Site, map_plugins, map_sensors, plugins_of, sensors_of
 
 URDF = """<robot name="r">
@@ -126,7 +126,7 @@ def test_plugins_and_sensors_are_added_to_either_language(text: str) -> None:
     model = document.models[0]
     made = add_plugin(model, Plugin(name="n", filename="f"), document.format)
     made = add_sensor(made, "hip", Sensor(name="s", type="force_torque"), document.format)
-    changed = replace_model(document, model, made)
+    changed = replace_node(document, model, made)
     assert ("n", "model", "r") in where(changed)
     assert ("s", "hip") in [(each.name, site.holder) for each, site in sensors_of(changed)]
 

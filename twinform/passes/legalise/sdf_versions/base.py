@@ -7,7 +7,7 @@ from typing import TypeVar
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules.frames import DANGLING_FRAME
 from twinform.diagnostics.rules.to_urdf import INCLUDE_NOT_EXPANDED
-from twinform.ir import Document, Element, Model, Node, World, map_children
+from twinform.ir import Document, Element, Node, replace_fields
 from twinform.ir.frames import FrameError
 from twinform.passes.base import Pass
 from twinform.passes.legalise.nodes import map_elements
@@ -61,40 +61,20 @@ def _has_includes(node: Node) -> bool:
     return bool(getattr(node, "includes", ())) or any(map(_has_includes, inner))
 
 
-def map_models(node: AnyNode, change: Callable[[Model], Model]) -> AnyNode:
-    """The node with every model in it changed, from the inside out; `node` itself is not."""
-
-    def visit(child: Node) -> Node:
-        if isinstance(child, World | Model):
-            child = map_models(child, change)
-        return change(child) if isinstance(child, Model) else child
-
-    return map_children(node, visit)
-
-
-def map_worlds(document: Document, change: Callable[[World], World]) -> Document:
-    """The document with every world changed."""
-    worlds = tuple(map(change, document.worlds))
-    same = all(new is old for new, old in zip(worlds, document.worlds, strict=True))
-    return document if same else document.model_copy(update={"worlds": worlds})
-
-
 def map_own_elements(node: AnyNode, change: Callable[[Element], Element]) -> AnyNode:
     """The node with its untyped elements changed; those of other namespaces and of carriers are left alone."""
     if not any(part.element for part in node.opaque):
         return node
-    parts = map_elements(node.opaque, lambda element: element if is_foreign(element) else change(element))
-    same = all(new.element is old.element for new, old in zip(parts, node.opaque, strict=True))
-    return node if same else node.model_copy(update={"opaque": parts})
+    return replace_fields(
+        node, opaque=map_elements(node.opaque, lambda element: element if is_foreign(element) else change(element))
+    )
 
 
 def map_inside(element: Element, change: Callable[[Element], Element]) -> Element:
     """The element with all below it changed, from the inside out, and then itself; plugins are left alone."""
     if element.name == "plugin" or is_foreign(element):
         return element
-    children = tuple(map_inside(child, change) for child in element.children)
-    same = all(new is old for new, old in zip(children, element.children, strict=True))
-    return change(element if same else element.model_copy(update={"children": children}))
+    return change(replace_fields(element, children=tuple(map_inside(child, change) for child in element.children)))
 
 
 def is_foreign(element: Element) -> bool:

@@ -5,12 +5,11 @@ from functools import partial
 from typing import ClassVar
 
 from twinform.diagnostics.rules import sdf_versions as rules
-from twinform.ir import Axis, Document, Joint, Opaque
+from twinform.ir import Axis, Document, Joint, Opaque, rewrite
 from twinform.ir.defaults import UNLIMITED, UNLIMITED_STRENGTH
 from twinform.passes.legalise.nodes import text_piece
 from twinform.passes.legalise.sdf_versions.base import VersionPass
 from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms
-from twinform.passes.map_joints import map_joints
 from twinform.schemas import format_value
 
 _SINCE = (1, 10)
@@ -31,7 +30,7 @@ class BoundLimits(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with finite limits."""
-        return map_joints(document, partial(_joint, keeper))
+        return rewrite(document, Joint, partial(_joint, keeper))
 
 
 def _joint(keeper: Keeper, joint: Joint) -> Joint:

@@ -2,7 +2,8 @@
 
 from typing import TypeVar
 
-from twinform.ir import Element, Node, Opaque, map_children, node_fields
+from twinform.ir import Element, Node, Opaque, holds_opaque, node_fields, replace_fields, rewrite
+from twinform.passes.legalise.nodes import map_elements
 from twinform.passes.legalise.sdf_versions.carriers import carried, is_version_carrier
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -11,35 +12,28 @@ _ABOUT = frozenset({"source", "spelling"})
 
 def without_carriers(node: AnyNode) -> AnyNode:
     """The node without carriers of other versions, all the way down."""
-    parts = tuple(_bare(part) for part in node.opaque if not is_version_carrier(part))
-    if len(parts) != len(node.opaque) or any(new is not old for new, old in zip(parts, node.opaque, strict=True)):
-        node = node.model_copy(update={"opaque": parts})
-    return map_children(node, without_carriers)
+    return rewrite(node, Node, _bare, enter=holds_opaque)
 
 
-def _bare(part: Opaque) -> Opaque:
-    if part.element is None:
-        return part
-    element = _bare_element(part.element)
-    return part if element is part.element else part.model_copy(update={"element": element})
+def _bare(node: Node) -> Node:
+    kept = (part for part in node.opaque if not is_version_carrier(part))
+    return replace_fields(node, opaque=map_elements(kept, _bare_element))
 
 
 def _bare_element(element: Element) -> Element:
-    children = tuple(
-        _bare_element(child) for child in element.children if not is_version_carrier(Opaque(element=child))
-    )
-    same = len(children) == len(element.children) and all(
-        new is old for new, old in zip(children, element.children, strict=True)
-    )
-    return element if same else element.model_copy(update={"children": children})
+    kept = (child for child in element.children if not is_version_carrier(Opaque(element=child)))
+    return replace_fields(element, children=tuple(map(_bare_element, kept)))
 
 
 def comparable(node: AnyNode) -> AnyNode:
     """The node with unlike untyped parts in one order, whatever order they stand in, and without empty nodes."""
+    return rewrite(node, Node, _comparable)
+
+
+def _comparable(node: Node) -> Node:
     if len(node.opaque) > 1 or any(part.element for part in node.opaque):
         parts = sorted((_sorted(part) for part in node.opaque), key=_place)
         node = node.model_copy(update={"opaque": tuple(parts)})
-    node = map_children(node, comparable)
     empty = [name for name in node_fields(type(node)) if _says_nothing(getattr(node, name))]
     return node.model_copy(update=dict.fromkeys(empty)) if empty else node
 

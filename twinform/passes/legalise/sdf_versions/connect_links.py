@@ -5,11 +5,11 @@ from typing import ClassVar
 
 from twinform.diagnostics.rules import sdf_versions as rules
 from twinform.diagnostics.rules.frames import DANGLING_FRAME
-from twinform.ir import Document, Joint, Model, Opaque, World, count_parts
+from twinform.ir import Document, Joint, Model, Opaque, World, count_parts, rewrite
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
 from twinform.passes.legalise.joint_ends import named_ends, report_self_joint, resolve_ends
 from twinform.passes.legalise.nodes import pose_piece
-from twinform.passes.legalise.sdf_versions.base import VersionPass, map_models, map_worlds
+from twinform.passes.legalise.sdf_versions.base import VersionPass
 from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms
 
 _SINCE = (1, 8)
@@ -31,8 +31,8 @@ class ConnectLinks(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with joints between links."""
-        document = map_models(document, partial(_in_model, keeper, self.number >= _FRAMES))
-        return map_worlds(document, partial(_in_world, keeper, self.number >= _FRAMES))
+        document = rewrite(document, Model, partial(_in_model, keeper, self.number >= _FRAMES))
+        return rewrite(document, World, partial(_in_world, keeper, self.number >= _FRAMES))
 
 
 def _in_model(keeper: Keeper, frames: bool, model: Model) -> Model:

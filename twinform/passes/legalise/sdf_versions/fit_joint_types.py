@@ -5,13 +5,12 @@ from typing import ClassVar
 
 from twinform.diagnostics.rules import sdf_versions as rules
 from twinform.diagnostics.rules import to_sdf as shared_rules
-from twinform.ir import Axis, Document, Format, Joint, Limit, Opaque
+from twinform.ir import Axis, Document, Format, Joint, Limit, Opaque, rewrite
 from twinform.ir.defaults import AXIS
 from twinform.passes.legalise.carrier import to_element
 from twinform.passes.legalise.nodes import text_piece
 from twinform.passes.legalise.sdf_versions.base import VersionPass
 from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms
-from twinform.passes.map_joints import map_joints
 from twinform.schemas import Version, format_value, print_version
 
 _NEWER: dict[str, Version] = {"gearbox": (1, 4), "fixed": (1, 5), "screw": (1, 5), "continuous": (1, 6)}
@@ -31,7 +30,7 @@ class FitJointTypes(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with joints of the version."""
-        return map_joints(document, partial(_joint, keeper, self.number))
+        return rewrite(document, Joint, partial(_joint, keeper, self.number))
 
 
 def _joint(keeper: Keeper, version: Version, joint: Joint) -> Joint:

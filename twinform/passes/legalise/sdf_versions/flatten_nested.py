@@ -4,11 +4,11 @@ from functools import partial
 from typing import ClassVar
 
 from twinform.diagnostics.rules import to_sdf as rules
-from twinform.ir import Document, Model, World, count_parts
+from twinform.ir import Document, Model, World, count_parts, rewrite
 from twinform.passes.legalise.flattening import flatten
 from twinform.passes.legalise.marks import without_made
 from twinform.passes.legalise.nodes import piece
-from twinform.passes.legalise.sdf_versions.base import VersionPass, map_worlds
+from twinform.passes.legalise.sdf_versions.base import VersionPass
 from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms
 from twinform.schemas import parse_version
 
@@ -26,7 +26,7 @@ class FlattenNested(VersionPass):
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document without models in models."""
         models = tuple(self._flat(model, keeper) for model in document.models)
-        return map_worlds(document.model_copy(update={"models": models}), partial(self._world, keeper))
+        return rewrite(document.model_copy(update={"models": models}), World, partial(self._world, keeper))
 
     def _world(self, keeper: Keeper, world: World) -> World:
         return world.model_copy(update={"models": tuple(self._flat(model, keeper) for model in world.models)})

@@ -5,7 +5,7 @@ from typing import Any, ClassVar
 from twinform.diagnostics import Location
 from twinform.diagnostics.rules import sdf_versions as rules
 from twinform.diagnostics.rules import to_sdf as shared_rules
-from twinform.ir import Collision, Document, Element, Node, Opaque, Pose, Visual, node_fields
+from twinform.ir import Collision, Document, Element, Node, Opaque, Pose, Visual, node_fields, replace_fields
 from twinform.passes.legalise.sdf_versions.base import VersionPass, is_foreign
 from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms, is_version_carrier
 from twinform.passes.legalise.sdf_versions.definitions import definition_of
@@ -59,16 +59,12 @@ class _Net:
             if value is None or value == () or _is_plain_pose(value):
                 continue
             span = form.kinds[value.kind] if field == _OF_KINDS else form.fields[field]
-            kept, over = self._field(node, field, value, span)
-            if kept is not value:
-                update[field] = kept
+            update[field], over = self._field(node, field, value, span)
             left += over
-        if not node.opaque:
-            return (node.model_copy(update=update) if update else node), left
-        parts, over = self.elements.parts(node, form)
-        if over or parts is not node.opaque:
-            update["opaque"] = parts
-        return (node.model_copy(update=update) if update else node), left + over
+        if node.opaque:
+            update["opaque"], over = self.elements.parts(node, form)
+            left += over
+        return replace_fields(node, **update), left
 
     def _field(self, node: Node, field: str, value: Any, span: Span) -> tuple[Any, list[Leftover]]:
         row = span.row(self.version)
@@ -103,8 +99,7 @@ class _Net:
                 kept.append(self.whole_node(value, shape_of(row)))
             else:
                 kept.append(value)
-        same = len(kept) == len(values) and all(new is old for new, old in zip(kept, values, strict=True))
-        return (values if same else tuple(kept)), left
+        return tuple(kept), left
 
     def _terms(self, value: Any, span: Span, row: Fact | None, index: int) -> Terms | None:
         """When there is such a thing, if not in this version."""
@@ -147,8 +142,7 @@ class _Elements:
             changed, attributes = found
             kept.append(changed)
             left += attributes
-        same = all(new is old for new, old in zip(kept, node.opaque, strict=False)) and len(kept) == len(node.opaque)
-        return (node.opaque if same else tuple(kept)), left
+        return tuple(kept), left
 
     def _part(
         self, node: Node, part: Opaque, form: Shape, seen: dict[tuple[str, str], int]
@@ -201,11 +195,8 @@ class _Elements:
             for pair, terms in lost:
                 children += self._keep(Opaque(attribute=pair), terms, f"the attribute {pair[0]!r}", where)
             lost = []
-        same = not gone and len(children) == len(element.children)
-        if same and all(new is old for new, old in zip(children, element.children, strict=True)):
-            return element, []
         attributes = tuple(pair for pair in element.attributes if pair not in gone)
-        return element.model_copy(update={"attributes": attributes, "children": tuple(children)}), lost
+        return replace_fields(element, attributes=attributes, children=tuple(children)), lost
 
     def _child(self, child: Element, form: Shape, where: Location) -> list[Element]:
         span = None if is_foreign(child) else form.names.get(child.name)

@@ -2,8 +2,8 @@
 
 from typing import ClassVar
 
-from twinform.ir import Document, Element, World
-from twinform.passes.legalise.sdf_versions.base import VersionPass, map_own_elements, map_worlds
+from twinform.ir import Document, Element, World, rewrite
+from twinform.passes.legalise.sdf_versions.base import VersionPass, map_own_elements
 from twinform.passes.legalise.sdf_versions.carriers import Keeper
 from twinform.passes.legalise.sdf_versions.element_paths import has, put, take
 
@@ -33,7 +33,7 @@ class MoveTimeSteps(VersionPass):
         def in_world(world: World) -> World:
             return map_own_elements(world, of_physics)
 
-        return map_worlds(document, in_world)
+        return rewrite(document, World, in_world)
 
 
 def _forth(physics: Element) -> Element:

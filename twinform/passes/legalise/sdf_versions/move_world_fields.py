@@ -3,8 +3,8 @@
 from functools import partial
 from typing import ClassVar
 
-from twinform.ir import Document, Element, Opaque, World
-from twinform.passes.legalise.sdf_versions.base import VersionPass, map_worlds
+from twinform.ir import Document, Element, Opaque, World, rewrite
+from twinform.passes.legalise.sdf_versions.base import VersionPass
 from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms, version_carriers
 from twinform.passes.legalise.sdf_versions.element_paths import put, take
 from twinform.schemas import format_value, parse_value
@@ -26,7 +26,9 @@ class MoveWorldFields(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with the fields in their places."""
-        return map_worlds(document, partial(_back, self.carriers, self.number >= _FIELD_SINCE) if self.back else _forth)
+        return rewrite(
+            document, World, partial(_back, self.carriers, self.number >= _FIELD_SINCE) if self.back else _forth
+        )
 
 
 def _forth(world: World) -> World:

@@ -3,11 +3,10 @@
 from functools import partial
 from typing import ClassVar
 
-from twinform.ir import Axis, Document, Joint, World
+from twinform.ir import Axis, Document, Joint, World, rewrite
 from twinform.ir.frames import MODEL, WORLD
-from twinform.passes.legalise.sdf_versions.base import VersionPass, map_worlds
+from twinform.passes.legalise.sdf_versions.base import VersionPass
 from twinform.passes.legalise.sdf_versions.carriers import Keeper
-from twinform.passes.map_joints import map_joints
 
 _BY_NAME = (1, 7)
 """Since this version an axis names its frame."""
@@ -35,7 +34,7 @@ class NameAxisFrames(VersionPass):
                 return world
             return world.model_copy(update={"joints": tuple(change(joint, frame=WORLD) for joint in world.joints)})
 
-        return map_joints(map_worlds(document, in_world), partial(change, frame=MODEL))
+        return rewrite(rewrite(document, World, in_world), Joint, partial(change, frame=MODEL))
 
 
 def _joint(joint: Joint, *, always: bool, named: bool, both: bool, frame: str) -> Joint:

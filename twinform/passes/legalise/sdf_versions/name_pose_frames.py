@@ -1,10 +1,23 @@
 """Since 1.7 a pose names its frame `relative_to`."""
 
-from typing import ClassVar
+from typing import ClassVar, TypeVar
 
-from twinform.ir import Document, Element, Model, Node, Opaque, Pose, map_opaque
+from twinform.ir import (
+    Document,
+    Element,
+    Model,
+    Node,
+    Opaque,
+    Pose,
+    holds_opaque,
+    map_children,
+    replace_fields,
+    rewrite,
+)
 from twinform.passes.legalise.sdf_versions.base import VersionPass, is_foreign, map_own_elements
 from twinform.passes.legalise.sdf_versions.carriers import Keeper
+
+AnyNode = TypeVar("AnyNode", bound=Node)
 
 _OLD = "frame"
 _NEW = "relative_to"
@@ -23,13 +36,17 @@ class NamePoseFrames(VersionPass):
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with poses in the words of 1.7."""
         models = tuple(map(_renamed_model, document.models))
-        rest = map_opaque(document.model_copy(update={"models": ()}), _renamed)
+        rest = map_children(document.model_copy(update={"models": ()}), _all_renamed)
         return rest.model_copy(update={"models": models})
 
 
 def _renamed_model(model: Model) -> Model:
     """A model at the root of the file, whose own pose stays."""
-    return map_own_elements(map_opaque(model, _renamed), _inside).model_copy(update={"pose": model.pose})
+    return _all_renamed(model).model_copy(update={"pose": model.pose})
+
+
+def _all_renamed(node: AnyNode) -> AnyNode:
+    return rewrite(node, Node, _renamed, enter=holds_opaque)
 
 
 def _renamed(node: Node) -> Node:
@@ -51,9 +68,7 @@ def _inside(element: Element, own: frozenset[str | None] = frozenset()) -> Eleme
     if element.name == "pose":
         return element if element.get(_OLD) in own else _element(element)
     frames = frozenset(child.get("name") for child in element.children if child.name == "frame")
-    children = tuple(_inside(child, frames) for child in element.children)
-    same = all(new is old for new, old in zip(children, element.children, strict=True))
-    return element if same else element.model_copy(update={"children": children})
+    return replace_fields(element, children=tuple(_inside(child, frames) for child in element.children))
 
 
 def _element(pose: Element) -> Element:

@@ -5,7 +5,7 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import sdf_versions as rules
-from twinform.ir import Document, Light, Plugin, map_kind
+from twinform.ir import Document, Light, Plugin, rewrite
 from twinform.passes.legalise.nodes import unique_name
 from twinform.passes.legalise.sdf_versions.base import VersionPass
 from twinform.passes.legalise.sdf_versions.carriers import Keeper
@@ -31,9 +31,9 @@ class NameTheNameless(VersionPass):
         """The document with names."""
         taken: set[str] = set()
         if self.number >= _LIGHTS:
-            document = map_kind(document, Light, lambda light: _named(light, taken, keeper.notes))
+            document = rewrite(document, Light, lambda light: _named(light, taken, keeper.notes))
         if self.number <= _PLUGINS:
-            document = map_kind(document, Plugin, lambda plugin: _named_by_file(plugin, taken, keeper.notes))
+            document = rewrite(document, Plugin, lambda plugin: _named_by_file(plugin, taken, keeper.notes))
         return document
 
 

@@ -24,6 +24,7 @@ from twinform.ir import (
     Visual,
     World,
     count_parts,
+    rewrite,
     walk,
 )
 from twinform.ir.frames import MODEL, WORLD, FrameGraph, Kind
@@ -31,7 +32,7 @@ from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import to_element
 from twinform.passes.legalise.element_poses import ElementPoses
 from twinform.passes.legalise.nodes import pose_piece
-from twinform.passes.legalise.sdf_versions.base import VersionPass, known_version, map_worlds
+from twinform.passes.legalise.sdf_versions.base import VersionPass, known_version
 from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms, version_carriers
 from twinform.schemas import Version, parse_version
 
@@ -70,7 +71,7 @@ class PlaceAbsolutely(VersionPass):
         """The document without named frames."""
         named = self.number >= _NAMES
         place = _Placer(keeper, named=named)
-        document = map_worlds(document, place.world)
+        document = rewrite(document, World, place.world)
         models = tuple(place.model(place.root(model)) for model in document.models)
         return document.model_copy(update={"models": models})
 

@@ -4,9 +4,9 @@ from typing import ClassVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import sdf_versions as rules
-from twinform.ir import Document, Link, Model
+from twinform.ir import Document, Link, Model, rewrite
 from twinform.ir.frames import FrameGraph
-from twinform.passes.legalise.sdf_versions.base import VersionPass, map_models
+from twinform.passes.legalise.sdf_versions.base import VersionPass
 from twinform.passes.legalise.sdf_versions.carriers import Keeper
 
 
@@ -22,7 +22,7 @@ class PlaceInertials(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with inertials in their links."""
-        return map_models(document, lambda model: _place_all(model, keeper))
+        return rewrite(document, Model, lambda model: _place_all(model, keeper))
 
 
 def _place_all(model: Model, keeper: Keeper) -> Model:

@@ -5,7 +5,18 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Document, Element, Model, Node, Opaque, World, holds_opaque, map_children, untyped_elements
+from twinform.ir import (
+    Document,
+    Element,
+    Model,
+    Node,
+    Opaque,
+    World,
+    holds_opaque,
+    map_children,
+    replace_fields,
+    untyped_elements,
+)
 from twinform.ir.verify.joints import verify_mimics
 from twinform.passes.legalise.carrier import NAMESPACE
 from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb, says_already
@@ -104,20 +115,15 @@ def restored_itself(node: AnyNode, version: Version) -> AnyNode:
             if any(says_already(node, piece, terms) for piece in carried(part)):
                 raise CarrierError("what it holds is written beside it by now")
             node = absorb(node, carried(part), terms, version)
-    parts = tuple(_inside(part, version) for part in node.opaque)
-    kept = tuple(part for part in parts if part is not None)
-    if len(kept) != len(node.opaque) or any(new is not old for new, old in zip(kept, node.opaque, strict=True)):
-        node = node.model_copy(update={"opaque": kept})
-    return node
+    parts = (_inside(part, version) for part in node.opaque)
+    return replace_fields(node, opaque=tuple(part for part in parts if part is not None))
 
 
 def _inside(part: Opaque, version: Version) -> Opaque | None:
     if part.element is None or is_foreign(part.element) or part.element.name == "plugin":
         return part
     element = _restored_element(part.element, version)
-    if element is None or element is part.element:
-        return None if element is None else part
-    return part.model_copy(update={"element": element})
+    return None if element is None else replace_fields(part, element=element)
 
 
 def _restored_element(element: Element, version: Version) -> Element | None:

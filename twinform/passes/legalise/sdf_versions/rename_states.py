@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from twinform.ir import Document, Element, World
-from twinform.passes.legalise.sdf_versions.base import VersionPass, is_foreign, map_own_elements, map_worlds
+from twinform.ir import Document, Element, World, rewrite
+from twinform.passes.legalise.sdf_versions.base import VersionPass, is_foreign, map_own_elements
 from twinform.passes.legalise.sdf_versions.carriers import Keeper
 from twinform.schemas import Fact, Version, table
 
@@ -38,7 +38,7 @@ class RenameStates(VersionPass):
         def in_world(world: World) -> World:
             return map_own_elements(world, of_state)
 
-        return map_worlds(document, in_world)
+        return rewrite(document, World, in_world)
 
 
 @dataclass(frozen=True, slots=True)

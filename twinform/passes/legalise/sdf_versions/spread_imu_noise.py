@@ -3,7 +3,7 @@
 from functools import partial
 from typing import ClassVar
 
-from twinform.ir import Document, Element, Sensor, map_kind
+from twinform.ir import Document, Element, Sensor, rewrite
 from twinform.passes.legalise.carrier import NAMESPACE
 from twinform.passes.legalise.sdf_versions.base import VersionPass, map_own_elements
 from twinform.passes.legalise.sdf_versions.carriers import Keeper
@@ -30,7 +30,7 @@ class SpreadImuNoise(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with noise on axes."""
-        return map_kind(document, Sensor, partial(_sensor, self.mark))
+        return rewrite(document, Sensor, partial(_sensor, self.mark))
 
 
 class GatherImuNoise(VersionPass):
@@ -50,7 +50,7 @@ class GatherImuNoise(VersionPass):
         def gather(element: Element) -> Element:
             return element if self.marked and element.find(_MARK) is None else gathered(element)
 
-        return map_kind(document, Sensor, lambda sensor: map_own_elements(sensor, gather))
+        return rewrite(document, Sensor, lambda sensor: map_own_elements(sensor, gather))
 
 
 def gathered(element: Element) -> Element:

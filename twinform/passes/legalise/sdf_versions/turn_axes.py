@@ -4,10 +4,10 @@ from functools import partial
 from typing import ClassVar
 
 from twinform.diagnostics.rules import sdf_versions as rules
-from twinform.ir import Axis, Document, Element, Format, Joint, Model, Opaque
+from twinform.ir import Axis, Document, Element, Format, Joint, Model, Opaque, rewrite
 from twinform.ir.defaults import AXIS, direction
 from twinform.ir.frames import MODEL, FrameGraph
-from twinform.passes.legalise.sdf_versions.base import VersionPass, map_models
+from twinform.passes.legalise.sdf_versions.base import VersionPass
 from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms
 from twinform.schemas import Version, format_value
 
@@ -28,7 +28,7 @@ class TurnAxes(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with axes in the words of the version."""
-        return map_models(document, partial(_model, keeper, self.number >= _WORDS))
+        return rewrite(document, Model, partial(_model, keeper, self.number >= _WORDS))
 
 
 def _model(keeper: Keeper, has_word: bool, model: Model) -> Model:

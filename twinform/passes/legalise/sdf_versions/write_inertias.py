@@ -4,11 +4,11 @@ from functools import partial
 from typing import ClassVar
 
 from twinform.diagnostics.rules import sdf_versions as rules
-from twinform.ir import Document, Inertial, Link
+from twinform.ir import Document, Inertial, Link, Model, rewrite
 from twinform.ir.frames import FrameGraph
 from twinform.passes.assets import AssetPass
 from twinform.passes.legalise.automatic_inertias import NoInertiaError, automatic, map_automatic, written_out
-from twinform.passes.legalise.sdf_versions.base import VersionPass, map_models
+from twinform.passes.legalise.sdf_versions.base import VersionPass
 from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms
 from twinform.passes.meshes import Meshes
 
@@ -29,7 +29,7 @@ class WriteInertias(VersionPass, AssetPass):
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with every inertia written out."""
         write = partial(_write, keeper, Meshes(self._assets))
-        return map_models(document, lambda model: map_automatic(model, write))
+        return rewrite(document, Model, lambda model: map_automatic(model, write))
 
 
 def _write(keeper: Keeper, meshes: Meshes, link: Link, inertial: Inertial, graph: FrameGraph) -> Link:

@@ -5,7 +5,7 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import NOWHERE
 from twinform.diagnostics.rules import sdf_versions as rules
-from twinform.ir import Document, Element, Node, Opaque, Pose, count_parts, map_children
+from twinform.ir import Document, Element, Node, Opaque, Pose, count_parts, map_children, rewrite
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import to_element
 from twinform.passes.legalise.element_poses import read_pose
@@ -31,11 +31,10 @@ class WritePlainPoses(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with plain poses."""
-        return map_children(document, partial(_plain, keeper))
+        return map_children(document, lambda child: rewrite(child, Node, partial(_plain, keeper)))
 
 
-def _plain(keeper: Keeper, node: AnyNode) -> AnyNode:
-    node = map_children(node, partial(_plain, keeper))
+def _plain(keeper: Keeper, node: Node) -> Node:
     node = map_own_elements(node, partial(map_inside, change=partial(_element, keeper)))
     pose: Pose | None = node.__dict__.get("pose")
     if pose is None or not (pose.quat_xyzw or pose.degrees is not None or pose.rotation_format is not None):

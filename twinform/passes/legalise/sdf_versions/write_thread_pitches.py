@@ -5,11 +5,10 @@ from functools import partial
 from typing import ClassVar
 
 from twinform.diagnostics.rules import sdf_versions as rules
-from twinform.ir import Document, Joint
+from twinform.ir import Document, Joint, rewrite
 from twinform.passes.legalise.nodes import text_piece
 from twinform.passes.legalise.sdf_versions.base import VersionPass
 from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms
-from twinform.passes.map_joints import map_joints
 from twinform.schemas import format_value
 
 _SINCE = (1, 10)
@@ -31,7 +30,7 @@ class WriteThreadPitches(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with screws in the words of the version."""
-        return map_joints(document, partial(_back, keeper) if self.back else _forth)
+        return rewrite(document, Joint, partial(_back, keeper) if self.back else _forth)
 
 
 def _forth(joint: Joint) -> Joint:

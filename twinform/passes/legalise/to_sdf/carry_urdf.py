@@ -19,7 +19,7 @@ from twinform.ir import (
     Pose,
     Visual,
     holds_opaque,
-    map_children,
+    rewrite,
 )
 from twinform.passes.legalise.carrier import DANGLING, carry, is_carrier, is_ours, unpack
 from twinform.passes.legalise.model_pass import ModelPass
@@ -51,15 +51,11 @@ class CarryUrdf(ModelPass):
     def run_model(self, model: Model, notes: Notes) -> Model:
         """The model without opaque parts of URDF."""
         joints = frozenset(joint.name for joint in model.joints)
-        swept = self._sweep(model, notes, came_from(model, Format.SDF))
+        back = came_from(model, Format.SDF)
+        swept = rewrite(model, Node, lambda node: self._sweep(node, notes, back), enter=_may_be_swept)
         return swept.model_copy(update={"opaque": tuple(_with_doubt(part, joints) for part in swept.opaque)})
 
-    def _sweep(self, node: AnyNode, notes: Notes, back: bool) -> AnyNode:
-        if isinstance(node, GazeboExtension):  # the next pass knows what may stand in it
-            return node
-        if not (holds_opaque(node) or isinstance(node, Model) or (isinstance(node, Joint) and node.type in BALLS)):
-            return node
-        node = map_children(node, lambda child: self._sweep(child, notes, back))
+    def _sweep(self, node: Node, notes: Notes, back: bool) -> Node:
         if isinstance(node, Joint) and node.type in BALLS:
             message = f"{node.type} joint {node.name!r} is one of a dialect of URDF"
             kept = [Opaque(attribute=("type", node.type))]
@@ -97,6 +93,12 @@ class CarryUrdf(ModelPass):
         again = [piece for piece in pieces if piece.element and piece.element.name in once]
         node = carry(node, [piece for piece in pieces if piece not in again], "urdf")
         return carry(node, again, "urdf", DANGLING)
+
+
+def _may_be_swept(node: Node) -> bool:
+    if isinstance(node, GazeboExtension):  # the next pass knows what may stand in it
+        return False
+    return holds_opaque(node) or (isinstance(node, Joint) and node.type in BALLS) or isinstance(node, Model)
 
 
 def _is_foreign(part: Opaque) -> bool:

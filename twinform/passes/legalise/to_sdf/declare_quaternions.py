@@ -3,9 +3,8 @@
 from typing import ClassVar
 
 from twinform.diagnostics import Notes
-from twinform.ir import Model, Pose
+from twinform.ir import Model, Pose, rewrite
 from twinform.passes.legalise.model_pass import ModelPass
-from twinform.passes.legalise.nodes import map_poses
 
 _QUATERNION = "quat_xyzw"
 
@@ -22,7 +21,7 @@ class DeclareQuaternions(ModelPass):
 
     def run_model(self, model: Model, notes: Notes) -> Model:
         """The model with quaternions that say what they are."""
-        return map_poses(model, _declared)
+        return rewrite(model, Pose, _declared)
 
 
 def _declared(pose: Pose) -> Pose:

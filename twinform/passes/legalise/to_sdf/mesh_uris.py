@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Notes
-from twinform.ir import Collision, Format, Link, Mesh, Model, Visual
+from twinform.ir import Collision, Format, Link, Mesh, Model, Visual, replace_fields
 from twinform.passes.legalise.marks import find_mark, with_mark, without_mark
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.provenance import came_from
@@ -39,12 +39,8 @@ class _Links:
     marks: bool
 
     def link(self, link: Link) -> Link:
-        visuals = tuple([self._visual(each) for each in link.visuals])
-        collisions = tuple([self._shape(each) for each in link.collisions])
-        pairs = zip((*visuals, *collisions), (*link.visuals, *link.collisions), strict=True)
-        if all(new is old for new, old in pairs):
-            return link
-        return link.model_copy(update={"visuals": visuals, "collisions": collisions})
+        visuals, collisions = tuple(map(self._visual, link.visuals)), tuple(map(self._shape, link.collisions))
+        return replace_fields(link, visuals=visuals, collisions=collisions)
 
     def _visual(self, visual: Visual) -> Visual:
         visual = self._shape(visual)

@@ -7,7 +7,7 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf
-from twinform.ir import Collision, Link, Model, Visual
+from twinform.ir import Collision, Link, Model, Visual, replace_fields
 from twinform.passes.legalise.marks import with_mark
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.names import NAME
@@ -41,9 +41,7 @@ class NameShapes(ModelPass):
 def _name_link(link: Link, notes: Notes, *, carriers: bool) -> Link:
     visuals = name_all(link.visuals, f"{link.name}_visual", notes, carriers=carriers)
     collisions = name_all(link.collisions, f"{link.name}_collision", notes, carriers=carriers)
-    if visuals is link.visuals and collisions is link.collisions:
-        return link
-    return link.model_copy(update={"visuals": visuals, "collisions": collisions})
+    return replace_fields(link, visuals=visuals, collisions=collisions)
 
 
 def _made_names(old: Link, new: Link) -> Iterator[str]:

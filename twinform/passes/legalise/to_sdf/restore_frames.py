@@ -6,7 +6,19 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Axis, Element, Format, Frame, Joint, Link, Model, Node, Pose, holds_opaque, map_children
+from twinform.ir import (
+    Axis,
+    Element,
+    Format,
+    Frame,
+    Joint,
+    Link,
+    Model,
+    Node,
+    Pose,
+    holds_opaque,
+    rewrite,
+)
 from twinform.ir.defaults import direction
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph, Kind
 from twinform.ir.transform import Transform, rounded
@@ -279,6 +291,4 @@ def _off_root(frame: Frame, root: str) -> Frame:
 
 def _without_frames(node: AnyNode) -> AnyNode:
     """The node without what marks say of the frames in which it was written, on it and in it."""
-    if not holds_opaque(node):
-        return node
-    return map_children(without_mark(node, POSE, ENDS, *_AXES), _without_frames)
+    return rewrite(node, Node, lambda each: without_mark(each, POSE, ENDS, *_AXES), enter=holds_opaque)

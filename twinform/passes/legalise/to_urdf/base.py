@@ -3,7 +3,7 @@
 from abc import abstractmethod
 
 from twinform.diagnostics import Notes
-from twinform.ir import Document, Format, Model
+from twinform.ir import Document, Format, Model, replace_fields
 from twinform.ir.frames import FrameError
 from twinform.passes.base import Pass
 from twinform.passes.legalise.provenance import came_from
@@ -24,12 +24,10 @@ class ToUrdfPass(Pass):
             return document
         keeper = Keeper(notes, self.carriers, any(came_from(model, Format.URDF) for model in document.models))
         try:
-            models = tuple(self.run_model(model, keeper) for model in document.models)
+            return replace_fields(document, models=tuple(self.run_model(model, keeper) for model in document.models))
         except FrameError as error:
             error.report(notes)
             return document
-        same = all(new is old for new, old in zip(models, document.models, strict=True))
-        return document if same else document.model_copy(update={"models": models})
 
     @abstractmethod
     def run_model(self, model: Model, keeper: Keeper) -> Model:

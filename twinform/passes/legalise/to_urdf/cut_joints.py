@@ -3,11 +3,10 @@
 from collections.abc import Mapping, Sequence
 from functools import partial
 
-from twinform.ir import GazeboExtension, Joint, Model, Pose
+from twinform.ir import GazeboExtension, Joint, Model, Pose, rewrite
 from twinform.ir.frames import MODEL, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import to_element
-from twinform.passes.legalise.nodes import map_poses
 
 
 def cut_joints(model: Model, kept: Sequence[Joint], cut: Sequence[Joint], parent_joint: Mapping[str, Joint]) -> Model:
@@ -26,7 +25,7 @@ def cut_joints(model: Model, kept: Sequence[Joint], cut: Sequence[Joint], parent
         extensions.append(GazeboExtension(content=(blob,), source=joint.source))
     model = model.model_copy(update={"joints": tuple(kept), "extensions": tuple(extensions)})
     names = frozenset(joint.name for joint in cut)
-    return map_poses(model, partial(_without_cut, graph, names))
+    return rewrite(model, Pose, partial(_without_cut, graph, names))
 
 
 def _without_cut(graph: FrameGraph, names: frozenset[str], pose: Pose) -> Pose:

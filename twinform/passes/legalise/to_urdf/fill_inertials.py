@@ -2,7 +2,7 @@
 
 from typing import ClassVar
 
-from twinform.ir import Inertia, Link, Model
+from twinform.ir import Inertia, Link, Model, replace_fields
 from twinform.ir.defaults import INERTIAL, filled
 from twinform.ir.solids import ELEMENTS
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
@@ -29,9 +29,6 @@ class FillInertials(ToUrdfPass):
 def _fill_link(link: Link) -> Link:
     if link.inertial is None:
         return link.model_copy(update={"inertial": INERTIAL})
-    inertial = link.inertial
-    inertia = filled(inertial.inertia or Inertia(), _ELEMENTS)
-    if inertial.mass is not None and inertia is inertial.inertia:
-        return link
-    made = filled(inertial, {"mass": INERTIAL.mass}).model_copy(update={"inertia": inertia})
-    return link.model_copy(update={"inertial": made})
+    inertia = filled(link.inertial.inertia or Inertia(), _ELEMENTS)
+    inertial = replace_fields(filled(link.inertial, {"mass": INERTIAL.mass}), inertia=inertia)
+    return replace_fields(link, inertial=inertial)

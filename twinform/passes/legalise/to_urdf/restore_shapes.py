@@ -3,7 +3,7 @@
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Notes
-from twinform.ir import Collision, Format, Inertia, Inertial, Link, Model, Visual
+from twinform.ir import Collision, Format, Inertia, Inertial, Link, Model, Visual, replace_fields
 from twinform.passes.legalise.marks import find_mark, without_mark
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.names import NAME
@@ -43,13 +43,11 @@ def _link(link: Link, made: frozenset[str]) -> Link:
     for field in ("visuals", "collisions"):
         shapes = getattr(link, field)
         usual = f"{link.name}_{field[:-1]}"
-        unnamed = tuple(_unnamed(shape, made, usual) for shape in shapes)
-        if any(new is not old for new, old in zip(unnamed, shapes, strict=True)):
-            update[field] = unnamed
+        update[field] = tuple(_unnamed(shape, made, usual) for shape in shapes)
     inertial = _as_said(link.inertial) if link.inertial else None
     if inertial is not link.inertial or (inertial and _is_nothing(inertial)):
         update["inertial"] = None if inertial and _is_nothing(inertial) else inertial
-    return link.model_copy(update=update) if update else link
+    return replace_fields(link, **update)
 
 
 def _unnamed(shape: Shape, made: frozenset[str], usual: str) -> Shape:

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import ClassVar
 
-from twinform.ir import Element, GazeboExtension, Link, Material, Model, Visual
+from twinform.ir import Element, GazeboExtension, Link, Material, Model, Visual, replace_fields
 from twinform.passes.legalise.carrier import to_element
 from twinform.passes.legalise.gazebo_tags import LINK_TAGS
 from twinform.passes.legalise.marks import without_mark
@@ -39,9 +39,7 @@ class ShareVisuals(ToUrdfPass):
             if content:
                 blob = Element(name="visual", children=tuple(content))
                 extensions.append(GazeboExtension(reference=link.name, content=(blob,), source=link.source))
-        if all(new is old for new, old in zip(links, model.links, strict=True)):
-            return model
-        return model.model_copy(update={"links": tuple(links), "extensions": tuple(extensions)})
+        return replace_fields(model, links=tuple(links), extensions=tuple(extensions))
 
 
 def _shared(link: Link) -> tuple[Link, list[Element]]:
@@ -60,7 +58,7 @@ def _shared(link: Link) -> tuple[Link, list[Element]]:
     if parts[0] and all(part == parts[0] for part in parts[1:]):
         content += parts[0]
         visuals = tuple(_without_rest(visual) for visual in visuals)
-    return (link if visuals is link.visuals else link.model_copy(update={"visuals": visuals})), content
+    return replace_fields(link, visuals=visuals), content
 
 
 def _shared_look(visuals: tuple[Visual, ...], look: tuple[str, ...]) -> Material | None:

@@ -6,7 +6,7 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
-from twinform.ir import Link, Model, Node, Opaque, map_opaque
+from twinform.ir import Link, Model, Node, Opaque, holds_opaque, map_children, rewrite
 from twinform.ir.frames import WORLD
 from twinform.passes.legalise.carrier import is_carrier, is_dangling, is_overruled, unpack
 from twinform.passes.legalise.model_pass import ModelPass
@@ -31,11 +31,12 @@ class UnpackUrdf(ModelPass):
         """The model without carriers of what URDF can say."""
         if notes.has_errors:
             return model
-        model = _with_overruled(map_opaque(model, lambda node: _unpack(node, notes)), notes)
+        model = map_children(model, lambda child: rewrite(child, Node, partial(_unpack, notes), enter=holds_opaque))
+        model = _with_overruled(model, notes)
         return _unpacked(_with_world(model), partial(misfit, node=model), notes)
 
 
-def _unpack(node: Node, notes: Notes) -> Node:
+def _unpack(notes: Notes, node: Node) -> Node:
     return _unpacked(node, lambda piece: misfit(piece, node), notes)
 
 

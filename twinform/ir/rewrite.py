@@ -1,0 +1,86 @@
+"""Rewriting a tree of nodes. What a change leaves alone stays the same object: a whole tree, or each part of one."""
+
+from collections.abc import Callable
+from functools import cache, partial
+from operator import is_
+from typing import Any, TypeVar, cast
+
+from twinform.ir.node import Node
+from twinform.ir.sourced import Sourced
+from twinform.ir.tree import classes_below, classes_in, node_fields
+
+AnyPart = TypeVar("AnyPart", bound=Sourced)
+AnyNode = TypeVar("AnyNode", bound=Node)
+Wanted = TypeVar("Wanted", bound=Node)
+
+
+def rewrite(
+    node: AnyNode,
+    kind: type[Wanted],
+    change: Callable[[Wanted], Wanted],
+    *,
+    enter: Callable[[Node], bool] | None = None,
+) -> AnyNode:
+    """The node with every node of a class changed, in it and then itself: from the inside out, in the order of fields.
+
+    So `change` sees a node in which all is changed already. A node for which `enter` is false stays as it is, with all
+    that is in it.
+    """
+    return cast("AnyNode", _rewritten(kind, change, enter, node))
+
+
+def _rewritten(
+    kind: type[Wanted], change: Callable[[Wanted], Wanted], enter: Callable[[Node], bool] | None, node: Node
+) -> Node:
+    fields, is_wanted = _plan(type(node), kind)
+    if not (fields or is_wanted) or (enter and not enter(node)):
+        return node
+    if fields:
+        node = _with_changed(node, fields, partial(_rewritten, kind, change, enter))
+    return change(cast("Wanted", node)) if is_wanted else node
+
+
+def map_children(node: AnyNode, change: Callable[[Node], Node]) -> AnyNode:
+    """The node with each node directly in it changed; it is for `change` to look further down."""
+    return _with_changed(node, node_fields(type(node)), change)
+
+
+def replace_node(node: AnyNode, old: Wanted, new: Wanted) -> AnyNode:
+    """The node with one in it replaced by another; it is known by its identity, as equal nodes are still two."""
+    return rewrite(node, type(old), lambda each: new if each is old else each)
+
+
+def replace_fields(part: AnyPart, **fields: object) -> AnyPart:
+    """The node or element with other values in some fields; itself where they hold the objects that are there."""
+    values = part.__dict__
+    update = {name: new for name, new in fields.items() if not _is_same(new, values[name])}
+    return part.model_copy(update=update) if update else part
+
+
+def _is_same(new: Any, old: Any) -> bool:
+    """Whether it is the same object, or a tuple of the same ones."""
+    return new is old or ({type(new), type(old)} == {tuple} and len(new) == len(old) and all(map(is_, new, old)))
+
+
+def _with_changed(node: AnyNode, fields: tuple[str, ...], change: Callable[[Node], Node]) -> AnyNode:
+    values = node.__dict__
+    update: dict[str, Node | tuple[Node, ...]] = {}
+    for name in fields:
+        old: Node | tuple[Node, ...] | None = values[name]
+        if isinstance(old, tuple):
+            many = tuple([change(each) for each in old])
+            if not all(map(is_, many, old)):
+                update[name] = many
+        elif old and (one := change(old)) is not old:
+            update[name] = one
+    return node.model_copy(update=update) if update else node
+
+
+@cache
+def _plan(kind: type[Node], wanted: type[Node]) -> tuple[tuple[str, ...], bool]:
+    """The fields in which a node of a class may hold, at any depth, one of another class; and whether it is one."""
+    return tuple(name for name in node_fields(kind) if _may_hold(kind, name, wanted)), issubclass(kind, wanted)
+
+
+def _may_hold(kind: type[Node], field: str, wanted: type[Node]) -> bool:
+    return any(issubclass(each, wanted) for inner in classes_in(kind, field) for each in classes_below(inner))
