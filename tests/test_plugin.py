@@ -41,7 +41,7 @@ def twinform(site: str | Path, *arguments: str, text: str = "") -> subprocess.Co
 
 def test_the_pass_is_listed_and_has_a_page(site: Path) -> None:
     listed = twinform(site, "passes").stdout
-    assert "\ncheck-names (from twinform-house-style)\n    Finds links and joints whose names" in f"\n{listed}"
+    assert "\ncheck-names (from twinform-house-style)\n    Find links and joints whose names" in f"\n{listed}"
     assert "  pattern: text (default: [a-z][a-z0-9_]*)" in twinform(site, "passes", "check-names").stdout.replace(
         '"', ""
     )

@@ -4,6 +4,7 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from typing import Self
 
+from twinform.ir.defaults import UNLIMITED
 from twinform.ir.frames import MODEL
 from twinform.passes.legalise.automatic_inertias import COMPUTED_MASS
 from twinform.passes.legalise.carrier import NAMESPACE
@@ -12,7 +13,7 @@ from twinform.passes.legalise.joint_chains import CHAIN, PART
 from twinform.passes.legalise.marks import MADE
 from twinform.passes.legalise.names import NAME, SCOPED_NAME
 from twinform.passes.legalise.to_sdf.bodies import UNSAID
-from twinform.passes.legalise.to_urdf.map_joints import MIMIC, UNBOUNDED
+from twinform.passes.legalise.to_urdf.map_joints import MIMIC
 from twinform.passes.legalise.token_mass import TOKEN_MASS
 from twinform.schemas import XmlElement
 from twinform.schemas.values import format_number
@@ -124,6 +125,6 @@ def _is_made_number(element: XmlElement, attribute: str | None) -> bool:
 def _is_no_limit(number: str) -> bool:
     """Whether a limit of URDF is so large that it stands for none, which SDF need not write."""
     try:
-        return abs(float(number)) >= UNBOUNDED
+        return abs(float(number)) >= UNLIMITED
     except ValueError:
         return False

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
+from twinform.ir.defaults import sizes
 from twinform.ir.geometry import Box, Capsule, Cone, Cylinder, Ellipsoid, ShapeNode, Sphere
 from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform
@@ -34,19 +35,39 @@ def bounds(shape: ShapeNode | None) -> Bounds | None:
     Sizes that are not written are SDF's defaults.
     """
     halves = _HALVES.get(type(shape))
-    if halves is None:
+    if shape is None or halves is None:
         return None
-    x, y, z = map(abs, halves(shape))
+    x, y, z = map(abs, halves(*sizes(shape)))
     return Bounds((-x, -y, -z), (x, y, z))
 
 
-_HALVES: dict[type[Any], Callable[[Any], Vector3]] = {
-    Box: lambda shape: _scaled(shape.size, 0.5),
-    Sphere: lambda shape: _round(_or(shape.radius, 1.0), _or(shape.radius, 1.0)),
-    Ellipsoid: lambda shape: _scaled(shape.radii, 1.0),
-    Cylinder: lambda shape: _round(_or(shape.radius, 1.0), _or(shape.length, 1.0) / 2),
-    Cone: lambda shape: _round(_or(shape.radius, 1.0), _or(shape.length, 1.0) / 2),
-    Capsule: lambda shape: _round(_or(shape.radius, 0.5), _or(shape.length, 1.0) / 2 + _or(shape.radius, 0.5)),
+def _box(x: float, y: float, z: float) -> Vector3:
+    return x / 2, y / 2, z / 2
+
+
+def _sphere(radius: float) -> Vector3:
+    return radius, radius, radius
+
+
+def _ellipsoid(x: float, y: float, z: float) -> Vector3:
+    return x, y, z
+
+
+def _round(radius: float, length: float) -> Vector3:
+    return radius, radius, length / 2
+
+
+def _capsule(radius: float, length: float) -> Vector3:
+    return radius, radius, length / 2 + radius
+
+
+_HALVES: dict[type[Any], Callable[..., Vector3]] = {
+    Box: _box,
+    Sphere: _sphere,
+    Ellipsoid: _ellipsoid,
+    Cylinder: _round,
+    Cone: _round,
+    Capsule: _capsule,
 }
 """Half the extent of each shape along x, y and z."""
 
@@ -69,16 +90,3 @@ def united(boxes: Iterable[Bounds]) -> Bounds | None:
     x, y, z = (min(axis) for axis in zip(*(box.least for box in listed), strict=True))
     a, b, c = (max(axis) for axis in zip(*(box.greatest for box in listed), strict=True))
     return Bounds((x, y, z), (a, b, c))
-
-
-def _scaled(lengths: Vector3 | None, factor: float) -> Vector3:
-    x, y, z = lengths or (1.0, 1.0, 1.0)
-    return x * factor, y * factor, z * factor
-
-
-def _round(radius: float, height: float) -> Vector3:
-    return radius, radius, height
-
-
-def _or(value: float | None, default: float) -> float:
-    return default if value is None else value

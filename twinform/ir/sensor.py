@@ -1,8 +1,30 @@
 """Sensors."""
 
+from collections.abc import Mapping
+
 from twinform.ir.node import Node
 from twinform.ir.plugin import Plugin
 from twinform.ir.pose import Pose
+
+_CAMERAS = (
+    "boundingbox", "boundingbox_camera", "camera", "depth", "depth_camera", "multicamera", "rgbd", "rgbd_camera",
+    "segmentation", "segmentation_camera", "stereocamera", "thermal", "thermal_camera", "wide_angle_camera",
+    "wideanglecamera",
+)  # fmt: skip
+_BY_THEIR_TYPE = (
+    "air_pressure", "air_speed", "altimeter", "contact", "force_torque", "imu", "logical_camera", "magnetometer",
+    "rfid", "rfidtag", "sonar",
+)  # fmt: skip
+SENSOR_ELEMENTS: Mapping[str, frozenset[str]] = {
+    **dict.fromkeys(_CAMERAS, frozenset({"camera"})),
+    **dict.fromkeys(("gpu_lidar", "gpu_ray", "lidar", "ray"), frozenset({"lidar", "ray"})),
+    **dict.fromkeys(("gps", "navsat"), frozenset({"gps", "navsat"})),
+    **dict.fromkeys(("wireless_receiver", "wireless_transmitter"), frozenset({"transceiver"})),
+    **{type_: frozenset({type_}) for type_ in _BY_THEIR_TYPE},
+}
+"""Which element holds the parameters of each type of sensor; other types may have any."""
+RENAMED_ELEMENTS: Mapping[str, str] = {"ray": "lidar", "gps": "navsat"}
+"""Of elements with the parameters of a sensor that have two names, the new one by the old one."""
 
 
 class Sensor(Node):

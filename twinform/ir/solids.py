@@ -5,13 +5,18 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from twinform.ir.defaults import MASS, MOMENT, sizes
+from twinform.ir.document import Format
 from twinform.ir.geometry import Box, Capsule, Cone, Cylinder, Ellipsoid, ShapeNode, Sphere
+from twinform.ir.inertial import Inertia, Inertial
 from twinform.ir.node import Vector3
 from twinform.ir.principal_moments import Symmetric, times_each
 from twinform.ir.scaling import common_exponent, safe_sum, times_power
 from twinform.ir.transform import Transform
 
-_ORIGIN: Vector3 = (0.0, 0.0, 0.0)
+ELEMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+"""The fields of an inertia in the order of a tensor."""
+ORIGIN: Vector3 = (0.0, 0.0, 0.0)
 _THINNEST = 1e-70
 """What is thinner than this part of its length fills no volume: the fourth powers of thinner ones lose digits."""
 
@@ -25,17 +30,19 @@ class Solid:
     inertia: Symmetric
 
 
+NOTHING = Solid(0.0, ORIGIN, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+
+
 def solid(shape: ShapeNode | None, density: float) -> Solid | None:
     """A shape filled with a density in kg/m^3, in the frame of the shape; None where the shape has no inside.
 
     Sizes that are not written are SDF's defaults.
     """
-    found = _SOLIDS.get(type(shape))
-    if found is None:
+    moments_of = _SOLIDS.get(type(shape))
+    if shape is None or moments_of is None:
         return None
-    lengths, moments_of = found
-    sizes, exponent = _in_units(lengths(shape))
-    volume, centre, (xx, yy, zz) = moments_of(*sizes)
+    lengths, exponent = _in_units(sizes(shape))
+    volume, centre, (xx, yy, zz) = moments_of(*lengths)
     significand, of_density = math.frexp(density)
     mass = significand * volume
     of_mass = of_density + 3 * exponent
@@ -93,41 +100,61 @@ def _capsule(r: float, h: float) -> _Moments:
     middle, ends = math.pi * r * r * h, 4 / 3 * math.pi * r * r * r
     whole = middle + ends
     if not whole:
-        return 0.0, 0.0, _ORIGIN
+        return 0.0, 0.0, ORIGIN
     across = (middle * r * r / 4 + ends * r * r / 5) / whole
     along = (middle * h * h / 12 + ends * (r * r / 5 + 3 / 8 * r * h + h * h / 4)) / whole
     return whole, 0.0, (across, across, along)
 
 
-_CUBE: Vector3 = (1.0, 1.0, 1.0)
-_SOLIDS: dict[type[Any], tuple[Callable[[Any], Sequence[float]], Callable[..., _Moments]]] = {
-    Box: (lambda shape: shape.size or _CUBE, _box),
-    Sphere: (lambda shape: (_or(shape.radius, 1.0),), _sphere),
-    Ellipsoid: (lambda shape: shape.radii or _CUBE, _ellipsoid),
-    Cylinder: (lambda shape: (_or(shape.radius, 1.0), _or(shape.length, 1.0)), _cylinder),
-    Cone: (lambda shape: (_or(shape.radius, 1.0), _or(shape.length, 1.0)), _cone),
-    Capsule: (lambda shape: (_or(shape.radius, 0.5), _or(shape.length, 1.0)), _capsule),
+_SOLIDS: dict[type[Any], Callable[..., _Moments]] = {
+    Box: _box,
+    Sphere: _sphere,
+    Ellipsoid: _ellipsoid,
+    Cylinder: _cylinder,
+    Cone: _cone,
+    Capsule: _capsule,
 }
-"""The lengths of each shape, and what follows from them."""
+"""What follows from the lengths of each shape."""
 
 
-def _or(value: float | None, default: float) -> float:
-    return default if value is None else value
+def tensor(inertia: Inertia | None, moment: float = 0.0) -> Symmetric:
+    """The inertia that is written; `moment` is what each moment is that is not, and products are zero then."""
+    written = inertia or Inertia()
+    xx, yy, zz = (moment if value is None else value for value in (written.ixx, written.iyy, written.izz))
+    return xx, yy, zz, written.ixy or 0.0, written.ixz or 0.0, written.iyz or 0.0
+
+
+def with_tensor(inertia: Inertia | None, elements: Symmetric) -> Inertia:
+    """The inertia with these elements, and with what else is written in it."""
+    update: dict[str, float] = dict(zip(ELEMENTS, elements, strict=True))
+    return (inertia or Inertia()).model_copy(update=update)
+
+
+def written_solid(inertial: Inertial | None, format_: Format) -> Solid:
+    """What an inertial says, in its own frame, with the defaults of the format; nothing weighs nothing in URDF."""
+    written = inertial or Inertial()
+    mass = MASS[format_] if written.mass is None else written.mass
+    return Solid(mass or 0.0, ORIGIN, tensor(written.inertia, MOMENT[format_] or 0.0))
 
 
 def placed(one: Solid, at: Transform) -> Solid:
-    """A solid seen from the frame that `at` places its own in: R I R^T."""
-    exponent = common_exponent(one.inertia)
+    """A solid seen from the frame that `at` places its own in."""
+    return Solid(one.mass, at.apply(one.centre), turned(one.inertia, at))
+
+
+def turned(inertia: Symmetric, at: Transform) -> Symmetric:
+    """An inertia in the axes of the frame that `at` turns its own in: R I R^T."""
+    exponent = common_exponent(inertia)
     rows = (at.rotation[0:3], at.rotation[3:6], at.rotation[6:9])
-    xx, yy, zz, xy, xz, yz = times_each(one.inertia, -exponent)
+    xx, yy, zz, xy, xz, yz = times_each(inertia, -exponent)
     matrix = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
     half = [[sum(row[k] * matrix[k][j] for k in range(3)) for j in range(3)] for row in rows]
 
     def entry(i: int, j: int) -> float:
         return sum(half[i][k] * rows[j][k] for k in range(3)) + 0.0
 
-    turned = (entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2))
-    return Solid(one.mass, at.apply(one.centre), times_each(turned, exponent))
+    found = (entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2))
+    return times_each(found, exponent)
 
 
 def combined(parts: Sequence[Solid]) -> Solid:
@@ -137,7 +164,7 @@ def combined(parts: Sequence[Solid]) -> Solid:
     masses = [times_power(part.mass, -of_mass) for part in parts]
     mass = safe_sum(masses)
     if not mass:
-        return Solid(0.0, _ORIGIN, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+        return NOTHING
     places = [[times_power(place, -of_place) for place in part.centre] for part in parts]
     centre = [safe_sum(m * place[i] for m, place in zip(masses, places, strict=True)) / mass for i in range(3)]
     moved = (_steiner(m, place, centre) for m, place in zip(masses, places, strict=True))

@@ -14,6 +14,9 @@ class Pass(BaseModel, ABC):
 
     Valid IR goes in and valid IR comes out; a pass keeps no state between runs, prints nothing, and opens no file
     unless that is its purpose. What it finds, and what becomes of parts that it cannot keep, goes into the notes.
+
+    Its docstring says what it does in an imperative sentence, then what it `Changes`, in numbered cases where there are
+    several, what it `Never touches:`, and its `Diagnostics:`.
     """
 
     model_config = ConfigDict(

@@ -1,7 +1,15 @@
-"""Names by pattern, as options of passes have them."""
+"""Names by pattern, as options of passes have them: one or several, of which one has to match."""
 
 from collections.abc import Iterable
 from fnmatch import fnmatchcase
+
+EVERY = ("*",)
+"""What an option has that leaves nothing out."""
+
+
+def with_such_a_name(what: str) -> str:
+    """The description of an option that says by patterns what is meant."""
+    return f"{what} with such a name; `*`, `?` and `[...]` are wildcards."
 
 
 def matches(name: str | None, patterns: Iterable[str]) -> bool:

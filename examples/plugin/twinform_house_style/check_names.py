@@ -12,9 +12,10 @@ from twinform_house_style.rules import UNUSUAL_NAME
 
 
 class CheckNames(Pass):
-    """Finds links and joints whose names do not look like those of the others.
+    """Find links and joints whose names do not look like those of the others.
 
-    It changes nothing. It reports `unusual-name` at each link and joint whose name `pattern` does not match.
+    Changes nothing.
+    Diagnostics: `unusual-name` at each link and joint whose name `pattern` does not match.
     """
 
     name: ClassVar[str] = "check-names"

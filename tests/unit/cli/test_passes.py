@@ -14,9 +14,9 @@ def test_all_passes_are_listed_with_options_defaults_and_an_example(run: Run) ->
     text = run("passes").stdout
     assert [line for line in text.splitlines() if not line.startswith(" ")] == list(registered_passes())
     assert text.count("\n    example: ") == len(registered_passes())
-    assert "\ncheck-inertia\n    Finds masses" in f"\n{text}"
+    assert "\ncheck-inertia\n    Find masses" in f"\n{text}"
     assert "    options: effort, velocity, lower, upper, " in text
-    assert ", joints=*\n" in text
+    assert ", joints=[*]\n" in text
 
 
 def test_the_list_is_there_for_programs(run: Run) -> None:
@@ -32,7 +32,7 @@ def test_page_has_options_types_defaults_and_an_example(run: Run) -> None:
     page = run("passes", "fill-limits").stdout
     assert page.startswith("fill-limits (from twinform)\n")
     assert "  effort: number (default: not set)\n      The greatest effort, in N m or N.\n" in page
-    assert "  joints: text (default: *)\n" in page
+    assert "  joints: list of text (default: [*])\n" in page
     assert "Example\n  fill-limits{" in page
     assert "eps: number (default: 1e-06)" in run("passes", "check-inertia").stdout
 

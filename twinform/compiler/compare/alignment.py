@@ -100,10 +100,10 @@ class _Work:
         return count, bool(self.terms.worst(Place(one.frame), Place(other.frame), base))
 
     def _misfit_of_mass(self, one: Body, other: Body, base: Base) -> int:
-        if not one.mass.mass or not other.mass.mass:
+        if not one.mass.solid.mass or not other.mass.solid.mass:
             return 0
-        center = self.terms.worst(Point(one.mass.center), Point(other.mass.center), base)
-        tensor = self.terms.worst(Tensor(one.mass.tensor), Tensor(other.mass.tensor), base)
+        center = self.terms.worst(Point(one.mass.solid.centre), Point(other.mass.solid.centre), base)
+        tensor = self.terms.worst(Tensor(one.mass.solid.inertia), Tensor(other.mass.solid.inertia), base)
         return bool(center) + bool(tensor)
 
     def _misfit_below(self, name: str, base: Base) -> int:

@@ -8,17 +8,17 @@ from twinform.compiler.compare.joint_values import joint_leaves
 from twinform.compiler.compare.leaves import THERE
 from twinform.compiler.compare.reading import Reading
 from twinform.compiler.compare.robot import Body, Hinge, Leaf, Mass, NamedFrame, Part, Robot
-from twinform.compiler.compare.values import turn_tensor
 from twinform.diagnostics import Origins
-from twinform.ir import Axis, Element, Format, Frame, Inertia, Inertial, Joint, Link, Model, Node, Pose, Vector3
+from twinform.ir import Axis, Element, Format, Frame, Inertial, Joint, Link, Model, Node, Pose, Vector3
+from twinform.ir.defaults import direction
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
+from twinform.ir.solids import placed, written_solid
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import is_carrier, unpack
 from twinform.passes.legalise.flattening import flatten
 from twinform.passes.legalise.marks import is_made
 from twinform.schemas import element_xml
 
-_Z = (0.0, 0.0, 1.0)
 _WITHOUT_AXIS = frozenset({"fixed", "ball"})
 _WITH_TWO = frozenset({"universal", "revolute2", "gearbox"})
 
@@ -83,21 +83,10 @@ class _Description:
         return Body(link.name, frame, mass, leaves, parts, self.reading.place(link))
 
     def _mass(self, inertial: Inertial | None, link: str) -> Mass:
-        """SDF gives 1 kg and 1 kg m^2 to what says nothing."""
         inertial = inertial or Inertial()
-        inertia = inertial.inertia or Inertia()
         pose = self.graph.resolve(inertial.pose, link, MODEL, base="model")
-        moments = (
-            _or(inertia.ixx, 1.0), _or(inertia.iyy, 1.0), _or(inertia.izz, 1.0),
-            _or(inertia.ixy, 0.0), _or(inertia.ixz, 0.0), _or(inertia.iyz, 0.0),
-        )  # fmt: skip
-        return Mass(
-            _or(inertial.mass, 1.0),
-            pose.translation,
-            turn_tensor(pose, moments),
-            bool(inertial.auto),
-            self.reading.place(inertial),
-        )
+        solid = placed(written_solid(inertial, Format.SDF), pose)
+        return Mass(solid, bool(inertial.auto), self.reading.place(inertial))
 
     def _joint(self, joint: Joint) -> Hinge:
         frame = self.graph.pose(joint.name, MODEL, kind="joint", base="model")
@@ -126,7 +115,7 @@ class _Description:
             turn = frame
             if axis.expressed_in:
                 turn = self.graph.pose(axis.expressed_in, MODEL, kind="frame", base="model")
-            yield _unit(turn.rotate(axis.xyz or _Z))
+            yield _unit(turn.rotate(direction(axis, Format.SDF)))
 
     def _frame(self, frame: Frame, source: Model) -> NamedFrame:
         return NamedFrame(
@@ -170,10 +159,6 @@ def _carried(node: Node) -> Iterator[Element]:
 def _is_made_for_static(joint: Joint, model: Model) -> bool:
     """Whether it holds a link of a static model, which stands still anyway."""
     return bool(model.static) and joint.type == "fixed" and is_made(joint)
-
-
-def _or(value: float | None, default: float) -> float:
-    return default if value is None else value
 
 
 def _unit(vector: Vector3) -> Vector3:

@@ -7,9 +7,8 @@ from dataclasses import replace
 from twinform.compiler.compare.robot import Leaf, Leaves
 from twinform.compiler.compare.values import Numbers, Value, Words
 from twinform.ir import Joint
+from twinform.ir.defaults import MULTIPLIER, UNLIMITED
 
-_UNBOUNDED = 1e16
-"""What stands for infinity where a format has none."""
 _WITHOUT_AXIS = frozenset({"fixed", "ball"})
 _OF_TYPES: Mapping[str, frozenset[str]] = {
     "gearbox_ratio": frozenset({"gearbox"}),
@@ -67,9 +66,9 @@ def _number(key: str, value: Value | None, unit: str) -> Value | None:
     if not isinstance(value, Numbers):
         return value
     (number,) = value.values[:1]
-    if key in _ENDS and abs(number) >= _UNBOUNDED:
+    if key in _ENDS and abs(number) >= UNLIMITED:
         number = math.copysign(math.inf, number)
-    if key in _STRENGTHS and (number < 0 or number >= _UNBOUNDED):
+    if key in _STRENGTHS and (number < 0 or number >= UNLIMITED):
         number = math.inf
     return Numbers((number,), unit or value.unit)
 
@@ -96,7 +95,7 @@ def _with_mimic(leaves: dict[str, Leaf]) -> dict[str, Leaf]:
             continue
         leaves.setdefault(f"{axis}/mimic/@axis", Leaf(Words("axis"), where=leaves[f"{axis}/mimic/@joint"].where))
         multiplier, offset = (leaves.get(f"{axis}/mimic/{name}") for name in ("multiplier", "offset"))
-        total = number_of(offset, 0.0) - number_of(multiplier, 1.0) * number_of(reference, 0.0)
+        total = number_of(offset, 0.0) - number_of(multiplier, MULTIPLIER) * number_of(reference, 0.0)
         where = (offset or reference or leaves[f"{axis}/mimic/@joint"]).where
         leaves[f"{axis}/mimic/offset"] = Leaf(Numbers((total,), floor=1.0), Numbers((0.0,)), where)
     return leaves

@@ -103,10 +103,11 @@ class _Judge:
         if a.automatic or b.automatic:
             self.found.values(subject, "inertial/auto", Flag(a.automatic), Flag(b.automatic), places)
             return
-        self.found.values(subject, "inertial/mass", Numbers((a.mass,), "kg"), Numbers((b.mass,), "kg"), places)
-        if a.mass or b.mass:
-            self.found.values(subject, "inertial/center", Point(a.center), Point(b.center), places, base)
-            self.found.values(subject, "inertial/inertia", Tensor(a.tensor), Tensor(b.tensor), places, base)
+        one, other = a.solid, b.solid
+        self.found.values(subject, "inertial/mass", Numbers((one.mass,), "kg"), Numbers((other.mass,), "kg"), places)
+        if one.mass or other.mass:
+            self.found.values(subject, "inertial/center", Point(one.centre), Point(other.centre), places, base)
+            self.found.values(subject, "inertial/inertia", Tensor(one.inertia), Tensor(other.inertia), places, base)
 
     def _joint(self, a: Hinge, b: Hinge) -> None:
         subject, places = Subject("joint", a.name), (a.where, b.where)

@@ -10,6 +10,7 @@ from twinform.compiler.compare.joint_values import joint_type, number_of
 from twinform.compiler.compare.robot import Hinge, Robot, carriers
 from twinform.compiler.compare.values import Gap, Place, Words, gaps
 from twinform.ir import Vector3
+from twinform.ir.defaults import MULTIPLIER, SCREW_THREAD_PITCH
 from twinform.ir.transform import Transform
 
 SAMPLES = 5
@@ -87,7 +88,7 @@ class Moving:
         """How far a screw goes."""
         if joint.type != "screw":
             return 0.0
-        return angle / _FULL_TURN * number_of(joint.leaves.get("screw_thread_pitch"), 1.0)
+        return angle / _FULL_TURN * number_of(joint.leaves.get("screw_thread_pitch"), SCREW_THREAD_PITCH)
 
     def _position(self, name: str, axis: int, sample: int, depth: int = 0) -> float:
         """Where a joint stands: by its name alone, from -1 to 1, or where the joint is that it mimics."""
@@ -99,7 +100,7 @@ class Moving:
         second = words is not None and words.value == Words("axis2")
         multiplier, offset = (joint.leaves.get(f"{_axis(axis)}/mimic/{part}") for part in ("multiplier", "offset"))
         position = self._position(leader.value.text, int(second), sample, depth + 1)
-        return number_of(multiplier, 1.0) * position + number_of(offset, 0.0)
+        return number_of(multiplier, MULTIPLIER) * position + number_of(offset, 0.0)
 
 
 def _axis(number: int) -> str:

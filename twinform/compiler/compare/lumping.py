@@ -9,8 +9,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from twinform.compiler.compare.robot import Body, Hinge, Mass, NamedFrame, Robot, carriers
-from twinform.ir import Vector3
-from twinform.ir.principal_moments import Symmetric
+from twinform.ir.solids import combined
 
 _EVIDENCE = 1e-5
 """How well the masses must agree to believe that a link went into another; the comparison itself is exact."""
@@ -66,7 +65,7 @@ def _is_one_body(a: Robot, b: Robot, name: str, mine: list[str], theirs: list[st
 
 
 def _total(robot: Robot, names: Iterable[str]) -> float:
-    return sum(robot.bodies[name].mass.mass for name in names)
+    return sum(robot.bodies[name].mass.solid.mass for name in names)
 
 
 def _lumped(robot: Robot, into: Mapping[str, str]) -> Robot:
@@ -105,28 +104,7 @@ def _host(body: Body, guests: list[Body]) -> Body:
 
 def together(masses: list[Mass]) -> Mass:
     """The mass of bodies that move as one."""
-    total = sum(each.mass for each in masses)
-    if not total:
+    heavy = [each.solid for each in masses if each.solid.mass]
+    if not heavy:
         return masses[0]
-    center = _mean([(each.mass, each.center) for each in masses], total)
-    tensors = [_about(each, center) for each in masses]
-    xx, yy, zz, xy, xz, yz = (sum(column) for column in zip(*tensors, strict=True))
-    automatic = any(each.automatic for each in masses)
-    return Mass(total, center, (xx, yy, zz, xy, xz, yz), automatic, masses[0].where)
-
-
-def _mean(weighed: list[tuple[float, Vector3]], total: float) -> Vector3:
-    x, y, z = (sum(mass * point[i] for mass, point in weighed) / total for i in range(3))
-    return x, y, z
-
-
-def _about(mass: Mass, point: Vector3) -> Symmetric:
-    """The inertia about another point than the centre of mass (Steiner)."""
-    if not mass.mass:
-        return (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    x, y, z = (mass.center[i] - point[i] for i in range(3))
-    m, (xx, yy, zz, xy, xz, yz) = mass.mass, mass.tensor
-    return (
-        xx + m * (y * y + z * z), yy + m * (x * x + z * z), zz + m * (x * x + y * y),
-        xy - m * x * y, xz - m * x * z, yz - m * y * z,
-    )  # fmt: skip
+    return Mass(combined(heavy), any(each.automatic for each in masses), masses[0].where)

@@ -11,13 +11,14 @@ from twinform.compiler.compare.robot import Leaf, Leaves, Part
 from twinform.compiler.compare.values import Words
 from twinform.diagnostics import NOWHERE, Location, Origins
 from twinform.ir import Element, Format, Frame, Joint, Link, Model, Node, Sensor, node_fields
+from twinform.ir.sensor import RENAMED_ELEMENTS
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import NAMESPACE, from_xml
 from twinform.passes.legalise.marks import find_mark
 from twinform.passes.legalise.names import NAME
 from twinform.passes.legalise.sdf_versions.name_the_nameless import plugin_stem
 from twinform.passes.legalise.to_sdf.joints import FLOATING
-from twinform.passes.legalise.urdf_pieces import WITHOUT_AXIS, joints_of
+from twinform.passes.legalise.urdf_pieces import OF_AN_AXIS, WITHOUT_AXIS, joints_of
 from twinform.schemas import XmlElement, table, writer
 
 _PARTS: Mapping[type[Node], Mapping[str, str]] = {
@@ -43,9 +44,8 @@ _FLOATING = f"{{{NAMESPACE}}}{FLOATING}"
 """A joint of URDF that is none in SDF."""
 _NOT_OF_THE_ROBOT = frozenset({"material", "gazebo", "link", "inertial", "mass", "origin", "name", "type"})
 """What URDF's carriers hold that says how the file is written, or that the model says in words of SDF."""
-_NEW_WORDS = {"ray": "lidar", "gpu_ray": "gpu_lidar", "gps": "navsat"}
+_NEW_WORDS = {**RENAMED_ELEMENTS, "gpu_ray": "gpu_lidar"}
 """Types of sensors, and elements with their parameters, that have two names; readers take one for the other."""
-_OF_AN_AXIS = frozenset({"axis", "limit", "dynamics", "mimic"})
 _IGNORED_LIMITS = frozenset({"limit/@lower", "limit/@upper"})
 """Of a continuous joint; those of others are said in words of SDF."""
 
@@ -196,7 +196,7 @@ def _old_name(node: Joint | Frame) -> str | None:
 
 def _is_idle(at: str, piece: XmlElement, joint: Joint) -> bool:
     """Whether it is about an axis that the joint does not have, or says itself."""
-    if piece.tag not in _OF_AN_AXIS:
+    if piece.tag not in OF_AN_AXIS:
         return False
     return joint.axis is None or joint.type == "fixed" or (not at and joint.type not in WITHOUT_AXIS)
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from twinform.compiler.compare.values import Value
 from twinform.diagnostics import NOWHERE, Location
 from twinform.ir import Format, Vector3
-from twinform.ir.principal_moments import Symmetric
+from twinform.ir.solids import NOTHING, Solid
 from twinform.ir.transform import Transform
 
 
@@ -46,11 +46,9 @@ class Part:
 
 @dataclass(frozen=True, slots=True)
 class Mass:
-    """Mass (kg), centre of mass, and the inertia about it (kg m^2)."""
+    """What a body weighs, in the model's frame; an automatic one is computed by who reads it."""
 
-    mass: float = 0.0
-    center: Vector3 = (0.0, 0.0, 0.0)
-    tensor: Symmetric = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    solid: Solid = NOTHING
     automatic: bool = False
     where: Location = NOWHERE
 

@@ -7,6 +7,7 @@ from typing import Self
 
 from twinform.ir import Vector3
 from twinform.ir.principal_moments import Symmetric
+from twinform.ir.solids import ELEMENTS, turned
 from twinform.ir.transform import Transform
 from twinform.schemas import format_value
 
@@ -113,15 +114,7 @@ class Tensor(Value):
 
     def seen_from(self, base: Transform) -> "Tensor":
         """The same in the axes of another frame."""
-        return Tensor(turn_tensor(base.inverse(), self.moments))
-
-
-def turn_tensor(turn: Transform, moments: Symmetric) -> Symmetric:
-    """R I R^T for the rotation of a transform."""
-    xx, yy, zz, xy, xz, yz = moments
-    columns = [turn.rotate(column) for column in ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))]
-    rows = [turn.rotate((columns[0][i], columns[1][i], columns[2][i])) for i in range(3)]
-    return rows[0][0], rows[1][1], rows[2][2], rows[0][1], rows[0][2], rows[1][2]
+        return Tensor(turned(self.moments, base.inverse()))
 
 
 def gaps(a: Value, b: Value) -> Iterator[Gap]:
@@ -198,16 +191,13 @@ def _angle_between(a: Vector3, b: Vector3) -> float:
     return 2 * math.asin(min(1.0, math.dist(a, b) / 2))
 
 
-_MOMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
-
-
 def _tensors(a: Tensor, b: Tensor) -> Iterator[Gap]:
     """The element that differs most, measured against the largest one."""
     apart = [_apart(one, other) for one, other in zip(a.moments, b.moments, strict=True)]
     worst = apart.index(max(apart))
     scale = max(map(abs, (*a.moments, *b.moments)))
     one, other = (f"{_number(each.moments[worst])} kg*m^2" for each in (a, b))
-    yield Gap(apart[worst], scale, one, other, "kg*m^2", _MOMENTS[worst], scale)
+    yield Gap(apart[worst], scale, one, other, "kg*m^2", ELEMENTS[worst], scale)
 
 
 def _row(values: Sequence[float]) -> str:

@@ -14,6 +14,7 @@ from twinform.compiler.normal_form.values import (
     urdf_pose,
     value_of,
 )
+from twinform.ir.defaults import UNLIMITED
 from twinform.ir.frames import MODEL
 from twinform.ir.transform import Transform
 from twinform.schemas import Fact, Version, XmlElement, rows_by_name, table
@@ -25,7 +26,6 @@ _SAYS_BY_BEING_THERE = {
 """Containers that are optional, and mean something without a word in them."""
 _HAS_TO_BE_THERE = frozenset({("material", "name")})
 """Attributes that may be empty but not left out: urdfdom refuses a material without a name."""
-_ENDLESS = 1e16
 _MODEL = "model"
 _CANONICAL = "@canonical_link"
 """The link that the frame of a model in SDF is attached to: without a word, the first one."""
@@ -229,7 +229,7 @@ def _is_endless(value: Value, like: Value) -> bool:
     if not (isinstance(value, Numbers) and isinstance(like, Numbers)):
         return False
     (one, *more), (other, *_) = value.values, like.values
-    return not more and min(abs(one), abs(other)) >= _ENDLESS and (one > 0) == (other > 0)
+    return not more and min(abs(one), abs(other)) >= UNLIMITED and (one > 0) == (other > 0)
 
 
 def _place(made: Part, where: Transform | None) -> None:

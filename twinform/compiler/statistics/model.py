@@ -7,9 +7,7 @@ from dataclasses import dataclass
 from twinform.compiler.statistics.meshes import MeshCost
 from twinform.compiler.statistics.tree import freedom, joints_of, shape
 from twinform.ir import Collision, Format, Frame, Include, Light, Link, Model, Plugin, Sensor, Visual, walk
-
-_ASSUMED = {Format.URDF: 0.0, Format.SDF: 1.0}
-"""The mass in kg of a link that says none."""
+from twinform.ir.defaults import MASS
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,8 +58,8 @@ def model_statistics(model: Model, format_: Format, meshes: tuple[MeshCost, ...]
         dof=sum(map(freedom, joints)),
         loops=form.loops,
         depth=form.depth,
-        mass=sum(mass for mass in masses if mass is not None) + assumed * _ASSUMED[format_],
-        masses_assumed=assumed if _ASSUMED[format_] else 0,
+        mass=sum(mass for mass in masses if mass is not None) + assumed * (MASS[format_] or 0.0),
+        masses_assumed=assumed if MASS[format_] else 0,
         masses_unknown=unknown,
         visuals=_sorted(_kind(node) for node in nodes if isinstance(node, Visual)),
         collisions=_sorted(_kind(node) for node in nodes if isinstance(node, Collision)),

@@ -7,6 +7,7 @@ from twinform.diagnostics.rules import inertia as rules
 from twinform.ir.inertial import Inertia, Inertial
 from twinform.ir.link import Link
 from twinform.ir.principal_moments import Symmetric, principal_moments, relative_moments
+from twinform.ir.solids import tensor
 from twinform.ir.verify.poses import verify_rotation
 
 _ROUNDING = 5e-15
@@ -45,12 +46,9 @@ def verify_inertial(link: Link, default: float | None, notes: Notes) -> None:
 
 def inertia_matrix(inertia: Inertia | None, default: float | None) -> Symmetric | None:
     """The elements with the format's defaults; None where one has no default."""
-    if inertia is None:
+    if inertia is None or (default is None and None in {inertia.ixx, inertia.iyy, inertia.izz}):
         return None
-    xx, yy, zz = (default if value is None else value for value in (inertia.ixx, inertia.iyy, inertia.izz))
-    if xx is None or yy is None or zz is None:
-        return None
-    return xx, yy, zz, inertia.ixy or 0.0, inertia.ixz or 0.0, inertia.iyz or 0.0
+    return tensor(inertia, default or 0.0)
 
 
 def _is_plain(matrix: Symmetric) -> bool:

@@ -4,6 +4,8 @@ from twinform.diagnostics import Notes, Severity
 from twinform.diagnostics.rules import frames as frame_rules
 from twinform.diagnostics.rules import joints as joint_rules
 from twinform.diagnostics.rules import model as rules
+from twinform.ir import Format
+from twinform.ir.defaults import MOMENT
 from twinform.ir.document import Document
 from twinform.ir.frames import FrameError, FrameGraph
 from twinform.ir.joint import Joint
@@ -24,7 +26,6 @@ _BEFORE_FRAMES = frozenset({"1.2", "1.3", "1.4", "1.5", "1.6"})
 """Versions in which links and joints were no frames yet: two of one name were bad style only."""
 _BEFORE_SCOPES = _BEFORE_FRAMES | {"1.7"}
 """Versions in which a name may have `::` in it."""
-_DEFAULT_MOMENT = 1.0
 _ALONE = frozenset({"model", "light"})
 """What may stand once at the top of a file from 1.8 on; the table pass reports a second one and keeps it as it is."""
 
@@ -130,7 +131,7 @@ class _Verifier:
             report_names(kind, [node for node in nodes if node.name is not None], self.notes)
         self._reserved(kinds)
         self._siblings(link)
-        verify_inertial(link, _DEFAULT_MOMENT, self.notes)
+        verify_inertial(link, MOMENT[Format.SDF], self.notes)
         verify_shapes(link, self.notes, geometry_is_required=False)
         if link.sensors:
             verify_sensors(link, model, self.notes)

@@ -7,28 +7,9 @@ from twinform.diagnostics.rules import bodies as rules
 from twinform.ir.element import Opaque
 from twinform.ir.link import Link
 from twinform.ir.model import Model
-from twinform.ir.sensor import Sensor
+from twinform.ir.sensor import SENSOR_ELEMENTS, Sensor
 
-_CAMERAS = (
-    "boundingbox", "boundingbox_camera", "camera", "depth", "depth_camera", "multicamera", "rgbd", "rgbd_camera",
-    "segmentation", "segmentation_camera", "stereocamera", "thermal", "thermal_camera", "wide_angle_camera",
-    "wideanglecamera",
-)  # fmt: skip
-_RAYS = ("gpu_lidar", "gpu_ray", "lidar", "ray")
-_CONTENT = {
-    **{type_: frozenset({"camera"}) for type_ in _CAMERAS},
-    **{type_: frozenset({"lidar", "ray"}) for type_ in _RAYS},
-    **{
-        type_: frozenset({type_})
-        for type_ in ("air_pressure", "air_speed", "altimeter", "contact", "force_torque", "imu", "logical_camera")
-    },
-    **{type_: frozenset({"transceiver"}) for type_ in ("wireless_receiver", "wireless_transmitter")},
-    **{type_: frozenset({type_}) for type_ in ("magnetometer", "rfid", "rfidtag", "sonar")},
-    "gps": frozenset({"gps", "navsat"}),
-    "navsat": frozenset({"gps", "navsat"}),
-}
-"""Which element holds the parameters of each type of sensor; other types may have any."""
-_PARAMETERS = frozenset[str]().union(*_CONTENT.values())
+_PARAMETERS = frozenset[str]().union(*SENSOR_ELEMENTS.values())
 _DEFAULT = "__default__"
 """What SDF takes for the name of a collision that is not written."""
 
@@ -52,7 +33,7 @@ def verify_joint_sensors(model: Model, notes: Notes) -> None:
 
 
 def _verify_content(sensor: Sensor, notes: Notes) -> None:
-    allowed = _CONTENT.get(sensor.type or "")
+    allowed = SENSOR_ELEMENTS.get(sensor.type or "")
     if allowed is None:
         return
     for part in sensor.opaque:

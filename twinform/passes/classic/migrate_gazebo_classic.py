@@ -29,9 +29,9 @@ _HARDWARE_BEFORE = "ign_ros2_control/IgnitionSystem"
 
 
 class MigrateGazeboClassic(Pass):
-    """Turns models and worlds for Gazebo Classic into such for gz-sim, in URDF and in SDF.
+    """Turn models and worlds for Gazebo Classic into such for gz-sim, in URDF and in SDF.
 
-    It changes:
+    Changes:
 
     1. plugins of Gazebo Classic, gazebo_ros_pkgs and packages around it: systems of gz-sim take their place, with the
        parameters under their new names and in their new units, and with the topics that they had in ROS, namespaces
@@ -47,10 +47,10 @@ class MigrateGazeboClassic(Pass):
     8. material scripts become colours, by the pass `materials`;
     9. SDF that is older is said in the version that the release reads.
 
-    It never touches plugins that are neither of Gazebo Classic nor of gz-sim, and parts of worlds that gz-sim skips; it
+    Never touches: plugins that are neither of Gazebo Classic nor of gz-sim, and parts of worlds that gz-sim skips; it
     says which these are.
-    It reports `migrated-plugin`, `migrated-sensor`, `ignition-name`, `shipped-model` and `added-world-system` for what
-    was done; `plugin-without-counterpart`, `parameter-without-counterpart`, `sensor-without-counterpart`,
+    Diagnostics: `migrated-plugin`, `migrated-sensor`, `ignition-name`, `shipped-model` and `added-world-system` for
+    what was done; `plugin-without-counterpart`, `parameter-without-counterpart`, `sensor-without-counterpart`,
     `unread-world-part` and `unknown-plugin` for what could not be; `incomplete-migration` and `world-system-needed` for
     what is left to do; and what `ros2-control-from-transmissions` does. The ledger has every plugin and parameter.
     """

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import classic as rules
 from twinform.ir import Axis, Format, Joint, Mimic, Model, Plugin
+from twinform.ir.defaults import multiplier
 from twinform.ir.element import Element
 from twinform.passes.classic.caveats import reasons_to_look
 from twinform.passes.classic.deeds import Deeds
@@ -166,7 +167,7 @@ def _written(joint: Joint) -> Mimic | None:
 
 def _same_mimic(one: Mimic, other: Mimic) -> bool:
     def values(mimic: Mimic) -> tuple[str | None, float, float]:
-        return mimic.joint, 1.0 if mimic.multiplier is None else mimic.multiplier, mimic.offset or 0.0
+        return mimic.joint, multiplier(mimic), mimic.offset or 0.0
 
     return values(one) == values(other)
 

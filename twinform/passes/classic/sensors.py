@@ -7,6 +7,7 @@ from functools import cache
 from twinform.diagnostics import Fate, Location, Notes
 from twinform.diagnostics.rules import classic as rules
 from twinform.ir import Element, Plugin, Sensor
+from twinform.ir.sensor import RENAMED_ELEMENTS
 from twinform.passes.classic.caveats import reasons_to_look
 from twinform.passes.classic.element_edits import text_at, with_text
 from twinform.passes.classic.moving import Lost, Moved, camera_height, camera_width, focal_length
@@ -20,8 +21,6 @@ from twinform.passes.plugins.parts import Release
 from twinform.passes.plugins.sites import Site
 from twinform.schemas import format_value
 
-_RENAMED = {"ray": "lidar", "gps": "navsat"}
-"""Elements with the parameters of a sensor that have another name now."""
 _FRAMES = ("frame_id", "gz_frame_id", "ignition_frame_id")
 _FRAME_BEFORE = "ignition_frame_id"
 """What Fortress calls the element that names a sensor's frame; gz-sensors 7 renamed it."""
@@ -178,7 +177,7 @@ def _bare(sensor: Sensor, type_: str) -> Element:
         return element
     element = with_text(element, "@type", type_)
     children = tuple(
-        child.model_copy(update={"name": _RENAMED[child.name]}) if child.name in _RENAMED else child
+        child.model_copy(update={"name": RENAMED_ELEMENTS[child.name]}) if child.name in RENAMED_ELEMENTS else child
         for child in element.children
     )
     return element.model_copy(update={"children": children})

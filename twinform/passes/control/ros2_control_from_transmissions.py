@@ -19,9 +19,9 @@ _UNMOVABLE = frozenset({"fixed", "floating", "planar"})
 
 
 class Ros2ControlFromTransmissions(Pass):
-    """Turns the transmissions of ROS 1 into one `<ros2_control>` system for each model.
+    """Turn the transmissions of ROS 1 into one `<ros2_control>` system for each model.
 
-    It changes models with `<transmission>` elements, nested models and those of worlds too; a model of SDF has them in
+    Changes models with `<transmission>` elements, nested models and those of worlds too; a model of SDF has them in
     carriers, and so stands what is made of them:
 
     1. every joint gets the command interfaces that its `hardwareInterface` elements stand for, and the state interfaces
@@ -31,10 +31,10 @@ class Ros2ControlFromTransmissions(Pass):
     3. older types (`SimpleTransmission`, those of the PR2) become the simple transmission of ROS 2;
     4. a joint that mimics another gets no command interface: its leader is commanded.
 
-    It never touches a transmission of joints that the model does not have, that cannot move, or that a `<ros2_control>`
+    Never touches: a transmission of joints that the model does not have, that cannot move, or that a `<ros2_control>`
     commands already, nor the plugins of a simulator; `migrate-gazebo-classic` changes those. A transmission of which
     other programs read parts that ROS 2 has no word for stays beside the new one.
-    It reports `converted-transmission`, `unconverted-transmission`, `foreign-transmission` and
+    Diagnostics: `converted-transmission`, `unconverted-transmission`, `foreign-transmission` and
     `foreign-hardware-interface`; each transmission that went has an entry of the ledger, *approximated*.
     """
 

@@ -19,9 +19,9 @@ _SAID = frozenset({"hardware", "joint", "transmission"})
 
 
 class TransmissionsFromRos2Control(Pass):
-    """Turns the joints of `<ros2_control>` into transmissions of ROS 1.
+    """Turn the joints of `<ros2_control>` into transmissions of ROS 1.
 
-    It changes models with `<ros2_control>` elements, nested models and those of worlds too; a model of SDF has them in
+    Changes models with `<ros2_control>` elements, nested models and those of worlds too; a model of SDF has them in
     carriers, and so stands what is made of them:
 
     1. every transmission in a system becomes one of ROS 1, with the `hardwareInterface` of each joint that its command
@@ -30,10 +30,10 @@ class TransmissionsFromRos2Control(Pass):
     3. a joint without command interfaces has `JointStateInterface`;
     4. a joint that has a transmission of ROS 1 beside its system keeps that one.
 
-    It never touches sensors and inputs and outputs (`gpio`): a system that has some stays, without its joints. What ROS
+    Never touches: sensors and inputs and outputs (`gpio`): a system that has some stays, without its joints. What ROS
     1 has no word for (the hardware plugin and its parameters, limits and parameters of joints, other interfaces) is
     reported and, where the element goes, dropped.
-    It reports `converted-ros2-control`, `unsayable-in-transmissions` and `foreign-transmission`; each system has an
+    Diagnostics: `converted-ros2-control`, `unsayable-in-transmissions` and `foreign-transmission`; each system has an
     entry of the ledger, *approximated*, and each part that ROS 1 cannot say one, *dropped*.
     """
 

@@ -7,25 +7,26 @@ from pydantic import Field
 
 from twinform.diagnostics import Notes, Severity
 from twinform.diagnostics.rules.inertia import BALANCED_INERTIA, UNBALANCED_INERTIA
-from twinform.ir import Document, Format, Inertia, Inertial, Link, rewrite
+from twinform.ir import Document, Format, Inertial, Link, rewrite
+from twinform.ir.defaults import MOMENT
 from twinform.ir.principal_moments import Symmetric, principal_moments, relative_moments, times_each
 from twinform.ir.scaling import common_exponent, times_power
+from twinform.ir.solids import with_tensor
 from twinform.ir.verify.inertia import inertia_matrix
 from twinform.passes.base import Pass
 from twinform.passes.inertia.nearest import distance, nearest_possible, second_moments
-from twinform.passes.inertia.possible import DEFAULT_MOMENT, has_mass
-from twinform.passes.patterns import matches
+from twinform.passes.inertia.possible import has_mass
+from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 _NOTHING_MUCH = 1e-3
 """A change of so small a part of an inertia is that of digits which were cut off, and no news."""
 _NOTHING: Symmetric = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-_FIELDS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 
 
 class BalanceInertia(Pass):
-    """Replaces inertias that no body can have by the nearest one that a body can have, with the same axes.
+    """Replace inertias that no body can have by the nearest one that a body can have, with the same axes.
 
-    It changes the `<inertia>` of links whose name matches `links`, where
+    Changes the `<inertia>` of links whose name matches `links`, where
 
     1. a principal moment is zero or less;
     2. a principal moment exceeds the sum of the other two, be it by a digit that was cut off: libsdformat refuses that;
@@ -35,17 +36,15 @@ class BalanceInertia(Pass):
     mass is left with some extent along every axis: `thickness`, or the part `margin` of the trace if that is more. It
     runs only where it is asked for: the numbers that come out are possible, not measured.
 
-    It never touches an inertia that is possible, masses, centres of mass, and inertias that the simulator computes.
-    It reports `balanced-inertia` with the change for each link, and `unbalanced-inertia` for links without a positive
+    Never touches: an inertia that is possible, masses, centres of mass, and inertias that the simulator computes.
+    Diagnostics: `balanced-inertia` with the change for each link, and `unbalanced-inertia` for links without a positive
     mass and for numbers that are not finite.
     """
 
     name = "balance-inertia"
     example: ClassVar[str] = "balance-inertia{thickness=0.001}"
 
-    links: tuple[str, ...] = Field(
-        default=("*",), description="Only links with such a name; `*`, `?` and `[...]` are wildcards."
-    )
+    links: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only links"))
     thickness: float = Field(
         default=1e-4,
         ge=0,
@@ -67,7 +66,7 @@ class BalanceInertia(Pass):
             inertial = link.inertial
             if inertial is None or inertial.auto or not matches(link.name, self.links):
                 return link
-            matrix = inertia_matrix(inertial.inertia, DEFAULT_MOMENT[document.format])
+            matrix = inertia_matrix(inertial.inertia, MOMENT[document.format])
             if inertial.inertia is None and document.format is Format.URDF and has_mass(inertial):
                 matrix = _NOTHING
             return link if matrix is None else self._balance(link, inertial, matrix, notes)
@@ -90,11 +89,8 @@ class BalanceInertia(Pass):
             notes.report(UNBALANCED_INERTIA, message, inertial.location)
             return link
         _report(link, inertial, matrix, found, notes)
-        written = inertial.inertia or Inertia()
-        update: dict[str, float] = dict(zip(_FIELDS, found, strict=True))
-        return link.model_copy(
-            update={"inertial": inertial.model_copy(update={"inertia": written.model_copy(update=update)})}
-        )
+        inertia = with_tensor(inertial.inertia, found)
+        return link.model_copy(update={"inertial": inertial.model_copy(update={"inertia": inertia})})
 
     def _floor(self, mass: float, matrix: Symmetric) -> float:
         """The least second moment of mass along an axis, in kg m^2."""

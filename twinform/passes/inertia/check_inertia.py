@@ -8,19 +8,21 @@ from pydantic import Field, model_validator
 from twinform.diagnostics import Notes, Severity
 from twinform.diagnostics.rules.inertia import MASS_RATIO, MISSING_INERTIAL, NON_POSITIVE_MASS
 from twinform.ir import Document, Format, Inertial, Link
+from twinform.ir.defaults import MOMENT
 from twinform.ir.verify.inertia import inertia_matrix, report_moments
 from twinform.passes.assets import AssetPass
 from twinform.passes.inertia.plausible import Plausible
-from twinform.passes.inertia.possible import DEFAULT_MOMENT, DIGITS, ROUNDING
+from twinform.passes.inertia.possible import DIGITS, ROUNDING
 from twinform.passes.inertia.shapes import Places
 from twinform.passes.meshes import Meshes
 from twinform.passes.moving_bodies import Body, Neighbours, movable_models, moving_bodies, neighbours
 
 
 class CheckInertia(AssetPass):
-    """Finds masses and inertias that no moving body can have, or that none is likely to have.
+    """Find masses and inertias that no moving body can have, or that none is likely to have.
 
-    It changes nothing. It reports, at the `<inertial>` of a link, or at the link where it has none:
+    Changes nothing.
+    Diagnostics, at the `<inertial>` of a link, or at the link where it has none:
 
     1. `missing-inertial`: in URDF a body, that is links held together by fixed joints, of which no link has an
        `<inertial>`; in SDF a link without one;
@@ -32,8 +34,8 @@ class CheckInertia(AssetPass):
     7. `implausible-density`: a mass that is too small or too large for the volume of the shapes;
     8. `mass-ratio`, at the joint: two bodies of which one weighs more than `ratio` times as much as the other.
 
-    It never looks at what cannot move (static models, and links that fixed joints hold to the world), at inertias that
-    the simulator computes (`auto`), and at models that an `<include>` names. 5 to 7 are left out for links with a mesh
+    Never looks at: what cannot move (static models, and links that fixed joints hold to the world), inertias that
+    the simulator computes (`auto`), and models that an `<include>` names. 5 to 7 are left out for links with a mesh
     unless `meshes=true`, and with shapes that have no ends.
     """
 
@@ -85,7 +87,7 @@ class CheckInertia(AssetPass):
         meshes = Meshes(self._assets) if self.meshes else None
         densities = (self.least_density, self.greatest_density)
         for model in movable_models(document):
-            check = Plausible(Places(model), meshes, densities, DEFAULT_MOMENT[document.format], notes)
+            check = Plausible(Places(model), meshes, densities, MOMENT[document.format], notes)
             for link in model.links:
                 if id(link) in moving and link.inertial and not link.inertial.auto:
                     check.link(link, link.inertial)
@@ -106,7 +108,7 @@ def _check_presence(body: Body, format_: Format, notes: Notes) -> None:
 
 
 def _check_inertial(link: Link, inertial: Inertial, format_: Format, eps: float, notes: Notes) -> None:
-    mass, matrix = inertial.mass, inertia_matrix(inertial.inertia, DEFAULT_MOMENT[format_])
+    mass, matrix = inertial.mass, inertia_matrix(inertial.inertia, MOMENT[format_])
     if mass is not None and not mass > 0 and not notes.has(NON_POSITIVE_MASS, inertial.location, Severity.WARNING):
         message = f"the mass of link {link.name!r}, which moves, is {mass:g}; it has to be positive"
         notes.report(NON_POSITIVE_MASS, message, inertial.location, found=f"{mass:g}", expected="more than 0")

@@ -17,7 +17,7 @@ from twinform.passes.inertia.possible import has_mass, is_possible
 from twinform.passes.inertia.shapes import Kind, NoSolidError, PlacedShape, Places, inertial_of, solid_of
 from twinform.passes.meshes import Meshes
 from twinform.passes.moving_bodies import movable_models, moving_bodies
-from twinform.passes.patterns import matches
+from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 _AMOUNTS = ("density", "mass", "total_mass")
 
@@ -31,9 +31,9 @@ class _Filling(NamedTuple):
 
 
 class FillInertia(AssetPass):
-    """Computes mass, centre of mass and inertia of links from their shapes, filled evenly.
+    """Compute mass, centre of mass and inertia of links from their shapes, filled evenly.
 
-    It changes the `<inertial>` of links whose name matches `links`, which are, by `replace`:
+    Changes the `<inertial>` of links whose name matches `links`, which are, by `replace`:
 
     1. `missing`: links without an inertial, or with one that lacks its mass or its inertia;
     2. `impossible`: those, and links whose mass or moments no body can have;
@@ -45,18 +45,16 @@ class FillInertia(AssetPass):
     `replace=all`. All other links get their mass from one of `density`, `mass` and `total-mass`; without these, from
     the `<density>` of each SDF collision, or water.
 
-    It never touches links without shapes, links of static models, and inertias that the simulator computes (`auto`,
+    Never touches: links without shapes, links of static models, and inertias that the simulator computes (`auto`,
     unless `replace=all`). A link of which one shape cannot be used stays as it is. Shapes that overlap count twice.
-    It reports `filled-inertia` for each link that it fills, and `unfilled-inertia` at a shape that it cannot use and at
-    a body that moves and is left without a mass.
+    Diagnostics: `filled-inertia` for each link that it fills, and `unfilled-inertia` at a shape that it cannot use
+    and at a body that moves and is left without a mass.
     """
 
     name = "fill-inertia"
     example: ClassVar[str] = "fill-inertia{density=2700 shapes=visual},check-inertia"
 
-    links: tuple[str, ...] = Field(
-        default=("*",), description="Only links with such a name; `*`, `?` and `[...]` are wildcards."
-    )
+    links: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only links"))
     shapes: Kind = Field(
         default="collision", description="Which shapes are filled; `either`: visuals of links without collisions."
     )

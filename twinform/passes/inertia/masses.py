@@ -3,16 +3,14 @@
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from twinform.ir import Document, Inertia, Inertial, Link, Model
+from twinform.ir import Document, Inertial, Link, Model
+from twinform.ir.defaults import MOMENT
 from twinform.ir.frames import FrameGraph
 from twinform.ir.principal_moments import Symmetric
-from twinform.ir.solids import Solid, placed, with_mass
+from twinform.ir.solids import NOTHING, ORIGIN, Solid, placed, with_mass, with_tensor
 from twinform.ir.verify.inertia import inertia_matrix
-from twinform.passes.inertia.possible import DEFAULT_MOMENT, is_possible
+from twinform.passes.inertia.possible import is_possible
 from twinform.passes.inertia.shapes import inertial_of
-
-_NOTHING: Symmetric = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-_MOMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 
 
 class _Home(NamedTuple):
@@ -26,7 +24,7 @@ class Masses:
     """What the links of a document have by now. Links are known by their identity: equal ones are still two."""
 
     def __init__(self, document: Document) -> None:
-        self._default = DEFAULT_MOMENT[document.format]
+        self._default = MOMENT[document.format]
         self._format = document.format
         self._homes = dict(_homes(document))
         self._graphs: dict[int, FrameGraph] = {}
@@ -59,11 +57,11 @@ class Masses:
             FrameError: where the links are cannot be resolved.
         """
         inertial = self.of(donor) or Inertial()
-        mass, matrix = inertial.mass or 0.0, inertia_matrix(inertial.inertia, self._default) or _NOTHING
+        mass, matrix = inertial.mass or 0.0, inertia_matrix(inertial.inertia, self._default) or NOTHING.inertia
         home = self._homes[id(donor)]
         graph = self._graph(home.root)
         at = graph.resolve(inertial.pose, home.name, self._homes[id(taker)].name)
-        taken = placed(with_mass(Solid(mass, (0.0, 0.0, 0.0), matrix), part * mass), at)
+        taken = placed(with_mass(Solid(mass, ORIGIN, matrix), part * mass), at)
         self._changed[id(donor)] = _scaled(inertial, matrix, 1 - part)
         self.give(taker, taken)
         return taken.mass
@@ -87,7 +85,6 @@ def _homes(document: Document) -> Iterator[tuple[int, _Home]]:
 
 def _scaled(inertial: Inertial, matrix: Symmetric, factor: float) -> Inertial:
     """The same distribution of a part of the mass."""
-    written = inertial.inertia or Inertia()
-    moments: dict[str, float] = dict(zip(_MOMENTS, (factor * each for each in matrix), strict=True))
-    update = {"mass": (inertial.mass or 0.0) * factor, "inertia": written.model_copy(update=moments)}
-    return inertial.model_copy(update=update)
+    xx, yy, zz, xy, xz, yz = (factor * each for each in matrix)
+    inertia = with_tensor(inertial.inertia, (xx, yy, zz, xy, xz, yz))
+    return inertial.model_copy(update={"mass": (inertial.mass or 0.0) * factor, "inertia": inertia})

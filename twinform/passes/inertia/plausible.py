@@ -11,7 +11,7 @@ from twinform.ir import Inertial, Link
 from twinform.ir.bounds import Bounds
 from twinform.ir.frames import FrameError
 from twinform.ir.principal_moments import Symmetric
-from twinform.ir.solids import Solid, combined, placed
+from twinform.ir.solids import ORIGIN, Solid, combined, placed
 from twinform.ir.verify.inertia import inertia_matrix
 from twinform.passes.assets import NO_ASSETS
 from twinform.passes.inertia.possible import has_mass
@@ -20,7 +20,6 @@ from twinform.passes.meshes import Meshes
 
 _SLACK = 0.01
 """How far a mass may reach out of its shapes, as a part of their size: shapes are drawn by eye."""
-_ORIGIN = (0.0, 0.0, 0.0)
 _AXES = "xyz"
 _NO_MESHES = Meshes(NO_ASSETS)
 
@@ -42,7 +41,7 @@ class Plausible:
             return
         try:
             shapes = (*self.places.shapes(link, "collision"), *self.places.shapes(link, "visual"))
-            body = placed(Solid(inertial.mass or 0.0, _ORIGIN, matrix), self.places.inertial(link))
+            body = placed(Solid(inertial.mass or 0.0, ORIGIN, matrix), self.places.inertial(link))
             box = united_bounds([bounds_of(one, self.meshes) for one in shapes])
             if box is None:
                 return

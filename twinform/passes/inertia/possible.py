@@ -3,11 +3,10 @@
 import math
 
 from twinform.ir import Format, Inertial
+from twinform.ir.defaults import MOMENT
 from twinform.ir.principal_moments import relative_moments
 from twinform.ir.verify.inertia import inertia_matrix
 
-DEFAULT_MOMENT = {Format.URDF: None, Format.SDF: 1.0}
-"""What a moment is that is not written; URDF has no default, and the schema reports what is missing there."""
 ROUNDING = 1e-15
 """What ten operations on doubles leave of a moment that is exactly zero, as a part of the trace."""
 DIGITS = 1e-6
@@ -21,7 +20,7 @@ def has_mass(inertial: Inertial | None) -> bool:
 
 def is_possible(inertial: Inertial, format_: Format) -> bool:
     """Whether mass and moments are those of a body, but for the digits that files cut off."""
-    matrix = inertia_matrix(inertial.inertia, DEFAULT_MOMENT[format_])
+    matrix = inertia_matrix(inertial.inertia, MOMENT[format_])
     if not has_mass(inertial) or matrix is None or not all(map(math.isfinite, matrix)):
         return False
     smallest, middle, largest = relative_moments(matrix)

@@ -4,15 +4,13 @@ from collections.abc import Iterator
 from typing import Literal, NamedTuple
 
 from twinform.diagnostics import Location
-from twinform.ir import Collision, Inertia, Inertial, Link, Mesh, Model, Node, Pose, Shape, Visual
+from twinform.ir import Collision, Inertial, Link, Mesh, Model, Node, Pose, Shape, Visual
 from twinform.ir.bounds import Bounds, bounds, placed_bounds, united
+from twinform.ir.defaults import DENSITY
 from twinform.ir.frames import FrameGraph
-from twinform.ir.solids import Solid, placed, solid
+from twinform.ir.solids import ORIGIN, Solid, placed, solid, with_tensor
 from twinform.ir.transform import Transform
 from twinform.passes.meshes import MeshError, Meshes
-
-WATER = 1000.0
-"""The density that SDF takes where none is written, kg/m^3."""
 
 Kind = Literal["collision", "visual", "either"]
 
@@ -84,7 +82,7 @@ def solid_of(one: PlacedShape, density: float | None, meshes: Meshes) -> Solid:
         NoSolidError: the shape has no inside, or its mesh cannot be used.
     """
     own = own_density(one.holder)
-    chosen = density if density is not None else WATER if own is None else own
+    chosen = density if density is not None else DENSITY if own is None else own
     try:
         found = meshes.solid(one.shape, chosen) if isinstance(one.shape, Mesh) else solid(one.shape, chosen)
     except MeshError as error:
@@ -127,12 +125,11 @@ def own_density(node: Node) -> float | None:
 
 def inertial_of(found: Solid, written: Inertial | None) -> Inertial:
     """An inertial with the numbers of a solid in the link frame; what else is written in the old one stays."""
-    xx, yy, zz, xy, xz, yz = found.inertia
     return (written or Inertial()).model_copy(
         update={
             "auto": None,
             "mass": found.mass,
-            "pose": Pose(xyz=found.centre, rpy=(0.0, 0.0, 0.0)) if any(found.centre) else None,
-            "inertia": Inertia(ixx=xx, ixy=xy, ixz=xz, iyy=yy, iyz=yz, izz=zz),
+            "pose": Pose(xyz=found.centre, rpy=ORIGIN) if any(found.centre) else None,
+            "inertia": with_tensor(None, found.inertia),
         }
     )

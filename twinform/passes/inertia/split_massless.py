@@ -8,20 +8,20 @@ from twinform.diagnostics import Notes
 from twinform.diagnostics.rules.massless import SPLIT_MASS, TOKEN_MASS
 from twinform.ir import Document, Format, Joint, Link, Sphere, rewrite
 from twinform.ir.frames import FrameError
-from twinform.ir.solids import Solid, solid, with_mass
+from twinform.ir.solids import NOTHING, solid, with_mass
 from twinform.passes.base import Pass
 from twinform.passes.inertia.masses import Masses
 from twinform.passes.inertia.possible import has_mass
 from twinform.passes.moving_bodies import Body, Neighbours, moving_bodies, neighbours
-from twinform.passes.patterns import matches
-
-_NOTHING = Solid(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 
 class SplitMassless(Pass):
-    """Gives bodies that move and weigh nothing a mass, so that simulators neither drop them nor divide by zero.
+    """Give bodies that move and weigh nothing a mass, so that simulators neither drop them nor divide by zero.
 
-    A body is what fixed joints hold together. It changes, for bodies of which no link has a positive mass:
+    A body is what fixed joints hold together.
+
+    Changes bodies of which no link has a positive mass:
 
     1. a body that carries others by joints: it takes the part `share` of the nearest one with a mass, as if that had
        been split: with the joints at zero, mass, centre of mass and inertia of the whole robot stay what they were;
@@ -29,16 +29,14 @@ class SplitMassless(Pass):
        its link, with `ends=fix` the joint that moves it becomes a fixed one, unless others mimic it.
 
     Bodies without an `<inertial>` are those of URDF; in SDF they weigh 1 kg, and a mass of zero has to be written.
-    It never touches bodies that weigh something, but for what they give, and what cannot move.
-    It reports `split-mass` for case 1, and `token-mass` for case 2.
+    Never touches: bodies that weigh something, but for what they give, and what cannot move.
+    Diagnostics: `split-mass` for case 1, and `token-mass` for case 2.
     """
 
     name = "split-massless"
     example: ClassVar[str] = "split-massless{share=0.05},check-inertia"
 
-    links: tuple[str, ...] = Field(
-        default=("*",), description="Only bodies with such a link; `*`, `?` and `[...]` are wildcards."
-    )
+    links: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only bodies that have a link"))
     share: float = Field(default=0.01, gt=0, lt=1, description="The part of the carried body that the carrier takes.")
     ends: Literal["weigh", "fix"] = Field(
         default="weigh", description="Whether the end of a chain gets a small ball, or its joint is fixed."
@@ -81,7 +79,7 @@ class SplitMassless(Pass):
         return True
 
     def _weigh(self, link: Link, masses: Masses, notes: Notes) -> None:
-        masses.give(link, with_mass(solid(Sphere(radius=self.radius), 1.0) or _NOTHING, self.mass))
+        masses.give(link, with_mass(solid(Sphere(radius=self.radius), 1.0) or NOTHING, self.mass))
         message = (
             f"link {link.name!r}, which moves and weighs nothing, got a ball of {self.mass:g} kg and {self.radius:g} m"
         )

@@ -4,9 +4,10 @@ from collections.abc import Callable, Iterable
 
 from twinform.diagnostics import Location
 from twinform.ir import Collision, Inertial, Link, Mesh, Model, Opaque
+from twinform.ir.defaults import DENSITY
 from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import Solid, combined, placed, solid, with_mass
-from twinform.passes.inertia.shapes import WATER, inertial_of, own_density
+from twinform.passes.inertia.shapes import inertial_of, own_density
 from twinform.passes.legalise.carrier import to_element
 from twinform.passes.meshes import MeshError, Meshes
 
@@ -70,7 +71,7 @@ def written_out(inertial: Inertial, found: Solid) -> tuple[Inertial, list[Opaque
 def _filled(link: Link, collision: Collision, usual: float | None, graph: FrameGraph, meshes: Meshes) -> Solid:
     shape = collision.geometry.shape if collision.geometry else None
     own = own_density(collision)
-    density = own if own is not None else WATER if usual is None else usual
+    density = own if own is not None else DENSITY if usual is None else usual
     computed = f"the inertia of link {link.name!r} is computed from collision {collision.name!r}"
     try:
         filled = meshes.solid(shape, density) if isinstance(shape, Mesh) else solid(shape, density)

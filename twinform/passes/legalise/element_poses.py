@@ -79,7 +79,7 @@ class ElementPoses:
         if pose is not None and _frame_of(pose) in self.stays:
             return element.model_copy(update={"children": children})
         names_frame = pose is not None and _frame_of(pose) is not None
-        if not names_frame and not (moves and (pose is not None or element.name in _posed())):
+        if not names_frame and not (moves and (pose is not None or element.name in link_elements("pose"))):
             return element.model_copy(update={"children": children}) if children != element.children else element
         read = Pose() if pose is None else read_pose(pose)
         in_base = self._resolve(read)
@@ -119,11 +119,11 @@ class ElementPoses:
 
 
 @cache
-def _posed() -> frozenset[str]:
-    """The elements of a link that have a pose, written or not."""
+def link_elements(part: str) -> frozenset[str]:
+    """The elements of a link without a typed form that may have such a part: a `pose`, or a `@name`."""
     facts = table("sdf")
     rows = [row for row in facts.definitions["link"].children if row.place is None]
-    return frozenset(row.name for row in rows if any(inner.name == "pose" for inner in facts.resolve(row).rows))
+    return frozenset(row.name for row in rows if any(inner.name == part for inner in facts.resolve(row).rows))
 
 
 def _frame_of(pose: Element) -> str | None:

@@ -4,7 +4,8 @@ import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from twinform.ir import Axis, Joint, Mimic
+from twinform.ir import Axis, Format, Joint, Mimic
+from twinform.ir.defaults import GEARBOX_RATIO, direction
 from twinform.ir.frames import FrameGraph
 from twinform.ir.node import Vector3
 
@@ -49,7 +50,7 @@ def relation(gearbox: Joint, joints: Mapping[str, Joint], graph: FrameGraph) -> 
         raise UngearedError(f"joint {follower!r} mimics another already")
     if _follows(leader, follower, joints):
         raise UngearedError(f"joint {leader!r} follows {follower!r} already")
-    ratio = 1.0 if gearbox.gearbox_ratio is None else gearbox.gearbox_ratio
+    ratio = GEARBOX_RATIO if gearbox.gearbox_ratio is None else gearbox.gearbox_ratio
     return Relation(leader, follower, -ratio * forth * back + 0.0)
 
 
@@ -62,16 +63,12 @@ def _turn(
         if joint.type not in _TURNS or {joint.parent, joint.child} != {reference, body}:
             continue
         turn = graph.pose(joint.name, gearbox.name, kind="joint", base="joint")
-        cosine = _cosine(turn.rotate(_direction(joint.axis)), _direction(axis))
+        cosine = _cosine(turn.rotate(direction(joint.axis, Format.SDF)), direction(axis, Format.SDF))
         if abs(abs(cosine) - 1) > _PARALLEL:
             raise UngearedError(f"joint {joint.name!r} turns about another axis")
         sign = 1.0 if cosine > 0 else -1.0
         return joint.name, sign if joint.parent == reference else -sign
     raise UngearedError(f"no joint turns {body!r} at {reference!r}")
-
-
-def _direction(axis: Axis | None) -> Vector3:
-    return (axis.xyz if axis else None) or (0.0, 0.0, 1.0)
 
 
 def _cosine(one: Vector3, other: Vector3) -> float:

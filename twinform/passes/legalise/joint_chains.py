@@ -11,6 +11,7 @@ it, and the links between, say whose parts they are:
 import math
 
 from twinform.ir import Joint, JointType, Link
+from twinform.ir.defaults import SCREW_THREAD_PITCH
 from twinform.ir.node import Vector3
 from twinform.passes.legalise.marks import find_mark
 
@@ -56,5 +57,5 @@ def metres_per_radian(joint: Joint) -> float | None:
     """
     if joint.screw_thread_pitch is None and joint.thread_pitch is not None:
         return -1.0 / joint.thread_pitch if joint.thread_pitch else None
-    pitch = 1.0 if joint.screw_thread_pitch is None else joint.screw_thread_pitch
+    pitch = SCREW_THREAD_PITCH if joint.screw_thread_pitch is None else joint.screw_thread_pitch
     return pitch / math.tau

@@ -6,7 +6,8 @@ from twinform.ir import Element, Joint, Link, Model, Node, Opaque
 from twinform.passes.legalise.gazebo_tags import LINK_TAGS
 
 _ABOUT_JOINTS = frozenset({"transmission", "ros2_control"})
-_OF_AN_AXIS = frozenset({"axis", "limit", "dynamics", "mimic"})
+OF_AN_AXIS = frozenset({"axis", "limit", "dynamics", "mimic"})
+"""What a joint of URDF has once, and says of its axis."""
 WITHOUT_AXIS = frozenset({"fixed", "floating", "planar"})
 _ENDS = frozenset({"lower", "upper"})
 _ENDLESS = frozenset({"continuous"})
@@ -52,7 +53,7 @@ def _misfit_of_joint(piece: Opaque, joint: Joint) -> str:
         return "the joint has no limits any more"
     if piece.at == "limit" and attribute in _ENDS and joint.type not in _ENDLESS:
         return f"the joint is {joint.type} and has limits of its own"
-    if piece.element and not piece.at and piece.element.name in _OF_AN_AXIS and joint.type not in WITHOUT_AXIS:
+    if piece.element and not piece.at and piece.element.name in OF_AN_AXIS and joint.type not in WITHOUT_AXIS:
         return f"the joint is {joint.type} and says so itself"
     return ""
 

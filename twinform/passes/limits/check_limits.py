@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterator
-from fnmatch import fnmatchcase
 from typing import ClassVar, NamedTuple
 
 from pydantic import Field
@@ -11,14 +10,14 @@ from twinform.diagnostics import Location, Notes, Rule
 from twinform.diagnostics.rules import limits as rules
 from twinform.diagnostics.rules.to_urdf import UNBOUNDED_LIMIT
 from twinform.ir import Axis, Document, Format, Joint, Limit, rewrite
+from twinform.ir.defaults import UNLIMITED, with_range
 from twinform.passes.base import Pass
 from twinform.passes.limits.soft_limits import soft_limits
+from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 _BOUNDED = frozenset({"revolute", "prismatic"})
 _TURNING = frozenset({"revolute", "universal", "revolute2"})
 _DRIVEN = _BOUNDED | {"continuous"}
-_UNLIMITED = 1e16
-"""What stands for infinity in SDF before 1.10, and in URDF."""
 
 
 class _Finding(NamedTuple):
@@ -30,9 +29,10 @@ class _Finding(NamedTuple):
 
 
 class CheckLimits(Pass):
-    """Finds limits, damping and friction of joints that a robot is not likely to have.
+    """Find limits, damping and friction of joints that a robot is not likely to have.
 
-    It changes nothing. Of joints whose name matches `joints` it reports:
+    Changes nothing.
+    Diagnostics, for joints whose name matches `joints`:
 
     1. `empty-range`: lower and upper limits that are equal;
     2. `range-in-degrees`: a turning joint that may turn more than `turns` times;
@@ -43,7 +43,7 @@ class CheckLimits(Pass):
     7. `negative-dynamics`: damping or friction below zero.
 
     What `check` finds already it leaves alone: limits that are missing or upside down, and those of zero.
-    It never looks at joints without an axis, and at models that an `<include>` names.
+    Never looks at: joints without an axis, and models that an `<include>` names.
     """
 
     name = "check-limits"
@@ -52,13 +52,13 @@ class CheckLimits(Pass):
     turns: float = Field(default=2.0, gt=0, description="The most turns either way; `inf` for any.")
     effort: float = Field(default=1e5, gt=0, description="The greatest plausible effort, in N m or N; `inf` for any.")
     velocity: float = Field(default=1e3, gt=0, description="The greatest plausible speed, in rad/s or m/s.")
-    joints: str = Field(default="*", description="Only joints with such a name; `*`, `?` and `[...]` are wildcards.")
+    joints: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only joints"))
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The same document."""
 
         def look(joint: Joint) -> Joint:
-            if fnmatchcase(joint.name, self.joints):
+            if matches(joint.name, self.joints):
                 for each in self._findings(joint, document.format):
                     if each.rule is rules.RANGE_IN_DEGREES and notes.has(each.rule, each.where):
                         continue  # verifying has seen what cannot be but degrees
@@ -79,9 +79,8 @@ class CheckLimits(Pass):
         yield from _soft(joint)
 
     def _range(self, joint: Joint, limit: Limit, format_: Format) -> Iterator[_Finding]:
-        lower, upper = limit.lower, limit.upper
-        if format_ is Format.URDF and limit.source:  # what a <limit> of URDF does not say is zero
-            lower, upper = lower or 0.0, upper or 0.0
+        said = with_range(limit, format_) if format_ is Format.URDF and limit.source else limit
+        lower, upper = said.lower, said.upper
         if lower is None or upper is None or not lower <= upper:
             return
         where, found = _place(joint, limit), f"{lower:g} to {upper:g}"
@@ -89,7 +88,7 @@ class CheckLimits(Pass):
         if lower == upper:
             yield _Finding(rules.EMPTY_RANGE, f"joint {joint.name!r} can only be at {lower:g}", where, found)
         most = self.turns * math.tau
-        if joint.type in _TURNING and most < max(-lower, upper) < _UNLIMITED:
+        if joint.type in _TURNING and most < max(-lower, upper) < UNLIMITED:
             message = f"joint {joint.name!r} turns from {lower:g} to {upper:g} rad; are these degrees?"
             yield _Finding(rules.RANGE_IN_DEGREES, message, where, found, f"at most {most:.4g}")
         if not lower <= 0 <= upper:
@@ -110,7 +109,7 @@ class CheckLimits(Pass):
 
 def _is_open(value: float | None) -> bool:
     """Whether a limit is none: SDF also says so by a negative one, and by a number that stands for infinity."""
-    return value is None or value < 0 or value >= _UNLIMITED
+    return value is None or value < 0 or value >= UNLIMITED
 
 
 def _dynamics(joint: Joint, axis: Axis) -> Iterator[_Finding]:

@@ -1,6 +1,5 @@
 """Fill the limits, damping and friction that joints lack."""
 
-from fnmatch import fnmatchcase
 from typing import ClassVar, Self
 
 from pydantic import Field, model_validator
@@ -9,23 +8,26 @@ from twinform.diagnostics import Location, Notes
 from twinform.diagnostics.rules.limits import FILLED_LIMIT, UNFILLED_LIMIT
 from twinform.ir import Axis, Document, Dynamics, Format, Joint, Limit, Node, rewrite
 from twinform.passes.base import Pass
+from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 _BOUNDED = frozenset({"revolute", "prismatic"})
 _DRIVEN = _BOUNDED | {"continuous"}
 
 
 class FillLimits(Pass):
-    """Fills limits, damping and friction that are missing with the user's values; without options it changes nothing.
+    """Fill limits, damping and friction that are missing with the user's values.
 
-    It changes joints with one axis whose name matches `joints`:
+    Without options it changes nothing.
+
+    Changes joints with one axis whose name matches `joints`:
 
     1. `effort` and `velocity` of revolute, prismatic and continuous joints;
     2. `lower` and `upper` of revolute and prismatic joints, unless the range would be upside down;
     3. where the whole `<limit>` is missing it is made, in URDF for joints without an `<axis>` too;
     4. `damping` and `friction` of the same joints as 1, and a whole `<dynamics>` where it is missing.
 
-    It never touches a value that is written, nor joints of SDF without an `<axis>`.
-    It reports `filled-limit` for each joint that it fills, and `unfilled-limit` where case 2 left an end open.
+    Never touches: a value that is written, nor joints of SDF without an `<axis>`.
+    Diagnostics: `filled-limit` for each joint that it fills, and `unfilled-limit` where case 2 left an end open.
     """
 
     name = "fill-limits"
@@ -49,7 +51,7 @@ class FillLimits(Pass):
     friction: float | None = Field(
         default=None, ge=0, allow_inf_nan=False, description="The static friction, in N m or N."
     )
-    joints: str = Field(default="*", description="Only joints with such a name; `*`, `?` and `[...]` are wildcards.")
+    joints: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only joints"))
 
     @model_validator(mode="after")
     def _check_range(self) -> Self:
@@ -62,7 +64,7 @@ class FillLimits(Pass):
         return rewrite(document, Joint, lambda joint: self._fill(joint, document.format, notes))
 
     def _fill(self, joint: Joint, format_: Format, notes: Notes) -> Joint:
-        if joint.type not in _DRIVEN or not fnmatchcase(joint.name, self.joints):
+        if joint.type not in _DRIVEN or not matches(joint.name, self.joints):
             return joint
         if joint.axis is None and format_ is Format.SDF:
             return joint

@@ -9,15 +9,15 @@ from twinform.passes.base import Pass
 
 
 class ReplaceContinuous(Pass):
-    """Makes `continuous` joints of SDF `revolute` ones without an end.
+    """Make `continuous` joints of SDF `revolute` ones without an end.
 
-    It changes documents of SDF:
+    Changes documents of SDF:
 
     1. the type of each continuous joint, in worlds and nested models too;
     2. `lower` and `upper` of such a joint, which mean nothing before and would mean something now, are taken out.
 
-    It never touches effort, velocity and dynamics, nor URDF, whose continuous joints are revolute in SDF anyway.
-    It reports `replaced-continuous` for each joint.
+    Never touches: effort, velocity and dynamics, nor URDF, whose continuous joints are revolute in SDF anyway.
+    Diagnostics: `replaced-continuous` for each joint.
     """
 
     name = "replace-continuous"

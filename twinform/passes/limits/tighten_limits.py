@@ -1,7 +1,6 @@
 """Move the limits of joints inward."""
 
 import math
-from fnmatch import fnmatchcase
 from typing import ClassVar
 
 from pydantic import Field
@@ -11,22 +10,23 @@ from twinform.diagnostics.rules.limits import TIGHTENED_LIMIT, UNTIGHTENED_LIMIT
 from twinform.ir import Document, Joint, Limit, rewrite
 from twinform.passes.base import Pass
 from twinform.passes.limits.soft_limits import SoftLimits, soft_limits
+from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 _BOUNDED = frozenset({"revolute", "prismatic"})
 
 
 class TightenLimits(Pass):
-    """Moves the limits of joints inward: to the soft ones of a `<safety_controller>`, and by a margin.
+    """Move the limits of joints inward: to the soft ones of a `<safety_controller>`, and by a margin.
 
-    It changes revolute and prismatic joints whose name matches `joints`:
+    Changes revolute and prismatic joints whose name matches `joints`:
 
     1. with `soft`, a lower or upper limit that is outside of the soft one becomes that, also where it comes from a URDF
        file and travels in a carrier; one that is not written is made;
     2. limits that are written are moved inward by `margin`, on top of that.
 
-    It never moves a limit outward, and never touches the `<safety_controller>`, effort and velocity, or joints without
+    Never touches: limits that would move outward, the `<safety_controller>`, effort and velocity, or joints without
     an `<axis>`.
-    It reports `tightened-limit` for each joint that it changes, and `untightened-limit` where no range would be left.
+    Diagnostics: `tightened-limit` for each joint that it changes, and `untightened-limit` where no range would be left.
     With a margin it moves limits again when it runs again.
     """
 
@@ -35,14 +35,14 @@ class TightenLimits(Pass):
 
     soft: bool = Field(default=True, description="Whether soft limits become hard ones.")
     margin: float = Field(default=0.0, ge=0, allow_inf_nan=False, description="How far inward, in rad or m.")
-    joints: str = Field(default="*", description="Only joints with such a name; `*`, `?` and `[...]` are wildcards.")
+    joints: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only joints"))
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The document with tighter limits."""
         return rewrite(document, Joint, lambda joint: self._tighten(joint, notes))
 
     def _tighten(self, joint: Joint, notes: Notes) -> Joint:
-        if joint.type not in _BOUNDED or joint.axis is None or not fnmatchcase(joint.name, self.joints):
+        if joint.type not in _BOUNDED or joint.axis is None or not matches(joint.name, self.joints):
             return joint
         limit = joint.axis.limit or Limit()
         lower, upper = self._range(limit, (soft_limits(joint) if self.soft else None) or SoftLimits(None, None))

@@ -11,7 +11,7 @@ from twinform.ir import Document, Element, Format, GazeboExtension, Link, Materi
 from twinform.passes.base import Pass
 from twinform.passes.legalise.carrier import to_element
 from twinform.passes.looks.classic_materials import ClassicMaterial, classic_materials
-from twinform.passes.patterns import matches
+from twinform.passes.patterns import EVERY, matches, with_such_a_name
 from twinform.schemas import format_value, parse_version, table
 
 _PBR = "pbr/metal"
@@ -19,9 +19,9 @@ _PBR_SINCE = (1, 6)
 
 
 class Materials(Pass):
-    """Turns material scripts of Gazebo Classic into colours, and colours into those of PBR.
+    """Turn material scripts of Gazebo Classic into colours, and colours into those of PBR.
 
-    It changes, on links whose name matches `links`:
+    Changes, on links whose name matches `links`:
 
     1. with `scripts`, in SDF, a `<script>` that names a material of Classic: the colours of it are written instead, but
        for those that the visual says itself;
@@ -30,8 +30,8 @@ class Materials(Pass):
     3. with `pbr`, materials that have a colour and no `<pbr>`: they get its `metalness` and `roughness`; where that is
        not given, it comes from the script's highlight: sqrt(2 / (shininess + 2)).
 
-    It never touches materials of URDF, textures, and scripts of others.
-    It reports `unknown-script` for scripts whose colours are not known, which stay, and `textured-script` for those
+    Never touches: materials of URDF, textures, and scripts of others.
+    Diagnostics: `unknown-script` for scripts whose colours are not known, which stay, and `textured-script` for those
     that have an image as well, which newer Gazebo does not bring, and `pbr-too-old` for SDF before 1.6.
     """
 
@@ -42,9 +42,7 @@ class Materials(Pass):
     pbr: bool = Field(default=False, description="Whether colours become those of PBR.")
     metalness: float = Field(default=0.0, ge=0, le=1, description="From 0, paint, to 1, bare metal.")
     roughness: float | None = Field(default=None, ge=0, le=1, description="From 0, a mirror, to 1.")
-    links: tuple[str, ...] = Field(
-        default=("*",), description="Only links with such a name; `*`, `?` and `[...]` are wildcards."
-    )
+    links: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only links"))
 
     def run(self, document: Document, notes: Notes) -> Document:
         """The document with other materials."""

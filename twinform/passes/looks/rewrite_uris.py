@@ -13,9 +13,9 @@ from twinform.passes.uris import Kind, map_uris
 
 
 class RewriteUris(AssetPass):
-    """Says URIs of meshes, textures and includes in the scheme `to`.
+    """Say URIs of meshes, textures and includes in the scheme `to`.
 
-    It changes URIs whose scheme is one of `from-schemes`, of files that are among `kinds`:
+    Changes URIs whose scheme is one of `from-schemes`, of files that are among `kinds`:
 
     1. `package://` and `model://` become each other, whether or not their files are there;
     2. to `file` and `relative`, they are looked up, in `roots` first, then as `--path` and the variables of ROS and
@@ -23,8 +23,8 @@ class RewriteUris(AssetPass):
     3. to `package` and `model`, files and paths are said from the folder around them that is in `roots`, has a
        package.xml, or a model.config.
 
-    It never touches URIs that are in the scheme already, words such as `__default__`, and the parameters of plugins.
-    It reports `unmapped-uri` for each URI that cannot be said so; it stays.
+    Never touches: URIs that are in the scheme already, words such as `__default__`, and the parameters of plugins.
+    Diagnostics: `unmapped-uri` for each URI that cannot be said so; it stays.
     """
 
     name = "rewrite-uris"

@@ -9,7 +9,7 @@ from twinform.diagnostics.rules.looks import NOTHING_MATCHED, UNSET_SURFACE
 from twinform.ir import Collision, Document, Format, Link, Model, Surface, rewrite
 from twinform.passes.base import Pass
 from twinform.passes.gazebo_tags import with_element, with_tags
-from twinform.passes.patterns import matches
+from twinform.passes.patterns import EVERY, matches, with_such_a_name
 from twinform.schemas import format_value
 
 _TAGS = {"mu": "mu1", "mu2": "mu2", "kp": "kp", "kd": "kd", "max_vel": "maxVel", "min_depth": "minDepth"}
@@ -22,26 +22,24 @@ _PATHS = {
 
 
 class SetSurface(Pass):
-    """Sets friction, restitution and contact parameters of collisions.
+    """Set friction, restitution and contact parameters of collisions.
 
-    It changes the collisions whose name matches `collisions` on links whose name matches `links`:
+    Changes the collisions whose name matches `collisions` on links whose name matches `links`:
 
     1. in SDF, the `<surface>` of each;
     2. in URDF, the `<gazebo reference="LINK">` tags `mu1`, `mu2`, `kp`, `kd`, `maxVel` and `minDepth`, and for what has
        no tag, restitution and slip, the `<collision>` in such an element. These are about all collisions of a link.
 
     Only what an option is given for is set; all else that is written of a surface stays.
-    It never touches links without collisions, and models that an `<include>` names.
-    It reports `unset-surface` where URDF cannot say it for one of several collisions, and `nothing-matched`.
+    Never touches: links without collisions, and models that an `<include>` names.
+    Diagnostics: `unset-surface` where URDF cannot say it for one of several collisions, and `nothing-matched`.
     """
 
     name = "set-surface"
     example: ClassVar[str] = 'set-surface{links="*wheel*" mu=0.9 mu2=0.5}'
 
-    links: tuple[str, ...] = Field(
-        default=("*",), description="Only links with such a name; `*`, `?` and `[...]` are wildcards."
-    )
-    collisions: tuple[str, ...] = Field(default=("*",), description="Only collisions with such a name.")
+    links: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only links"))
+    collisions: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only collisions"))
     mu: float | None = Field(default=None, ge=0, description="Coulomb friction along the first direction.")
     mu2: float | None = Field(default=None, ge=0, description="Likewise along the second; not set, it stays as it is.")
     restitution: float | None = Field(default=None, ge=0, le=1, description="From 0, no bounce, to 1.")

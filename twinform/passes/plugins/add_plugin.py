@@ -25,13 +25,13 @@ _ODOMETRY_FRAMES = (("frame-id", "child-frame-id"), ("odom-frame", "robot-base-f
 
 
 class AddPlugin(SelectingPass):
-    """Adds a system of gz-sim to a model or world, with parameters that are checked against the catalogue.
+    """Add a system of gz-sim to a model or world, with parameters that are checked against the catalogue.
 
     Every parameter of the system is an option, called in kebab-case: `left_joint` is `left-joint`, the `link` in
     `left_track` is `left-track-link`. `docs/reference/plugins.md` lists the systems and their options. One that may
     stand several times takes a list.
 
-    It changes
+    Changes:
 
     1. the model (`model`, or the only one), for systems of models;
     2. the world (`world`, or the only one), for systems of worlds; one without any plugin gets those too that gz-sim
@@ -42,7 +42,7 @@ class AddPlugin(SelectingPass):
     not given: from the joints' places and axes, and the cylinders, spheres and capsules of the wheels.
     Frames of odometry that are not given are `odom` and the base link, so that the transforms of ROS make one tree.
     A system that needs another one of the world, such as Buoyancy, gets it there; without a world it is said.
-    It never touches a plugin that is there; one that is the same already is not added again.
+    Never touches: a plugin that is there; one that is the same already is not added again.
     Diagnostics: `nothing-to-add-to`, `plugin-reference`, `measured-wheels`, `wheels-not-measured`,
     `world-system-needed`, `added-world-system`.
     """

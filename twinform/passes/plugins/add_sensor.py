@@ -27,13 +27,13 @@ Word = Annotated[str, Field(min_length=1)]
 
 
 class AddSensor(SelectingPass):
-    """Adds a sensor of Gazebo to a link or joint, with settings that are usual for its kind.
+    """Add a sensor of Gazebo to a link or joint, with settings that are usual for its kind.
 
     Every kind has options of its own, such as `width`, `fov`, `samples` or `gyro-stddev`; `docs/reference/plugins.md`
     lists them with what they are where they are not given. The topic is the kind's usual one: `imu` for an IMU called
     `imu`, else `NAME/imu`, and `NAME/image` for a camera.
 
-    It changes
+    Changes:
 
     1. the link, or for `force_torque` the joint, that gets the sensor; in URDF it stands in a `<gazebo>` element, and a
        fixed joint that is measured is kept from being lumped;
@@ -41,7 +41,7 @@ class AddSensor(SelectingPass):
        at all, those that gz-sim adds only to such worlds.
 
     For a file without a world it says what the world has to have; `convert --world FILE` writes such a world.
-    It never touches a sensor that is there: another one gets another name and topic, and the same one is not added
+    Never touches: a sensor that is there: another one gets another name and topic, and the same one is not added
     again.
     Diagnostics: `nothing-to-add-to`, `missing-world-system`, `world-system-needed`, `added-world-system`.
     """

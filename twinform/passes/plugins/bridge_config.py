@@ -18,16 +18,16 @@ def _yaml(path: str) -> str:
 
 
 class BridgeConfig(CompanionPass):
-    """Writes the YAML file that ros_gz_bridge needs to carry the topics of sensors and plugins to ROS and back.
+    """Write the YAML file that ros_gz_bridge needs to carry the topics of sensors and plugins to ROS and back.
 
     For the clock, each topic that a sensor or a system of the catalogue writes, and each that a system reads, it has
     the names and messages on both sides and the direction. Names of ROS are short: `cmd_vel`, `odom`, `joint_states`,
     `imu`; with several models each has its own below the model's name. Transforms go to `/tf`.
 
-    It changes nothing in the document. The file is written together with the result, below its folder, where there is
+    Changes nothing in the document. The file is written together with the result, below its folder, where there is
     no error; without `-o` there is no such folder. A file that is there is only replaced if it was written by twinform.
     `twinform convert --bridge FILE` writes the same for the result, wherever it says.
-    It never bridges topics whose message ROS does not know, nor those whose name depends on an unknown world.
+    Never bridges: topics whose message ROS does not know, nor those whose name depends on an unknown world.
     Diagnostics: `unbridged-topic`.
     """
 

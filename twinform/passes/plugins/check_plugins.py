@@ -37,9 +37,9 @@ _NATIVE_IGNITION = "fortress"
 
 
 class CheckPlugins(Pass):
-    """Holds plugins and sensors against what a release of Gazebo knows; changes nothing.
+    """Hold plugins and sensors against what a release of Gazebo knows.
 
-    It reports
+    Changes nothing. Finds:
 
     1. parameters that a system does not read, with the nearest one, that lack, stand twice or have values of another
        type, and joints and links that the model does not have;
@@ -48,7 +48,7 @@ class CheckPlugins(Pass):
     4. sensors in a world without the system that they need, and what a model needs in any world;
     5. worlds with plugins but without the systems that gz-sim adds to worlds that have none.
 
-    Plugins of the GUI and of files that are not of Gazebo are left alone.
+    Never looks at: plugins of the GUI and of files that are not of Gazebo.
     Diagnostics: `unknown-plugin-parameter`, `plugin-parameter-value`, `plugin-parameter-count`, `plugin-reference`,
     `wrong-plugin-class`, `ignition-plugin-name`, `wrong-plugin-scope`, `plugin-not-in-release`, `unsupported-sensor`,
     `missing-world-system`, `world-system-needed`, `default-systems-off`.

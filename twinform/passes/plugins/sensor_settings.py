@@ -13,7 +13,7 @@ from pydantic import Field
 from twinform.ir import Element
 from twinform.passes.legalise.carrier import from_xml
 from twinform.passes.plugins.catalogue import sensor, sensors
-from twinform.schemas import XmlElement, format_value
+from twinform.schemas import XmlElement, format_value, table
 
 Noise = Literal["none", "typical"]
 
@@ -24,8 +24,6 @@ _TYPES: dict[str, Any] = {
     "text": str,
 }
 _STDDEV = Annotated[float | None, Field(ge=0, allow_inf_nan=False)]
-_AS_ELEMENTS = frozenset({"camera", "lidar"})
-"""Elements whose noise says its type in an element; that of all others in an attribute."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,8 +111,17 @@ def element_of(type_: str, values: Mapping[str, object]) -> Element | None:
             stddev = noise.typical
         if stddev is not None:
             for path in noise.paths:
-                _write_noise(root, path, stddev, as_element=kind.element in _AS_ELEMENTS)
+                _write_noise(root, path, stddev, as_element=_noise_is_its_own(kind.element))
     return from_xml(root) if len(root) else None
+
+
+def _noise_is_its_own(element: str) -> bool:
+    """Whether a sensor's element has one noise, with its type in an element; of others each quantity has one."""
+    facts = table("sdf")
+    rows = [row for row in facts.definitions["sensor"].children if row.name == element]
+    return any(
+        inner.name == "noise" and inner.exists_in(facts.newest) for row in rows for inner in facts.resolve(row).rows
+    )
 
 
 def _write_noise(root: XmlElement, path: str, stddev: object, *, as_element: bool) -> None:

@@ -2,8 +2,10 @@
 
 import math
 from collections.abc import Callable, Iterator
+from typing import Any
 
 from twinform.ir import Box, Capsule, Cone, Cylinder, Ellipsoid, Link, Model, Shape, Sphere
+from twinform.ir.defaults import sizes
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.transform import Matrix3
 
@@ -37,48 +39,44 @@ def _links(model: Model) -> Iterator[tuple[str, Link]]:
 
 def _reach(shape: Shape | None, rotation: Matrix3) -> float | None:
     """How far a turned shape reaches down from its origin: the support function at -z."""
-    for kind, reach in _REACHES.items():
-        if isinstance(shape, kind):
-            found = reach(shape, rotation[6:9])
-            return found if math.isfinite(found) else None
-    return None
+    reach = _REACHES.get(type(shape))
+    if shape is None or reach is None:
+        return None
+    found = reach(rotation[6:9], *sizes(shape))
+    return found if math.isfinite(found) else None
 
 
 Row = tuple[float, float, float]
 """The last row of a rotation: how much of each axis of the shape points up."""
 
 
-def _box(shape: Box, up: Row) -> float:
-    return sum(abs(part) * size / 2 for part, size in zip(up, shape.size or (1.0, 1.0, 1.0), strict=True))
+def _box(up: Row, x: float, y: float, z: float) -> float:
+    return sum(abs(part) * size / 2 for part, size in zip(up, (x, y, z), strict=True))
 
 
-def _sphere(shape: Sphere, _: Row) -> float:
-    return _or(shape.radius, 1.0)
+def _sphere(_: Row, radius: float) -> float:
+    return radius
 
 
-def _cylinder(shape: Cylinder, up: Row) -> float:
-    return _or(shape.radius, 1.0) * math.hypot(up[0], up[1]) + abs(up[2]) * _or(shape.length, 1.0) / 2
+def _cylinder(up: Row, radius: float, length: float) -> float:
+    return radius * math.hypot(up[0], up[1]) + abs(up[2]) * length / 2
 
 
-def _capsule(shape: Capsule, up: Row) -> float:
-    return _or(shape.radius, 0.5) + abs(up[2]) * _or(shape.length, 1.0) / 2
+def _capsule(up: Row, radius: float, length: float) -> float:
+    return radius + abs(up[2]) * length / 2
 
 
-def _cone(shape: Cone, up: Row) -> float:
-    half = _or(shape.length, 1.0) / 2
-    base = _or(shape.radius, 0.5) * math.hypot(up[0], up[1]) + up[2] * half
+def _cone(up: Row, radius: float, length: float) -> float:
+    half = length / 2
+    base = radius * math.hypot(up[0], up[1]) + up[2] * half
     return max(base, -up[2] * half)
 
 
-def _ellipsoid(shape: Ellipsoid, up: Row) -> float:
-    return math.hypot(*(part * radius for part, radius in zip(up, shape.radii or (1.0, 1.0, 1.0), strict=True)))
+def _ellipsoid(up: Row, x: float, y: float, z: float) -> float:
+    return math.hypot(up[0] * x, up[1] * y, up[2] * z)
 
 
-def _or(value: float | None, default: float) -> float:
-    return default if value is None else value
-
-
-_REACHES: dict[type[Shape], Callable[..., float]] = {
+_REACHES: dict[type[Any], Callable[..., float]] = {
     Box: _box,
     Sphere: _sphere,
     Cylinder: _cylinder,

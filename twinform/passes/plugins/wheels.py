@@ -9,12 +9,12 @@ from dataclasses import dataclass
 from operator import itemgetter
 
 from twinform.ir import Capsule, Cylinder, Format, Joint, Model, Shape, Sphere, Vector3
+from twinform.ir.defaults import direction
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.transform import Transform
 
 _PARALLEL = 0.999
 """The cosine above which two directions are taken as one."""
-_DEFAULT_AXIS: dict[Format, Vector3] = {Format.URDF: (1.0, 0.0, 0.0), Format.SDF: (0.0, 0.0, 1.0)}
 
 
 class NotMeasuredError(Exception):
@@ -113,13 +113,12 @@ def _mean(points: Sequence[Vector3], direction: Vector3) -> float:
 
 def _axle(graph: FrameGraph, joint: Joint, place: Transform, format_: Format) -> Vector3:
     axis = joint.axis
-    xyz = axis.xyz if axis and axis.xyz else _DEFAULT_AXIS[format_]
     frame = place
     if axis and axis.expressed_in:
         frame = graph.pose(axis.expressed_in, MODEL, kind="frame", base="model")
     elif axis and axis.use_parent_model_frame:
         frame = Transform()
-    return _unit(frame.rotate(xyz))
+    return _unit(frame.rotate(direction(axis, format_)))
 
 
 def _rigid(model: Model, link: str) -> set[str]:

@@ -5,9 +5,9 @@ from collections.abc import Sequence
 
 from twinform.diagnostics import Notes, Severity
 from twinform.diagnostics.rules.inertia import INDEFINITE_INERTIA
-from twinform.ir import Format, Inertia, Inertial, Link, Pose
+from twinform.ir import Format, Inertial, Link, Pose
 from twinform.ir.frames import FrameGraph
-from twinform.ir.solids import Solid, combined, placed
+from twinform.ir.solids import Solid, combined, placed, turned, with_tensor, written_solid
 from twinform.ir.transform import Transform
 from twinform.passes.assets import NO_ASSETS
 from twinform.passes.legalise.automatic_inertias import automatic
@@ -15,9 +15,6 @@ from twinform.passes.meshes import Meshes
 
 _NO_MESHES = Meshes(NO_ASSETS)
 """An inertia that is left to a mesh is not computed here: `fill-inertia` does it."""
-_NONE = Solid(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-_DEFAULT = {Format.URDF: (0.0, 0.0), Format.SDF: (1.0, 1.0)}
-"""Mass in kg and moments in kg m^2 of a link that says nothing about them."""
 
 
 def body_of(link: Link, graph: FrameGraph, format_: Format, meshes: Meshes = _NO_MESHES) -> Solid:
@@ -30,25 +27,11 @@ def body_of(link: Link, graph: FrameGraph, format_: Format, meshes: Meshes = _NO
         FrameError: a pose is in a frame that is not known.
     """
     inertial = link.inertial
-    mass, moment = _DEFAULT[format_]
     if inertial is None:
-        return (
-            _NONE if format_ is Format.URDF else Solid(mass, (0.0, 0.0, 0.0), (moment, moment, moment, 0.0, 0.0, 0.0))
-        )
+        return written_solid(None, format_)
     if inertial.auto:
         return automatic(link, inertial, link.collisions, graph, meshes)
-    return placed(_written(inertial, mass, moment), graph.resolve(inertial.pose, link.name, link.name))
-
-
-def _written(inertial: Inertial, mass: float, moment: float) -> Solid:
-    said = inertial.inertia or Inertia()
-    moments = (_or(said.ixx, moment), _or(said.iyy, moment), _or(said.izz, moment))
-    products = (_or(said.ixy, 0.0), _or(said.ixz, 0.0), _or(said.iyz, 0.0))
-    return Solid(_or(inertial.mass, mass), (0.0, 0.0, 0.0), (*moments, *products))
-
-
-def _or(value: float | None, default: float) -> float:
-    return default if value is None else value
+    return placed(written_solid(inertial, format_), graph.resolve(inertial.pose, link.name, link.name))
 
 
 def with_guests(link: Link, own: Solid, guests: Sequence[Solid], notes: Notes) -> Link:
@@ -69,15 +52,12 @@ def with_guests(link: Link, own: Solid, guests: Sequence[Solid], notes: Notes) -
     inertial = link.inertial or Inertial()
     written = None if inertial.auto else inertial.pose
     axes = Transform(rotation=Transform.from_pose(written).rotation)
-    xx, yy, zz, xy, xz, yz = placed(whole, axes.inverse()).inertia
     made = inertial.model_copy(
         update={
             "auto": None,
             "mass": whole.mass,
             "pose": _pose(written, whole),
-            "inertia": (inertial.inertia or Inertia()).model_copy(
-                update={"ixx": xx, "iyy": yy, "izz": zz, "ixy": xy, "ixz": xz, "iyz": yz}
-            ),
+            "inertia": with_tensor(inertial.inertia, turned(whole.inertia, axes.inverse())),
         }
     )
     return link.model_copy(update={"inertial": made})

@@ -25,7 +25,7 @@ from twinform.ir import (
 )
 from twinform.passes.base import Pass
 from twinform.passes.legalise.carrier import is_ours
-from twinform.passes.patterns import matches
+from twinform.passes.patterns import EVERY, matches, with_such_a_name
 from twinform.passes.structure.dangling import Gone, report_dangling
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -44,17 +44,17 @@ _FREE_CONTENT = {option.removesuffix("s"): option for option in _OPTIONS}
 
 
 class Drop(Pass):
-    """Takes out what a simulation or a viewer does not need.
+    """Take out what a simulation or a viewer does not need.
 
-    It changes, by patterns for each kind:
+    Changes, by patterns for each kind:
 
     1. `visuals`, `collisions`, `sensors` and `lights` whose name matches; one without a name is matched by `*` alone;
     2. `plugins` whose name or file name matches, wherever they are;
     3. in URDF, such elements in `<gazebo>` too, and a `<gazebo>` element that has nothing left goes with them.
 
     With `links`, only what is on links with such a name, or about them, goes.
-    It never touches links, joints, inertias, models that an `<include>` names, and what travels in carriers.
-    It reports `dropped-reference` for plugins that name what is gone, `nothing-matched` for a pattern that matches
+    Never touches: links, joints, inertias, models that an `<include>` names, and what travels in carriers.
+    Diagnostics: `dropped-reference` for plugins that name what is gone, `nothing-matched` for a pattern that matches
     nothing, and what `check` would find in the result and did not in the source, such as a contact sensor without its
     collision.
     """
@@ -62,14 +62,12 @@ class Drop(Pass):
     name = "drop"
     example: ClassVar[str] = 'drop{sensors="*" plugins="*gazebo_ros*"}'
 
-    visuals: tuple[str, ...] = Field(
-        default=(), description="Visuals; `*`, `?` and `[...]` are wildcards in all of these."
-    )
-    collisions: tuple[str, ...] = Field(default=(), description="Collisions.")
-    sensors: tuple[str, ...] = Field(default=(), description="Sensors, with their plugins.")
-    plugins: tuple[str, ...] = Field(default=(), description="Plugins, by name or file name.")
-    lights: tuple[str, ...] = Field(default=(), description="Lights of links, models and worlds.")
-    links: tuple[str, ...] = Field(default=("*",), description="Only on links with such a name.")
+    visuals: tuple[str, ...] = Field(default=(), description=with_such_a_name("Visuals"))
+    collisions: tuple[str, ...] = Field(default=(), description=with_such_a_name("Collisions"))
+    sensors: tuple[str, ...] = Field(default=(), description=with_such_a_name("Sensors, and the plugins in them,"))
+    plugins: tuple[str, ...] = Field(default=(), description=with_such_a_name("Plugins, or those of a file,"))
+    lights: tuple[str, ...] = Field(default=(), description=with_such_a_name("Lights of links, models and worlds"))
+    links: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only on links"))
 
     @model_validator(mode="after")
     def _check_any(self) -> Self:

@@ -3,9 +3,10 @@
 from collections.abc import Iterable, Mapping
 
 from twinform.ir import Element, GazeboExtension
+from twinform.ir.defaults import BODY
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import to_element
-from twinform.passes.legalise.element_poses import read_pose
+from twinform.passes.legalise.element_poses import link_elements, read_pose
 from twinform.passes.legalise.gazebo_tags import JOINT_TAGS, LINK_TAGS, TRUE, value_text
 from twinform.passes.legalise.nodes import unique_name
 
@@ -23,10 +24,10 @@ _OF_BODY = {
     "enable_wind": "enable_wind", "inertial": "inertial", "pose": "pose",
 }  # fmt: skip
 """Elements that are about the body of a link, and what they say something of."""
-_USUAL = {"gravity": True, "kinematic": False, "enable_wind": False}
 _DISABLE = "disableFixedJointLumping"
 _PRESERVE = ("preserveFixedJoint", _DISABLE)
-_POSED = frozenset({"sensor", "light", "projector", "particle_emitter", "audio_source", "battery"})
+_TYPED = frozenset({"sensor", "light"})
+"""Elements with a pose and a name that links of SDF have beside those without a typed form."""
 
 
 def blocks(extensions: Iterable[GazeboExtension]) -> Blocks:
@@ -55,11 +56,11 @@ def of_body(elements: Iterable[Element]) -> dict[str, object]:
         if about is None:
             continue
         truth = value_text(element).lower() in TRUE
-        if about in _USUAL:
+        if about in BODY:
             said[about] = not truth if element.name == "turnGravityOff" else truth
         else:
             said[about] = value_text(element).lower() if not element.children else element
-    return {about: value for about, value in said.items() if _USUAL.get(about) != value}
+    return {about: value for about, value in said.items() if BODY.get(about) != value}
 
 
 def is_preserved(elements: Iterable[Element]) -> bool:
@@ -89,7 +90,12 @@ def says_something(element: Element) -> bool:
 
 def posed_names(elements: Iterable[Element]) -> set[tuple[str, str]]:
     """Sensors, lights and the like among elements, by kind and name."""
-    return {(element.name, element.get("name") or "") for element in elements if element.name in _POSED}
+    return {(element.name, element.get("name") or "") for element in elements if _has(element, "@name")}
+
+
+def _has(element: Element, part: str) -> bool:
+    """Whether an element of a link, beside its shapes, may have a pose or a name."""
+    return element.name in _TYPED or element.name in link_elements(part)
 
 
 def named_apart(elements: Iterable[Element], taken: set[tuple[str, str]], link: str) -> tuple[Element, ...]:
@@ -99,7 +105,7 @@ def named_apart(elements: Iterable[Element], taken: set[tuple[str, str]], link: 
 
 def _apart(element: Element, taken: set[tuple[str, str]], link: str) -> Element:
     key = (element.name, element.get("name") or "")
-    if element.name not in _POSED or not key[1]:
+    if not key[1] or not _has(element, "@name"):
         return element
     if key in taken:
         name = unique_name(f"{link}_{key[1]}", {name for kind, name in taken if kind == element.name})
@@ -111,7 +117,7 @@ def _apart(element: Element, taken: set[tuple[str, str]], link: str) -> Element:
 
 def in_host(element: Element, at: Transform) -> Element:
     """An element of a link in the frame of another, in which the link's frame is `at`."""
-    if element.name not in _POSED:
+    if not _has(element, "pose"):
         return element
     pose = element.find("pose")
     if pose is not None and (pose.get("relative_to") or pose.get("frame")):

@@ -22,6 +22,7 @@ from twinform.ir import (
     Visual,
     count_parts,
 )
+from twinform.ir.defaults import AXIS, UNLIMITED
 from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import placed
 from twinform.ir.transform import Transform
@@ -47,8 +48,6 @@ from twinform.passes.structure.moved_plugins import moved_plugin
 
 Shape = TypeVar("Shape", Visual, Collision)
 _LUMP = "_fixed_joint_lump__"
-_UNLIMITED = 1e16
-"""What stands for infinity in URDF."""
 _FIELDS = {"visuals": "visual", "collisions": "collision"}
 
 
@@ -77,8 +76,8 @@ def _stays(joint: Joint, there: Blocks) -> bool:
 
 def _turning(joint: Joint) -> Joint:
     """What libsdformat makes of a fixed joint with `disableFixedJointLumping`: it turns about z, from 0 to 0."""
-    limit = Limit(lower=0.0, upper=0.0, effort=_UNLIMITED, velocity=_UNLIMITED)
-    axis = Axis(xyz=(0.0, 0.0, 1.0), limit=limit, dynamics=Dynamics(damping=0.0, friction=0.0))
+    limit = Limit(lower=0.0, upper=0.0, effort=UNLIMITED, velocity=UNLIMITED)
+    axis = Axis(xyz=AXIS[Format.SDF], limit=limit, dynamics=Dynamics(damping=0.0, friction=0.0))
     return joint.model_copy(update={"type": "revolute", "axis": axis})
 
 

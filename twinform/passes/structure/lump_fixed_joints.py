@@ -8,6 +8,7 @@ from twinform.diagnostics.rules import edits as rules
 from twinform.ir import Format, Model
 from twinform.passes.assets import AssetPass
 from twinform.passes.meshes import Meshes
+from twinform.passes.patterns import with_such_a_name
 from twinform.passes.structure.model_edit import ModelEdit, Place
 
 
@@ -33,9 +34,7 @@ class LumpFixedJoints(ModelEdit, AssetPass):
     name: ClassVar[str] = "lump-fixed-joints"
     example: ClassVar[str] = "lump-fixed-joints{keep=[tool0,*_optical_frame]}"
 
-    keep: tuple[str, ...] = Field(
-        default=(), description="Links or joints that stay; `*`, `?` and `[...]` are wildcards."
-    )
+    keep: tuple[str, ...] = Field(default=(), description=with_such_a_name("Links and joints that stay,"))
     compat: Literal["libsdformat"] | None = Field(default=None, description="Whose way of lumping to follow.")
 
     def edit_model(self, model: Model, place: Place) -> Model:

@@ -1,7 +1,6 @@
 """Links of SDF on fixed joints become frames; what was in them moves to the link that they are fixed to."""
 
 from collections.abc import Iterable
-from functools import cache
 from typing import TypeVar
 
 from twinform.diagnostics import Notes
@@ -20,20 +19,21 @@ from twinform.ir import (
     Visual,
     replace_fields,
 )
+from twinform.ir.defaults import BODY
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.solids import placed
 from twinform.passes.legalise.automatic_inertias import NoInertiaError
 from twinform.passes.legalise.carrier import is_ours
+from twinform.passes.legalise.element_poses import link_elements
 from twinform.passes.legalise.nodes import unique_name
 from twinform.passes.meshes import Meshes
 from twinform.passes.structure.bodies import body_of, with_guests
 from twinform.passes.structure.lumping_plan import Plan, plan
 from twinform.passes.structure.mentions import Mentions, mentions
 from twinform.passes.structure.model_edit import Place
-from twinform.schemas import table
 
 Posed = TypeVar("Posed", Visual, Collision, Sensor, Light)
-_SETTINGS: dict[str, object] = {"gravity": True, "enable_wind": False, "self_collide": None, "kinematic": False}
+_SETTINGS = {name: BODY.get(name) for name in ("gravity", "enable_wind", "self_collide", "kinematic")}
 """What a link says of its body, and what it means to say nothing."""
 _OF_BODY = frozenset({"velocity_decay"})
 
@@ -74,7 +74,7 @@ class _Obstacles:
 
     def _unlike(self, child: Link) -> str | None:
         """Parts that only a link can have."""
-        known = _posed() | _OF_BODY
+        known = link_elements("pose") | _OF_BODY
         unknown = next((part for part in child.opaque if not is_ours(part) and _name(part) not in known), None)
         if unknown is not None:
             return f"{unknown.name} belongs to the link"
@@ -101,14 +101,6 @@ def _of_body(link: Link) -> list[Element]:
 
 def _name(part: Opaque) -> str:
     return part.element.name if part.element else part.name
-
-
-@cache
-def _posed() -> frozenset[str]:
-    """The elements of a link without a typed form that have a pose, such as `<projector>`."""
-    facts = table("sdf")
-    rows = [row for row in facts.definitions["link"].children if row.place is None]
-    return frozenset(row.name for row in rows if any(inner.name == "pose" for inner in facts.resolve(row).rows))
 
 
 def _lumped(model: Model, graph: FrameGraph, planned: Plan, meshes: Meshes, notes: Notes) -> Model:
@@ -165,7 +157,9 @@ def _host(link: Link, guests: list[Link], graph: FrameGraph, meshes: Meshes, not
     for guest in guests:
         collisions = _moved(guest, guest.collisions, into.collisions)
         sensors = tuple(_sensor(each, guest, collisions) for each in guest.sensors)
-        moved = tuple(_element_in_frame(part, guest.name) for part in guest.opaque if _name(part) in _posed())
+        moved = tuple(
+            _element_in_frame(part, guest.name) for part in guest.opaque if _name(part) in link_elements("pose")
+        )
         into = into.model_copy(
             update={
                 "visuals": (*into.visuals, *_moved(guest, guest.visuals, into.visuals)),

@@ -1,13 +1,13 @@
 """Which links go into the one that they are fixed to, and which have to stay."""
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from fnmatch import fnmatchcase
 
 from twinform.diagnostics.rules import edits as rules
 from twinform.ir import Joint, Link, Model
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
+from twinform.passes.patterns import matches
 from twinform.passes.structure.model_edit import Place
 
 Obstacle = Callable[[Joint, Link, Link], str | None]
@@ -80,8 +80,8 @@ def _body(name: str | None, links: Mapping[str, Link], graph: FrameGraph) -> str
         return name
 
 
-def _kept(each: Candidate, keep: Iterable[str]) -> bool:
-    return any(fnmatchcase(name, pattern) for name in (each.child, each.joint.name) for pattern in keep)
+def _kept(each: Candidate, keep: tuple[str, ...]) -> bool:
+    return matches(each.child, keep) or matches(each.joint.name, keep)
 
 
 def _why_not(each: Candidate, links: Mapping[str, Link], carried: Counter[str], obstacle: Obstacle) -> str | None:

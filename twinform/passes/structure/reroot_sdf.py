@@ -1,7 +1,8 @@
 """Another root for a model of SDF: parents and children change their roles, and nothing moves."""
 
 from twinform.ir import Format, Frame, Joint, Model, Pose
-from twinform.passes.structure.reversal import axis_of, opposite, swapped_sensors, with_axis
+from twinform.ir.defaults import direction
+from twinform.passes.structure.reversal import opposite, swapped_sensors, with_axis
 
 
 def reroot_sdf(model: Model, way: list[Joint]) -> Model:
@@ -25,7 +26,7 @@ def _reversed(joint: Joint) -> Joint:
         "parent": joint.child,
         "child": joint.parent,
         "pose": None if pose == Pose() else pose,
-        "axis": with_axis(joint, opposite(axis_of(joint, Format.SDF))),
+        "axis": with_axis(joint, opposite(direction(joint.axis, Format.SDF))),
         "sensors": swapped_sensors(joint),
     }
     return joint.model_copy(update=update)

@@ -4,11 +4,12 @@ import math
 from typing import NamedTuple
 
 from twinform.ir import Format, Joint, Link, Model, Pose
+from twinform.ir.defaults import direction
 from twinform.ir.frames import FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.notation import in_radians
 from twinform.passes.structure.gazebo_blocks import blocks
-from twinform.passes.structure.reversal import ABOUT_A_POINT, TURNING, axis_of, opposite, swapped_block, with_axis
+from twinform.passes.structure.reversal import ABOUT_A_POINT, TURNING, opposite, swapped_block, with_axis
 
 _ON_AXIS = 1e-12
 """Metres by which a link's origin may be beside an axis that goes through it: what rounding makes of zero."""
@@ -50,7 +51,7 @@ def _posed(link: Link, carrier: str | None, root: str) -> Link:
 def _reversed(joint: Joint, at: Transform) -> _Reversed:
     """The joint between the same two links, the other way round; `at` is its frame in its old parent."""
     parent, child = joint.parent, joint.child
-    axis = axis_of(joint, Format.URDF)
+    axis = direction(joint.axis, Format.URDF)
     back = in_radians(at.inverse(), child)
     if not _is_beside(joint, at):
         update = {"parent": child, "child": parent, "pose": back, "axis": with_axis(joint, opposite(at.rotate(axis)))}
@@ -76,7 +77,7 @@ def _is_beside(joint: Joint, at: Transform) -> bool:
         return math.hypot(x, y, z) > _ON_AXIS
     if joint.type not in TURNING:
         return False
-    a, b, c = at.rotate(axis_of(joint, Format.URDF))
+    a, b, c = at.rotate(direction(joint.axis, Format.URDF))
     length = math.hypot(a, b, c) or 1.0
     return math.hypot(y * c - z * b, z * a - x * c, x * b - y * a) / length > _ON_AXIS
 

@@ -7,22 +7,17 @@ the opposite axis. So the axis is turned around, and position, limits, damping, 
 
 from typing import Any
 
-from twinform.ir import Axis, Element, Format, GazeboExtension, Joint, Opaque, Sensor
+from twinform.ir import Axis, Element, GazeboExtension, Joint, Opaque, Sensor
+from twinform.ir.defaults import FORCE_TORQUE
 from twinform.ir.node import Vector3
 
 REVERSIBLE = frozenset({"fixed", "revolute", "continuous", "prismatic", "screw", "ball", "spherical", "floating"})
 TURNING = frozenset({"revolute", "continuous", "screw"})
 ABOUT_A_POINT = frozenset({"ball", "spherical"})
-_DEFAULT_AXIS: dict[Format, Vector3] = {Format.URDF: (1.0, 0.0, 0.0), Format.SDF: (0.0, 0.0, 1.0)}
 _WITHOUT_AXIS = frozenset({"fixed", "floating", *ABOUT_A_POINT})
 _SWAPPED = {
     "child": "parent", "parent": "child", "child_to_parent": "parent_to_child", "parent_to_child": "child_to_parent",
 }  # fmt: skip
-
-
-def axis_of(joint: Joint, format_: Format) -> Vector3:
-    """The direction of a joint's axis in its own frame, with the default of the format."""
-    return (joint.axis.xyz if joint.axis else None) or _DEFAULT_AXIS[format_]
 
 
 def with_axis(joint: Joint, direction: Vector3) -> Axis | None:
@@ -92,8 +87,8 @@ def _torque(element: Element) -> Element:
     """`<force_torque>` with parent and child exchanged; what is not written is `child` and `child_to_parent`."""
     said = {child.name: (child.text or "").strip() for child in element.children}
     words: dict[str, Any] = {
-        "frame": said.get("frame") or "child",
-        "measure_direction": said.get("measure_direction") or "child_to_parent",
+        "frame": said.get("frame") or FORCE_TORQUE["frame"],
+        "measure_direction": said.get("measure_direction") or FORCE_TORQUE["measure_direction"],
     }
     others = tuple(child for child in element.children if child.name not in words)
     made = tuple(Element(name=name, text=_SWAPPED.get(word, word)) for name, word in words.items())

@@ -180,5 +180,5 @@ def test_options_move_what_is_too_much_and_choose_joints() -> None:
         ("implausible-limit", "at most 4"),
         ("implausible-limit", "at most 4"),
     ]
-    assert found(one, options=strict.model_copy(update={"joints": "k*"})) == []
-    assert found(one, options=strict.model_copy(update={"joints": "[jk]"})) != []
+    assert found(one, options=strict.model_copy(update={"joints": ("k*",)})) == []
+    assert found(one, options=strict.model_copy(update={"joints": ("[jk]",)})) != []

@@ -72,9 +72,9 @@ CASES: dict[str, tuple[FillLimits, Joint, Limit | None, list[str]]] = {
         ["filled-limit"],
     ),
     "no options": (FillLimits(), joint("revolute"), None, []),
-    "another name": (FillLimits(effort=1, joints="arm_*"), joint("revolute"), None, []),
+    "another name": (FillLimits(effort=1, joints=("arm_*",)), joint("revolute"), None, []),
     "a name that matches": (
-        FillLimits(effort=1, joints="arm_[0-9]"),
+        FillLimits(effort=1, joints=("arm_[0-9]",)),
         joint("revolute", name="arm_3"),
         Limit(effort=1),
         ["filled-limit"],

@@ -33,6 +33,7 @@ CASES: dict[str, tuple[Shape, tuple[float, float, float] | None, float]] = {
     "a cone": (Cone(radius=1, length=2), None, 1.0),
     "a cone on its tip": (Cone(radius=1, length=2), (math.pi, 0.0, 0.0), 1.0),
     "a cone on its side": (Cone(radius=1, length=2), LYING, 1.0),
+    "a cone of the usual size on its side": (Cone(), LYING, 1.0),
     "an ellipsoid": (Ellipsoid(radii=(1, 2, 3)), None, 3.0),
     "an ellipsoid on its side": (Ellipsoid(radii=(1, 2, 3)), LYING, 1.0),
 }

@@ -6,13 +6,16 @@ from typing import ClassVar
 
 from twinform.diagnostics.rules import sdf_versions as rules
 from twinform.ir import Axis, Document, Joint, Opaque, rewrite
+from twinform.ir.defaults import UNLIMITED, UNLIMITED_STRENGTH
 from twinform.passes.legalise.nodes import text_piece
 from twinform.passes.legalise.sdf_versions.base import VersionPass
 from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms
 from twinform.schemas import format_value
 
 _SINCE = (1, 10)
-_UNLIMITED = {"lower": 1e16, "upper": 1e16, "effort": -1.0, "velocity": -1.0}
+_UNLIMITED = {
+    "lower": UNLIMITED, "upper": UNLIMITED, "effort": UNLIMITED_STRENGTH, "velocity": UNLIMITED_STRENGTH,
+}  # fmt: skip
 """What readers of older versions take for no limit: rad or m, N m or N, rad/s or m/s. A range keeps its sign."""
 
 

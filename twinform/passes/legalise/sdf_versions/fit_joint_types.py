@@ -5,7 +5,8 @@ from typing import ClassVar
 
 from twinform.diagnostics.rules import sdf_versions as rules
 from twinform.diagnostics.rules import to_sdf as shared_rules
-from twinform.ir import Axis, Document, Joint, Limit, Opaque, rewrite
+from twinform.ir import Axis, Document, Format, Joint, Limit, Opaque, rewrite
+from twinform.ir.defaults import AXIS
 from twinform.passes.legalise.carrier import to_element
 from twinform.passes.legalise.nodes import text_piece
 from twinform.passes.legalise.sdf_versions.base import VersionPass
@@ -14,7 +15,7 @@ from twinform.schemas import Version, format_value, print_version
 
 _NEWER: dict[str, Version] = {"gearbox": (1, 4), "fixed": (1, 5), "screw": (1, 5), "continuous": (1, 6)}
 _OLDER: dict[str, Version] = {"piston": (1, 4)}
-_STILL = Axis(xyz=(0.0, 0.0, 1.0), limit=Limit(lower=0.0, upper=0.0))
+_STILL = Axis(xyz=AXIS[Format.SDF], limit=Limit(lower=0.0, upper=0.0))
 
 
 class FitJointTypes(VersionPass):

@@ -10,6 +10,7 @@ from twinform.ir import (
     IN_MODELS,
     Axis,
     Document,
+    Format,
     Frame,
     Joint,
     Link,
@@ -19,6 +20,7 @@ from twinform.ir import (
     map_references,
     rewrite,
 )
+from twinform.ir.defaults import direction
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.passes.legalise.sdf_versions.base import VersionPass
 from twinform.passes.legalise.sdf_versions.carriers import Keeper
@@ -203,7 +205,7 @@ def _axis(joint: Joint, axis: Axis | None, inner: _Inner, graph: FrameGraph) -> 
     if axis.expressed_in == MODEL and inner.own is None:
         return axis
     turn = graph.pose(axis.expressed_in, joint.name, kind="frame", base="joint")
-    return axis.model_copy(update={"xyz": turn.rotate(axis.xyz or (0.0, 0.0, 1.0)), "expressed_in": None})
+    return axis.model_copy(update={"xyz": turn.rotate(direction(axis, Format.SDF)), "expressed_in": None})
 
 
 def _merged(nested: Model, made: list[Model]) -> Model:

@@ -4,7 +4,8 @@ from functools import partial
 from typing import ClassVar
 
 from twinform.diagnostics.rules import sdf_versions as rules
-from twinform.ir import Axis, Document, Element, Joint, Model, Opaque, rewrite
+from twinform.ir import Axis, Document, Element, Format, Joint, Model, Opaque, rewrite
+from twinform.ir.defaults import AXIS, direction
 from twinform.ir.frames import MODEL, FrameGraph
 from twinform.passes.legalise.sdf_versions.base import VersionPass
 from twinform.passes.legalise.sdf_versions.carriers import Keeper, Terms
@@ -12,7 +13,6 @@ from twinform.schemas import Version, format_value
 
 _NAMES: Version = (1, 7)
 _WORDS: Version = (1, 5)
-_DEFAULT = (0.0, 0.0, 1.0)
 
 
 class TurnAxes(VersionPass):
@@ -71,8 +71,8 @@ class _Turner:
         turn = self.graph.pose(
             axis.expressed_in or joint.name, base, kind="joint", base="model" if to_model else "joint"
         )
-        x, y, z = turn.rotate(axis.xyz or _DEFAULT)
-        xyz = None if axis.xyz is None and (x, y, z) == _DEFAULT else (x + 0.0, y + 0.0, z + 0.0)
+        x, y, z = turn.rotate(direction(axis, Format.SDF))
+        xyz = None if axis.xyz is None and (x, y, z) == AXIS[Format.SDF] else (x + 0.0, y + 0.0, z + 0.0)
         plain = axis.model_copy(update={"xyz": xyz, "expressed_in": None})
         turned = joint.model_copy(update={field: plain})
         message = f"the axis of joint {joint.name!r} is expressed in {axis.expressed_in or 'its own frame'}"

@@ -24,15 +24,13 @@ from twinform.ir import (
 from twinform.passes.legalise.carrier import DANGLING, carry, is_carrier, is_ours, unpack
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.provenance import came_from
-from twinform.passes.legalise.urdf_pieces import BALLS, joints_of
+from twinform.passes.legalise.urdf_pieces import BALLS, OF_AN_AXIS, joints_of
 from twinform.schemas import Fact, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
 _IN_BOTH = (Model, Link, Joint, Visual, Collision, Inertial)
 """Nodes that are an element in both formats, in which other tools' parts stand as they are."""
-_ONCE = frozenset({"axis", "limit", "dynamics", "mimic"})
-"""What a joint has once; a second one means nothing, and no edit has made it so."""
 
 
 class CarryUrdf(ModelPass):
@@ -91,7 +89,8 @@ class CarryUrdf(ModelPass):
             notes.account(fate, to_sdf.URDF_ONLY, why, where, max(1, piece.weight))
         if not self.carriers:
             return node
-        again = [piece for piece in pieces if isinstance(node, Joint) and piece.element and piece.element.name in _ONCE]
+        once = OF_AN_AXIS if isinstance(node, Joint) else ()  # a second one means nothing, and no edit has made it so
+        again = [piece for piece in pieces if piece.element and piece.element.name in once]
         node = carry(node, [piece for piece in pieces if piece not in again], "urdf")
         return carry(node, again, "urdf", DANGLING)
 

@@ -4,7 +4,8 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from twinform.ir import Axis, Dynamics, Joint, JointType, Limit, Link, Model, Opaque
+from twinform.ir import Axis, Dynamics, Format, Joint, JointType, Limit, Link, Model, Opaque
+from twinform.ir.defaults import direction, multiplier, with_range
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import is_carrier, is_ours, unpack
 from twinform.passes.legalise.chain_carriers import Parts, is_of_axis, join_axes
@@ -183,8 +184,8 @@ def _in_sdf(joint: Joint) -> Axis:
         limit = limit.model_copy(update={"lower": None, "upper": None})
         limit = None if limit == Limit() else limit
     elif limit is not None:
-        limit = limit.model_copy(update={"lower": limit.lower or 0.0, "upper": limit.upper or 0.0})
-    return axis.model_copy(update={"xyz": axis.xyz or (1.0, 0.0, 0.0), "limit": limit})
+        limit = with_range(limit, Format.URDF)
+    return axis.model_copy(update={"xyz": direction(axis, Format.URDF), "limit": limit})
 
 
 def _referred(joint: Joint) -> Joint:
@@ -209,7 +210,7 @@ def _screw(joint: Joint, chain: Chain) -> Joint:
     """A screw joint has the pitch that it carries, or the one that its chain has now if that is another."""
     axis = chain.above[0].axis
     mimic = axis.mimic if axis else None
-    ratio = 1.0 if mimic is None or mimic.multiplier is None else mimic.multiplier
+    ratio = multiplier(mimic)
     joint = _unpacked(joint.model_copy(update={"axis": _in_sdf(chain.last)}), PITCHES)
     said = metres_per_radian(joint)
     if said is not None and math.isclose(said, ratio, rel_tol=_CLOSE):

@@ -6,6 +6,7 @@ from typing import ClassVar
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Joint, Mimic, Model
+from twinform.ir.defaults import multiplier
 from twinform.ir.frames import FrameError, FrameGraph
 from twinform.passes.legalise.gearboxes import GEARED, UngearedError, relation
 from twinform.passes.legalise.marks import find_mark, without_mark
@@ -61,5 +62,5 @@ def _kept(joint: Joint, bare: Joint, coupled: Mimic | None, notes: Notes) -> Joi
 
 
 def _is_the_same(mimic: Mimic, coupled: Mimic) -> bool:
-    factors = (1.0 if mimic.multiplier is None else mimic.multiplier, coupled.multiplier or 0.0)
+    factors = (multiplier(mimic), coupled.multiplier or 0.0)
     return mimic.joint == coupled.joint and not mimic.offset and math.isclose(*factors, rel_tol=_CLOSE)

@@ -4,21 +4,20 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes, Rule
 from twinform.diagnostics.rules import to_sdf
-from twinform.ir import Axis, Element, Joint, Limit, Link, Model, Opaque, count_parts
+from twinform.ir import Axis, Element, Format, Joint, Limit, Link, Model, Opaque, count_parts
+from twinform.ir.defaults import AXIS, with_range
 from twinform.ir.frames import WORLD
 from twinform.passes.legalise.carrier import NAMESPACE, carry, to_element
 from twinform.passes.legalise.marks import is_made, mark_made
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.to_sdf.planar import planar_chain
 from twinform.passes.legalise.to_sdf.unique_names import free_name
+from twinform.passes.legalise.urdf_pieces import OF_AN_AXIS
 from twinform.schemas import format_value
 
-_X = (1.0, 0.0, 0.0)
-"""URDF's default axis; SDF's is z."""
 FLOATING = "floating"
 """The mark on a link of SDF that a floating joint of URDF leaves free, with what else the joint says."""
-_OF_FIXED = frozenset({"axis", "limit", "dynamics", "mimic"})
-_BESIDE_AXIS = frozenset({"limit", "dynamics", "mimic"})
+_BESIDE_AXIS = OF_AN_AXIS - {"axis"}
 Made = TypeVar("Made", Link, Joint)
 
 
@@ -118,7 +117,7 @@ class UrdfJoints(ModelPass):
     def _without_axis(self, joint: Joint, notes: Notes) -> Joint:
         if joint.axis is None:
             return joint
-        rest = [child for child in to_element(joint, "joint", "urdf").children if child.name in _OF_FIXED]
+        rest = [child for child in to_element(joint, "joint", "urdf").children if child.name in OF_AN_AXIS]
         kept = joint.model_copy(update={"axis": None})
         message = f"the {joint.type} joint {joint.name!r} has no axis"
         return self._keep(kept, [Opaque(element=child) for child in rest], message, notes)
@@ -130,7 +129,7 @@ class UrdfJoints(ModelPass):
         if limit is not axis.limit:
             update["limit"] = limit
         if axis.xyz is None:
-            update["xyz"] = _X
+            update["xyz"] = AXIS[Format.URDF]
         if joint.type == "continuous":
             joint = joint.model_copy(update={"type": "revolute"})
         if not update:
@@ -158,10 +157,7 @@ def _limit(joint: Joint, limit: Limit | None) -> tuple[Limit | None, list[Opaque
         return None, []
     unsaid = (*_HIGHER, "lower", "upper") if joint.type == "continuous" else _HIGHER
     limit, rest = _without(limit, unsaid)
-    missing = [name for name in ("lower", "upper") if getattr(limit, name) is None]
-    if joint.type == "continuous" or not missing:
-        return limit, rest
-    return limit.model_copy(update=dict.fromkeys(missing, 0.0)), rest
+    return limit if joint.type == "continuous" else with_range(limit, Format.URDF), rest
 
 
 def _is_free(joint: Joint, model: Model) -> bool:

@@ -6,9 +6,9 @@ from typing import ClassVar
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Inertial, Link, Model, Opaque
+from twinform.ir import Format, Inertial, Link, Model, Opaque
 from twinform.ir.frames import FrameError, FrameGraph
-from twinform.ir.solids import Solid, placed
+from twinform.ir.solids import Solid, placed, written_solid
 from twinform.ir.transform import Transform
 from twinform.passes.assets import AssetPass
 from twinform.passes.legalise.automatic_inertias import COMPUTED_MASS, NoInertiaError, automatic
@@ -82,12 +82,9 @@ def _unpacked(inertial: Inertial) -> Inertial:
 
 def _is_the_same(found: Solid, inertial: Inertial) -> bool:
     """Whether an inertial says the same mass, centre and inertia, whichever way its axes are turned."""
-    written = inertial.inertia
-    if inertial.mass is None or written is None:
+    if inertial.mass is None or inertial.inertia is None:
         return False
-    moments = (written.ixx, written.iyy, written.izz, written.ixy, written.ixz, written.iyz)
-    xx, yy, zz, xy, xz, yz = (0.0 if moment is None else moment for moment in moments)
-    said = placed(Solid(inertial.mass, (0.0, 0.0, 0.0), (xx, yy, zz, xy, xz, yz)), Transform.from_pose(inertial.pose))
+    said = placed(written_solid(inertial, Format.URDF), Transform.from_pose(inertial.pose))
     return (
         math.isclose(found.mass, said.mass, rel_tol=_CLOSE)
         and _are_close(found.centre, said.centre, max(1.0, *map(abs, found.centre)))

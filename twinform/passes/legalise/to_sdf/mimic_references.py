@@ -3,6 +3,7 @@
 import math
 
 from twinform.ir import Axis, Joint
+from twinform.ir.defaults import multiplier
 from twinform.passes.legalise.marks import find_mark, without_mark
 from twinform.passes.legalise.to_urdf.map_joints import MIMIC
 
@@ -19,7 +20,7 @@ def with_reference(joint: Joint) -> Joint | None:
     reference = _number(found.get("reference"))
     if axis is None or axis.mimic is None or reference is None:
         return None
-    factor = 1.0 if axis.mimic.multiplier is None else axis.mimic.multiplier
+    factor = multiplier(axis.mimic)
     offset = (axis.mimic.offset or 0.0) + factor * reference if reference else axis.mimic.offset
     mimic = axis.mimic.model_copy(update={"reference": reference, "offset": offset or None})
     made: Axis = axis.model_copy(update={"mimic": mimic})

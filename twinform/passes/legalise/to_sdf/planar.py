@@ -3,11 +3,10 @@
 import math
 from typing import NamedTuple
 
-from twinform.ir import Axis, Joint, Link, Pose
+from twinform.ir import Axis, Format, Joint, Link, Pose
+from twinform.ir.defaults import direction
 from twinform.ir.node import Vector3
 from twinform.passes.legalise.token_mass import TOKEN
-
-_X = (1.0, 0.0, 0.0)
 
 
 class Chain(NamedTuple):
@@ -23,7 +22,7 @@ def planar_chain(joint: Joint, names: tuple[str, str, str, str]) -> Chain:
     All three axes are in the joint's frame, whose x and y span the plane where its normal is z. The links between have
     a token of mass, so that engines move them and the robot weighs what it weighed.
     """
-    normal = (joint.axis.xyz if joint.axis else None) or _X
+    normal = direction(joint.axis, Format.URDF)
     along, across = _plane(normal)
     first, first_link, second, second_link = names
     source = joint.source

@@ -6,9 +6,21 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Axis, Element, Format, Frame, Joint, Link, Model, Node, Pose, holds_opaque, rewrite
+from twinform.ir import (
+    Axis,
+    Element,
+    Format,
+    Frame,
+    Joint,
+    Link,
+    Model,
+    Node,
+    Pose,
+    holds_opaque,
+    rewrite,
+)
+from twinform.ir.defaults import direction
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph, Kind
-from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform, rounded
 from twinform.passes.legalise.element_poses import ElementPoses
 from twinform.passes.legalise.joint_ends import ENDS
@@ -26,7 +38,6 @@ _AXES = ("axis", "axis2")
 _BASE = "\0"
 """Behind the name of a link it calls the frame that the link had in SDF; alone, the frame that the model had."""
 SCOPE = "::"
-_Z: Vector3 = (0.0, 0.0, 1.0)
 
 
 class RestoreFrames(ModelPass):
@@ -227,7 +238,7 @@ class _Restoring:
             return axis
         turn = graph.pose(joint.name, base, kind="joint", base=kind)
         frame = {OLD_WORD: True} if old and self.old_words else {"expressed_in": name}
-        return axis.model_copy(update={"xyz": rounded(turn.rotate(axis.xyz or _Z)), **frame})
+        return axis.model_copy(update={"xyz": rounded(turn.rotate(direction(axis, Format.SDF))), **frame})
 
     def _frame(self, frame: Frame, graph: FrameGraph) -> Frame:
         if find_mark(frame, NESTED) is None:

@@ -5,11 +5,12 @@ from typing import ClassVar
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Axis, Format, Joint, Limit, Model
+from twinform.ir.defaults import UNLIMITED
 from twinform.passes.legalise.marks import MADE, find_mark, without_mark
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.provenance import came_from
 from twinform.passes.legalise.to_sdf.mimic_references import with_reference
-from twinform.passes.legalise.to_urdf.map_joints import CONTINUOUS, MIMIC, UNBOUNDED
+from twinform.passes.legalise.to_urdf.map_joints import CONTINUOUS, MIMIC
 
 _AXES = ("axis", "axis2")
 _NUMBERS = ("lower", "upper", "effort", "velocity")
@@ -43,7 +44,7 @@ def _restored(joint: Joint, notes: Notes) -> Joint:
 
 def _without_infinities(axis: Axis) -> Axis:
     limit = axis.limit or Limit()
-    update = {name: None for name in _NUMBERS if _sign(name) * (getattr(limit, name) or 0.0) >= UNBOUNDED}
+    update = {name: None for name in _NUMBERS if _sign(name) * (getattr(limit, name) or 0.0) >= UNLIMITED}
     bare = limit.model_copy(update=update) if update else limit
     return axis.model_copy(update={"limit": None if bare == Limit() else bare})
 

@@ -11,7 +11,7 @@ from twinform.passes.legalise.to_urdf.compute_inertias import ComputeInertias
 from twinform.passes.legalise.to_urdf.express_axes import ExpressAxes
 from twinform.passes.legalise.to_urdf.extend_gazebo import ExtendGazebo
 from twinform.passes.legalise.to_urdf.fill_inertials import FillInertials
-from twinform.passes.legalise.to_urdf.flatten_models import FlattenModels
+from twinform.passes.legalise.to_urdf.flatten_for_urdf import FlattenForUrdf
 from twinform.passes.legalise.to_urdf.fold_planar_joints import FoldPlanarJoints
 from twinform.passes.legalise.to_urdf.map_geometry import MapGeometry, UrdfVersion
 from twinform.passes.legalise.to_urdf.map_joints import MapJoints
@@ -52,7 +52,7 @@ def to_urdf(
         SelectModel(model=model),
         UpgradeSdf(carriers=carriers, mixed=mixed_source),
         GatherImuNoise(version=table("sdf").versions[-1], marked=True),
-        FlattenModels(carriers=carriers),
+        FlattenForUrdf(carriers=carriers),
         FoldPlanarJoints(carriers=carriers),
         ComputeInertias(carriers=carriers),
         FillInertials(carriers=carriers),

@@ -4,7 +4,8 @@ from typing import ClassVar
 
 from twinform.diagnostics.rules import model as model_rules
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Axis, Joint, Model
+from twinform.ir import Axis, Format, Joint, Model
+from twinform.ir.defaults import AXIS, direction, filled
 from twinform.ir.frames import MODEL, FrameGraph
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
@@ -16,8 +17,6 @@ _AXES = {
 """The axes that mean something, by the type of the joint."""
 OLD_WORD = "use_parent_model_frame"
 """What the mark on an axis says where the file called the model's frame so, and has newer words elsewhere."""
-_DEFAULT = (0.0, 0.0, 1.0)
-"""SDF's axis where none is written; URDF's is 1 0 0."""
 
 
 class ExpressAxes(ToUrdfPass):
@@ -51,10 +50,10 @@ def _express(joint: Joint, field: str, graph: FrameGraph, keeper: Keeper) -> Joi
         message = f"the {field} of joint {joint.name!r} has length zero"
         keeper.notes.report(model_rules.ZERO_AXIS, message, axis.location, found="0 0 0")
     if not axis.expressed_in:
-        made = axis if axis.xyz is not None else axis.model_copy(update={"xyz": _DEFAULT})
+        made = filled(axis, {"xyz": AXIS[Format.SDF]})
         return joint if made is axis else joint.model_copy(update={field: made})
     turn = graph.pose(axis.expressed_in, joint.name, kind="frame", base="joint")
-    x, y, z = turn.rotate(axis.xyz or _DEFAULT)
+    x, y, z = turn.rotate(direction(axis, Format.SDF))
     xyz = (x + 0.0, y + 0.0, z + 0.0)
     made = axis.model_copy(update={"xyz": xyz, "expressed_in": None, OLD_WORD: None})
     turned = joint.model_copy(update={field: made})

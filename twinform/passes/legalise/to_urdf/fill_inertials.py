@@ -2,14 +2,13 @@
 
 from typing import ClassVar
 
-from twinform.ir import Inertia, Inertial, Link, Model, replace_fields
+from twinform.ir import Inertia, Link, Model, replace_fields
+from twinform.ir.defaults import INERTIAL, filled
+from twinform.ir.solids import ELEMENTS
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 
-_UNIT = {"ixx": 1.0, "ixy": 0.0, "ixz": 0.0, "iyy": 1.0, "iyz": 0.0, "izz": 1.0}
-"""SDF's defaults, kg m^2."""
-_MASS = 1.0
-"""SDF's default, kg."""
+_ELEMENTS = {name: getattr(INERTIAL.inertia, name) for name in ELEMENTS}
 
 
 class FillInertials(ToUrdfPass):
@@ -29,18 +28,7 @@ class FillInertials(ToUrdfPass):
 
 def _fill_link(link: Link) -> Link:
     if link.inertial is None:
-        made = Inertial(mass=_MASS, inertia=Inertia().model_copy(update=_UNIT))
-        return link.model_copy(update={"inertial": made})
-    inertial = _fill(link.inertial)
+        return link.model_copy(update={"inertial": INERTIAL})
+    inertia = filled(link.inertial.inertia or Inertia(), _ELEMENTS)
+    inertial = replace_fields(filled(link.inertial, {"mass": INERTIAL.mass}), inertia=inertia)
     return replace_fields(link, inertial=inertial)
-
-
-def _fill(inertial: Inertial) -> Inertial:
-    inertia = inertial.inertia or Inertia()
-    missing = {name: value for name, value in _UNIT.items() if getattr(inertia, name) is None}
-    if not missing and inertial.mass is not None:
-        return inertial
-    update: dict[str, object] = {"inertia": inertia.model_copy(update=missing)}
-    if inertial.mass is None:
-        update["mass"] = _MASS
-    return inertial.model_copy(update=update)

@@ -3,13 +3,11 @@
 import math
 from typing import NamedTuple
 
-from twinform.ir import Axis, Dynamics, Joint, JointType, Limit, Mimic
-from twinform.ir.node import Vector3
+from twinform.ir import Axis, Dynamics, Format, Joint, JointType, Limit, Mimic
+from twinform.ir.defaults import AXIS, UNLIMITED
 from twinform.passes.legalise.joint_chains import BALL_AXES, metres_per_radian
 
-_Z: Vector3 = (0.0, 0.0, 1.0)
-_UNBOUNDED = 1e16
-"""What stands for infinity in URDF, as it does in SDF before 1.10."""
+_Z = Axis(xyz=AXIS[Format.SDF])
 
 
 class Step(NamedTuple):
@@ -24,7 +22,7 @@ def two_axes(joint: Joint) -> tuple[Step, ...]:
 
     A turn about an axis leaves the axis where it is, so `axis2` has one direction in the link between and in the child.
     """
-    return (Step("revolute", joint.axis or Axis(xyz=_Z)), Step("revolute", joint.axis2 or Axis(xyz=_Z)))
+    return (Step("revolute", joint.axis or _Z), Step("revolute", joint.axis2 or _Z))
 
 
 def ball(joint: Joint) -> tuple[Step, ...]:
@@ -42,7 +40,7 @@ def ball(joint: Joint) -> tuple[Step, ...]:
 
 def screw(joint: Joint) -> tuple[Step, ...]:
     """A screw joint: it slides along its axis by `metres_per_radian` times the angle that it turns about it."""
-    axis = joint.axis or Axis(xyz=_Z)
+    axis = joint.axis or _Z
     ratio = metres_per_radian(joint) or 0.0
     slide = Axis(xyz=axis.xyz, limit=_slide_limit(axis.limit, ratio), mimic=Mimic(joint=joint.name, multiplier=ratio))
     return (Step("prismatic", slide), Step("revolute", axis))
@@ -51,12 +49,12 @@ def screw(joint: Joint) -> tuple[Step, ...]:
 def _slide_limit(limit: Limit | None, ratio: float) -> Limit:
     """Limits that the turn keeps already: its own, times the ratio."""
     said = limit or Limit()
-    ends = sorted((_scaled(said.lower, -_UNBOUNDED, ratio), _scaled(said.upper, _UNBOUNDED, ratio)))
-    speed = said.velocity if said.velocity is not None and said.velocity >= 0 else _UNBOUNDED
-    return Limit(lower=ends[0], upper=ends[1], effort=_UNBOUNDED, velocity=min(_UNBOUNDED, speed * abs(ratio)))
+    ends = sorted((_scaled(said.lower, -UNLIMITED, ratio), _scaled(said.upper, UNLIMITED, ratio)))
+    speed = said.velocity if said.velocity is not None and said.velocity >= 0 else UNLIMITED
+    return Limit(lower=ends[0], upper=ends[1], effort=UNLIMITED, velocity=min(UNLIMITED, speed * abs(ratio)))
 
 
 def _scaled(value: float | None, unbounded: float, ratio: float) -> float:
-    if value is None or not abs(value) < _UNBOUNDED:
-        return math.copysign(_UNBOUNDED, unbounded * ratio)
+    if value is None or not abs(value) < UNLIMITED:
+        return math.copysign(UNLIMITED, unbounded * ratio)
     return value * ratio + 0.0

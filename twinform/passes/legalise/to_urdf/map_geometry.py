@@ -17,6 +17,7 @@ from twinform.ir import (
     Visual,
     count_parts,
 )
+from twinform.ir.defaults import SIZES, filled
 from twinform.passes.legalise.nodes import piece
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
@@ -27,14 +28,8 @@ UrdfVersion = Literal["1.0", "1.1", "1.2"]
 Sayable = frozenset[type[Node]]
 AnyShaped = TypeVar("AnyShaped", Visual, Collision)
 
-_DEFAULTS: dict[type[Node], dict[str, object]] = {
-    Box: {"size": (1.0, 1.0, 1.0)},
-    Cylinder: {"radius": 1.0, "length": 1.0},
-    Sphere: {"radius": 1.0},
-    Capsule: {"radius": 0.5, "length": 1.0},
-    Mesh: {},
-}
-"""The shapes of URDF, with SDF's defaults in metres for what URDF requires."""
+_SHAPES: Sayable = frozenset({Box, Cylinder, Sphere, Capsule, Mesh})
+"""The shapes of URDF, which requires their sizes."""
 _UNSAYABLE = {
     "ellipsoid": "is an ellipsoid, which URDF does not have",
     "empty": "has an empty shape, which URDF does not have",
@@ -58,7 +53,7 @@ class MapGeometry(ToUrdfPass):
 
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model with shapes of URDF alone."""
-        sayable = frozenset(_DEFAULTS) - ({Capsule} if self.urdf_version == "1.0" else set())
+        sayable = _SHAPES - ({Capsule} if self.urdf_version == "1.0" else set())
         return model.model_copy(update={"links": tuple(_map_link(link, sayable, keeper) for link in model.links)})
 
 
@@ -104,6 +99,5 @@ def _map_shape(one: AnyShaped, keeper: Keeper) -> AnyShaped:
         one, uri = urdf_uri(one, MESH_SCHEME, shape.uri or "", keeper)
         made: Node = shape.model_copy(update={"uri": uri})
     else:
-        missing = {name: value for name, value in _DEFAULTS[type(shape)].items() if getattr(shape, name) is None}
-        made = shape.model_copy(update=missing)
+        made = filled(shape, SIZES.get(type(shape), {}))
     return one.model_copy(update={"geometry": geometry.model_copy(update={"shape": made})})

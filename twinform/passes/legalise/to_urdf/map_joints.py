@@ -8,6 +8,7 @@ from twinform.diagnostics import Fate
 from twinform.diagnostics.rules import to_sdf as shared_rules
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Axis, Joint, Limit, Mimic, Model, Node
+from twinform.ir.defaults import UNLIMITED, multiplier
 from twinform.passes.legalise.nodes import text_piece
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
@@ -28,8 +29,6 @@ _TYPES = frozenset({"fixed", "revolute", "continuous", "prismatic", "floating", 
 _FORCES = ("effort", "velocity")
 _NEEDS_STRENGTH = frozenset({"1.0", "1.1"})
 """The versions of URDF in which a limit says effort and velocity."""
-UNBOUNDED = 1e16
-"""What stands for infinity, as it does in SDF before 1.10: rad, m, N m, N, rad/s or m/s."""
 
 
 class MapJoints(ToUrdfPass):
@@ -46,7 +45,7 @@ class MapJoints(ToUrdfPass):
 
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model with joints of URDF."""
-        strength = UNBOUNDED if self.urdf_version in _NEEDS_STRENGTH else None
+        strength = UNLIMITED if self.urdf_version in _NEEDS_STRENGTH else None
         return model.model_copy(update={"joints": tuple(_map(joint, strength, keeper) for joint in model.joints)})
 
 
@@ -73,7 +72,7 @@ def _map(joint: Joint, strength: float | None, keeper: Keeper) -> Joint:
         joint, limit = _continuous(joint.model_copy(update={"type": "continuous"}), limit, strength, keeper)
     else:
         limit = _fill(
-            joint, limit, {"lower": -UNBOUNDED, "upper": UNBOUNDED, **dict.fromkeys(_FORCES, strength)}, keeper
+            joint, limit, {"lower": -UNLIMITED, "upper": UNLIMITED, **dict.fromkeys(_FORCES, strength)}, keeper
         )
     made = None if limit == Limit() else limit
     return joint.model_copy(update={"axis": axis.model_copy(update={"limit": made})})
@@ -84,7 +83,7 @@ def _is_endless(limit: Limit) -> bool:
 
 
 def _is_bound(value: float | None) -> bool:
-    return value is not None and abs(value) < UNBOUNDED  # which nan is not either
+    return value is not None and abs(value) < UNLIMITED  # which nan is not either
 
 
 def _is_strength(value: float | None) -> bool:
@@ -135,7 +134,7 @@ def _map_mimic(joint: Joint, axis: Axis, keeper: Keeper) -> Joint:
     mimic = axis.mimic
     if mimic is None or mimic.reference is None:
         return joint
-    factor = 1.0 if mimic.multiplier is None else mimic.multiplier
+    factor = multiplier(mimic)
     offset = (mimic.offset or 0.0) - factor * mimic.reference if mimic.reference else mimic.offset
     made: Mimic = mimic.model_copy(update={"reference": None, "offset": offset})
     joint = joint.model_copy(update={"axis": axis.model_copy(update={"mimic": made})})

@@ -17,7 +17,7 @@ from twinform.passes.legalise.to_urdf.keeper import Keeper
 _SCOPE = "::"
 
 
-class FlattenModels(ToUrdfPass):
+class FlattenForUrdf(ToUrdfPass):
     """Bring the links, joints and frames of nested models up into the model.
 
     Changes: 1. they are called `inner__name`, and what names them does so too, also where a file before 1.8 calls its
@@ -27,7 +27,7 @@ class FlattenModels(ToUrdfPass):
     Diagnostics: `include-not-expanded` for includes in any of the models; in the ledger `nested-model`.
     """
 
-    name: ClassVar[str] = "flatten-models"
+    name: ClassVar[str] = "flatten-for-urdf"
 
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model without models in it."""
