@@ -10,15 +10,17 @@ from typing import Literal
 
 import twinform
 from reports.edits import passes as edit_passes
+from reports.harness import files
+from reports.harness.files import kept
 from tests.corpus.examine import rules_of
-from tests.corpus.files import CORPUS, ROOT, CorpusFile, Kind, corpus_files
+from tests.corpus.files import CORPUS, CorpusFile, Kind, models
 from tests.corpus.there_and_back import robots
 from twinform.testing.edits import Edit, apply_all, draw_edits
 from twinform.testing.edits.judging import Converted, Outcome, Verdict, judge, judge_edits, unedited
 from twinform.testing.edits.mistakes import KIND as MISTAKE
 from twinform.testing.edits.plainly import Plainly
 
-OUT = ROOT / "out" / "edits"
+OUT = files.OUT / "edits"
 MOST_BYTES = 400_000
 """Converted files that are larger are not edited: it would take longer than all others together."""
 SEVERAL = "two or three of these"
@@ -100,9 +102,7 @@ class _Model:
 
 def corpus_jobs(seed: int, edits: dict[bool, int]) -> Iterator[Job]:
     """A job for each model file of the corpus; `edits` is how many for URDF, and for SDF."""
-    for file in corpus_files():
-        if file.kind in {Kind.URDF, Kind.SDF}:
-            yield corpus_job(file, seed, edits[file.kind is Kind.URDF])
+    return (corpus_job(file, seed, edits[file.kind is Kind.URDF]) for file in models())
 
 
 def corpus_job(file: CorpusFile, seed: int, edits: int) -> Job:
@@ -202,16 +202,14 @@ def _passed(model: _Model, name: str, pipeline: str) -> tuple[bytes, Tried]:
     try:
         made = twinform.convert(model.before.text, to=same, passes=pipeline)
     except twinform.CompileError as error:
-        return b"", Tried(
-            model.name, model.way, kind, Verdict(Outcome.REFUSED, (), rules_of(error.diagnostics)), replay
-        )
+        refused = Verdict(Outcome.REFUSED, (), rules_of(error.diagnostics))
+        return b"", Tried(model.name, model.way, kind, refused, replay)
     except Exception as error:  # noqa: BLE001 - every other exception is a fault to report
         verdict = Verdict(Outcome.SILENT, (f"crash of the pass: {type(error).__name__}: {error}",))
         return b"", Tried(model.name, model.way, kind, verdict, replay)
     text = made.text.encode()
-    return text, Tried(
-        model.name, model.way, kind, judge(model.before, text, plainly=_PLAINLY.get(name, Plainly.SKELETON)), replay
-    )
+    verdict = judge(model.before, text, plainly=_PLAINLY.get(name, Plainly.SKELETON))
+    return text, Tried(model.name, model.way, kind, verdict, replay)
 
 
 def _kept(model: _Model, text: bytes, tried: Tried, random: Random) -> Tried:
@@ -230,14 +228,12 @@ def _kept(model: _Model, text: bytes, tried: Tried, random: Random) -> Tried:
 
 def _written(model: _Model, text: bytes, tried: Tried, where: str) -> Path:
     place = OUT / where / hashlib.sha256(tried.replay.encode()).hexdigest()[:12]
-    place.mkdir(parents=True, exist_ok=True)
     edited, result = (".sdf", ".urdf") if model.job.is_urdf else (".urdf", ".sdf")
-    (place / f"before{edited}").write_bytes(model.before.text)
-    (place / f"home{result}").write_text(model.before.result, encoding="utf-8")
-    (place / f"edited{edited}").write_bytes(text)
-    (place / f"result{result}").write_text(tried.verdict.result or "", encoding="utf-8")
-    report = "\n".join((tried.replay, *tried.verdict.differences, *tried.verdict.rules))
-    (place / "report.txt").write_text(report + "\n", encoding="utf-8")
+    kept(place / f"before{edited}", model.before.text.decode())
+    kept(place / f"home{result}", model.before.result)
+    kept(place / f"edited{edited}", text.decode())
+    kept(place / f"result{result}", tried.verdict.result or "")
+    kept(place / "report.txt", "\n".join((tried.replay, *tried.verdict.differences, *tried.verdict.rules, "")))
     return place
 
 
@@ -247,7 +243,7 @@ def job_named(name: str) -> Job:
     Raises:
         LookupError: there is none.
     """
-    for file in corpus_files():
+    for file in models():
         if file.name == name:
             return corpus_job(file, 0, 0)
     path = OUT / name if (OUT / name).is_file() else Path(name)

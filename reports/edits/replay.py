@@ -1,4 +1,4 @@
-"""One edit again, with a line of the page: `python -m reports.edits.replay LINE`; its files are in `out/edits/replay`."""
+"""One edit again, with a line of the page: `python -m reports.edits.replay LINE`; files are in `out/edits/replay`."""
 
 import json
 import sys

@@ -8,39 +8,23 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from twinform.testing.oracles.child import ChildDiedError, call
+from twinform.testing.workers import Failure, run
 
 Words = tuple[str, ...]
 """What an engine complains of; nothing where it loads the file and is content."""
 
-_SECONDS = 120.0
-_PORTION = 25
-_DIED = "it ends the process"
-
 
 def complaints(engine: str, texts: Sequence[bytes]) -> list[Words]:
     """What an engine says of each text. It works in processes of its own, which may die."""
-    found: list[Words] = []
-    for start in range(0, len(texts), _PORTION):
-        found += _portion(engine, tuple(texts[start : start + _PORTION]))
-    return found
+    jobs = [(engine, number, text) for number, text in enumerate(texts)]
+    found = {job: ("it ends the process",) if isinstance(said, Failure) else said for job, said in run(_load, jobs)}
+    return [found[job] for job in jobs]
 
 
-def _portion(engine: str, texts: tuple[bytes, ...]) -> list[Words]:
-    """Halve what kills the process, until it is alone."""
-    try:
-        return call(_all, engine, texts, seconds=_SECONDS)
-    except ChildDiedError:
-        if len(texts) == 1:
-            return [(_DIED,)]
-    middle = len(texts) // 2
-    return [*_portion(engine, texts[:middle]), *_portion(engine, texts[middle:])]
-
-
-def _all(engine: str, texts: tuple[bytes, ...]) -> list[Words]:
-    load = _LOADERS[engine]
+def _load(job: tuple[str, int, bytes]) -> Words:
+    engine, _, text = job
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):  # MuJoCo writes a log where it stands
-        return [load(text, Path(folder)) for text in texts]
+        return _LOADERS[engine](text, Path(folder))
 
 
 def _mujoco(text: bytes, _folder: Path) -> Words:

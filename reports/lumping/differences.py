@@ -4,15 +4,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
 from twinform.testing.oracles.libsdformat.library import JointRow, LinkRow, RobotRow, ShapeRow
+from twinform.testing.oracles.libsdformat.robot import pose_matrix
+from twinform.testing.oracles.robot import Matrix
 
 TOLERANCE = 1e-9
 _CONTINUOUS, _REVOLUTE = 2, 6
 """The numbers that libsdformat has for these kinds of joints."""
 _UNLIMITED = 1e16
-Matrix = npt.NDArray[np.float64]
 
 
 class Difference(NamedTuple):
@@ -52,7 +52,7 @@ def link_of(difference: Difference) -> str:
 
 def differences(theirs: RobotRow, ours: RobotRow) -> list[Difference]:
     """All of them, links first; numbers are the same up to 1e-9 of one, or of the larger number."""
-    links = _by_name(theirs["links"]), _by_name(ours["links"])
+    links = {row["name"]: row for row in theirs["links"]}, {row["name"]: row for row in ours["links"]}
     joints = {row["name"]: row for row in theirs["joints"]}, {row["name"]: row for row in ours["joints"]}
     found = [*_only("link", links[0], links[1]), *_only("joint", joints[0], joints[1])]
     for name in links[0].keys() & links[1].keys():
@@ -60,10 +60,6 @@ def differences(theirs: RobotRow, ours: RobotRow) -> list[Difference]:
     for name in joints[0].keys() & joints[1].keys():
         found += _joint(name, joints[0][name], joints[1][name])
     return sorted(found)
-
-
-def _by_name(rows: Sequence[LinkRow]) -> dict[str, LinkRow]:
-    return {row["name"]: row for row in rows}
 
 
 def _only(kind: str, theirs: Mapping[str, object], ours: Mapping[str, object]) -> Iterator[Difference]:
@@ -136,20 +132,15 @@ def _words(values: Matrix) -> str:
     return " ".join(f"{value:.10g}" for value in values.ravel())
 
 
-def _pose(numbers: Sequence[float]) -> Matrix:
+def _pose(numbers: list[float]) -> Matrix:
     """A position and a rotation matrix in one row: the two quaternions of a rotation are the same."""
-    return np.concatenate([np.array(numbers[:3]), _rotation(numbers).ravel()])
-
-
-def _rotation(numbers: Sequence[float]) -> Matrix:
-    w, x, y, z = numbers[3:]
-    skew = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.eye(3) + 2 * w * skew + 2 * skew @ skew
+    matrix = pose_matrix(numbers)
+    return np.concatenate([matrix[:3, 3], matrix[:3, :3].ravel()])
 
 
 def _tensor(row: LinkRow) -> Matrix:
     """The inertia about the centre of mass along the axes of the link, kg m^2."""
     xx, yy, zz, xy, xz, yz = row["moments"]
     inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    turn = _rotation(row["centre"])
+    turn = pose_matrix(row["centre"])[:3, :3]
     return turn @ inertia @ turn.T

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 
 from reports.mapping.measure import EXPRESSED, Seen
-from reports.mapping.notes import goes
+from reports.mapping.notes import told
 from reports.mapping.rows import Row
 from reports.mapping.targets import field_of, targets
 from twinform.diagnostics import Fate, Severity
@@ -53,7 +53,7 @@ def where(row: Row, seen: Seen) -> tuple[str, str]:
     """The field of the IR, and what says it in the other format."""
     field = field_of(row) or ("kept as it is" if row.fact.place is None else "(its rows)")
     other = "sdf" if row.format == "urdf" else "urdf"
-    if (said := goes(row)) is not None:
+    if (said := told(row.format).get(row.path)) is not None:
         return field, said
     if found := targets(row):
         return field, ", ".join(f"[`{path}`](#{other}-{path.partition('/')[0]})" for path in found)

@@ -4,10 +4,9 @@ import tomllib
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import Any
 
-from reports.mapping.rows import FormatName, Row
-
-_FILE = Path(__file__).with_name("notes.toml")
+from reports.mapping.rows import FormatName
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,18 +29,15 @@ class Note:
         return [f"{each.partition(':')[0].upper()} {each.partition(':')[2]}" for each in self.about]
 
 
-@dataclass(frozen=True, slots=True)
-class Notes:
-    """The file."""
-
-    notes: tuple[Note, ...]
-    goes: dict[str, dict[str, str]]
+@cache
+def _tables() -> dict[str, Any]:
+    return tomllib.loads(Path(__file__).with_name("notes.toml").read_text(encoding="utf-8"))
 
 
 @cache
-def _read() -> Notes:
-    said = tomllib.loads(_FILE.read_text(encoding="utf-8"))
-    return Notes(tuple(map(_note, said["note"])), said["goes"])
+def notes() -> tuple[Note, ...]:
+    """All notes, in the order of the file."""
+    return tuple(map(_note, _tables()["note"]))
 
 
 def _note(row: dict[str, str | list[str]]) -> Note:
@@ -49,16 +45,6 @@ def _note(row: dict[str, str | list[str]]) -> Note:
     return Note(about, " ".join(str(row["text"]).split()), rules, cases)
 
 
-def notes() -> tuple[Note, ...]:
-    """All notes, in the order of the file."""
-    return _read().notes
-
-
-def goes(row: Row) -> str | None:
-    """Where a row goes that fills no field which both formats have; None where the tables say it."""
-    return _read().goes[row.format].get(row.path)
-
-
 def told(format: FormatName) -> dict[str, str]:
-    """The same for all rows that the file knows."""
-    return _read().goes[format]
+    """Where rows go that fill no field which both formats have, by path; the tables say it of all others."""
+    return _tables()["goes"][format]

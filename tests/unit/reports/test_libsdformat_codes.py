@@ -3,7 +3,7 @@
 import pytest
 
 from reports.harness.sample import Sample
-from reports.libsdformat_codes import CODES, REPORT, UNSEEN, Row, announced, measure
+from reports.libsdformat_codes.report import CODES, REPORT, UNSEEN, Row, announced, measure
 from twinform.diagnostics import catalogue
 
 WITHOUT_CASE = {"unreadable-file"}

@@ -1,4 +1,4 @@
-"""The readers of C++ behind the report on systems: the patterns that systems read elements with, on snippets of our own."""
+"""The readers of C++ behind the report on systems: the patterns that they read elements with, on our own snippets."""
 
 from pathlib import Path
 
