@@ -3,7 +3,7 @@
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 
 import twinform
@@ -11,7 +11,7 @@ from reports.classic import transmissions
 from reports.classic.blocks import Block, blocks
 from reports.classic.judging import MIGRATED, Judged, judged
 from reports.harness.known import Known
-from reports.harness.pages import listing, section, table
+from reports.harness.pages import frequent, listing, section, table
 from reports.harness.report import Findings, Report
 from reports.harness.sample import Sample
 from tests.corpus.examine import rules_of
@@ -58,18 +58,18 @@ _ENDS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Outcome:
     """What became of the blocks of a file: how often each end and reason, by the file of the plugin."""
 
     name: str
-    whole: bool
-    ends: Counter[tuple[str, End]]
-    reasons: Counter[tuple[str, str]]
-    lost: Counter[tuple[str, str]]
-    checks: tuple[str, ...] = ()
-    unaccounted: int = 0
+    whole: bool = False
     refused: str = ""
+    ends: Counter[tuple[str, End]] = field(default_factory=Counter[tuple[str, End]])
+    reasons: Counter[tuple[str, str]] = field(default_factory=Counter[tuple[str, str]])
+    lost: Counter[tuple[str, str]] = field(default_factory=Counter[tuple[str, str]])
+    checks: list[str] = field(default_factory=list[str])
+    unaccounted: int = 0
 
 
 def measure(sample: Sample) -> Findings:
@@ -102,57 +102,52 @@ def judge(file: CorpusFile) -> Outcome | None:
         return _one_by_one(file, found, "a part of xacro")
     checked = twinform.check(file.path)
     if checked.document is None or not checked.accepted:
-        errors = [each for each in checked.diagnostics if each.is_error]
-        return _one_by_one(file, found, ", ".join(rules_of(errors)))
+        return _one_by_one(file, found, ", ".join(rules_of(checked.diagnostics)))
     return _whole(file, found, str(checked.document.format))
 
 
 def _whole(file: CorpusFile, found: list[Block], language: str) -> Outcome:
-    to = "urdf" if language == "urdf" else "sdf"
-    made = twinform.convert(file.path, to=to, passes=PIPELINE)
-    outcome = _told(file.name, found, made, whole=True)
+    outcome = Outcome(file.name, whole=True)
+    made = twinform.convert(file.path, to="urdf" if language == "urdf" else "sdf", passes=PIPELINE)
+    _tell(outcome, found, made)
     # what a newer version of SDF says otherwise is nothing of this page
     plain = audit(made.source, made.text, made.ledger).unaccounted if made.source is not None else ()
     missing = [part for part in plain if "/plugin" in part.location.path or "/sensor" in part.location.path]
-    return Outcome(file.name, True, outcome.ends, outcome.reasons, outcome.lost, outcome.checks, len(missing))
+    outcome.unaccounted = len(missing)
+    return outcome
 
 
 def _one_by_one(file: CorpusFile, found: list[Block], why: str) -> Outcome:
-    ends, reasons, lost = Counter[tuple[str, End]](), Counter[tuple[str, str]](), Counter[tuple[str, str]]()
-    checks: list[str] = []
+    outcome = Outcome(file.name, refused=why)
     for block in found:
         try:
             made = twinform.convert(block.alone, to="urdf" if block.language == "urdf" else "sdf", passes=PIPELINE)
         except twinform.CompileError as error:
-            ends[block.filename, End.UNACCOUNTED] += 1
-            checks += [f"line {block.line}: {each.message}" for each in error.diagnostics if each.is_error]
-            continue
-        one = _told(file.name, [block], made, whole=False)
-        ends, reasons, lost = ends + one.ends, reasons + one.reasons, lost + one.lost
-        checks += one.checks
-    return Outcome(file.name, False, ends, reasons, lost, tuple(checks), refused=why)
+            outcome.ends[block.filename, End.UNACCOUNTED] += 1
+            outcome.checks += [f"line {block.line}: {each.message}" for each in error.diagnostics if each.is_error]
+        else:
+            _tell(outcome, [block], made)
+    return outcome
 
 
-def _told(name: str, found: list[Block], made: twinform.Conversion, *, whole: bool) -> Outcome:
-    ends, reasons, lost = Counter[tuple[str, End]](), Counter[tuple[str, str]](), Counter[tuple[str, str]]()
+def _tell(outcome: Outcome, found: list[Block], made: twinform.Conversion) -> None:
+    """Count what became of some blocks of a file."""
+    wanted, told = Counter(block.filename for block in found), Counter[str]()
     for entry in made.ledger.entries:
         subject = _SUBJECT.match(entry.message)
         if subject is not None and entry.rule in _ENDS:
-            ends[subject[1], _ENDS[entry.rule]] += 1
+            told[subject[1]] += 1
+            if subject[1] in wanted:
+                outcome.ends[subject[1], _ENDS[entry.rule]] += 1
             if entry.fate is Fate.DROPPED:
-                reasons[subject[1], entry.message.partition(": ")[2]] += 1
+                outcome.reasons[subject[1], entry.message.partition(": ")[2]] += 1
+    for filename, count in (wanted - told).items():
+        outcome.ends[filename, End.UNACCOUNTED] += count
     for each in made.diagnostics:
         if each.rule is rules.PARAMETER_WITHOUT_COUNTERPART:
-            lost[each.message.partition(">")[0] + ">", each.message.partition(" has no counterpart: ")[2]] += 1
-    wanted = Counter(block.filename for block in found)
-    told = Counter[str]()
-    for (filename, _), count in ends.items():
-        told[filename] += count
-    for filename, count in (wanted - told).items():
-        ends[filename, End.UNACCOUNTED] += count
-    ends = Counter({key: count for key, count in ends.items() if key[0] in wanted})
-    checks = tuple(f"{each.rule.name}: {each.message}" for each in made.diagnostics if _is_check(each))
-    return Outcome(name, whole, ends, reasons, lost, checks)
+            name, _, why = each.message.partition(" has no counterpart: ")
+            outcome.lost[name.partition(">")[0] + ">", why] += 1
+    outcome.checks += [f"{each.rule.name}: {each.message}" for each in made.diagnostics if _is_check(each)]
 
 
 def _is_check(diagnostic: Diagnostic) -> bool:
@@ -171,7 +166,7 @@ def _faults(outcome: Outcome) -> Iterator[str]:
 def _outcomes(sample: Sample, files: list[CorpusFile]) -> Iterable[Outcome]:
     for file, found in sample.run(judge, files, seconds=_SECONDS):
         if isinstance(found, Failure):
-            yield Outcome(file.name, False, Counter(), Counter(), Counter(), (found.cause,))
+            yield Outcome(file.name, checks=[found.cause])
         elif found is not None:
             yield found
 
@@ -189,44 +184,41 @@ def _sections(outcomes: list[Outcome], found: list[tuple[str, str, str]]) -> Ite
     rows = [(name, fault, why or "not known") for name, fault, why in found]
     checked = listing(["file", "finding", "why"], rows, empty="Nothing.")
     yield section("What `check-plugins` says of the results", checked)
-    apart = Counter(one.refused for one in outcomes if not one.whole)
-    ordered = sorted(apart.items(), key=lambda item: (-item[1], item[0]))
-    yield section("Files whose blocks were migrated one by one, and why", table(["why", "files"], ordered))
+    apart = frequent((one.refused, "") for one in outcomes if not one.whole)
+    one_by_one = table(["why", "files"], (row[:2] for row in apart))
+    yield section("Files whose blocks were migrated one by one, and why", one_by_one)
 
 
 def _by_libsdformat(read: list[Judged]) -> str:
     title = "What libsdformat 12 says of the results"
     if not read:
         return section(title, "It is not here.")
+    refused = "refused as SDF before and after, mostly for includes that are not on this machine"
     rows = [
-        ("read as SDF, source and result", sum(1 for one in read if one.before and one.after)),
-        (
-            "refused as SDF before and after, mostly for includes that are not on this machine",
-            sum(1 for one in read if not one.before and not one.after),
-        ),
-        ("read only after", sum(1 for one in read if one.after and not one.before)),
-        ("refused only after, or for another reason", sum(1 for one in read if one.new)),
+        ("read as SDF, source and result", sum(one.before and one.after for one in read)),
+        (refused, sum(not one.before and not one.after for one in read)),
+        ("read only after", sum(one.after and not one.before for one in read)),
+        ("refused only after, or for another reason", sum(bool(one.new) for one in read)),
     ]
     about = f"It reads Fortress's SDF, so these were migrated with `{MIGRATED}`."
     return section(title, about, table(["files that were converted whole", "number"], rows))
 
 
 def _totals(outcomes: list[Outcome]) -> str:
-    rows = [_row("whole", [one for one in outcomes if one.whole])]
-    rows.append(_row("one by one", [one for one in outcomes if not one.whole]))
-    rows.append(_row("all", outcomes))
+    whole, apart = ([one for one in outcomes if one.whole is kind] for kind in (True, False))
     head = ["files", "number", "blocks", *End, "accounted for", "with a finding of check-plugins"]
-    return table(head, rows)
+    return table(head, [_row("whole", whole), _row("one by one", apart), _row("all", outcomes)])
 
 
 def _row(title: str, found: list[Outcome]) -> tuple[object, ...]:
-    counts = Counter[End]()
-    for one in found:
-        for (_, end), count in one.ends.items():
-            counts[end] += count
-    total = sum(counts.values())
+    counts = sum((_by_end(one) for one in found), Counter[End]())
+    total = counts.total()
     share = f"{100 * (total - counts[End.UNACCOUNTED]) / total:.1f}%" if total else "100%"
-    return (title, len(found), total, *(counts[end] for end in End), share, sum(1 for one in found if one.checks))
+    return (title, len(found), total, *(counts[end] for end in End), share, sum(bool(one.checks) for one in found))
+
+
+def _by_end(outcome: Outcome) -> Counter[End]:
+    return Counter(end for (_, end), count in outcome.ends.items() for _ in range(count))
 
 
 def _by_plugin(outcomes: list[Outcome]) -> str:

@@ -8,7 +8,7 @@ from itertools import groupby
 from reports.corpus.astray import COLUMNS as COLUMNS_OF_ASTRAY
 from reports.corpus.astray import by_place
 from reports.harness.known import Known
-from reports.harness.pages import listing, section, table
+from reports.harness.pages import frequent, listing, section, table
 from reports.harness.report import UNEXPLAINED, Findings, Report
 from reports.harness.sample import Sample
 from tests.corpus.examine import Examined, examine
@@ -61,14 +61,10 @@ def measure(sample: Sample) -> Findings:
 
 
 def _outcomes(sample: Sample) -> Iterable[Outcome]:
-    for file, result in sample.run(_examine, sample.models()):
+    for file, result in sample.run(examine, sample.models()):
         if isinstance(result, Failure):
             result = Examined(file.name, well_formed=False, faults=(result.cause,))  # noqa: PLW2901
         yield file, result
-
-
-def _examine(file: CorpusFile) -> Examined:
-    return examine(file)
 
 
 def _macros(sample: Sample) -> Iterable[Expanded]:
@@ -171,15 +167,10 @@ def _by_repository(outcomes: list[Outcome]) -> str:
 
 
 def _by_rule(refusals: Iterable[tuple[tuple[str, ...], str]]) -> str:
-    """A file counts under each rule that stopped it, and is shown under the first."""
-    counts: Counter[str] = Counter()
-    examples: dict[str, str] = {}
-    for rules, name in refusals:
-        counts.update(rules)
-        for rule in rules:
-            examples.setdefault(rule, name)
-    ordered = sorted(counts.items(), key=lambda item: (-item[1], item[0]))
-    return listing(["rule", "files", "for example"], [(rule, count, examples[rule]) for rule, count in ordered])
+    """A file counts under each rule that stopped it."""
+    return listing(
+        ["rule", "files", "for example"], frequent((rule, name) for rules, name in refusals for rule in rules)
+    )
 
 
 def _not_converted(found: list[Examined]) -> str:

@@ -1,7 +1,11 @@
 """Markdown: tables, lists and sections of pages."""
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import TypeVar
+
+Key = TypeVar("Key", str, tuple[str, ...])
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
@@ -19,6 +23,15 @@ def listing(
     every = list(rows)
     more = f"\n{len(every) - most} more.\n" if most is not None and len(every) > most else ""
     return table(head, every[:most]) + more if every else empty
+
+
+def frequent(pairs: Iterable[tuple[Key, str]]) -> list[tuple[Key, int, str]]:
+    """How often each key is there, with the first of its examples: the most frequent keys first, then by key."""
+    counts, examples = Counter[Key](), dict[Key, str]()
+    for key, example in pairs:
+        counts[key] += 1
+        examples.setdefault(key, example)
+    return sorted(((key, count, examples[key]) for key, count in counts.items()), key=lambda row: (-row[1], row[0]))
 
 
 def section(title: str, *parts: str) -> str:

@@ -2,7 +2,7 @@
 
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -66,41 +66,31 @@ def about_inertia(words: Words) -> Words:
 
 def measure(sample: Sample) -> Findings:
     """Ask, mend, and ask again."""
-    files, texts = _files(sample)
-    before = _asked(texts)
-    found = [index for index in range(len(files)) if any(before[engine][index] for engine in ENGINES)]
-    mended = _mended([files[index] for index in found], [{e: before[e][index] for e in ENGINES} for index in found])
+    files = _files(sample)
+    before = {file: said for file, said in _asked(files).items() if any(said.values())}
+    made = {file: _mend(file) for file in before}
+    after = _asked({file: without_shapes(_output(file)) for file, (_, refused) in made.items() if not refused})
+    mended = [Mended(file.name, said, after.get(file, said), *made[file]) for file, said in before.items()]
     left = {each.name: KNOWN.why("left", each.name) for each in mended if not each.content}
     totals = _totals(len(files), mended)
     faults = [f"not explained: {name}" for name, why in left.items() if not why]
     return Findings([totals, _left(mended, left), _list(mended)], totals, faults)
 
 
-def _files(sample: Sample) -> tuple[list[CorpusFile], list[bytes]]:
-    """The URDF files that are XML, and their texts without shapes."""
-    files, texts = list[CorpusFile](), list[bytes]()
+def _files(sample: Sample) -> dict[CorpusFile, bytes]:
+    """The URDF files that are XML, with their texts without shapes."""
+    found = dict[CorpusFile, bytes]()
     for file in sample.models(Kind.URDF):
         with suppress(etree.XMLSyntaxError):
-            texts.append(without_shapes(file.path))
-            files.append(file)
-    return files, texts
-
-
-def _asked(texts: Sequence[bytes]) -> dict[str, list[Words]]:
-    return {engine: [about_inertia(words) for words in complaints(engine, texts)] for engine in ENGINES}
-
-
-def _mended(files: Sequence[CorpusFile], before: Sequence[dict[str, Words]]) -> list[Mended]:
-    made = [_mend(file) for file in files]
-    texts = [without_shapes(_output(file)) for file, (_, refused) in zip(files, made, strict=True) if not refused]
-    after = _asked(texts)
-    order = iter(range(len(texts)))
-    found: list[Mended] = []
-    for file, words, (deeds, refused) in zip(files, before, made, strict=True):
-        index = None if refused else next(order)
-        then = words if index is None else {engine: after[engine][index] for engine in ENGINES}
-        found.append(Mended(file.name, words, then, deeds, refused))
+            found[file] = without_shapes(file.path)
     return found
+
+
+def _asked(texts: Mapping[CorpusFile, bytes]) -> dict[CorpusFile, dict[str, Words]]:
+    said = {engine: complaints(engine, list(texts.values())) for engine in ENGINES}
+    return {
+        file: {engine: about_inertia(said[engine][number]) for engine in ENGINES} for number, file in enumerate(texts)
+    }
 
 
 def _output(file: CorpusFile) -> Path:

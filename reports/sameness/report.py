@@ -10,7 +10,7 @@ from typing import Literal
 
 import twinform
 from reports.harness.known import Known
-from reports.harness.pages import listing, section, table
+from reports.harness.pages import frequent, listing, section, table
 from reports.harness.report import Findings, Report
 from reports.harness.sample import Sample, is_good
 from reports.sameness.printing import available, printed
@@ -210,12 +210,8 @@ def _row(way: Way, found: list[Outcome]) -> tuple[object, ...]:
 
 
 def _by_kind(outcomes: list[Outcome]) -> str:
-    found = [one for one in outcomes if one.way is Way.LUMPED]
-    counts = Counter(kind for one in found for kind in one.kinds)
-    example = {kind: one.name for one in reversed(found) for kind in one.kinds}
-    rows = sorted(((kind, count, example[kind]) for kind, count in counts.items()), key=lambda row: (-row[1], row[0]))
-    head = ["what", "files", "for example"]
-    return listing(head, rows, empty="libsdformat 12 is not here.", most=MOST_SHOWN)
+    found = frequent((kind, one.name) for one in outcomes if one.way is Way.LUMPED for kind in one.kinds)
+    return listing(["what", "files", "for example"], found, empty="libsdformat 12 is not here.", most=MOST_SHOWN)
 
 
 REPORT = Report("sameness", "Is it still the same robot?", _ABOUT, measure, known=KNOWN)

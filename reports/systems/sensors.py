@@ -7,41 +7,31 @@ from pathlib import Path
 
 from reports.systems.cpp import source_text
 
-_FILES = {
-    "camera": ("CameraSensor",),
-    "depth_camera": ("DepthCameraSensor",),
-    "rgbd_camera": ("RgbdCameraSensor",),
-    "thermal_camera": ("ThermalCameraSensor",),
-    "segmentation_camera": ("SegmentationCameraSensor",),
-    "boundingbox_camera": ("BoundingBoxCameraSensor",),
-    "wideanglecamera": ("WideAngleCameraSensor",),
-    "gpu_lidar": ("GpuLidarSensor", "Lidar"),
-    "imu": ("ImuSensor",),
-    "navsat": ("NavSatSensor",),
-    "magnetometer": ("MagnetometerSensor",),
-    "altimeter": ("AltimeterSensor",),
-    "air_pressure": ("AirPressureSensor",),
-    "air_speed": ("AirSpeedSensor",),
-    "force_torque": ("ForceTorqueSensor",),
-    "logical_camera": ("LogicalCameraSensor",),
-    "dvl": ("DopplerVelocityLog",),
+_SOURCES = {
+    "camera": ("camera", "CameraSensor"),
+    "depth_camera": ("depthCamera", "DepthCameraSensor"),
+    "rgbd_camera": ("rgbdCamera", "RgbdCameraSensor"),
+    "thermal_camera": ("thermalCamera", "ThermalCameraSensor"),
+    "segmentation_camera": ("segmentationCamera", "SegmentationCameraSensor"),
+    "boundingbox_camera": ("boundingBoxCamera", "BoundingBoxCameraSensor"),
+    "wideanglecamera": ("wideAngleCamera", "WideAngleCameraSensor"),
+    "gpu_lidar": ("gpuLidar", "GpuLidarSensor", "Lidar"),
+    "imu": ("", "ImuSensor"),
+    "navsat": ("", "NavSatSensor"),
+    "magnetometer": ("", "MagnetometerSensor"),
+    "altimeter": ("", "AltimeterSensor"),
+    "air_pressure": ("", "AirPressureSensor"),
+    "air_speed": ("", "AirSpeedSensor"),
+    "force_torque": ("", "ForceTorqueSensor"),
+    "logical_camera": ("", "LogicalCameraSensor"),
+    "dvl": ("", "DopplerVelocityLog"),
 }
-"""The files of gz-sensors that publish for a kind of sensor."""
-COMPARED = tuple(_FILES)
+"""What the rendering of gz-sim calls the suffix of a kind of sensor (others have it in the sensor's system), and the
+files of gz-sensors that publish for it."""
+COMPARED = tuple(_SOURCES)
 """The kinds of sensors that are read."""
 _INFO = ("camera_info", "CameraInfo")
 """What every camera publishes through its base class, where it asks for that."""
-_RENDERED = {
-    "camera": "camera",
-    "depth_camera": "depthCamera",
-    "rgbd_camera": "rgbdCamera",
-    "thermal_camera": "thermalCamera",
-    "segmentation_camera": "segmentationCamera",
-    "boundingbox_camera": "boundingBoxCamera",
-    "wideanglecamera": "wideAngleCamera",
-    "gpu_lidar": "gpuLidar",
-}
-"""What the rendering of gz-sim calls the suffix of a kind of sensor; other suffixes stand in the sensor's system."""
 _SUFFIX = re.compile(r'\b(\w+)Suffix\s*\{\s*"/?(\w*)"\s*\}')
 _SENT = re.compile(r"Advertise\s*<\s*(?:\w+::)*([A-Z]\w*)\s*>")
 _FIRST_TOPIC = re.compile(r'SetTopic\s*\(\s*"[^"]*"\s*\)')
@@ -60,10 +50,10 @@ class SensorSource:
 def sensors_in(sim: Path, sensors: Path) -> Iterator[tuple[str, SensorSource]]:
     """The kinds of sensors of a checkout of gz-sensors, with the suffixes of one of gz-sim."""
     suffixes = suffixes_in(source_text(sim / "src" / "rendering" / "RenderUtil.cc"))
-    for type_, stems in _FILES.items():
+    for type_, (rendered, *stems) in _SOURCES.items():
         files = [sensors / "src" / f"{stem}.cc" for stem in stems]
         if files[0].is_file():
-            yield type_, read_sensor("\n".join(map(source_text, files)), suffixes.get(_RENDERED.get(type_, "")))
+            yield type_, read_sensor("\n".join(map(source_text, files)), suffixes.get(rendered))
 
 
 def suffixes_in(text: str) -> dict[str, str]:

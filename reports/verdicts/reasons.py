@@ -6,90 +6,63 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import NotRequired, TypedDict, cast
 
-from reports.verdicts.judging import Judge, Question, Verdict
-from tests.corpus.files import Kind
+from reports.verdicts.judging import Question, Verdict
 from twinform.diagnostics import Diagnostic
 
-_FILE = Path(__file__).with_name("known.toml")
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Row:
+    """A reason before one judge and in one language, or before all and in both."""
 
-class _Row(TypedDict):
-    judge: NotRequired[str]
-    kind: NotRequired[str]
     why: str
+    judge: str = ""
+    kind: str = ""
+
+    def holds(self, question: Question) -> bool:
+        """Whether it is about such documents and this judge."""
+        return self.judge in {"", question.judge} and self.kind in {"", question.kind}
+
+    @property
+    def scope(self) -> str:
+        """Where it holds, in words."""
+        judge = self.judge or "both"
+        return f"{judge}, {self.kind.upper()}" if self.kind and judge != "urdfdom" else judge
 
 
-class _OursRow(_Row):
-    rule: str
-    says: NotRequired[str]
-    remark: NotRequired[str]
-
-
-class _TheirsRow(_Row):
-    says: str
-    rules: NotRequired[list[str]]
-
-
-class _Tables(TypedDict):
-    consequences: list[str]
-    ours: list[_OursRow]
-    theirs: list[_TheirsRow]
-
-
-@dataclass(frozen=True, slots=True)
-class Scope:
-    """Before which judge a reason holds, and in which language; None is both."""
-
-    judge: Judge | None
-    kind: Kind | None
-
-    def __contains__(self, question: Question) -> bool:
-        return self.judge in {None, question.judge} and self.kind in {None, question.kind}
-
-    def __str__(self) -> str:
-        judge = str(self.judge or "both")
-        return f"{judge}, {self.kind.upper()}" if self.kind and self.judge is not Judge.URDFDOM else judge
-
-
-@dataclass(frozen=True, slots=True)
-class Ours:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ours(_Row):
     """Why a judge reads what a rule of ours refuses.
 
     `says` is searched in the path and the message of our finding, `remark` in what the judge writes beside.
     """
 
-    scope: Scope
     rule: str
-    says: str
-    remark: str
-    why: str
+    says: str = ""
+    remark: str = ""
 
     def explains(self, finding: Diagnostic, verdict: Verdict) -> bool:
         """Whether it is about this finding."""
         return (
-            verdict.question in self.scope
+            self.holds(verdict.question)
             and finding.rule.name == self.rule
             and bool(re.search(self.says, f"{finding.location.path} {finding.message}"))
             and (not self.remark or any(re.search(self.remark, remark) for remark in verdict.opinion.remarks))
         )
 
 
-@dataclass(frozen=True, slots=True)
-class Theirs:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Theirs(_Row):
     """Why we take what a judge refuses; one of the `rules` says something of it, if there are any."""
 
-    scope: Scope
     says: str
-    rules: tuple[str, ...]
-    why: str
+    rules: tuple[str, ...] = ()
 
     def explains(self, objection: str, verdict: Verdict) -> bool:
         """Whether it is about this objection."""
         found = {finding.rule.name for finding in verdict.findings}
         return (
-            verdict.question in self.scope
+            self.holds(verdict.question)
             and bool(re.search(self.says, objection))
             and (not self.rules or not found.isdisjoint(self.rules))
         )
@@ -128,13 +101,7 @@ class Reasons:
 @cache
 def reasons() -> Reasons:
     """The tables of the file."""
-    tables = cast("_Tables", tomllib.loads(_FILE.read_text(encoding="utf-8")))
-    ours = (
-        Ours(_scope(row), row["rule"], row.get("says", ""), row.get("remark", ""), row["why"]) for row in tables["ours"]
-    )
-    theirs = (Theirs(_scope(row), row["says"], tuple(row.get("rules", ())), row["why"]) for row in tables["theirs"])
-    return Reasons(tuple(tables["consequences"]), tuple(ours), tuple(theirs))
-
-
-def _scope(row: _Row) -> Scope:
-    return Scope(Judge(row["judge"]) if "judge" in row else None, Kind(row["kind"]) if "kind" in row else None)
+    tables = tomllib.loads(Path(__file__).with_name("known.toml").read_text(encoding="utf-8"))
+    ours = tuple(Ours(**row) for row in tables["ours"])
+    theirs = tuple(Theirs(rules=tuple(row.pop("rules", ())), **row) for row in tables["theirs"])
+    return Reasons(tuple(tables["consequences"]), ours, theirs)

@@ -9,7 +9,6 @@ from reports.harness.pages import listing, section, table
 from reports.harness.report import UNEXPLAINED, Findings, Report
 from reports.harness.sample import Sample
 from tests.corpus.expressions import Evaluated, evaluated, expressions
-from tests.corpus.files import CorpusFile
 from tests.corpus.plain_xacro import Compared, Verdict, compare, users_of_xacro
 from twinform.testing.workers import Failure
 
@@ -48,12 +47,8 @@ def measure(sample: Sample) -> Findings:
 
 
 def _compared(sample: Sample) -> Iterable[Compared]:
-    for file, result in sample.run(_compare, sample.of(users_of_xacro())):
+    for file, result in sample.run(compare, sample.of(users_of_xacro())):
         yield Compared(file.name, Verdict.DIFFERENT, result.cause) if isinstance(result, Failure) else result
-
-
-def _compare(file: CorpusFile) -> Compared:
-    return compare(file)
 
 
 def _totals(files: list[Compared]) -> str:
