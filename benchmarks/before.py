@@ -90,9 +90,10 @@ class Checkout:
     @classmethod
     def at(cls, name: str, folder: Path) -> "Checkout":
         """The process of a checkout, started."""
-        command = [sys.executable, "-c", _WORKER]
+        own = folder.resolve() / ".venv" / "bin" / "python"  # which finds the passes where this checkout has them
+        python = str(own) if own.exists() else sys.executable
         pipe = subprocess.PIPE
-        return cls(name, subprocess.Popen(command, cwd=folder, stdin=pipe, stdout=pipe, text=True))
+        return cls(name, subprocess.Popen([python, "-c", _WORKER], cwd=folder, stdin=pipe, stdout=pipe, text=True))
 
     def answer(self, call: Call) -> tuple[float, str]:
         """The CPU time in seconds, below 0 where the file is refused, and a hash of all that came out."""

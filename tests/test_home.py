@@ -5,13 +5,33 @@ from pathlib import Path
 import pytest
 
 import twinform
+from twinform.compiler.audit import audit
 from twinform.testing.round_trips import RoundTrip
 
-CASES = Path(__file__).parent / "cases" / "home"
+CASES = Path(__file__).parent / "cases"
+HOME = sorted((CASES / "home").iterdir())
+ACCEPTED = [
+    path
+    for path in sorted((CASES / "convert").iterdir())
+    if ".expected." not in path.name and not path.name.startswith("refused")
+]
 
 
-@pytest.mark.parametrize("path", sorted(CASES.iterdir()), ids=lambda path: path.name)
+def _name(path: Path) -> str:
+    return f"{path.parent.name}/{path.name}"
+
+
+@pytest.mark.parametrize("path", HOME, ids=_name)
 def test_it_comes_home(path: Path) -> None:
     trip = RoundTrip.of(path, twinform.load(path))
     there = twinform.convert(path, to="urdf" if path.suffix == ".sdf" else "sdf").text
     assert list(trip.astray(trip.back(there))) == []
+
+
+@pytest.mark.parametrize("path", [*HOME, *ACCEPTED], ids=_name)
+def test_an_audit_accounts_for_every_part_there_and_back(path: Path) -> None:
+    own, other = ("sdf", "urdf") if path.suffix == ".sdf" else ("urdf", "sdf")
+    there = twinform.convert(path, to=other)
+    for made in (there, twinform.convert(there.text.encode(), to=own)):
+        assert made.source is not None
+        assert audit(made.source, made.text, made.ledger).unaccounted == ()

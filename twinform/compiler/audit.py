@@ -133,17 +133,22 @@ def _parts(root: XmlElement, fates: dict[_Place, Fate]) -> Iterator[_Piece]:
     stack: list[tuple[XmlElement, Fate | None, str, tuple[int, ...]]] = [(root, None, "", ())]
     while stack:
         element, above, around, lines = stack.pop()
-        if str(element.tag).startswith(_OURS) and not len(element):  # a mark, which means something to us alone
+        ours = str(element.tag).startswith(_OURS)  # which means something to us alone, but for what is in it
+        if ours and not len(element):
             continue
         path, lines = f"{around}/{_local(str(element.tag))}", (element.sourceline or 0, *lines)
         fate = above or _fate_at(path, lines, fates)
+        stack += [(child, fate, path, lines) for child in reversed(element) if isinstance(child.tag, str)]
+        if ours:
+            continue
         opposite = _SAID_BY_NOT.get(_local(str(element.tag)), {})
         words = frozenset(opposite.get(word, word) for word in _words(element.text or ""))
         yield _Piece(element, None, words, fate or (_fate_at(f"{path}/text()", lines, fates) if words else None))
         for name, value in element.items():
+            if str(name).startswith(_OURS):
+                continue
             own = _fate_at(f"{path}/@{_local(str(name))}", lines, fates)
             yield _Piece(element, str(name), frozenset(_words(str(value))), fate or own)
-        stack += [(child, fate, path, lines) for child in reversed(element) if isinstance(child.tag, str)]
 
 
 def _fate_at(path: str, lines: tuple[int, ...], fates: dict[_Place, Fate]) -> Fate | None:

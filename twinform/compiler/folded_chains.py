@@ -1,15 +1,18 @@
-"""Chains and gears of joints that became one joint again: what in them the one joint of the result says."""
+"""What a file that was made of another one says otherwise than that one: chains of joints, names and numbers."""
 
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from typing import Self
 
+from twinform.ir.frames import MODEL
+from twinform.passes.legalise.automatic_inertias import COMPUTED_MASS
 from twinform.passes.legalise.carrier import NAMESPACE
 from twinform.passes.legalise.gearboxes import GEARED
 from twinform.passes.legalise.joint_chains import CHAIN, PART
 from twinform.passes.legalise.marks import MADE
 from twinform.passes.legalise.names import NAME, SCOPED_NAME
 from twinform.passes.legalise.to_sdf.bodies import UNSAID
+from twinform.passes.legalise.to_urdf.map_joints import MIMIC, UNBOUNDED
 from twinform.passes.legalise.token_mass import TOKEN_MASS
 from twinform.schemas import XmlElement
 from twinform.schemas.values import format_number
@@ -18,9 +21,11 @@ _OURS = f"{{{NAMESPACE}}}"
 _CHAIN, _PART, _MADE, _GEARED, _URDF = (f"{_OURS}{word}" for word in (CHAIN, PART, MADE, GEARED, "urdf"))
 _OLD_NAMES = tuple(f"{_OURS}{word}" for word in (NAME, SCOPED_NAME))
 _UNSAID = f"{_OURS}{UNSAID}"
+_MIMIC = f"{_OURS}{MIMIC}"
+_COMPUTED_MASS = f"{_OURS}{COMPUTED_MASS}"
 _TOKEN_MASS = format_number(TOKEN_MASS)
 """What a link of SDF weighs that weighs nothing in URDF."""
-_NAMED = ("link", "joint", "frame")
+_NAMED = ("link", "joint", "frame", "model", "visual", "collision")
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,14 +59,12 @@ class Folded:
         return cls(there, named, frozenset(gone | set(_made_names(source, result, named))), followers, ends)
 
     def says(self, element: XmlElement, attribute: str | None) -> bool:
-        """Whether the result says a part of the source by a joint that stands for more than one."""
+        """Whether the result says a part of the source otherwise, such as by a joint that stands for more than one."""
         if attribute == "type" and element.tag == "joint":
             return self._is_end(element)
-        if any(map(self.is_gone, (element, *element.iterancestors()))):
+        if _is_made_number(element, attribute) or any(map(self.is_gone, (element, *element.iterancestors()))):
             return True
         holder = element.getparent()
-        if element.tag == "mass" and holder is not None and holder.find(_UNSAID) is not None:
-            return (element.text or "").strip() == _TOKEN_MASS
         return element.tag == "mimic" and holder is not None and self._is_geared(holder)
 
     def is_gone(self, element: XmlElement) -> bool:
@@ -95,5 +98,32 @@ def _made_names(source: XmlElement, result: XmlElement, named: Collection[tuple[
     for mark in (each for word in _OLD_NAMES for each in source.iter(word)):
         holder, old = mark.getparent(), mark.get("was") or (mark.text or "").strip()
         tag = "" if holder is None else "robot" if holder.tag == "model" else str(holder.tag)
-        if (tag, old) in named or (tag, old) in roots:
+        if (tag, old) in roots or _is_there(tag, old, named):
             yield mark.get("instead_of", "")
+
+
+def _is_there(tag: str, old: str, named: Collection[tuple[str, str]]) -> bool:
+    """Whether a name is back, in its model or alone; a link of URDF may have stood for a frame or a model."""
+    inner = old.removesuffix(f"::{MODEL}").rpartition("::")[2]
+    return any((kind, name) in named for kind in (tag, "frame", "model") for name in (old, inner))
+
+
+def _is_made_number(element: XmlElement, attribute: str | None) -> bool:
+    """Whether a conversion made a number: a mass that is computed or a token, an offset of a mimic, no limit."""
+    holder = element.getparent()
+    if holder is None:
+        return False
+    if element.tag == "mass":
+        is_token = holder.find(_UNSAID) is not None and (element.text or "").strip() == _TOKEN_MASS
+        return is_token or holder.find(_COMPUTED_MASS) is not None
+    if element.tag == "mimic":
+        return attribute == "offset" and holder.find(_MIMIC) is not None
+    return element.tag == "limit" and attribute is not None and _is_no_limit(element.get(attribute, ""))
+
+
+def _is_no_limit(number: str) -> bool:
+    """Whether a limit of URDF is so large that it stands for none, which SDF need not write."""
+    try:
+        return abs(float(number)) >= UNBOUNDED
+    except ValueError:
+        return False

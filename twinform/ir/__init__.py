@@ -30,6 +30,7 @@ from twinform.ir.node import Color, Node, Quaternion, Vector3
 from twinform.ir.opaque_inside import holds_opaque, map_opaque, untyped_elements
 from twinform.ir.plugin import Plugin
 from twinform.ir.pose import Pose
+from twinform.ir.references import IN_MODELS, ReferenceChange, ReferenceKind, map_references
 from twinform.ir.sensor import Sensor
 from twinform.ir.surface import Surface
 from twinform.ir.tree import children_of, count_parts, map_children, map_kind, node_fields, node_values, walk
@@ -37,6 +38,7 @@ from twinform.ir.visual import Collision, Visual
 from twinform.ir.world import World
 
 __all__ = [
+    "IN_MODELS",
     "Axis",
     "Box",
     "Capsule",
@@ -74,6 +76,8 @@ __all__ = [
     "Polyline",
     "Pose",
     "Quaternion",
+    "ReferenceChange",
+    "ReferenceKind",
     "Script",
     "Sensor",
     "Shape",
@@ -88,6 +92,7 @@ __all__ = [
     "map_children",
     "map_kind",
     "map_opaque",
+    "map_references",
     "node_fields",
     "node_values",
     "untyped_elements",

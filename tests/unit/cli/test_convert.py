@@ -97,6 +97,17 @@ def test_one_input_goes_into_a_directory_that_is_there(run: Run, folder: Path) -
     assert (folder / "out" / "arm.sdf").exists()
 
 
+@pytest.mark.parametrize(("target", "name"), [("sdf", "yard.world"), ("urdf", "yard.urdf")])
+def test_a_world_in_a_directory_keeps_its_ending_as_long_as_it_is_sdf(
+    run: Run, folder: Path, target: str, name: str
+) -> None:
+    source, out = folder / "yard.world", folder / "out"
+    source.write_text(run("convert", folder / "good.urdf").stdout)
+    out.mkdir()
+    assert run("convert", source, "--to", target, "-o", out).exit_code == 0
+    assert [file.name for file in out.iterdir()] == [name]
+
+
 def test_two_inputs_for_one_output_are_refused(run: Run, folder: Path) -> None:
     (folder / "other").mkdir()
     (folder / "other" / "good.urdf").write_text(GOOD)

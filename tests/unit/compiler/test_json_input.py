@@ -240,6 +240,19 @@ def test_parts_of_several_kinds_keep_their_order() -> None:
     assert twinform.convert(made.encode(), to="urdf").text == twinform.convert(ORDERED.encode(), to="urdf").text
 
 
+def test_what_gazebo_elements_add_has_the_place_that_it_has_without_json() -> None:
+    shape = "<geometry><box size='1 1 1'/></geometry>"
+    text = f"""<robot name="r">
+      <link name="a">
+        <visual>{shape}</visual>
+        <collision>{shape}</collision>
+      </link>
+      <gazebo reference="a"><sensor name="s" type="imu"/></gazebo>
+    </robot>"""
+    made = twinform.convert(text.encode(), to="json").text
+    assert twinform.convert(made.encode(), to="sdf").text == twinform.convert(text.encode(), to="sdf").text
+
+
 @pytest.mark.parametrize("kinds", [[], ["links"], ["joints"] * 9, ["links", "joints", "links", "links", "materials"]])
 def test_an_order_that_does_not_fit_loses_nothing(kinds: list[str]) -> None:
     data = json.loads(twinform.convert(ORDERED.encode(), to="json").text)

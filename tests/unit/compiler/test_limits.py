@@ -5,6 +5,7 @@ from collections.abc import Callable
 import pytest
 from lxml import etree
 
+import twinform
 from twinform.compiler import limits
 from twinform.compiler.limits import Excess, excess_of_bytes, excess_of_json, excess_of_tree, uncountable_encoding
 from twinform.diagnostics import Location
@@ -34,6 +35,20 @@ def test_an_element_has_so_many_attributes_and_a_name_so_many_characters() -> No
     text = f"<robot name='{'r' * (limits.LONGEST_NAME + 1)}'/>".encode()
     words = f"<robot> has {limits.LONGEST_NAME + 1:,} characters in its name; the limit is {limits.LONGEST_NAME:,}"
     assert excess_of_tree(etree.fromstring(text), text) == Excess(words, Location(line=1, path="/robot"))
+
+
+def _nested(depth: int) -> bytes:
+    opened = "".join(f"<model name='m{number}'><link name='l'/>" for number in range(depth))
+    return f"<sdf version='1.11'>{opened}{'</model>' * depth}</sdf>".encode()
+
+
+def test_models_are_so_deep_in_each_other() -> None:
+    document = twinform.loads(_nested(limits.DEEPEST_MODELS))
+    assert twinform.convert(document, to="urdf").text
+    assert twinform.diff(document, document).same
+    for source in (_nested(limits.DEEPEST_MODELS + 1), _nested(250)):
+        found = [(each.rule.name, each.message) for each in twinform.check(source).diagnostics]
+        assert found == [("oversized-file", "models are in each other more than 64 deep")]
 
 
 def test_what_is_long_and_no_name_is_no_excess() -> None:

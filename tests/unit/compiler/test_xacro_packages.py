@@ -68,3 +68,32 @@ def test_a_package_that_is_nowhere_is_an_error(workspace: Path) -> None:
     path = workspace / "arm-ros2/urdf/arm.urdf.xacro"
     path.write_text(HEAD + '<xacro:include filename="$(find legs)/a.xacro"/></robot>')
     assert [each.rule.name for each in twinform.check(path).diagnostics] == ["xacro-error"]
+
+
+VISUAL = "<visual><geometry><sphere radius='1'/></geometry></visual>\n"
+SENSOR = """<gazebo reference="${name}">
+<sensor name="s" type="camera">
+
+<wrong/><camera/></sensor></gazebo></xacro:macro>"""
+
+
+@pytest.fixture
+def wheel(workspace: Path) -> Path:
+    """The macro of the wheel with a visual and a sensor in it that has an unknown element on line 10."""
+    path = workspace / "wheels-2.0/urdf/wheel.xacro"
+    text = path.read_text().replace("<collision>", f"{VISUAL}<collision>")
+    path.write_text(text.replace("</xacro:macro>", SENSOR))
+    return path
+
+
+def test_what_is_wrong_in_gazebo_elements_is_said_once_and_where_it_was_written(workspace: Path, wheel: Path) -> None:
+    made = twinform.convert(workspace / "arm-ros2/urdf/arm.urdf.xacro", to="sdf")
+    found = [each.location for each in made.diagnostics if each.rule.name == "unknown-element"]
+    assert [(Path(each.file), each.line) for each in found] == [(wheel, 10)]
+
+
+@pytest.mark.usefixtures("wheel")
+def test_an_expansion_becomes_what_its_text_becomes(workspace: Path) -> None:
+    path = workspace / "arm-ros2/urdf/arm.urdf.xacro"
+    text = twinform.convert(path, to="urdf").text
+    assert twinform.convert(path, to="sdf").text == twinform.convert(text.encode(), to="sdf").text

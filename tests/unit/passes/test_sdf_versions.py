@@ -53,6 +53,7 @@ def said(text: str, path: str) -> list[str]:
     return [str(each) for each in found]  # pyright: ignore[reportUnknownArgumentType, reportUnknownVariableType] - texts
 
 
+AXIS = "<axis><xyz>0 0 1</xyz>{}</axis>"
 UP: list[tuple[str, str, str, list[str]]] = [
     # 1.4: time steps
     ("1.3", physics("<update_rate>50</update_rate>"), "//physics/real_time_update_rate/text()", ["50"]),
@@ -99,6 +100,30 @@ UP: list[tuple[str, str, str, list[str]]] = [
     ("1.6", model("<link name='a'><pose frame=''>1 0 0 0 0 0</pose></link>"), "//pose/@relative_to", []),
     ("1.6", model(LINKS + joint("revolute", name="a")), "//joint/@name", ["a_joint"]),
     ("1.6", model(LINKS + "<frame name='b'/>"), "/sdf/model/frame/@name", ["b_frame"]),
+    (
+        "1.6",
+        model(
+            "<link name='__r__'/>" + LINKS + joint("revolute", name="r", parent="__r__", child="a")
+            + joint("gearbox", "<gearbox_reference_body>__r__</gearbox_reference_body>")
+        ),
+        "//gearbox_reference_body/text() | //joint[@name='r']/parent/text()",
+        ["r_link", "r_link"],
+    ),
+    (
+        "1.6",
+        model(
+            LINKS + "<link name='c'/>" + joint("revolute", AXIS.format(""), name="a")
+            + joint("revolute", AXIS.format("<mimic joint='a'/>"), child="c")
+        ),
+        "//mimic/@joint",
+        ["a_joint"],
+    ),
+    (
+        "1.6",
+        model("<link name='__r__'/><model name='n'><pose frame='__r__'>1 0 0 0 0 0</pose><link name='a'/></model>"),
+        "/sdf/model/model/pose/@relative_to",
+        ["r_link"],
+    ),
     # 1.8: nested models, inertials
     (
         "1.7",

@@ -47,8 +47,8 @@ def report_named_files(
     uses = _uses(document)
     wrong = [use for use in uses if "\\" in use.uri]
     for use in wrong:
-        message = f"backslashes in the path of a file, {use.uri!r}, are no separators"
-        hint = f"write {use.uri.replace(chr(92), '/')!r}"
+        message = f"backslashes in the path of a file, '{use.uri}', are no separators"
+        hint = f"write '{use.uri.replace(chr(92), '/')}'"
         notes.report(rules.BACKSLASH_IN_PATH, message, _place(use, tree), found=use.uri, help=hint)
     if not exists(path):
         return

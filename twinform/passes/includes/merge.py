@@ -5,11 +5,11 @@ from typing import TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import includes as rules
-from twinform.ir import Axis, Element, Frame, Include, Joint, Link, Model, Node, Pose, World
+from twinform.ir import IN_MODELS, Frame, Include, Link, Model, Node, Pose, ReferenceKind, World
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.includes.place import placed_model
-from twinform.passes.legalise.nodes import map_elements, map_poses
+from twinform.passes.legalise.element_poses import map_frames
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 Posed = TypeVar("Posed", Link, Model, Include)
@@ -41,7 +41,7 @@ def _merged(holder: Holder, include: Include, model: Model, around: str, notes: 
     _account_settings(model, notes)
     contents: dict[str, tuple[object, ...]] = {
         "links": tuple(map(into.posed, model.links)),
-        "joints": tuple(map(into.joint, model.joints)),
+        "joints": tuple(map(into.inside, model.joints)),
         "frames": (proxy, *map(into.frame, model.frames)),
         "models": tuple(map(into.posed, model.models)),
         "includes": tuple(map(into.posed, model.includes)),
@@ -80,56 +80,19 @@ class _Contents:
     def posed(self, node: Posed) -> Posed:
         """A link, nested model or include; without a frame of its own its pose was in the model's."""
         pose = node.pose or Pose()
-        if not pose.relative_to:
-            pose = pose.model_copy(update={"relative_to": self.proxy})
-        if isinstance(node, Model | Include):  # what is inside has frames of its own
-            return node.model_copy(update={"pose": self._pose(pose)})
-        return self._inside(node.model_copy(update={"pose": pose}))
+        pose = pose.model_copy(update={"relative_to": self._named("any", pose.relative_to or MODEL)})
+        placed = node.model_copy(update={"pose": pose})
+        return self.inside(placed) if isinstance(placed, Link) else placed  # what is in a model has frames of its own
 
     def frame(self, frame: Frame) -> Frame:
-        update = {"attached_to": self._name(frame.attached_to or MODEL)}
-        return self._inside(frame.model_copy(update=update))
+        return self.inside(frame.model_copy(update={"attached_to": frame.attached_to or MODEL}))
 
-    def joint(self, joint: Joint) -> Joint:
-        update = {
-            "parent": self._name(joint.parent),
-            "child": self._name(joint.child),
-            "gearbox_reference_body": self._name(joint.gearbox_reference_body),
-            "axis": self._axis(joint.axis),
-            "axis2": self._axis(joint.axis2),
-        }
-        return self._inside(joint.model_copy(update=update))
+    def inside(self, node: AnyNode) -> AnyNode:
+        """The node with all references in it, and those of untyped poses."""
+        return map_frames(node, self._named)
 
-    def _name(self, name: str | None) -> str | None:
-        return self.proxy if name == MODEL else name
-
-    def _axis(self, axis: Axis | None) -> Axis | None:
-        if axis is None or axis.expressed_in != MODEL:
-            return axis
-        return axis.model_copy(update={"expressed_in": self.proxy})
-
-    def _pose(self, pose: Pose) -> Pose:
-        return pose.model_copy(update={"relative_to": self.proxy}) if pose.relative_to == MODEL else pose
-
-    def _inside(self, node: AnyNode) -> AnyNode:
-        """The node with all poses in it, typed or not."""
-        node = map_poses(node, self._pose)
-        if isinstance(node, Link | Joint) and node.sensors:
-            sensors = tuple(self._opaque(sensor) for sensor in node.sensors)
-            node = node.model_copy(update={"sensors": sensors})
-        return self._opaque(node)
-
-    def _opaque(self, node: AnyNode) -> AnyNode:
-        if not node.opaque:
-            return node
-        return node.model_copy(update={"opaque": map_elements(node.opaque, self._element)})
-
-    def _element(self, element: Element) -> Element:
-        attributes = element.attributes
-        if element.name == "pose" and element.get("relative_to") == MODEL:
-            attributes = tuple((name, self.proxy if name == "relative_to" else value) for name, value in attributes)
-        children = tuple(map(self._element, element.children))
-        return element.model_copy(update={"attributes": attributes, "children": children})
+    def _named(self, kind: ReferenceKind, name: str) -> str:
+        return self.proxy if name == MODEL and kind in IN_MODELS else name
 
 
 def _account_settings(model: Model, notes: Notes) -> None:

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Document, Format, Model, Node, Opaque, holds_opaque, map_children
 from twinform.passes.legalise.carrier import NAMESPACE, PREFIX, SOURCE, has_ours, is_carrier, is_memory
@@ -24,6 +24,9 @@ _IN_SDF = frozenset(
     {"urdf", "material", "shared-material", "unnamed", "floating", "link", "unsaid", "look", "extension"}
 )
 """What an SDF file holds for the reverse conversion."""
+
+
+_IGNORED = "what an older version remembered of the source is ignored, as the file says what it says"
 
 
 class DropStale(ModelPass):
@@ -79,20 +82,23 @@ class _Dropping:
         return (part.element is not None and part.element.name in self.kinds) or is_memory(part)
 
     def report(self, notes: Notes) -> None:
-        """A warning for each, or one for all that an older version wrote, at `<tf:source>` if there is one."""
+        """A warning for each, or one for all that an older version wrote, at `<tf:source>` if there is one.
+
+        The ledger has each of them.
+        """
         memory = [pair for pair in self.dropped if is_memory(pair[0])]
-        if memory:
-            part, node = next((pair for pair in memory if is_carrier(pair[0], SOURCE)), memory[0])
-            message = "what an older version remembered of the source is ignored, as the file says what it says"
-            notes.report(STALE_CARRIER, message, part.location_in(node), found=part.name)
-            return
+        first = next((pair for pair in memory if is_carrier(pair[0], SOURCE)), memory[0]) if memory else None
         for part, node in self.dropped:
-            notes.report(STALE_CARRIER, _message(part, node), part.location_in(node), found=part.name)
+            message, where = _IGNORED if memory else _message(part, node), part.location_in(node)
+            notes.account(Fate.DROPPED, STALE_CARRIER, message, where, part.weight)
+            if first is None or part is first[0]:
+                notes.report(STALE_CARRIER, message, where, found=part.name)
 
 
 def _message(part: Opaque, node: Node) -> str:
     kind = part.element.name.partition("}")[2] if part.element else ""
     name = getattr(node, "name", None)
     holder = f"{type(node).__name__.lower()} {name!r}" if name else f"a {type(node).__name__.lower()}"
-    held = ", ".join(f"<{child.name}>" for child in part.element.children) if part.element else ""
+    children = part.element.children if part.element else ()
+    held = ", ".join(f"<{child.name.replace(f'{{{NAMESPACE}}}', 'tf:')}>" for child in children)
     return f"<tf:{kind}> in {holder}{f' holds {held} and' if held else ''} does not fit what the file says now"

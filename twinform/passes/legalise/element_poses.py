@@ -2,16 +2,19 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
+from typing import TypeVar
 
 from twinform.diagnostics import Notes
-from twinform.ir import Element, Opaque, Pose, Sensor
+from twinform.ir import Element, Node, Opaque, Pose, ReferenceChange, Sensor, map_opaque, map_references
 from twinform.ir.frames import FrameGraph, Kind
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.carrier import NAMESPACE, to_element
 from twinform.passes.legalise.nodes import map_elements
 from twinform.passes.legalise.notation import POSE, as_marked
 from twinform.schemas import Context, element_xml, reader, table
+
+AnyNode = TypeVar("AnyNode", bound=Node)
 
 _FRAME_ATTRIBUTES = ("relative_to", "frame")
 """How a pose names its frame, since SDF 1.7 and before."""
@@ -148,3 +151,24 @@ def read_pose(element: Element) -> Pose:
     context = Context(Notes(), "", "sdf", table("sdf").newest)
     pose = Pose.model_validate(reader("sdf", context.version).read(element_xml(element), context, "pose"))
     return pose.model_copy(update={"relative_to": _frame_of(element), "opaque": ()})
+
+
+def map_frames(node: AnyNode, change: ReferenceChange) -> AnyNode:
+    """The node with every reference in it changed, also those of poses in its opaque parts."""
+    follow = partial(_map_opaque_poses, change)
+    return follow(map_opaque(map_references(node, change), follow))
+
+
+def _map_opaque_poses(change: ReferenceChange, node: AnyNode) -> AnyNode:
+    if not node.opaque:
+        return node
+    return node.model_copy(update={"opaque": map_elements(node.opaque, partial(_map_element, change))})
+
+
+def _map_element(change: ReferenceChange, element: Element) -> Element:
+    attributes = element.attributes
+    if element.name == "pose":
+        follows = _FRAME_ATTRIBUTES
+        attributes = tuple((name, change("any", text) if name in follows else text) for name, text in attributes)
+    children = tuple(_map_element(change, child) for child in element.children)
+    return element.model_copy(update={"attributes": attributes, "children": children})

@@ -2,16 +2,14 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from typing import TypeVar
 
-from twinform.ir import Axis, Element, Frame, Joint, Link, Model, Node, Pose
+from twinform.ir import IN_MODELS, Frame, Joint, Link, Model, Pose, ReferenceKind
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
+from twinform.passes.legalise.element_poses import map_frames
 from twinform.passes.legalise.marks import mark_made
-from twinform.passes.legalise.nodes import map_elements, map_poses
 
-AnyNode = TypeVar("AnyNode", bound=Node)
-_FRAME_ATTRIBUTES = frozenset({"relative_to", "frame"})
+Part = TypeVar("Part", Link, Joint, Frame)
 
 
 def flatten(model: Model, keep: Callable[[Frame, Model], Frame]) -> Model:
@@ -41,12 +39,10 @@ class _Scope:
 
     prefix: str
 
-    def rename(self, name: str | None) -> str | None:
-        if not name or name == WORLD:
+    def rename(self, kind: ReferenceKind, name: str) -> str:
+        if kind not in IN_MODELS or name == WORLD:
             return name
-        if name == MODEL:
-            return self.frame_name
-        return self.prefix + name
+        return self.frame_name if name == MODEL else self.prefix + name
 
     @property
     def frame_name(self) -> str:
@@ -54,70 +50,25 @@ class _Scope:
         return self.prefix.removesuffix("::") or MODEL
 
     def link(self, link: Link) -> Link:
-        pose = self._pose(link.pose) if link.pose else Pose()
-        if pose.relative_to is None:
-            pose = pose.model_copy(update={"relative_to": self.frame_name})
-        inside = self._inside(link.model_copy(update={"pose": None}))
-        update: dict[str, object] = {"name": self.prefix + link.name, "pose": pose}
-        return inside.model_copy(update=update)
+        pose = link.pose or Pose()
+        return self._renamed(link, {"pose": pose.model_copy(update={"relative_to": pose.relative_to or MODEL})})
 
     def joint(self, joint: Joint) -> Joint:
-        update: dict[str, object] = {
-            "name": self.prefix + joint.name,
-            "parent": self.rename(joint.parent),
-            "child": self.rename(joint.child),
-            "gearbox_reference_body": self.rename(joint.gearbox_reference_body),
-            "axis": self._axis(joint.axis),
-            "axis2": self._axis(joint.axis2),
-        }
-        return self._inside(joint).model_copy(update=update)
+        return self._renamed(joint, {})
 
     def frame(self, frame: Frame) -> Frame:
-        holder = self.rename(frame.attached_to or MODEL)
-        update: dict[str, object] = {"name": self.prefix + frame.name, "attached_to": holder}
-        return self._inside(frame).model_copy(update=update)
+        return self._renamed(frame, {"attached_to": frame.attached_to or MODEL})
 
-    def _axis(self, axis: Axis | None) -> Axis | None:
-        if axis is None:
-            return None
-        update: dict[str, object] = {"expressed_in": self.rename(axis.expressed_in)}
-        if axis.mimic is not None:
-            update["mimic"] = axis.mimic.model_copy(update={"joint": self.rename(axis.mimic.joint)})
-        return axis.model_copy(update=update)
-
-    def _pose(self, pose: Pose) -> Pose:
-        return pose.model_copy(update={"relative_to": self.rename(pose.relative_to)}) if pose.relative_to else pose
-
-    def _inside(self, node: AnyNode) -> AnyNode:
-        """The node with the frames renamed that poses in it name, in typed and in opaque parts."""
-        node = map_poses(node, self._pose)
-        return _map_opaque(node, self)
-
-
-def _map_opaque(node: AnyNode, scope: _Scope) -> AnyNode:
-    update: dict[str, object] = {}
-    if node.opaque:
-        update["opaque"] = map_elements(node.opaque, partial(_rename_in, scope))
-    if isinstance(node, Link | Joint) and node.sensors:
-        update["sensors"] = tuple(_map_opaque(sensor, scope) for sensor in node.sensors)
-    return node.model_copy(update=update) if update else node
-
-
-def _rename_in(scope: _Scope, element: Element) -> Element:
-    attributes = element.attributes
-    if element.name == "pose":
-        attributes = tuple(
-            (name, scope.rename(value) or "" if name in _FRAME_ATTRIBUTES else value) for name, value in attributes
-        )
-    children = tuple(_rename_in(scope, child) for child in element.children)
-    return element.model_copy(update={"attributes": attributes, "children": children})
+    def _renamed(self, node: Part, update: dict[str, object]) -> Part:
+        placed = node.model_copy(update={"name": self.prefix + node.name, **update})
+        return map_frames(placed, self.rename)
 
 
 def _own_frame(model: Model, around: _Scope, scope: _Scope, graph: FrameGraph) -> Frame:
     """The frame that stands for a nested model."""
     name = scope.frame_name
     body = graph.body(name, kind="model")
-    base = around.rename(model.pose.relative_to if model.pose and model.pose.relative_to else MODEL) or MODEL
+    base = around.rename("any", (model.pose and model.pose.relative_to) or MODEL)
     pose = (model.pose or Pose()).model_copy(update={"relative_to": base})
     if model.placement_frame:
         pose = graph.pose(name, base, kind="model", base="joint").to_pose(base)

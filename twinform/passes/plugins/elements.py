@@ -41,9 +41,9 @@ def plugin_element(plugin: Plugin) -> Element:
     )
 
 
-def sensor_of(element: Element, notes: Notes | None = None) -> Sensor | None:
+def sensor_of(element: Element) -> Sensor | None:
     """The sensor that an element stands for; None where it has an error, which the check of the file reports."""
-    found = Notes(file=notes.file if notes else "")
+    found = Notes(file=element.source.file if element.source else "")
     context = Context(found, found.file, "sdf", table("sdf").newest, declared=False)
     xml = element_xml(element, etree.Element("link", {"name": ""}))
     data: dict[str, Any] = reader("sdf", context.version).read(xml, context, "sensor", element.source)

@@ -14,7 +14,7 @@ from twinform.passes.legalise.flattening import flatten
 from twinform.passes.legalise.joint_ends import report_self_joint, resolve_ends
 from twinform.passes.legalise.marks import without_made
 from twinform.passes.structure.model_edit import ModelEdit, Place
-from twinform.passes.structure.renaming import renamed_contents, renamed_model
+from twinform.passes.structure.renaming import renamed_model, with_followed
 from twinform.passes.structure.scopes import Part, Scope, report_clashes, scope_of
 
 _SCOPE = "::"
@@ -164,7 +164,8 @@ def _with_rest(flat: Model, model: Model, place: Place) -> Model:
         nested, around = stack.pop()
         prefix = f"{around}{nested.name}{_SCOPE}"
         scope = _prefixed(nested, prefix)
-        contents = renamed_contents(nested, scope, place.format, place.notes)
+        rest = Model(name=nested.name, plugins=nested.plugins, opaque=nested.opaque, source=nested.source)
+        contents = with_followed(rest, scope, place.format, place.notes)
         plugins += contents.plugins
         opaque += [part for part in contents.opaque if part.element is not None]
         stack.extend((each, prefix) for each in reversed(nested.models))

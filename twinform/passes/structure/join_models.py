@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from twinform.diagnostics import Notes
 from twinform.diagnostics.rules import edits as rules
-from twinform.ir import Element, Include, Joint, Link, Material, Model, Node, Opaque, Pose, Visual
+from twinform.ir import Element, Include, Joint, Model, Node, Opaque, Pose, map_references
 from twinform.ir.frames import WORLD
 from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform
@@ -130,12 +130,7 @@ def _own_materials(model: Model, guest: Model, prefix: str) -> Model:
     names = {name: prefix + name for name in mine.keys() & theirs.keys() if mine[name] != theirs[name]}
     if not names:
         return guest
-    return guest.model_copy(
-        update={
-            "materials": tuple(_renamed(material, names) for material in guest.materials),
-            "links": tuple(_with_materials(link, names) for link in guest.links),
-        }
-    )
+    return map_references(guest, lambda kind, name: names.get(name, name) if kind == "material" else name)
 
 
 def _materials(model: Model) -> dict[str, tuple[object, ...]]:
@@ -146,19 +141,6 @@ def _materials(model: Model) -> dict[str, tuple[object, ...]]:
         if material.name and (material.color or material.texture):
             found.setdefault(material.name, (material.color, material.texture))
     return found
-
-
-def _renamed(material: Material, names: dict[str, str]) -> Material:
-    new = names.get(material.name or "")
-    return material if new is None else material.model_copy(update={"name": new})
-
-
-def _with_materials(link: Link, names: dict[str, str]) -> Link:
-    def painted(visual: Visual) -> Visual:
-        material = visual.material and _renamed(visual.material, names)
-        return visual if material is visual.material else visual.model_copy(update={"material": material})
-
-    return link.model_copy(update={"visuals": tuple(map(painted, link.visuals))})
 
 
 def _own_blocks(there: tuple[Opaque, ...], more: tuple[Opaque, ...], prefix: str) -> list[Opaque]:

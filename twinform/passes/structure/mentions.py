@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from twinform.ir import Element, Model, Node, Plugin, walk
-from twinform.passes.structure.reference_words import Kind, kind_of_attribute, kind_of_text
+from twinform.ir import Element, Model, Node, Plugin, ReferenceKind, walk
+from twinform.passes.structure.reference_words import kind_of_attribute, kind_of_text
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +46,7 @@ def _collect(element: Element, around: str, holder: str, found: Mentions) -> Non
         _collect(child, element.name, holder, found)
 
 
-def _note(kind: Kind | None, text: str, holder: str, found: Mentions) -> None:
+def _note(kind: ReferenceKind | None, text: str, holder: str, found: Mentions) -> None:
     where = {"link": found.links, "joint": found.joints}.get(kind or "")
     if where is not None:
         for name in (text, *text.replace(",", " ").split()):

@@ -4,26 +4,18 @@ Nobody declares it, but the words say so themselves: of the 1,600 blocks of the 
 names of links or joints, the word has `joint`, `link`, `body` or `frame` in it wherever a reference is meant.
 """
 
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
-from twinform.ir import Element
+from twinform.ir import Element, ReferenceKind
+from twinform.ir.references import REFERENCES
 
-Kind = Literal["link", "joint", "frame", "any"]
-"""`frame`: a coordinate frame, which a link, or a massless one that stands for it, gives its name to."""
-
-_WHOLE: dict[str, Kind] = {
-    "parent": "link",
-    "child": "link",
+_WHOLE: dict[str, ReferenceKind] = {
+    **{field: kind for kinds in REFERENCES.values() for field, kind in kinds.items() if kind != "material"},
     "ref": "link",
     "reference": "any",
-    "relative_to": "any",
-    "attached_to": "any",
-    "expressed_in": "any",
     "mimic": "joint",
-    "canonical_link": "link",
-    "placement_frame": "any",
 }
-_PARTS: tuple[tuple[str, Kind], ...] = (("joint", "joint"), ("link", "link"), ("body", "link"), ("frame", "frame"))
+_PARTS: dict[str, ReferenceKind] = {"joint": "joint", "link": "link", "body": "link", "frame": "frame"}
 """The first part that a word has decides: `joint` before `link`, as in `jointLinkName`, and `link` before `frame`."""
 _NOT_NAMES = frozenset({"frames", "framerate", "frame_rate", "update_frame", "joint_state_topic", "visualize_frame"})
 
@@ -33,11 +25,11 @@ class Reference(NamedTuple):
 
     element: Element
     attribute: str
-    kind: Kind
+    kind: ReferenceKind
     value: str
 
 
-def kind_of_word(word: str) -> Kind | None:
+def kind_of_word(word: str) -> ReferenceKind | None:
     """What a word names, as the name of a parameter; None for one that names nothing that is known here."""
     local = word.rpartition("}")[2].rpartition(":")[2]
     lower = local.lower()
@@ -45,10 +37,10 @@ def kind_of_word(word: str) -> Kind | None:
         return None
     if lower in _WHOLE:
         return _WHOLE[lower]
-    return next((kind for part, kind in _PARTS if part in lower), None)
+    return next((kind for part, kind in _PARTS.items() if part in lower), None)
 
 
-def kind_of_text(element: Element, holder: str) -> Kind | None:
+def kind_of_text(element: Element, holder: str) -> ReferenceKind | None:
     """What the text of an element names; `holder` is the name of the element around it.
 
     `<param name="mimic">` is called by its attribute, `<virtualJoint><name>` by what is around it.
@@ -61,6 +53,6 @@ def kind_of_text(element: Element, holder: str) -> Kind | None:
     return None if word == "collision" else kind_of_word(word)
 
 
-def kind_of_attribute(element: Element, attribute: str) -> Kind | None:
+def kind_of_attribute(element: Element, attribute: str) -> ReferenceKind | None:
     """What an attribute names: `name` is called by its element, all others by themselves."""
     return kind_of_word(element.name if attribute == "name" else attribute)

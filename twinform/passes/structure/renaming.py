@@ -6,31 +6,14 @@ from typing import TypeVar
 
 from twinform.diagnostics import Location, Notes
 from twinform.diagnostics.rules import edits as rules
-from twinform.ir import (
-    Axis,
-    Collision,
-    Element,
-    Format,
-    Frame,
-    GazeboExtension,
-    Include,
-    Joint,
-    Link,
-    Model,
-    Node,
-    Opaque,
-    Plugin,
-    Pose,
-    Sensor,
-    Visual,
-)
+from twinform.ir import Element, Format, GazeboExtension, Model, Node, Plugin, World, map_children, map_references
 from twinform.ir.sourced import Sourced
-from twinform.passes.legalise.nodes import map_elements, map_poses
-from twinform.passes.structure.reference_words import Kind, kind_of_attribute, kind_of_text
-from twinform.passes.structure.scopes import Scope
+from twinform.passes.legalise.nodes import map_elements
+from twinform.passes.structure.reference_words import kind_of_attribute, kind_of_text
+from twinform.passes.structure.scopes import PARTS, Part, Scope
 
 AnyNode = TypeVar("AnyNode", bound=Node)
-Shaped = TypeVar("Shaped", Visual, Collision)
+Holder = TypeVar("Holder", Model, World)
 _DEFINES = frozenset({"link", "joint", "frame"})
 _MODELS = frozenset({"model", "model_state"})
 _SEPARATORS = re.compile(r"([\s,;]+)")
@@ -43,131 +26,55 @@ def renamed_model(model: Model, scope: Scope, format_: Format, notes: Notes) -> 
     return _Renamer(scope, format_, notes).model(model)
 
 
-def renamed_contents(model: Model, scope: Scope, format_: Format, notes: Notes) -> Model:
-    """The model with the names of the scope in its plugins and untyped parts alone."""
-    renamer = _Renamer(scope, format_, notes)
-    plugins = tuple(renamer.plugin(plugin) for plugin in model.plugins)
-    return _changed(model, {"plugins": plugins, "opaque": renamer.opaque(model.opaque, model.location)})
+def with_followed(holder: Holder, scope: Scope, format_: Format, notes: Notes) -> Holder:
+    """The model or world with the names of the scope in its references, but not those of its parts."""
+    return _Renamer(scope, format_, notes).followed(holder)
 
 
 @dataclass(frozen=True, slots=True)
 class _Renamer:
-    """The references of one model. In URDF a link's pose names its joint, and a joint's pose a link."""
+    """The names in one model."""
 
     scope: Scope
     format: Format
     notes: Notes
 
+    def followed(self, holder: Holder) -> Holder:
+        return self.untyped(map_references(holder, self.scope.follow, self.format))
+
     def model(self, model: Model) -> Model:
-        follow = self.scope.follow
+        for extension in model.extensions:
+            self.report_shared(extension)
+        followed = self.followed(model)
         update: dict[str, object] = {
-            "canonical_link": follow("link", model.canonical_link),
-            "placement_frame": follow("any", model.placement_frame),
-            "links": tuple(map(self.link, model.links)),
-            "joints": tuple(map(self.joint, model.joints)),
-            "frames": tuple(map(self.frame, model.frames)),
-            "models": tuple(map(self.nested, model.models)),
-            "includes": tuple(map(self.include, model.includes)),
-            "plugins": tuple(self.plugin(plugin) for plugin in model.plugins),
-            "extensions": tuple(map(self.extension, model.extensions)),
-            "opaque": self.opaque(model.opaque, model.location),
+            field: tuple(self.named(part, node) for node in getattr(followed, field)) for part, field in PARTS
         }
-        return _changed(model, update)
+        return _changed(followed, update)
 
-    def link(self, link: Link) -> Link:
-        pose = self.pose(link.pose, "joint")
-        inside = self.inside(link.model_copy(update={"pose": None}))
-        return _changed(inside, {"name": self.scope.own["link"].get(link.name, link.name), "pose": pose})
+    def named(self, part: Part, node: AnyNode) -> AnyNode:
+        """A part of the model by its new name; a nested model has a scope of its own."""
+        old = node.__dict__["name"]
+        if isinstance(node, Model):
+            node = _Renamer(self.scope.inner[old], self.format, self.notes).model(node)
+        return _changed(node, {"name": self.scope.own[part].get(old, old)})
 
-    def joint(self, joint: Joint) -> Joint:
-        follow = self.scope.follow
-        pose = self.pose(joint.pose, "link")
-        update: dict[str, object] = {
-            "name": self.scope.own["joint"].get(joint.name, joint.name),
-            "parent": follow("link", joint.parent),
-            "child": follow("link", joint.child),
-            "gearbox_reference_body": follow("link", joint.gearbox_reference_body),
-            "axis": self.axis(joint.axis),
-            "axis2": self.axis(joint.axis2),
-            "pose": pose,
-        }
-        return _changed(self.inside(joint.model_copy(update={"pose": None})), update)
-
-    def frame(self, frame: Frame) -> Frame:
-        name = self.scope.own["frame"].get(frame.name, frame.name)
-        attached = self.scope.follow("any", frame.attached_to)
-        return _changed(self.inside(frame), {"name": name, "attached_to": attached})
-
-    def nested(self, model: Model) -> Model:
-        """A nested model has a scope of its own; only its pose and its name belong to this one."""
-        inner = _Renamer(self.scope.inner[model.name], self.format, self.notes).model(model)
-        name = self.scope.own["model"].get(model.name, model.name)
-        return _changed(inner, {"name": name, "pose": self.pose(model.pose, "any")})
-
-    def include(self, include: Include) -> Include:
-        name = self.scope.own["model"].get(include.name, include.name) if include.name else None
-        plugins = tuple(self.plugin(plugin) for plugin in include.plugins)
-        return _changed(include, {"name": name, "pose": self.pose(include.pose, "any"), "plugins": plugins})
-
-    def axis(self, axis: Axis | None) -> Axis | None:
-        if axis is None:
-            return None
-        update: dict[str, object] = {"expressed_in": self.scope.follow("any", axis.expressed_in)}
-        if axis.mimic is not None:
-            update["mimic"] = _changed(axis.mimic, {"joint": self.scope.follow("joint", axis.mimic.joint)})
-        return _changed(axis, {**update, "opaque": self.opaque(axis.opaque, axis.location)})
-
-    def pose(self, pose: Pose | None, kind: Kind) -> Pose | None:
-        if pose is None or not pose.relative_to:
-            return pose
-        return _changed(pose, {"relative_to": self.scope.follow(kind, pose.relative_to)})
-
-    def extension(self, extension: GazeboExtension) -> GazeboExtension:
-        reference = self.reference(extension)
-        content = tuple(self.element(each, "", extension.location) for each in extension.content)
-        return _changed(extension, {"reference": reference, "content": content})
-
-    def reference(self, extension: GazeboExtension) -> str | None:
+    def report_shared(self, extension: GazeboExtension) -> None:
         """A name that a link and a joint share means both, which two new names cannot."""
         name, own = extension.reference, self.scope.own
         if name and name in own["link"] and name in own["joint"] and own["link"][name] != own["joint"][name]:
             message = f"<gazebo> for {name!r}, a link and a joint, follows the link to {own['link'][name]!r}"
             self.notes.report(rules.UNFOLLOWED_NAME, message, extension.location.at("@reference"), found=name)
-        return self.scope.follow("link", name)
 
-    def plugin(self, plugin: Plugin) -> Plugin:
-        content = tuple(self.element(each, "plugin", plugin.location) for each in plugin.content)
-        return _changed(plugin, {"content": content})
-
-    def sensor(self, sensor: Sensor) -> Sensor:
-        update: dict[str, object] = {
-            "frame_id": self.scope.follow("frame", sensor.frame_id),
-            "plugins": tuple(self.plugin(plugin) for plugin in sensor.plugins),
-            "opaque": self.opaque(sensor.opaque, sensor.location),
-        }
-        return _changed(sensor, update)
-
-    def inside(self, node: AnyNode) -> AnyNode:
-        """A node with what is in it, except for its own name and what else its kind has."""
-        node = map_poses(node, lambda pose: self.pose(pose, "any") or pose)
-        update: dict[str, object] = {"opaque": self.opaque(node.opaque, node.location)}
-        if isinstance(node, Link | Joint):
-            update["sensors"] = tuple(map(self.sensor, node.sensors))
-        if isinstance(node, Link):
-            update["visuals"] = tuple(map(self.shape, node.visuals))
-            update["collisions"] = tuple(map(self.shape, node.collisions))
-        return _changed(node, update)
-
-    def shape(self, shape: Shaped) -> Shaped:
-        update: dict[str, object] = {"opaque": self.opaque(shape.opaque, shape.location)}
-        if isinstance(shape, Visual):
-            update["plugins"] = tuple(self.plugin(plugin) for plugin in shape.plugins)
-        return _changed(shape, update)
-
-    def opaque(self, parts: tuple[Opaque, ...], where: Location) -> tuple[Opaque, ...]:
-        if not parts:
-            return parts
-        return map_elements(parts, lambda element: self.element(element, "", where))
+    def untyped(self, node: AnyNode) -> AnyNode:
+        """The node with its opaque parts and plugins, and those of all inside it but nested models."""
+        update: dict[str, object] = {}
+        if node.opaque:
+            update["opaque"] = map_elements(node.opaque, lambda each: self.element(each, "", node.location))
+        if isinstance(node, Plugin | GazeboExtension):
+            holder = "plugin" if isinstance(node, Plugin) else ""
+            update["content"] = tuple(self.element(each, holder, node.location) for each in node.content)
+        changed = _changed(node, update)
+        return map_children(changed, lambda each: each if isinstance(each, Model) else self.untyped(each))
 
     def element(self, element: Element, holder: str, where: Location) -> Element:
         """An element without a typed form; `holder` is the name of the one around it."""
@@ -199,7 +106,7 @@ class _Renamer:
             if key != "name":  # which is a thing's own
                 self.report_unfollowed(value, f"{key!r} of <{element.name}>", where)
             return value
-        return self.scope.follow(kind, value) or value
+        return self.scope.follow(kind, value)
 
     def text(self, element: Element, holder: str, where: Location) -> str | None:
         text = element.text
@@ -214,7 +121,7 @@ class _Renamer:
         whole = self.scope.find(kind, text)
         if whole is not None:
             return whole
-        return "".join(self.scope.follow(kind, each) or each for each in _SEPARATORS.split(text))
+        return "".join(self.scope.follow(kind, each) for each in _SEPARATORS.split(text))
 
     def collision(self, text: str) -> str:
         """The name of a collision, which may begin with that of its link."""

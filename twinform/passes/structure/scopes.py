@@ -5,17 +5,17 @@ from dataclasses import dataclass, field
 
 from twinform.diagnostics import Location, Notes
 from twinform.diagnostics.rules import edits as rules
-from twinform.ir import Document, Format, Model
+from twinform.ir import Document, Format, Model, ReferenceKind
 from twinform.ir.frames import MODEL, WORLD
-from twinform.passes.structure.reference_words import Kind
 
 Part = str
 """`link`, `joint`, `frame` or `model`."""
 Choose = Callable[[Part, str], str]
 """The new name of a part of this kind by its old one."""
-_FIELDS: tuple[tuple[Part, str], ...] = (
+PARTS: tuple[tuple[Part, str], ...] = (
     ("link", "links"), ("joint", "joints"), ("frame", "frames"), ("model", "models"), ("model", "includes"),
 )  # fmt: skip
+"""The fields of a model with what has a name in its scope."""
 _RESERVED = frozenset({WORLD, MODEL, "__root__"})
 
 
@@ -33,7 +33,7 @@ class Scope:
         own = any(old != new for names in self.own.values() for old, new in names.items())
         return own or any(scope.changes for scope in self.inner.values())
 
-    def find(self, kind: Kind, name: str) -> str | None:
+    def find(self, kind: ReferenceKind, name: str) -> str | None:
         """The new name of what a name stands for in this model, which may be in a nested one; None for nothing here."""
         first, separator, rest = name.partition("::")
         whole = self._find_own(kind, name)  # before 1.8, or once it is flattened, a name may have colons in it
@@ -49,18 +49,16 @@ class Scope:
             return None if inside is None else f"{first}::{inside}"
         return self._find_own("frame", name.removesuffix(f"::{MODEL}"))  # which stands for a model that was flattened
 
-    def follow(self, kind: Kind, name: str | None) -> str | None:
+    def follow(self, kind: ReferenceKind, name: str) -> str:
         """The new name for an old one; what names nothing of this model stays as it is."""
-        if not name or name in _RESERVED:
-            return name
-        found = self.find(kind, name)
+        found = None if name in _RESERVED or kind == "material" else self.find(kind, name)
         return name if found is None else found
 
-    def _find_own(self, kind: Kind, name: str) -> str | None:
+    def _find_own(self, kind: ReferenceKind, name: str) -> str | None:
         return next((self.own[part][name] for part in _ORDER[kind] if name in self.own[part]), None)
 
 
-_ORDER: dict[Kind, tuple[Part, ...]] = {
+_ORDER: dict[ReferenceKind, tuple[Part, ...]] = {
     "link": ("link", "frame", "model", "joint"),
     "joint": ("joint", "frame", "link", "model"),
     "frame": ("link", "frame", "joint", "model"),
@@ -70,8 +68,8 @@ _ORDER: dict[Kind, tuple[Part, ...]] = {
 
 def scope_of(model: Model, choose: Choose, *, deep: bool = True) -> Scope:
     """The scope of a model whose parts get new names; those in nested models only with `deep`."""
-    own: dict[Part, dict[str, str]] = {part: {} for part, _ in _FIELDS}
-    for part, field_name in _FIELDS:
+    own: dict[Part, dict[str, str]] = {part: {} for part, _ in PARTS}
+    for part, field_name in PARTS:
         for node in getattr(model, field_name):
             if node.name and node.name not in _RESERVED:
                 own[part].setdefault(node.name, choose(part, node.name))
@@ -87,7 +85,7 @@ def report_clashes(model: Model, scope: Scope, format_: Format, notes: Notes) ->
     """Report parts that would share a name, in the model and the models in it; whether there are any."""
     seen: dict[tuple[str, str], tuple[str, Location]] = {}
     clash = False
-    for part, field_name in _FIELDS:
+    for part, field_name in PARTS:
         kind = part if format_ is Format.URDF else ""  # SDF has one scope for all, URDF one for each kind
         for node in getattr(model, field_name):
             new = scope.own[part].get(node.name or "")
@@ -112,6 +110,6 @@ def every_name(document: Document) -> set[tuple[Part, str]]:
     stack = [*document.models, *(model for world in document.worlds for model in world.models)]
     while stack:
         model = stack.pop()
-        found.update((part, node.name) for part, name in _FIELDS for node in getattr(model, name) if node.name)
+        found.update((part, node.name) for part, name in PARTS for node in getattr(model, name) if node.name)
         stack.extend(model.models)
     return found

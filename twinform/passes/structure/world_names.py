@@ -3,12 +3,9 @@
 from collections.abc import Callable
 
 from twinform.diagnostics import Notes
-from twinform.ir import Format, Include, Light, Model, World
-from twinform.passes.structure.renaming import renamed_model
+from twinform.ir import Format, Model, World
+from twinform.passes.structure.renaming import with_followed
 from twinform.passes.structure.scopes import Scope
-
-_PLACED = ("models", "includes", "lights")
-"""The parts of a world whose poses may be relative to a frame in one of its models."""
 
 
 def followed(before: World, after: World, scope: Callable[[Model], Scope], only: str | None) -> World:
@@ -18,17 +15,4 @@ def followed(before: World, after: World, scope: Callable[[Model], Scope], only:
     """
     inner = {model.name: scope(model) for model in before.models if only in (None, model.name)}
     own: dict[str, dict[str, str]] = {part: {} for part in ("link", "joint", "frame", "model")}
-    around = Scope("", own, inner)
-    holder = Model(name="", joints=after.joints, frames=after.frames, opaque=after.opaque, plugins=after.plugins)
-    made = renamed_model(holder, around, Format.SDF, Notes())
-    update = {name: getattr(made, name) for name in ("joints", "frames", "opaque", "plugins")}
-    placed = {name: tuple(_placed(node, around) for node in getattr(after, name)) for name in _PLACED}
-    return after.model_copy(update={**update, **placed})
-
-
-def _placed(node: Model | Include | Light, around: Scope) -> Model | Include | Light:
-    """What stands in a world, at the same place by the new name of the frame that it stands in."""
-    if node.pose is None or not node.pose.relative_to:
-        return node
-    pose = node.pose.model_copy(update={"relative_to": around.follow("any", node.pose.relative_to)})
-    return node.model_copy(update={"pose": pose})
+    return with_followed(after, Scope("", own, inner), Format.SDF, Notes())

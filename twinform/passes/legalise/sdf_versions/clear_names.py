@@ -6,8 +6,8 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf as rules
-from twinform.ir import Document, Frame, Joint, Link, Model, Pose, World
-from twinform.passes.legalise.nodes import map_poses, unique_name
+from twinform.ir import Document, Frame, Joint, Link, Model, ReferenceKind, World, map_references
+from twinform.passes.legalise.nodes import unique_name
 from twinform.passes.legalise.sdf_versions.base import VersionPass, map_models, map_worlds
 from twinform.passes.legalise.sdf_versions.carriers import Keeper
 
@@ -20,7 +20,7 @@ class ClearNames(VersionPass):
 
     Changes: 1. a link with the name of a nested model, a joint with that of a link, a frame with that of any of them
     gets `_link`, `_joint` or `_frame` behind it, as libsdformat has it; 2. so does one with a name that SDF keeps for
-    itself. What names it follows: joints and poses the link, poses alone the frame.
+    itself. References follow; the name of a frame means a link that got another name, or else a frame.
     Never touches: names inside plugins and sensors, which only they understand.
     Diagnostics: `renamed`; in the ledger `renamed` as approximated.
     """
@@ -42,20 +42,12 @@ class _Scope:
     frames: dict[str, str]
     notes: Notes
 
-    def pose(self, pose: Pose) -> Pose:
-        """A pose follows a link that is called otherwise now, or else a frame."""
-        name = pose.relative_to or ""
-        renamed = self.links.get(name) or (name not in self.joints and self.frames.get(name)) or name
-        return pose if renamed == name else pose.model_copy(update={"relative_to": renamed})
-
-    def joint(self, joint: Joint) -> Joint:
-        """A joint follows its links."""
-        update = {
-            end: self.links[name]
-            for end, name in (("parent", joint.parent), ("child", joint.child))
-            if name != _RESERVED and name in self.links
-        }
-        return joint.model_copy(update=update) if update else joint
+    def follow(self, kind: ReferenceKind, name: str) -> str:
+        """The new name; a frame is a link that is called otherwise now, or else a frame."""
+        if kind == "any":
+            return self.links.get(name) or (name not in self.joints and self.frames.get(name)) or name
+        names = {"link": self.links, "joint": self.joints}.get(kind, {})
+        return name if name == _RESERVED else names.get(name, name)
 
     def rename(self, node: Named, names: dict[str, str]) -> Named:
         """The node with its new name."""
@@ -79,14 +71,13 @@ def _clear(model: Model, notes: Notes) -> Model:
     if not links and not joints and not frames:
         return model
     scope = _Scope(links, joints, frames, notes)
-    inside = map_poses(model, scope.pose).model_copy(update={"pose": model.pose, "models": model.models})
-    return inside.model_copy(
-        update={
-            "links": tuple(scope.rename(link, links) for link in inside.links),
-            "joints": tuple(scope.joint(scope.rename(joint, joints)) for joint in inside.joints),
-            "frames": tuple(scope.rename(frame, frames) for frame in inside.frames),
-        }
-    )
+    followed = map_references(model, scope.follow)
+    update = {
+        "links": tuple(scope.rename(link, links) for link in followed.links),
+        "joints": tuple(scope.rename(joint, joints) for joint in followed.joints),
+        "frames": tuple(scope.rename(frame, frames) for frame in followed.frames),
+    }
+    return followed.model_copy(update=update)
 
 
 def _clear_world(world: World, notes: Notes) -> World:

@@ -2,16 +2,16 @@
 
 from dataclasses import dataclass, field
 from functools import partial
-from typing import ClassVar
+from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import sdf_versions as rules
-from twinform.ir import Axis, Document, Frame, Joint, Link, Model, Pose
+from twinform.ir import IN_MODELS, Axis, Document, Frame, Joint, Link, Model, Pose, ReferenceKind, map_references
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
-from twinform.passes.legalise.nodes import map_poses
 from twinform.passes.legalise.sdf_versions.base import VersionPass, map_models
 from twinform.passes.legalise.sdf_versions.carriers import Keeper
 
+Part = TypeVar("Part", Link, Joint, Frame)
 _SCOPE = "::"
 
 
@@ -63,10 +63,12 @@ class _Inner:
         ends = all(end == WORLD or self.holds(end) for end in (joint.parent, joint.child))
         return ends and all(self.holds(leader) for leader in leaders)
 
-    def pose(self, pose: Pose) -> Pose:
-        if not self.holds(pose.relative_to):
-            return pose
-        return pose.model_copy(update={"relative_to": self.strip(pose.relative_to)})
+    def moved(self, node: Part, update: dict[str, object]) -> Part:
+        """A part of the outer model as one of this; what it names here it names by its new name."""
+        return map_references(node.model_copy(update={"name": self.strip(node.name), **update}), self.follow)
+
+    def follow(self, kind: ReferenceKind, name: str) -> str:
+        return name.removeprefix(self.prefix) if kind in IN_MODELS else name
 
 
 def nest(model: Model, notes: Notes, among: frozenset[str] | None = None) -> Model:
@@ -152,8 +154,7 @@ def _link(link: Link, inner: _Inner, base: str, graph: FrameGraph) -> Link:
     pose = link.pose
     if not inner.holds(pose.relative_to if pose else None) and (base != MODEL or (pose and pose.relative_to)):
         pose = graph.pose(link.name, base, base="frame").to_pose()
-    inside = map_poses(link.model_copy(update={"pose": None}), inner.pose)
-    return inside.model_copy(update={"name": inner.strip(link.name), "pose": inner.pose(pose) if pose else None})
+    return inner.moved(link, {"pose": pose})
 
 
 def _inner_model(model: Model, inner: _Inner, base: str, graph: FrameGraph) -> Model:
@@ -162,7 +163,8 @@ def _inner_model(model: Model, inner: _Inner, base: str, graph: FrameGraph) -> M
         where = graph.pose(model.name, base, kind="model", base="frame")
         pose = where.to_pose()  # of the model's own frame, which a placement frame would move
         model = model.model_copy(update={"placement_frame": None})
-    return model.model_copy(update={"name": inner.strip(model.name), "pose": inner.pose(pose) if pose else None})
+    pose = pose and map_references(pose, inner.follow)
+    return model.model_copy(update={"name": inner.strip(model.name), "pose": pose})
 
 
 def _frame(frame: Frame, inner: _Inner, base: str, graph: FrameGraph) -> Frame:
@@ -171,41 +173,21 @@ def _frame(frame: Frame, inner: _Inner, base: str, graph: FrameGraph) -> Frame:
     if not inner.holds(around):
         pose = graph.pose(frame.name, base, kind="frame", base="frame").to_pose(MODEL)
     held_by = frame.attached_to if held else graph.body(frame.name, kind="frame")
-    attached = inner.strip(held_by) if inner.holds(held_by) else None
-    update = {
-        "name": inner.strip(frame.name),
-        "attached_to": attached,
-        "pose": inner.pose(pose) if pose else None,
-    }
-    return frame.model_copy(update=update)
+    return inner.moved(frame, {"attached_to": held_by if inner.holds(held_by) else None, "pose": pose})
 
 
 def _joint(joint: Joint, inner: _Inner, graph: FrameGraph) -> Joint:
     pose = joint.pose
     if pose is not None and pose.relative_to and not inner.holds(pose.relative_to):
         pose = graph.pose(joint.name, joint.child or "", kind="joint").to_pose()
-    inside = map_poses(joint.model_copy(update={"pose": None}), inner.pose)
-    update: dict[str, object] = {
-        "name": inner.strip(joint.name),
-        "pose": inner.pose(pose) if pose else None,
-        "axis": _axis(joint, joint.axis, inner, graph),
-        "axis2": _axis(joint, joint.axis2, inner, graph),
-        "parent": inner.strip(joint.parent),
-        "child": inner.strip(joint.child),
-        "gearbox_reference_body": inner.strip(joint.gearbox_reference_body),
-    }
-    return inside.model_copy(update=update)
+    axes = {field: _axis(joint, getattr(joint, field), inner, graph) for field in ("axis", "axis2")}
+    return inner.moved(joint, {"pose": pose, **axes})
 
 
 def _axis(joint: Joint, axis: Axis | None, inner: _Inner, graph: FrameGraph) -> Axis | None:
-    """The axis with the name of its frame, or turned into the joint where that is outside."""
-    if axis is not None and axis.mimic is not None:
-        leader = axis.mimic.model_copy(update={"joint": inner.strip(axis.mimic.joint)})
-        axis = axis.model_copy(update={"mimic": leader})
-    if axis is None or not axis.expressed_in:
+    """The axis, turned into the joint where the frame that it is expressed in is outside."""
+    if axis is None or not axis.expressed_in or inner.holds(axis.expressed_in):
         return axis
-    if inner.holds(axis.expressed_in):
-        return axis.model_copy(update={"expressed_in": inner.strip(axis.expressed_in)})
     if axis.expressed_in == MODEL and inner.own is None:
         return axis
     turn = graph.pose(axis.expressed_in, joint.name, kind="frame", base="joint")

@@ -28,9 +28,10 @@ def read_content(
     for extension in listed:
         for element in extension.content:
             element_xml(element, xml)
-    found = Notes(file=notes.file, strict=notes.strict)
-    context = Context(found, notes.file, "sdf", table("sdf").newest, declared=False)
-    data = reader("sdf", context.version).read(xml, context, kind, listed[0].source)
+    above = listed[0].source
+    found = Notes(file=above.file if above else notes.file, strict=notes.strict)
+    context = Context(found, found.file, "sdf", table("sdf").newest, declared=False)
+    data = reader("sdf", context.version).read(xml, context, kind, above)
     _report(found, f"{kind}[@name='{name}']", name if kind != "model" else "", notes)
     fields = [field for field in data if field not in _GIVEN]
     if notes.has_errors or not fields:

@@ -1,18 +1,16 @@
 """Nested models as the SDF file had them that a URDF was converted from."""
 
-from collections.abc import Callable, Iterable, Iterator
-from functools import partial
+from collections.abc import Iterable, Iterator
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Notes, Severity
 from twinform.diagnostics.rules.to_urdf import NESTED_MODEL, STALE_CARRIER
-from twinform.ir import Axis, Element, Format, Frame, Joint, Link, Model, Node, Opaque, Pose
+from twinform.ir import IN_MODELS, Element, Format, Frame, Link, Model, Node, Opaque, Pose, map_references
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.marks import find_mark, without_mark
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.names import renamed
-from twinform.passes.legalise.nodes import map_poses
 from twinform.passes.legalise.notation import NESTED
 from twinform.passes.legalise.provenance import wrote_scopes
 from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb
@@ -24,7 +22,6 @@ from twinform.schemas import parse_version, table
 AnyNode = TypeVar("AnyNode", bound=Node)
 
 _OWN = f"{SCOPE}{MODEL}"
-Short = Callable[[str | None], str | None]
 
 
 class NameScopes(ModelPass):
@@ -164,20 +161,14 @@ def _placed(model: Model) -> Model:
 
 def _tidy(model: Model) -> Model:
     """The model without names that go without saying: its own frame, and that of a model by its full name."""
-    short = partial(_short, frozenset(_inside(model)))
-
-    def pose(written: Pose) -> Pose:
-        return written.model_copy(update={"relative_to": short(written.relative_to)})
-
-    model = model.model_copy(
-        update={
-            "models": tuple(_tidy(inner) for inner in model.models),
-            "links": tuple(_posed(map_poses(link, pose)) for link in model.links),
-            "joints": tuple(_tidy_joint(map_poses(joint, pose), short) for joint in model.joints),
-            "frames": tuple(_tidy_frame(map_poses(frame, pose), short) for frame in model.frames),
-        }
-    )
-    return _posed(map_poses(model, pose))
+    models = frozenset(_inside(model))
+    model = map_references(model, lambda kind, name: _short(models, name) if kind in IN_MODELS else name)
+    update = {
+        "models": tuple(map(_tidy, model.models)),
+        "links": tuple(map(_posed, model.links)),
+        "frames": tuple(map(_attached, model.frames)),
+    }
+    return _posed(model.model_copy(update=update))
 
 
 def _posed(node: AnyNode) -> AnyNode:
@@ -197,20 +188,11 @@ def _inside(model: Model) -> Iterator[str]:
         yield from (f"{inner.name}{SCOPE}{path}" for path in _inside(inner))
 
 
-def _short(models: frozenset[str], name: str | None) -> str | None:
+def _short(models: frozenset[str], name: str) -> str:
     """A name; that of a model for its own frame."""
-    short = name and name.removesuffix(_OWN)
+    short = name.removesuffix(_OWN)
     return short if short in models else name
 
 
-def _tidy_joint(joint: Joint, short: Short) -> Joint:
-    def tidy(axis: Axis | None) -> Axis | None:
-        return axis and axis.model_copy(update={"expressed_in": short(axis.expressed_in)})
-
-    ends = {end: short(getattr(joint, end)) for end in ("parent", "child")}
-    return joint.model_copy(update={**ends, "axis": tidy(joint.axis), "axis2": tidy(joint.axis2)})
-
-
-def _tidy_frame(frame: Frame, short: Short) -> Frame:
-    attached = short(frame.attached_to)
-    return frame.model_copy(update={"attached_to": None if attached == MODEL else attached})
+def _attached(frame: Frame) -> Frame:
+    return frame.model_copy(update={"attached_to": None}) if frame.attached_to == MODEL else frame

@@ -1,11 +1,11 @@
 """One scope for all names."""
 
-from collections.abc import Callable, Collection
+from collections.abc import Collection
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import Fate, Notes
 from twinform.diagnostics.rules import to_sdf
-from twinform.ir import Axis, Joint, Link, Model, Pose
+from twinform.ir import Format, Joint, Link, Model, ReferenceKind, map_references
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.names import with_old_name
 
@@ -39,31 +39,16 @@ class UniqueNames(ModelPass):
         joints = {name: free_name(_new(name, "joint", names), taken) for name in clashes}
         if not links and not joints:
             return model
-        return model.model_copy(
-            update={
-                "links": tuple(self._link(link, links, joints, notes) for link in model.links),
-                "joints": tuple(self._joint(joint, links, joints, notes) for joint in model.joints),
-            }
-        )
-
-    def _link(self, link: Link, links: dict[str, str], joints: dict[str, str], notes: Notes) -> Link:
-        link = link.model_copy(update={"pose": _renamed_pose(link.pose, lambda name: joints.get(name, name))})
-        return self._rename(link, links[link.name], notes) if link.name in links else link
-
-    def _joint(self, joint: Joint, links: dict[str, str], joints: dict[str, str], notes: Notes) -> Joint:
-        def follow(name: str) -> str:
-            return links.get(name, name)
-
-        update: dict[str, object] = {
-            "parent": follow(joint.parent or ""),
-            "child": follow(joint.child or ""),
-            "pose": _renamed_pose(joint.pose, follow),
+        new: dict[ReferenceKind, dict[str, str]] = {"link": links, "joint": joints}
+        followed = map_references(model, lambda kind, name: new.get(kind, {}).get(name, name), Format.URDF)
+        update = {
+            "links": tuple(self._renamed(link, links, notes) for link in followed.links),
+            "joints": tuple(self._renamed(joint, joints, notes) for joint in followed.joints),
         }
-        if joint.gearbox_reference_body is not None:
-            update["gearbox_reference_body"] = follow(joint.gearbox_reference_body)
-        update |= {field: _followed(getattr(joint, field), joints) for field in ("axis", "axis2")}
-        joint = joint.model_copy(update=update)
-        return self._rename(joint, joints[joint.name], notes) if joint.name in joints else joint
+        return followed.model_copy(update=update)
+
+    def _renamed(self, node: Named, names: dict[str, str], notes: Notes) -> Named:
+        return self._rename(node, names[node.name], notes) if node.name in names else node
 
     def _rename(self, node: Named, name: str, notes: Notes) -> Named:
         kind = type(node).__name__.lower()
@@ -92,17 +77,3 @@ def free_name(name: str, taken: set[str]) -> str:
         candidate, number = f"{name}_{number}", number + 1
     taken.add(candidate)
     return candidate
-
-
-def _followed(axis: Axis | None, joints: dict[str, str]) -> Axis | None:
-    """The axis with its mimic of a joint by that joint's new name."""
-    mimic = axis.mimic if axis else None
-    if axis is None or mimic is None or mimic.joint not in joints:
-        return axis
-    return axis.model_copy(update={"mimic": mimic.model_copy(update={"joint": joints[mimic.joint]})})
-
-
-def _renamed_pose(pose: Pose | None, follow: Callable[[str], str]) -> Pose | None:
-    if pose is None or pose.relative_to is None:
-        return pose
-    return pose.model_copy(update={"relative_to": follow(pose.relative_to)})
