@@ -1,4 +1,4 @@
-# Every command of the project; `make help` lists them. A fresh machine needs Python 3.11 or newer, make and git.
+# Every command of the project; `make help` lists those that people use. A fresh machine needs Python 3.11 or newer, make and git.
 SHELL := bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := help
@@ -6,15 +6,17 @@ SHELL := bash
 
 PYTHON ?= python3
 JOBS ?= 2
-# checkouts of gz-sim and gz-sensors, one for each release, for `make systems`
-SOURCES ?=
+# of `make report`: which one, and its options
+NAME ?=
+ARGS ?=
 BIN := .venv/bin
 # what .venv was made from; a change of the project file makes it again
 SYNCED := .venv/.synced
 ORACLES := .venv/.oracles
+READERS := .venv/.readers
 DEMO := out/demo
 
-.PHONY: help sync fmt generate lint wheel test demo corpus versions oracle probes sameness edits worlds gazebo systems readers equipment bench before inertia lumping classic mapping verdicts xacro prove coverage mutation fuzz clean
+.PHONY: help sync fmt generate lint wheel test demo report bench before prove coverage fuzz clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -42,7 +44,8 @@ generate: $(SYNCED) ## write the files that are made from tables: schemas and re
 	$(BIN)/python -m twinform.passes.pages docs/reference/passes.md
 	$(BIN)/python -m twinform.passes.legalise.page docs/explanation/pipeline.md
 	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md
-	$(BIN)/python -m benchmarks.libsdformat_codes docs/reference/libsdformat_codes.md
+	$(BIN)/python -m reports libsdformat_codes
+	$(BIN)/python -m reports mapping
 
 lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel that works in an empty environment
 	$(BIN)/ruff check .
@@ -54,11 +57,11 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/python -m twinform.passes.pages docs/reference/passes.md --check
 	$(BIN)/python -m twinform.passes.legalise.page docs/explanation/pipeline.md --check
 	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md --check
-	$(BIN)/python -m benchmarks.libsdformat_codes docs/reference/libsdformat_codes.md --check
-	$(BIN)/python -m benchmarks.mapping docs/explanation/mapping.md --check
+	$(BIN)/python -m reports libsdformat_codes --check
+	$(BIN)/python -m reports mapping --check
 	$(MAKE) --no-print-directory wheel
 
-wheel: $(SYNCED) ## build the wheel, list it, install it into an empty environment and run the command
+wheel: $(SYNCED) # build the wheel, list it, install it into an empty environment and run the command
 	rm -rf dist .wheel-venv
 	$(BIN)/python -m build --wheel --outdir dist . >/dev/null
 	$(BIN)/python -m zipfile --list dist/*.whl
@@ -69,13 +72,10 @@ wheel: $(SYNCED) ## build the wheel, list it, install it into an empty environme
 prove: $(ORACLES) ## all tests at depth: 1,000 examples of each property, 100,000 documents before four judges
 	TWINFORM_PROFILE=deep $(BIN)/python -m pytest -n $(JOBS) --dist worksteal
 
-coverage: $(ORACLES) ## how much of the package the tests run, branches and child processes too
+coverage: $(ORACLES) # how much of the package the tests run, branches and child processes too
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal --cov --cov-report=term --cov-report=html:out/coverage
 
-mutation: $(SYNCED) ## how many small faults the tests notice, in a sample of each room; writes docs/reference/mutation.md
-	$(BIN)/python -m benchmarks.mutation --processes $(JOBS)
-
-fuzz: $(SYNCED) ## ten minutes of atheris for each target; docs/reference/proof.md says how to run it for hours
+fuzz: $(SYNCED) # ten minutes of atheris for each target; docs/evidence/proof.md says how to run it for hours
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --group fuzz
 	mkdir -p out/fuzz/load out/fuzz/pipeline
 	PYTHONPATH=. $(BIN)/python fuzz/load.py out/fuzz/load tests/fuzz/found/load examples -max_total_time=600
@@ -93,61 +93,17 @@ demo: $(SYNCED) ## the rover to SDF and back, with what is found and what is los
 	@echo "-- ledger, SDF to URDF:"; cat $(DEMO)/rover.urdf.ledger.json
 	@echo "-- files:"; ls -1 $(DEMO)/*
 
-corpus: $(SYNCED) ## every real file through the compiler; writes docs/reference/corpus.md
-	$(BIN)/python -m benchmarks.corpus
+report: $(if $(NAME),$(ORACLES),$(SYNCED)) $(if $(filter readers,$(NAME)),$(READERS)) ## measure, and write a page: NAME=lumping ARGS="--every 50"; which there are without NAME
+	@$(BIN)/python -m reports $(NAME) $(ARGS)
 
-versions: $(ORACLES) ## every SDF file in older versions and back, some before Drake; writes docs/reference/versions.md
-	$(BIN)/python -m benchmarks.versions
+report: export TWINFORM_NODE_MODULES = $(CURDIR)/out/readers/node_modules
 
-oracle: $(ORACLES) ## Drake and other engines, libsdformat and urdfdom judge the conversions; writes docs/reference/oracle.md
-	$(BIN)/python -m benchmarks.oracle
-
-sameness: $(SYNCED) ## every conversion against its source by `twinform diff`; writes docs/reference/sameness.md
-	$(BIN)/python -m benchmarks.sameness
-
-lumping: $(ORACLES) ## fixed joints lumped beside libsdformat 12, and let go in Drake; writes docs/reference/lumping.md
-	$(BIN)/python -m benchmarks.lumping
-
-classic: $(SYNCED) ## every plugin of Gazebo Classic in the corpus migrated to gz-sim; writes docs/reference/classic.md
-	$(BIN)/python -m benchmarks.classic
-
-probes: $(ORACLES) ## what libsdformat makes of small URDF files beside what we make; writes docs/reference/probes.md
-	$(BIN)/python -m benchmarks.probes
-
-edits: $(ORACLES) ## 20,000 edits and passes on converted files, and what becomes of them; writes docs/reference/edits.md
-	$(BIN)/python -m benchmarks.edits --processes $(JOBS)
-
-worlds: $(ORACLES) ## every world taken apart and put together again, before libsdformat; writes docs/reference/worlds.md
-	$(BIN)/python -m benchmarks.worlds
-
-gazebo: $(ORACLES) ## every conversion in Gazebo's own physics, DART and Bullet; writes docs/reference/gazebo.md, gazebo_runs.md
-	$(BIN)/python -m benchmarks.gazebo_features
-	$(BIN)/python -m benchmarks.gazebo
-
-systems: $(SYNCED) ## the catalogue against checkouts of gz-sim and gz-sensors, SOURCES=PATH,...; writes docs/reference/systems.md
-	$(BIN)/python -m benchmarks.systems $(SOURCES)
-
-readers: $(ORACLES) ## what carriers do to other readers of URDF and SDF; writes docs/reference/readers.md
+$(READERS): $(ORACLES)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[readers]'
 	npm install --silent --no-audit --no-fund --prefix out/readers urdf-loader three jsdom || echo "without npm"
-	TWINFORM_NODE_MODULES=$(CURDIR)/out/readers/node_modules $(BIN)/python -m benchmarks.readers
+	touch $@
 
-equipment: $(SYNCED) ## sensors and plugins of SDF as libsdformat finds them in URDF; writes docs/reference/equipment.md
-	$(BIN)/python -m benchmarks.equipment
-
-verdicts: $(SYNCED) ## mutated corpus files before libsdformat 12 and urdfdom; writes docs/reference/verdicts.md
-	$(BIN)/python -m benchmarks.verdicts
-
-xacro: $(SYNCED) ## every xacro file of the corpus beside what the xacro command makes of it; writes docs/reference/xacro.md
-	$(BIN)/python -m benchmarks.xacro
-
-inertia: $(ORACLES) ## corpus robots that engines refuse for their inertias, mended; writes docs/reference/inertia.md
-	$(BIN)/python -m benchmarks.inertia
-
-mapping: $(SYNCED) ## where every element of both formats goes; writes docs/explanation/mapping.md
-	$(BIN)/python -m benchmarks.mapping docs/explanation/mapping.md
-
-bench: $(SYNCED) ## how fast it is; writes docs/reference/performance.md
+bench: $(SYNCED) ## how fast it is; writes docs/evidence/performance.md
 	$(BIN)/python -m benchmarks.bench
 
 before: $(SYNCED) ## outputs and speed of this tree beside those of an older checkout: make before WITH=../older

@@ -21,9 +21,9 @@ from random import Random
 
 from lxml import etree
 
-from benchmarks import edit_passes
-from benchmarks.converting import SDF_VERSION
-from benchmarks.markdown import table
+from reports.edits import passes as edit_passes
+from reports.harness.files import SDF_VERSION
+from reports.harness.pages import table
 from tests.corpus.files import CORPUS, MISSING, CorpusFile, Kind, models
 
 _SHOWN = 20

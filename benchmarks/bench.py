@@ -1,4 +1,4 @@
-"""How fast it is: `make bench`. Writes docs/reference/performance.md; asserts nothing."""
+"""How fast it is: `make bench`. Writes docs/evidence/performance.md; asserts nothing."""
 
 import os
 import platform
@@ -14,8 +14,8 @@ from lxml import etree
 
 import twinform
 from benchmarks import robots
-from benchmarks.markdown import table, write
 from benchmarks.stages import profile_urdf_to_sdf
+from reports.harness.pages import table, write
 from tests.corpus.files import ROOT
 
 PAGE = ROOT / "docs" / "reference" / "performance.md"

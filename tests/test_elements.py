@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 import twinform
-from benchmarks.mapping_measure import CASES, measured, ways
-from benchmarks.mapping_rows import FORMATS, FormatName, rows
+from reports.mapping.measure import CASES, measured, ways
+from reports.mapping.rows import FORMATS, FormatName, rows
 from tests.corpus.there_and_back import robots
 from tests.oracles.xml_trees import first_difference
 from twinform.compiler.audit import audit

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from benchmarks.world_judging import Loaded, Together, judge
+from reports.worlds.judging import Loaded, Together, judge
 from tests.expected import assert_expected
 from twinform.cli import main
 

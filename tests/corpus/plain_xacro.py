@@ -6,7 +6,6 @@ import re
 import resource
 import subprocess
 import sys
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
@@ -15,14 +14,13 @@ from pathlib import Path
 
 from lxml import etree
 
-from tests.corpus.files import CORPUS, ROOT, CorpusFile, Kind, corpus_files
+from tests.corpus.files import CORPUS, CorpusFile, Kind, corpus_files
 from twinform.compiler.parsing import UnreadableError
 from twinform.compiler.uris import SearchPath, UriError
 from twinform.compiler.xacro.expansion import expand
 from twinform.diagnostics import Notes
 
 _RUN = Path(__file__).with_name("plain_xacro_run.py")
-_KNOWN = ROOT / "benchmarks" / "xacro_known.toml"
 _SECONDS = 60
 _FIND = re.compile(r"\$\(find\s+([\w-]+)\s*\)")
 _ERROR = re.compile(r"^(?=error: |XML parsing error: )", re.MULTILINE)
@@ -76,12 +74,6 @@ class Compared:
 def users_of_xacro() -> tuple[CorpusFile, ...]:
     """Every file of the corpus that uses xacro, whatever its name is."""
     return tuple(file for file in corpus_files() if file.kind is Kind.XACRO or file.path.suffix == ".xacro")
-
-
-@cache
-def known_differences() -> dict[str, str]:
-    """Why a file is right not to be alike: the table of `make xacro`."""
-    return tomllib.loads(_KNOWN.read_text(encoding="utf-8"))["files"]
 
 
 def reason_of(message: str) -> str:

@@ -1,18 +1,16 @@
 """Every conversion of a real file is the same robot, unless it is known why not."""
 
-import tomllib
-from fnmatch import fnmatchcase
 from pathlib import Path
 
 import pytest
 
 import twinform
-from tests.corpus.files import ROOT, CorpusFile, Kind, chunks
+from reports.sameness.report import KNOWN
+from tests.corpus.files import CorpusFile, Kind, chunks
 from tests.corpus.there_and_back import robots
 
 _EVERY = 10
-"""One file of so many is tried; `make sameness` tries all."""
-_KNOWN = tomllib.loads((ROOT / "benchmarks/sameness_known.toml").read_text(encoding="utf-8"))["different"]
+"""One file of so many is tried; the report tries all."""
 
 SAMPLE = {name: files[::_EVERY] for name, files in chunks().items()}
 
@@ -20,7 +18,7 @@ SAMPLE = {name: files[::_EVERY] for name, files in chunks().items()}
 @pytest.mark.parametrize("chunk", SAMPLE)
 def test_a_file_and_its_conversion_are_the_same_robot(corpus: Path, chunk: str):
     assert corpus.is_dir()
-    tried = [file for file in SAMPLE[chunk] if not any(fnmatchcase(file.name, glob) for glob in _KNOWN)]
+    tried = [file for file in SAMPLE[chunk] if not KNOWN.why("different", file.name)]
     found = {file.name: difference for file in tried if (difference := _first_difference(file))}
     assert found == {}
 

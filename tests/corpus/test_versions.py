@@ -8,7 +8,7 @@ from tests.corpus.files import CorpusFile, Kind, chunks
 from tests.corpus.versions import Trip, there_and_back
 
 _EVERY = 5
-"""One file of so many is tried; `make versions` tries all."""
+"""One file of so many is tried; `make report NAME=versions` tries all."""
 
 SAMPLE = {name: files[::_EVERY] for name, files in chunks(Kind.SDF).items()}
 VERSIONS = ("1.4", "1.6", "1.9")

@@ -4,10 +4,11 @@ from pathlib import Path
 
 import pytest
 
+from reports.xacro.report import KNOWN
 from tests.corpus.examine_xacro import examine_xacro
 from tests.corpus.expressions import evaluated, expressions
 from tests.corpus.files import portions, xacro_files
-from tests.corpus.plain_xacro import compare, known_differences, users_of_xacro
+from tests.corpus.plain_xacro import compare, users_of_xacro
 from tests.profile import DEEP
 
 PORTIONS = portions(xacro_files())
@@ -26,7 +27,7 @@ def test_a_xacro_file_is_expanded_or_refused_with_a_line(corpus: Path, portion: 
 def test_a_file_becomes_what_xacro_makes_of_it(corpus: Path, portion: str):
     assert corpus.is_dir()
     found = [compare(file) for file in COMPARED[portion][:: 1 if DEEP else 2]]
-    assert [each for each in found if not each.is_alike and each.name not in known_differences()] == []
+    assert [each for each in found if not each.is_alike and not KNOWN.why("files", each.name)] == []
 
 
 def test_an_expression_has_the_value_that_xacro_gives_it(corpus: Path):

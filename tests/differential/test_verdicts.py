@@ -4,8 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks.verdict_judging import QUESTIONS, Judge, missing
-from benchmarks.verdicts import judged, unexplained
+from reports.harness.needs import libsdformat, urdfdom
+from reports.verdicts.judging import QUESTIONS
+from reports.verdicts.report import judged, unexplained
 from tests.corpus.files import Kind
 from tests.differential.mutated import mutated
 from tests.profile import DEEP
@@ -17,9 +18,8 @@ EACH = 500 if DEEP else 25
 @pytest.fixture(autouse=True)
 def judges(corpus: Path) -> None:
     assert corpus.is_dir()
-    for judge in Judge:
-        if why := missing(judge):
-            pytest.skip(why)
+    if why := libsdformat() or urdfdom():
+        pytest.skip(why)
 
 
 @pytest.mark.parametrize("kind", [Kind.SDF, Kind.URDF])

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import twinform
-from benchmarks.loading import complaints
+from reports.inertia.loading import complaints
 from twinform.testing import oracles
 from twinform.testing.oracles import drake
 

@@ -30,7 +30,7 @@ def test_sdf_made_from_urdf_that_libsdformat_takes_is_read(corpus: Path, chunk: 
 @pytest.mark.parametrize("chunk", SDF)
 def test_an_sdf_model_that_libsdformat_takes_is_read_when_written_again(corpus: Path, chunk: str, tmp_path: Path):
     assert corpus.is_dir()
-    # worlds take long; `make oracle` has them too
+    # worlds take long; `make report NAME=oracle` has them too
     assert _errors((file for file in _good(SDF[chunk]) if _is_model_alone(file)), tmp_path) == {}
 
 

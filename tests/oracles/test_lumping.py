@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import twinform
-from benchmarks.lumping_causes import cause_of
-from benchmarks.lumping_differences import differences
-from benchmarks.probes import MISSING, PROBES
+from reports.lumping.causes import cause_of
+from reports.lumping.differences import differences
+from reports.probes.report import MISSING, PROBES
 from tests.corpus.files import ROOT
 from tests.profile import DEEP
 from twinform.testing import oracles

@@ -1,21 +1,17 @@
 """Small URDF files that libsdformat turned into SDF: nothing that it keeps is lost with us without an explanation."""
 
-import tomllib
-
 import pytest
 
-from benchmarks.probe_values import lost, parsed
-from benchmarks.probes import KNOWN, MISSING, PROBES, probes, unexplained
+from reports.harness.sample import Sample
+from reports.probes.report import MISSING, PROBES, probes, unexplained
+from reports.probes.values import lost, parsed
 from tests.profile import DEEP
 
 
 def test_every_difference_from_libsdformat_has_an_explanation():
     if not PROBES.is_dir():
         pytest.skip(MISSING)
-    known = tomllib.loads(KNOWN.read_text(encoding="utf-8"))
-    found = [failure for probe in probes(1 if DEEP else 4) for failure in unexplained(probe, known)]
-    # without an engine nobody says that it is another robot, and the explanations of that have nothing to explain
-    assert [failure for failure in found if "nothing to explain" not in failure] == []
+    assert [failure for probe in probes(Sample(every=1 if DEEP else 4)) for failure in unexplained(probe)] == []
 
 
 def _lost(theirs: str, ours: str) -> list[str]:

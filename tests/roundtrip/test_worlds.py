@@ -9,7 +9,7 @@ from typing import Literal
 import pytest
 from hypothesis import given
 
-from benchmarks.world_judging import Loaded, Together, judge
+from reports.worlds.judging import Loaded, Together, judge
 from tests.profile import examples
 from twinform.compiler.emitting import emit
 from twinform.diagnostics import Notes

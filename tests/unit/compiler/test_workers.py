@@ -1,8 +1,10 @@
-"""Processes that may die. That a job harms no other is in tests/unit/test_benchmarks.py."""
+"""Processes that may die."""
 
 import os
 import signal
 import time
+
+import pytest
 
 from twinform.compiler.workers import Failure, run
 
@@ -20,6 +22,18 @@ def _die(_: int) -> None:
     os.kill(os.getpid(), signal.SIGKILL)
 
 
+def _square_or_fail(number: int) -> int:
+    if number == 2:
+        os._exit(7)
+    if number == 5:
+        time.sleep(60)
+    return number * number
+
+
+def _divide(number: int) -> float:
+    return 1 / number
+
+
 def test_nothing_is_a_result_like_any_other() -> None:
     assert dict(run(_nothing, range(3), processes=2)) == {0: None, 1: None, 2: None}
     assert list(run(_nothing, [])) == []
@@ -30,3 +44,17 @@ def test_a_job_that_is_late_is_told_from_one_that_died() -> None:
     assert late == {0.0: 0.0, 600.0: Failure("did not come to an end", late=True)}
     ((_, died),) = run(_die, [1])
     assert died == Failure("the process died (exit code -9)")
+
+
+def test_a_job_that_dies_or_hangs_harms_no_other():
+    found = dict(run(_square_or_fail, range(8), seconds=3, processes=2))
+    assert {n for n, result in found.items() if result == n * n} == {0, 1, 3, 4, 6, 7}
+    assert isinstance(found[2], Failure)
+    assert "exit code 7" in found[2].cause
+    assert isinstance(found[5], Failure)
+    assert "end" in found[5].cause
+
+
+def test_a_fault_in_the_task_is_raised():
+    with pytest.raises(RuntimeError, match="ZeroDivisionError"):
+        list(run(_divide, [0]))

@@ -1,0 +1,1 @@
+"""What does the compiler make of every real file, and what does not come home?"""

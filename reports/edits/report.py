@@ -1,0 +1,69 @@
+"""Edits and passes on converted files, and what becomes of them."""
+
+import json
+import shutil
+from collections.abc import Iterable, Iterator
+
+from reports.edits.jobs import OUT, Done, Job, Tried, corpus_jobs, work
+from reports.edits.page import ABOUT, drake_judged, sections, summary
+from reports.harness.drawing import drawn
+from reports.harness.files import kept
+from reports.harness.report import Findings, Report
+from reports.harness.sample import Sample
+from twinform.testing import strategies
+from twinform.testing.workers import Failure
+
+_SECONDS = 300
+_EDITS = {True: 24, False: 9}
+"""Edits for a URDF file, and for an SDF file."""
+_MODELS, _EDITS_OF_MODELS = 300, 8
+
+
+def measure(sample: Sample) -> Findings:
+    """Edit, convert, and compare."""
+    for folder in ("faults", "drake"):
+        shutil.rmtree(OUT / folder, ignore_errors=True)
+    done, failures = _all_done(_jobs(sample), sample)
+    drake = drake_judged(done, sample)
+    tried = [one for each in done for one in each.tried]
+    faults = [one for one in tried if one.verdict.is_fault]
+    _list(faults)
+    return Findings(
+        list(sections(done, tried, failures, drake, sample.seed)),
+        summary(done, failures, drake),
+        [*failures, *drake.faults, *(f"{one.kind}: {one.verdict.outcome}: {one.replay}" for one in faults)],
+    )
+
+
+def _jobs(sample: Sample) -> list[Job]:
+    jobs = sample.of([*corpus_jobs(sample.seed, _EDITS), *_generated(sample)])
+    return sorted(jobs, key=lambda job: -job.path.stat().st_size)
+
+
+def _generated(sample: Sample) -> Iterator[Job]:
+    """Models that Hypothesis makes up."""
+    robots = {"urdf": strategies.robots(max_links=6), "sdf": strategies.sdf_models(max_links=6)}
+    for suffix, strategy in robots.items():
+        for index, text in enumerate(drawn(strategy, _MODELS, sample.seed)):
+            path = kept(OUT / "generated" / f"{sample.seed}_{index}.{suffix}", text)
+            name = path.relative_to(OUT).as_posix()
+            yield Job(name, path, (), suffix == "urdf", sample.seed, _EDITS_OF_MODELS)
+
+
+def _all_done(jobs: list[Job], sample: Sample) -> tuple[list[Done], list[str]]:
+    done: list[Done] = []
+    failures: list[str] = []
+    for job, result in sample.run(work, jobs, seconds=_SECONDS):
+        if isinstance(result, Failure):
+            failures.append(f"{job.name}: {result.cause}")
+        else:
+            done += result
+    return sorted(done, key=lambda each: each.name), sorted(failures)
+
+
+def _list(faults: Iterable[Tried]) -> None:
+    rows = ([one.folder, one.kind, one.verdict.outcome, one.replay, *one.verdict.differences] for one in faults)
+    kept(OUT / "faults.jsonl", "".join(f"{json.dumps(row)}\n" for row in rows))
+
+
+REPORT = Report("edits", "Edits win", ABOUT, measure)

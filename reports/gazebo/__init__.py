@@ -1,0 +1,1 @@
+"""What do Gazebo's engines make of each element of SDF?"""

@@ -1,0 +1,1 @@
+"""Is it the same robot in Gazebo's own physics, DART and Bullet?"""

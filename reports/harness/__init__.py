@@ -1,0 +1,1 @@
+"""What every report needs: models, processes, known causes, Markdown, the command line."""

@@ -1,0 +1,30 @@
+"""Results of conversions as files below `out/`, as engines and readers are shown them."""
+
+from pathlib import Path
+
+import twinform
+from tests.corpus.files import ROOT, CorpusFile, Kind
+
+OUT = ROOT / "out"
+SDF_VERSION = "1.9"
+"""The newest one that Gazebo Fortress reads, and with it libsdformat 12."""
+
+
+def kept(path: Path, text: str) -> Path:
+    """The path, with the text in it."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def converted(file: CorpusFile, output: Path) -> Path | None:
+    """A file of the corpus in the other format, as `output` with its ending; None where it is refused."""
+    to_sdf = file.kind is Kind.URDF
+    try:
+        if to_sdf:
+            text = twinform.convert(file.path, to="sdf", sdf_version=SDF_VERSION).text
+        else:
+            text = twinform.convert(file.path, to="urdf").text
+    except twinform.CompileError:
+        return None
+    return kept(output.with_name(f"{output.name}.{'sdf' if to_sdf else 'urdf'}"), text)

@@ -1,0 +1,58 @@
+"""Markdown: tables, lists and sections of pages."""
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TypeVar
+
+Key = TypeVar("Key", str, tuple[str, ...])
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+    """A Markdown table; numbers are aligned to the right."""
+    body = [[_cell(value) for value in row] for row in rows]
+    numeric = [bool(body) and all(_is_number(row[i]) for row in body) for i in range(len(head))]
+    rule = ["---:" if number else "---" for number in numeric]
+    return "\n".join("| " + " | ".join(cells) + " |" for cells in [list(head), rule, *body]) + "\n"
+
+
+def listing(
+    head: Sequence[str], rows: Iterable[Sequence[object]], *, empty: str = "None.", most: int | None = None
+) -> str:
+    """A table of the first rows, with how many more there are; another text where there is no row."""
+    every = list(rows)
+    more = f"\n{len(every) - most} more.\n" if most is not None and len(every) > most else ""
+    return table(head, every[:most]) + more if every else empty
+
+
+def frequent(pairs: Iterable[tuple[Key, str]]) -> list[tuple[Key, int, str]]:
+    """How often each key is there, with the first of its examples: the most frequent keys first, then by key."""
+    counts, examples = Counter[Key](), dict[Key, str]()
+    for key, example in pairs:
+        counts[key] += 1
+        examples.setdefault(key, example)
+    return sorted(((key, count, examples[key]) for key, count in counts.items()), key=lambda row: (-row[1], row[0]))
+
+
+def section(title: str, *parts: str) -> str:
+    """A section of a page."""
+    return paragraphs(f"## {title}", *parts)
+
+
+def paragraphs(*parts: str) -> str:
+    """The parts with an empty line between them."""
+    return "\n\n".join(part.strip("\n") for part in parts if part.strip())
+
+
+def write(path: Path, *parts: str) -> None:
+    """A page of paragraphs."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(paragraphs(*parts) + "\n", encoding="utf-8")
+
+
+def _cell(value: object) -> str:
+    return str(value).replace("|", "\\|").replace("\n", " ")
+
+
+def _is_number(cell: str) -> bool:
+    return cell.replace(".", "", 1).replace(",", "").removeprefix("-").removesuffix("%").isdigit()

@@ -1,0 +1,79 @@
+"""What the command line chooses: which models, how they are drawn, and in how many processes they are judged."""
+
+import sys
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from itertools import groupby, zip_longest
+from pathlib import Path
+from typing import Protocol, TypeVar
+
+from tests.corpus.files import CorpusFile, Kind, corpus_files, models
+from twinform.testing.workers import Failure
+from twinform.testing.workers import run as run_in_processes
+
+
+class Named(Protocol):
+    """A thing with a name."""
+
+    @property
+    def name(self) -> str:
+        """The name."""
+        ...
+
+
+Item = TypeVar("Item", bound=Named)
+Job = TypeVar("Job")
+Result = TypeVar("Result")
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """All that there is, or a part of it: one of `every`, names with one of the words in `files`, another `seed`."""
+
+    every: int = 1
+    files: tuple[str, ...] = ()
+    seed: int = 1
+    jobs: int | None = None
+    inputs: tuple[str, ...] = ()
+
+    def of(self, items: Iterable[Item]) -> list[Item]:
+        """The chosen ones."""
+        named = [each for each in items if not self.files or any(word in each.name for word in self.files)]
+        return named[:: self.every]
+
+    def models(self, *kinds: Kind) -> list[CorpusFile]:
+        """The chosen URDF and SDF files of the corpus, and files that lie elsewhere where their paths are given."""
+        found = [*self._elsewhere(), *self.of(models())]
+        return [file for file in found if not kinds or file.kind in kinds]
+
+    def run(
+        self, task: Callable[[Job], Result], jobs: Iterable[Job], *, seconds: float = 60
+    ) -> Iterator[tuple[Job, Result | Failure]]:
+        """Do the jobs in processes, in any order; on a terminal, say how many are done."""
+        every = list(jobs)
+        for number, pair in enumerate(run_in_processes(task, every, seconds=seconds, processes=self.jobs), start=1):
+            if sys.stderr.isatty():
+                print(f"\r{number} of {len(every)}", end="\n" if number == len(every) else "", file=sys.stderr)
+            yield pair
+
+    def _elsewhere(self) -> Iterator[CorpusFile]:
+        for path in (Path(word).resolve() for word in self.files if Path(word).is_file()):
+            yield CorpusFile(str(path), Kind.URDF if path.suffix == ".urdf" else Kind.SDF, {})
+
+
+def is_good(file: CorpusFile) -> bool:
+    """Whether libsdformat 12 takes a file without an error."""
+    return file.row.get("libsdformat12") == "ok"
+
+
+def judged_files() -> list[CorpusFile]:
+    """Every URDF, and every SDF model that libsdformat 12 takes without an error."""
+    urdf = [file for file in corpus_files() if file.kind is Kind.URDF]
+    sdf = [file for file in corpus_files() if file.kind is Kind.SDF and file.row.get("format") == "sdf"]
+    return urdf + [file for file in sdf if is_good(file)]
+
+
+def in_turn(items: Iterable[Item]) -> list[Item]:
+    """One item of each repository in turn, for items that are sorted by name."""
+    repositories = [list(group) for _, group in groupby(items, key=lambda each: each.name.partition("/")[0])]
+    return [one for turn in zip_longest(*repositories) for one in turn if one is not None]

@@ -1,0 +1,1 @@
+"""Which inertias do engines refuse, and are they content once they are mended?"""

@@ -1,0 +1,73 @@
+"""The rules for what libsdformat finds, and for what it does not find.
+
+The case files are looked through for those that announce a rule, so the page shows where each one is tried.
+"""
+
+import re
+import tomllib
+from collections import defaultdict
+from pathlib import Path
+from typing import NamedTuple
+
+from reports.harness.pages import section, table
+from reports.harness.report import Findings, Report
+from reports.harness.sample import Sample
+from tests.corpus.files import ROOT
+
+CASES = ROOT / "tests" / "cases" / "check"
+_EXPECT = re.compile(r"<!--\s*expect:\s*\w+\s+([\w-]+)\s*-->")
+_ABOUT = """\
+The error codes of libsdformat 17 by name (numbers change between its versions), with the rules that find the same
+here and a case file of `tests/cases/check` that shows each. Below it are faults that libsdformat reads without a word.
+"""
+
+
+class Row(NamedTuple):
+    """A code or a fault, the rules for it, and a word where there are none."""
+
+    title: str
+    rules: tuple[str, ...] = ()
+    note: str = ""
+
+
+def _rows(table: str) -> tuple[Row, ...]:
+    rows = tomllib.loads(Path(__file__).with_name("codes.toml").read_text(encoding="utf-8"))[table]
+    return tuple(Row(title, tuple(row.get("rules", ())), row.get("note", "")) for title, row in rows.items())
+
+
+CODES, UNSEEN = _rows("codes"), _rows("unseen")
+
+
+def measure(_: Sample) -> Findings:
+    """Both tables."""
+    cases = announced()
+    sections = [_table("code", CODES, cases), section("Read without a word", _table("fault", UNSEEN, cases))]
+    return Findings(sections, f"{len(CODES)} codes, {len(UNSEEN)} faults")
+
+
+def announced() -> dict[str, list[str]]:
+    """The case files that announce each rule."""
+    found: dict[str, list[str]] = defaultdict(list)
+    for path in sorted(CASES.iterdir()):
+        for rule in dict.fromkeys(_EXPECT.findall(path.read_text(encoding="utf-8", errors="replace"))):
+            found[rule].append(path.name)
+    return found
+
+
+def _table(title: str, rows: tuple[Row, ...], cases: dict[str, list[str]]) -> str:
+    return table(
+        [title, "rules", "cases"],
+        [
+            (row.title, ", ".join(f"[{rule}](rules.md#{rule})" for rule in row.rules) or row.note, _shown(row, cases))
+            for row in rows
+        ],
+    )
+
+
+def _shown(row: Row, cases: dict[str, list[str]]) -> str:
+    return ", ".join(dict.fromkeys(name for rule in row.rules for name in cases[rule][:2]))
+
+
+REPORT = Report(
+    "libsdformat_codes", "What libsdformat finds, and what it does not", _ABOUT, measure, needs=(), folder="reference"
+)

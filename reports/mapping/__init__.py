@@ -1,0 +1,1 @@
+"""Where does every element and attribute of both formats go?"""

@@ -1,0 +1,90 @@
+"""The cells of the tables of the mapping."""
+
+from collections.abc import Iterable, Iterator
+
+from reports.mapping.measure import EXPRESSED, Seen
+from reports.mapping.notes import told
+from reports.mapping.rows import Row
+from reports.mapping.targets import field_of, targets
+from twinform.diagnostics import Fate, Severity
+from twinform.schemas.facts import Fact, print_version
+
+_BOUND = {True: ">=", False: "<="}
+_SAID: dict[Severity, str] = {Severity.ERROR: "**refused:** ", Severity.WARNING: "warning: ", Severity.INFO: "note: "}
+
+
+def name_of(row: Row) -> str:
+    """The steps of a row, linked to the section of its type where it has one of its own."""
+    if not row.fact.reference:
+        return f"`{row.steps}`"
+    return f"[`{row.steps}`](#{row.format}-{row.fact.reference})"
+
+
+def kind(fact: Fact) -> str:
+    """Count, type, unit, bounds, default and words of a row."""
+    free = "anything" if fact.any else ""
+    parts = [fact.count, fact.type or fact.reference or free]
+    parts += [fact.unit or "", *_bounds(fact)]
+    if fact.default is not None:
+        parts.append(f"= {fact.default}")
+    if fact.enum:
+        parts.append(" ".join(fact.enum))
+    parts += [f"{word} ({dialect})" for word, dialect in fact.also]
+    return ", ".join(part for part in parts if part)
+
+
+def _bounds(fact: Fact) -> Iterator[str]:
+    for bound, lowest in ((fact.min, True), (fact.max, False)):
+        if bound is not None:
+            yield f"{_BOUND[lowest]} {bound:g}"
+
+
+def versions(fact: Fact) -> str:
+    """From when to when there is such a thing; empty for always. Words of dialects are in no version."""
+    if fact.dialect:
+        return f"dialect: {fact.dialect}"
+    since = f"{print_version(fact.since)} on" if fact.since > (0, 0) else ""
+    until = f"to {print_version(fact.until)}" if fact.until < (99, 99) else ""
+    said = since.replace(" on", f" {until}") if since and until else since + until
+    return f"{said}, deprecated" if fact.deprecated else said
+
+
+def where(row: Row, seen: Seen) -> tuple[str, str]:
+    """The field of the IR, and what says it in the other format."""
+    field = field_of(row) or ("kept as it is" if row.fact.place is None else "(its rows)")
+    other = "sdf" if row.format == "urdf" else "urdf"
+    if (said := told(row.format).get(row.path)) is not None:
+        return field, said
+    if found := targets(row):
+        return field, ", ".join(f"[`{path}`](#{other}-{path.partition('/')[0]})" for path in found)
+    return field, _by_fate(row, seen)
+
+
+def _by_fate(row: Row, seen: Seen) -> str:
+    if row.fact.place == ".":
+        return "by its rows"
+    if not seen.fates:
+        return ""
+    if EXPRESSED in seen.fates:
+        return "`<gazebo>`, as it is" if row.format == "sdf" else "SDF in its place"
+    return "a carrier" if Fate.CARRIED in seen.fates else ""
+
+
+def became(seen: Seen) -> str:
+    """The fates that it met, the most frequent first."""
+    return " or ".join(fate for fate, _ in sorted(seen.fates.items(), key=lambda each: (-each[1], each[0])))
+
+
+def rules_seen(seen: Seen) -> Iterator[str]:
+    """The rules of the ledger first, then those of findings, the worst first."""
+    if seen.ledger:
+        yield ", ".join(rule_links(sorted(seen.ledger)))
+    for severity in sorted(set(seen.rules.values()), reverse=True):
+        own = sorted(rule for rule, each in seen.rules.items() if each is severity and rule not in seen.ledger)
+        if own:
+            yield _SAID[severity] + ", ".join(rule_links(own))
+
+
+def rule_links(rules: Iterable[str]) -> Iterator[str]:
+    """Links to the pages of rules."""
+    return (f"[{rule}](../reference/rules.md#{rule})" for rule in rules)

@@ -1,0 +1,114 @@
+"""The page about the judgements."""
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from reports.harness.pages import listing, section, table
+from reports.oracle.judging import Direction, Outcome, Verdict
+from twinform.testing.oracles.comparison import TOLERANCE
+
+ABOUT = f"""\
+Every URDF file of the corpus is converted to SDF, and every SDF model that libsdformat 12 takes without an error to
+URDF. Drake reads source and result, and at five joint positions the poses of links, centres of mass, inertias, the mass
+matrix and gravity torques are compared, with a tolerance of {TOLERANCE:g} (of the largest number of the kind, where
+that is more than one). Joint limits and damping must be equal, and only massless links may come and go.
+
+* *same (frames)*: all of that is equal.
+* *same (inertial)*: all but the poses of link frames, which a conversion to URDF moves onto the joints, or a massless
+  link became a frame, which Drake does not list among the links.
+* *source not readable*: Drake refuses the source, so there is nothing to compare with."""
+
+_GROUPS = (
+    (Verdict.DIFFERENT, "Different"),
+    (Verdict.RESULT, "Results that Drake cannot read"),
+    (Verdict.CRASH, "Crashes"),
+    (Verdict.REFUSED, "Not converted"),
+    (Verdict.SOURCE, "Sources that Drake cannot read"),
+)
+_IN_FULL = frozenset({Verdict.DIFFERENT, Verdict.RESULT, Verdict.CRASH})
+_SHOWN = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Reader:
+    """What a reference parser says of some results: its errors by file, empty where it has none; None without it.
+
+    `known` are the files for which it is known to have errors, with the reason.
+    """
+
+    name: str
+    reads: str
+    verdicts: Mapping[str, str] | None
+    known: Mapping[str, str]
+
+    @property
+    def complaints(self) -> dict[str, str]:
+        """The files that it has errors for."""
+        return {file: errors for file, errors in (self.verdicts or {}).items() if errors}
+
+
+def sections(
+    outcomes: list[Outcome], readers: Sequence[Reader], known: Mapping[str, str], more: Sequence[str]
+) -> list[str]:
+    """The page, with the sections `more` before the lists of exceptions."""
+    groups = (section(title, _group(outcomes, verdict, known)) for verdict, title in _GROUPS)
+    return [section("Counts", counts(outcomes)), _readers(readers), *more, *groups]
+
+
+def counts(outcomes: list[Outcome]) -> str:
+    """How many conversions met each verdict."""
+    found = Counter((one.direction, one.verdict) for one in outcomes)
+    rows = [
+        (way, sum(found[way, verdict] for verdict in Verdict), *(found[way, verdict] for verdict in Verdict))
+        for way in Direction
+    ]
+    return table(["conversion", "files", *Verdict], rows)
+
+
+def _readers(readers: Sequence[Reader]) -> str:
+    counted = [(reader.name, reader.reads, *_tally(reader)) for reader in readers]
+    bad = [
+        (reader.name, file, _explained(reader, file, text))
+        for reader in readers
+        for file, text in reader.complaints.items()
+    ]
+    parts = [table(["parser", "reads", "results", "without an error"], counted)]
+    parts += [table(["parser", "file", "errors"], bad)] if bad else []
+    return section("The reference parsers", "\n".join(parts))
+
+
+def _tally(reader: Reader) -> tuple[object, object]:
+    if reader.verdicts is None:
+        return ("not installed", "")
+    return (len(reader.verdicts), len(reader.verdicts) - len(reader.complaints))
+
+
+def _explained(reader: Reader, file: str, errors: str) -> str:
+    return errors[:160] + (f" (known: {reader.known[file]})" if file in reader.known else "")
+
+
+def _group(outcomes: list[Outcome], verdict: Verdict, known: Mapping[str, str]) -> str:
+    groups: dict[tuple[str, str], list[str]] = {}
+    for (name, cause), ways in _ways(outcomes, verdict).items():
+        reason = f" ({known[name]})" if name in known else ""
+        groups.setdefault((", ".join(ways), cause + reason), []).append(name)
+    ordered = sorted(groups.items(), key=lambda item: (item[0][0], -len(item[1]), item[0][1]))
+    most = None if verdict in _IN_FULL else _SHOWN
+    rows = ((ways, cause, len(names), _names(names, most)) for (ways, cause), names in ordered)
+    return listing(["conversion", "cause", "files", "which"], rows)
+
+
+def _ways(outcomes: list[Outcome], verdict: Verdict) -> dict[tuple[str, str], list[str]]:
+    """The conversions that met this verdict, by file and cause."""
+    ways: dict[tuple[str, str], list[str]] = {}
+    for one in outcomes:
+        if one.verdict is verdict:
+            cause = one.cause.partition(":")[0] if verdict is Verdict.REFUSED else one.cause
+            ways.setdefault((one.name, cause), []).append(one.direction)
+    return ways
+
+
+def _names(names: list[str], most: int | None) -> str:
+    more = ", .." if most is not None and len(names) > most else ""
+    return ", ".join(names[:most]) + more

@@ -1,0 +1,197 @@
+"""Small URDF files that two versions of libsdformat turned into SDF, and what we make of them."""
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import twinform
+from reports.harness.files import OUT, kept
+from reports.harness.known import Known
+from reports.harness.pages import table
+from reports.harness.report import Findings, Report
+from reports.harness.sample import Sample
+from reports.probes.values import Part, XmlElement, lost, parsed
+from tests.corpus.files import SHARED
+from twinform.testing import oracles
+from twinform.testing.oracles.looking import compared
+
+PROBES = SHARED / "reference" / "probes" / "urdf"
+MISSING = "there are no probes in reference/probes/urdf; TWINFORM_SHARED says where that is"
+KNOWN = Known.beside(__file__)
+VERSIONS = {"12": "1.9", "17": "1.12"}
+"""The versions of libsdformat, and the newest SDF of each."""
+_ABORTED = 128
+_STATUS = re.compile(r"rc=(\d+)\s*$")
+_ABOUT = """\
+Small URDF files, each about one thing, that libsdformat 12 and 17 turned into SDF. *Only theirs* counts the names and
+values of their SDF that are nowhere in ours: no element or attribute of that name has that value, wherever it is,
+carriers included. Poses and inertias are not among them, since lumping computes them anew; for these, *same robot* is
+the verdict of libsdformat 12 on the URDF file and our SDF 1.9, links that are fixed to each other weighed together.
+*Only ours* counts links and joints.
+
+Every difference has its explanation: no value of a file that they keep is lost here."""
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """What a version of libsdformat made of a probe."""
+
+    output: XmlElement | None
+    status: int
+
+    @property
+    def text(self) -> str:
+        """In words."""
+        if self.status >= _ABORTED:
+            return "crash"
+        done = "refused" if self.output is None else "converted"
+        return done if self.output is None or not self.status else f"{done}, with errors"
+
+
+@dataclass(frozen=True)
+class Probe:
+    """A probe and what became of it: our SDF by version, or the rules that it breaks."""
+
+    path: Path
+    outputs: Mapping[str, bytes]
+    refused: tuple[str, ...]
+
+    @property
+    def name(self) -> str:
+        """Its number and subject."""
+        return self.path.stem
+
+    @cached_property
+    def references(self) -> dict[str, Reference]:
+        """What each version of libsdformat made of it."""
+        return {version: _reference(self.path, version) for version in VERSIONS}
+
+    @cached_property
+    def lost(self) -> list[Part]:
+        """What is in theirs and not in ours."""
+        return list(dict.fromkeys(part for theirs, ours in self._pairs() for part in lost(theirs, ours)))
+
+    @cached_property
+    def more(self) -> list[str]:
+        """Links and joints that are in ours and not in theirs."""
+        found = (_bodies(ours) - _bodies(theirs) for theirs, ours in self._pairs())
+        return sorted(set[str]().union(*found))
+
+    @cached_property
+    def robot(self) -> str:
+        """Whether it is the same robot, in words, and why not."""
+        if self.refused or not oracles.available("libsdformat"):
+            return ""
+        try:
+            found = compared(self.path, _written(self), ("libsdformat", "libsdformat"), lumped=True)
+        except oracles.UnreadableError:
+            return ""
+        return "yes" if found else found.cause
+
+    def _pairs(self) -> Iterator[tuple[XmlElement, XmlElement]]:
+        for version, reference in self.references.items():
+            ours = parsed(self.outputs.get(version, b""))
+            if reference.output is not None and ours is not None:
+                yield reference.output, ours
+
+
+def missing() -> str:
+    """Why there are no probes; empty where there are."""
+    return "" if PROBES.is_dir() else MISSING
+
+
+def measure(sample: Sample) -> Findings:
+    """Convert and compare."""
+    found = probes(sample)
+    text = table(_HEAD, map(_row, found))
+    return Findings([text], f"{len(found)} probes", [failure for probe in found for failure in unexplained(probe)])
+
+
+def probes(sample: Sample) -> list[Probe]:
+    """The chosen probes, converted."""
+    return [_converted(path) for path in sample.of(sorted(PROBES.glob("*.urdf")))]
+
+
+def unexplained(probe: Probe) -> list[str]:
+    """The differences of a probe that nobody has explained."""
+    found = [f"{probe.name}: nowhere in ours: {part}" for part in probe.lost if not _reason(part)]
+    differs = _kinds(probe)
+    return [*found, f"{probe.name}: {'; '.join(differs)}"] if differs and not _own(probe) else found
+
+
+def _kinds(probe: Probe) -> list[str]:
+    """The differences that need an explanation of their own."""
+    kinds: list[str] = []
+    verdicts = {reference.text for reference in probe.references.values()}
+    ours = "refused" if probe.refused else "converted"
+    if verdicts != {ours}:
+        kinds.append(f"{ours}, and with them {' or '.join(sorted(verdicts))}")
+    if probe.more and not _is_lumped(probe):
+        kinds.append(f"only ours: {', '.join(probe.more)}")
+    if probe.robot not in {"", "yes"}:
+        kinds.append(f"another robot: {probe.robot}")
+    return kinds
+
+
+def _is_lumped(probe: Probe) -> bool:
+    """Whether what they lack are fixed joints and their children, which they lump."""
+    root = parsed(probe.outputs["12"])
+    assert root is not None
+    fixed = [joint for joint in root.iter("joint") if joint.get("type") == "fixed"]
+    names = {joint.get("name", "") for joint in fixed} | {joint.findtext("child", "") for joint in fixed}
+    return set(probe.more) <= names
+
+
+_HEAD = ["probe", "ours", "libsdformat 12", "libsdformat 17", "only theirs", "only ours", "same robot", "explanation"]
+
+
+def _row(probe: Probe) -> tuple[object, ...]:
+    ours = f"refused: {', '.join(probe.refused)}" if probe.refused else "converted"
+    verdicts = [reference.text for reference in probe.references.values()]
+    robot = probe.robot if probe.robot in {"", "yes"} else "no"
+    counts = len(probe.lost), len(probe.more)
+    return (probe.name, ours, *verdicts, *counts, robot, "; ".join(_explanations(probe)))
+
+
+def _explanations(probe: Probe) -> list[str]:
+    own = [_own(probe)] if _kinds(probe) else []
+    lumped = ["they lump what is fixed, it stays with us"] if probe.more and _is_lumped(probe) else []
+    return list(dict.fromkeys(filter(None, [*own, *lumped, *map(_reason, probe.lost)])))
+
+
+def _own(probe: Probe) -> str:
+    return KNOWN.why("probes", probe.name)
+
+
+def _reason(part: Part) -> str:
+    return KNOWN.why("values", str(part))
+
+
+def _converted(path: Path) -> Probe:
+    try:
+        outputs = {version: twinform.convert(path, to="sdf", sdf_version=sdf) for version, sdf in VERSIONS.items()}
+    except twinform.CompileError as error:
+        return Probe(path, {}, tuple(dict.fromkeys(each.rule.name for each in error.diagnostics if each.is_error)))
+    return Probe(path, {version: output.text.encode() for version, output in outputs.items()}, ())
+
+
+def _reference(path: Path, version: str) -> Reference:
+    output = path.with_name(f"{path.stem}.libsdformat{version}.sdf")
+    said = path.with_name(f"{path.stem}.libsdformat{version}.err").read_text(encoding="utf-8", errors="replace")
+    status = _STATUS.search(said)
+    root = parsed(output.read_bytes()) if output.is_file() else None
+    return Reference(root, int(status[1]) if status else 0)
+
+
+def _bodies(root: XmlElement) -> set[str]:
+    # children of models alone, since carriers have links and joints in them too
+    return {part.get("name", "") for kind in ("link", "joint") for part in root.iterfind(f".//model/{kind}")}
+
+
+def _written(probe: Probe) -> Path:
+    return kept(OUT / "probes" / f"{probe.name}.sdf", probe.outputs["12"].decode())
+
+
+REPORT = Report("probes", "Probes", _ABOUT, measure, (missing,), KNOWN)

@@ -1,0 +1,1 @@
+"""Is every conversion the same robot, by `twinform diff`?"""

@@ -1,0 +1,1 @@
+"""Is the catalogue of plugins right? Checkouts of gz-sim and gz-sensors are given as ARGS."""

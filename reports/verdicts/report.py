@@ -1,0 +1,89 @@
+"""Mutated corpus files before us, libsdformat 12 and urdfdom."""
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+
+from reports.harness.needs import corpus, libsdformat, urdfdom
+from reports.harness.pages import section, table
+from reports.harness.report import Findings, Report
+from reports.harness.sample import Sample
+from reports.verdicts.judging import QUESTIONS, Question, Verdict, verdicts
+from reports.verdicts.reasons import Ours, Reason, Theirs, reasons
+from tests.corpus.files import Kind
+from tests.differential.mutated import mutated, sources
+
+DOCUMENTS = {Kind.SDF: 4000, Kind.URDF: 6000}
+_AT_ONCE = 1000
+_ABOUT = """\
+Files of the corpus, with one to four mistakes each, are read by `twinform check` and by the parser that Gazebo or ROS
+reads them with: libsdformat 12 (SDF up to 1.9, and URDF through its converter) and urdfdom (`check_urdf`). The number
+of a document decides which file it is and which mistakes are made: a number spelt in another way or out of range, a
+name that nothing has, an element left out, repeated or put elsewhere (`tests/differential/slips.py`), or changes that
+mean nothing (`tests/differential/mutants.py`).
+
+libsdformat accepts a file that it reads without an error; what it only writes to the terminal does not count. urdfdom
+accepts a file where it has no error message: after many a fault it drops the rest of the link and goes on. We are
+asked without `--strict`, since names that the formats do not know are a warning to libsdformat and nothing to urdfdom.
+
+Where only one of the two refuses, there is a reason, by rule or by message and not by file
+(`reports/verdicts/known.toml`). A refusal without one is a failure of the command."""
+
+
+def measure(sample: Sample) -> Findings:
+    """Ask everybody, and look for the reasons of those who disagree."""
+    seeds = {kind: range(0, count, sample.every) for kind, count in DOCUMENTS.items()}
+    found = [verdict for kind in seeds for verdict in judged(kind, seeds[kind])]
+    explained = Counter(reason for verdict in found for reason in _reasons(verdict))
+    counts = _counts(found)
+    return Findings([counts, *_explanations(explained)], counts, list(map(str, unexplained(found))))
+
+
+def judged(kind: Kind, seeds: Iterable[int]) -> Iterator[Verdict]:
+    """The documents with these numbers before every judge of their kind, a thousand at a time."""
+    questions = [question for question in QUESTIONS if question.kind is kind]
+    numbers = list(seeds)
+    for start in range(0, len(numbers), _AT_ONCE):
+        yield from verdicts(questions, (mutated(kind, seed) for seed in numbers[start : start + _AT_ONCE]))
+
+
+def unexplained(found: Iterable[Verdict]) -> list[Verdict]:
+    """Where only one of the two refuses, and nobody knows why."""
+    return [verdict for verdict in found if verdict.accepted != verdict.opinion.accepts and not reasons().of(verdict)]
+
+
+def _reasons(verdict: Verdict) -> tuple[Reason, ...]:
+    return reasons().of(verdict) if verdict.accepted != verdict.opinion.accepts else ()
+
+
+def _counts(found: list[Verdict]) -> str:
+    head = ["documents", "files", "judged", "both accept", "both refuse", "only we refuse", "only they refuse"]
+    return table(head, (_row(question, found) for question in QUESTIONS))
+
+
+def _row(question: Question, found: list[Verdict]) -> tuple[object, ...]:
+    pairs = Counter((one.accepted, one.opinion.accepts) for one in found if one.question == question)
+    kinds = ((True, True), (False, False), (False, True), (True, False))
+    return (question, len(sources(question.kind)), pairs.total(), *(pairs[kind] for kind in kinds))
+
+
+def _explanations(explained: Counter[Reason]) -> Iterator[str]:
+    known = reasons()
+    ours = (_of_ours(one, explained[one]) for one in known.ours if explained[one])
+    yield section("We refuse, they accept", table(["documents", "judge", "rule", "about", "why"], ours))
+    theirs = (_of_theirs(one, explained[one]) for one in known.theirs if explained[one])
+    yield section("They refuse, we accept", table(["documents", "judge", "message", "what we say", "why"], theirs))
+
+
+def _of_ours(reason: Ours, count: int) -> tuple[object, ...]:
+    about = f"`{reason.says}`" if reason.says else ""
+    return count, reason.scope, f"[{reason.rule}](../reference/rules.md#{reason.rule})", about, reason.why
+
+
+def _of_theirs(reason: Theirs, count: int) -> tuple[object, ...]:
+    words = ", ".join(f"[{rule}](../reference/rules.md#{rule})" for rule in reason.rules) or "nothing"
+    return count, reason.scope, f"`{reason.says}`", words, reason.why
+
+
+REPORT = Report(
+    "verdicts", "Mutated files before the parsers of record", _ABOUT, measure, (corpus, libsdformat, urdfdom)
+)

@@ -1,0 +1,1 @@
+"""Is every xacro file expanded to what the xacro command makes of it?"""
