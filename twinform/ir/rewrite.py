@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from functools import cache, partial
 from operator import is_
-from typing import Any, TypeVar, cast
+from typing import Any, TypeVar
 
 from twinform.ir.node import Node
 from twinform.ir.sourced import Sourced
@@ -26,18 +26,18 @@ def rewrite(
     So `change` sees a node in which all is changed already. A node for which `enter` is false stays as it is, with all
     that is in it.
     """
-    return cast("AnyNode", _rewritten(kind, change, enter, node))
+    return _rewritten(kind, change, enter, node)
 
 
 def _rewritten(
-    kind: type[Wanted], change: Callable[[Wanted], Wanted], enter: Callable[[Node], bool] | None, node: Node
-) -> Node:
+    kind: type[Node], change: Callable[[Any], Node], enter: Callable[[Node], bool] | None, node: Node
+) -> Any:
     fields, is_wanted = _plan(type(node), kind)
     if not (fields or is_wanted) or (enter and not enter(node)):
         return node
     if fields:
         node = _with_changed(node, fields, partial(_rewritten, kind, change, enter))
-    return change(cast("Wanted", node)) if is_wanted else node
+    return change(node) if is_wanted else node
 
 
 def map_children(node: AnyNode, change: Callable[[Node], Node]) -> AnyNode:
@@ -53,13 +53,13 @@ def replace_node(node: AnyNode, old: Wanted, new: Wanted) -> AnyNode:
 def replace_fields(part: AnyPart, **fields: object) -> AnyPart:
     """The node or element with other values in some fields; itself where they hold the objects that are there."""
     values = part.__dict__
-    update = {name: new for name, new in fields.items() if not _is_same(new, values[name])}
+    update = {name: new for name, new in fields.items() if new is not values[name] and not _are_same(new, values[name])}
     return part.model_copy(update=update) if update else part
 
 
-def _is_same(new: Any, old: Any) -> bool:
-    """Whether it is the same object, or a tuple of the same ones."""
-    return new is old or ({type(new), type(old)} == {tuple} and len(new) == len(old) and all(map(is_, new, old)))
+def _are_same(new: Any, old: Any) -> bool:
+    """Whether two tuples hold the same objects."""
+    return new.__class__ is tuple is old.__class__ and len(new) == len(old) and all(map(is_, new, old))
 
 
 def _with_changed(node: AnyNode, fields: tuple[str, ...], change: Callable[[Node], Node]) -> AnyNode:
@@ -67,11 +67,13 @@ def _with_changed(node: AnyNode, fields: tuple[str, ...], change: Callable[[Node
     update: dict[str, Node | tuple[Node, ...]] = {}
     for name in fields:
         old: Node | tuple[Node, ...] | None = values[name]
+        if not old:
+            continue
         if isinstance(old, tuple):
             many = tuple([change(each) for each in old])
             if not all(map(is_, many, old)):
                 update[name] = many
-        elif old and (one := change(old)) is not old:
+        elif (one := change(old)) is not old:
             update[name] = one
     return node.model_copy(update=update) if update else node
 

@@ -85,7 +85,8 @@ def test_only_what_is_around_a_change_is_copied(document: Document, data: st.Dat
     around = {id(node) for node in walk(document) if any(each is old for each in walk(node))}
     for before, after in zip(outside_last(document), outside_last(made), strict=True):
         assert (after is before) == (id(before) not in around)
-    assert sum(each is new for each in walk(made)) == 1
+    times = sum(each is old for each in walk(document))  # one object may stand in several places
+    assert sum(each is new for each in walk(made)) == times
 
 
 @given(DOCUMENTS)
