@@ -41,7 +41,7 @@ fmt: $(SYNCED) ## format, and mend what the linter can mend
 generate: $(SYNCED) ## write the files that are made from tables: schemas and reference pages
 	$(BIN)/python -m twinform.schemas.generate
 	$(BIN)/python -m twinform.diagnostics.pages docs/reference/rules.md
-	$(BIN)/python -m twinform.passes.pages docs/reference/passes.md
+	$(BIN)/python -m twinform.passes.framework.pages docs/reference/passes.md
 	$(BIN)/python -m twinform.passes.legalise.page docs/explanation/pipeline.md
 	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md
 	$(BIN)/python -m reports libsdformat_codes
@@ -54,7 +54,7 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/lint-imports
 	$(BIN)/python -m twinform.schemas.generate --check
 	$(BIN)/python -m twinform.diagnostics.pages docs/reference/rules.md --check
-	$(BIN)/python -m twinform.passes.pages docs/reference/passes.md --check
+	$(BIN)/python -m twinform.passes.framework.pages docs/reference/passes.md --check
 	$(BIN)/python -m twinform.passes.legalise.page docs/explanation/pipeline.md --check
 	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md --check
 	$(BIN)/python -m reports libsdformat_codes --check

@@ -6,12 +6,12 @@ from contextlib import contextmanager
 from statistics import median
 
 from twinform.compiler.driver import plan
-from twinform.compiler.emitting import serialised, written_version
-from twinform.compiler.loading import garbage_collection_paused
-from twinform.compiler.parsing import parse
-from twinform.compiler.sdf import back_end
-from twinform.compiler.urdf import front_end
-from twinform.diagnostics import Notes
+from twinform.compiler.input import urdf as front_end
+from twinform.compiler.input.loading import garbage_collection_paused
+from twinform.compiler.input.parsing import parse
+from twinform.compiler.output import sdf as back_end
+from twinform.compiler.output.emitting import serialised, written_version
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.ir.verify import verify
 from twinform.schemas import Context, libxml2_errors
@@ -45,23 +45,23 @@ def profile_urdf_to_sdf(text: bytes, *, sdf_version: str, runs: int) -> dict[str
 
 
 def _convert(text: bytes, sdf_version: str, stages: Stages) -> None:
-    notes = Notes(file="robot.urdf")
+    sink = DiagnosticSink(file="robot.urdf")
     with stages.time("parse"):
-        root = parse(text, notes)
+        root = parse(text, sink)
     with stages.time("XSD of the input"):
         clean = not libxml2_errors(root, "urdf", (1, 0))
     with stages.time("table pass: structure, values, lowering"):
         simple = clean and b"xmlns" not in text
-        context = Context(notes, notes.file, "urdf", (1, 0), clean=clean, simple=simple)
+        context = Context(sink, sink.file, "urdf", (1, 0), clean=clean, simple=simple)
         data = front_end.lower(root, context)
     with stages.time("pydantic"):
         document = Document.model_validate({**data})
     with stages.time("verify"):
-        verify(document, notes)
+        verify(document, sink)
     with stages.time("legalisation passes"):
-        document = plan(document, to="sdf", sdf_version=sdf_version).run(document, notes)
+        document = plan(document, to="sdf", sdf_version=sdf_version).run(document, sink)
     with stages.time("verify the result"):
-        verify(document, notes)
+        verify(document, sink)
     version = written_version(document)
     with stages.time("emit"):
         root = back_end.emit(document, version, {})

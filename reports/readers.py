@@ -14,7 +14,7 @@ from reports.harness.pages import section, table
 from reports.harness.report import Findings, Report
 from reports.harness.sample import Sample, judged_files
 from tests.corpus.files import CORPUS, ROOT, CorpusFile, Kind
-from twinform.passes.legalise.carrier import NAMESPACE, PREFIX
+from twinform.passes.carriers.carriers import NAMESPACE, PREFIX
 from twinform.testing.oracles.readers import READERS, Reader
 from twinform.testing.oracles.readers.judging import Effect, effect, without_carriers
 

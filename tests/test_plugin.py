@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.unit.passes.conftest import write_distribution
+from tests.unit.passes.framework.conftest import write_distribution
 
 _ROOT = Path(__file__).parents[1]
 _ROBOT = '<robot name="r"><link name="Base Link"/></robot>'
@@ -63,7 +63,7 @@ def test_the_rule_has_a_page_and_says_who_brings_it(site: Path) -> None:
 
 
 def test_our_own_pages_are_ours_alone(site: Path) -> None:
-    for module, page in (("twinform.passes.pages", "passes"), ("twinform.diagnostics.pages", "rules")):
+    for module, page in (("twinform.passes.framework.pages", "passes"), ("twinform.diagnostics.pages", "rules")):
         check = [sys.executable, "-m", module, f"docs/reference/{page}.md", "--check"]
         subprocess.run(check, cwd=_ROOT, env={**os.environ, "PYTHONPATH": str(site)}, check=True)
 

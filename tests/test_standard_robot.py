@@ -11,7 +11,7 @@ from lxml import etree
 
 import twinform
 from twinform.cli import main
-from twinform.diagnostics import Notes, Severity
+from twinform.diagnostics import DiagnosticSink, Severity
 from twinform.passes.plugins.check_plugins import CheckPlugins
 from twinform.passes.plugins.sites import plugins_of, sensors_of
 from twinform.schemas import libxml2_errors
@@ -65,9 +65,9 @@ def test_every_file_is_valid(out: Path) -> None:
 
 
 def test_the_world_has_all_that_the_robot_needs(out: Path) -> None:
-    world, notes = twinform.load(out / "world.sdf"), Notes()
-    CheckPlugins().run(world, notes)
-    assert not notes.diagnostics
+    world, sink = twinform.load(out / "world.sdf"), DiagnosticSink()
+    CheckPlugins().run(world, sink)
+    assert not sink.diagnostics
     assert len(sensors_of(world)) == 2
     robot = world.worlds[0].models[-1]
     assert robot.pose

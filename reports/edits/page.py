@@ -14,8 +14,8 @@ from reports.harness.pages import listing, section, table
 from reports.harness.sample import Sample
 from reports.oracle.judging import DRAKE
 from tests.corpus.files import ROOT
-from twinform.passes.legalise.carrier import NAMESPACE
-from twinform.passes.legalise.notation import OFFSET
+from twinform.passes.carriers.carriers import NAMESPACE
+from twinform.passes.transforms.notation import OFFSET
 from twinform.testing import oracles
 from twinform.testing.edits.judging import Outcome
 from twinform.testing.oracles.comparison import chained, renamed

@@ -3,8 +3,8 @@
 from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis import strategies as st
 
-from twinform.compiler.emitting import emit
-from twinform.diagnostics import Notes
+from twinform.compiler.output.emitting import emit
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 
 
@@ -22,7 +22,7 @@ def drawn(strategy: st.SearchStrategy[Document], count: int, number: int) -> lis
     )
     @given(strategy)
     def collect(model: Document) -> None:
-        texts.append(emit(model, Notes()))
+        texts.append(emit(model, DiagnosticSink()))
 
     collect()
     return texts

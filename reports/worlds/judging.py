@@ -17,9 +17,9 @@ from lxml import etree
 
 import twinform
 from tests.corpus.examine import rules_of
-from twinform.compiler import Language, Order, Reading, split
-from twinform.compiler.surroundings import folders_around
-from twinform.compiler.uris import SearchPath
+from twinform.compiler import ConversionRequest, Language, LoadOptions, split
+from twinform.compiler.search.search_roots import folders_around
+from twinform.compiler.search.uris import SearchPath
 from twinform.ir import Document, World
 from twinform.ir.frames import WORLD, FrameGraph, Kind
 from twinform.ir.transform import Transform
@@ -97,9 +97,9 @@ def _around(path: Path, folders: tuple[Path, ...]) -> tuple[Path, ...]:
 
 def _judged(name: str, path: Path, folders: tuple[Path, ...], out: Path, to: Language) -> Outcome:
     source = _source(path, folders, out / "source")
-    reading = Reading(search=SearchPath.of(folders))
+    reading = LoadOptions(search=SearchPath.of(folders))
     try:
-        found = split(Order(to=to), source, reading)
+        found = split(ConversionRequest(to=to), source, reading)
     except twinform.CompileError as error:
         return Outcome(name, Together.REFUSED, cause=", ".join(rules_of(error.diagnostics)))
     (out / "split").mkdir()

@@ -11,7 +11,7 @@ import twinform
 from tests.corpus.files import CorpusFile
 from tests.corpus.there_and_back import robots, taken_there
 from tests.oracles.xml_trees import first_difference, is_well_formed
-from twinform.compiler import Checked
+from twinform.compiler import LoadResult
 from twinform.compiler.audit import audit
 from twinform.diagnostics import Diagnostic
 from twinform.ir import Document, Format
@@ -56,19 +56,19 @@ def examine(file: CorpusFile) -> Examined:
     path, data = file.path, file.path.read_bytes()
     found = Examined(file.name, well_formed=is_well_formed(data))
     start = time.perf_counter()
-    checked = _checked(path)
-    if isinstance(checked, str):
-        found = replace(found, faults=(checked,))
-    elif checked.document is None or not checked.accepted:
-        faults = without_line(checked.diagnostics)
-        found = replace(found, refused_by=rules_of(checked.diagnostics), faults=faults)
+    loaded = _checked(path)
+    if isinstance(loaded, str):
+        found = replace(found, faults=(loaded,))
+    elif loaded.document is None or not loaded.accepted:
+        faults = without_line(loaded.diagnostics)
+        found = replace(found, refused_by=rules_of(loaded.diagnostics), faults=faults)
     else:
-        found = _converted(file, checked.document, replace(found, accepted=True))
-        found = _written_again(path, data, checked.document, found)
+        found = _converted(file, loaded.document, replace(found, accepted=True))
+        found = _written_again(path, data, loaded.document, found)
     return replace(found, seconds=time.perf_counter() - start)
 
 
-def _checked(path: Path) -> Checked | str:
+def _checked(path: Path) -> LoadResult | str:
     try:
         return twinform.check(path)
     except Exception as error:  # noqa: BLE001 - every exception is a fault to report

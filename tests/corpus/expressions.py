@@ -13,10 +13,10 @@ from typing import Any
 
 from tests.corpus.files import CORPUS, CorpusFile
 from tests.corpus.plain_xacro import users_of_xacro
-from twinform.compiler.xacro.worker.expressions.budget import Budget
-from twinform.compiler.xacro.worker.expressions.interpreter import Interpreter
-from twinform.compiler.xacro.worker.expressions.values import DotDict
-from twinform.compiler.xacro.worker.vocabulary import vocabulary
+from twinform.compiler.input.xacro.worker.expressions.budget import Budget
+from twinform.compiler.input.xacro.worker.expressions.interpreter import Interpreter
+from twinform.compiler.input.xacro.worker.expressions.values import DotDict
+from twinform.compiler.input.xacro.worker.vocabulary import vocabulary
 
 _XACRO: Any = import_module("xacro")
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)

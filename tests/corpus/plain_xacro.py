@@ -15,10 +15,10 @@ from pathlib import Path
 from lxml import etree
 
 from tests.corpus.files import CORPUS, CorpusFile, Kind, corpus_files
-from twinform.compiler.parsing import UnreadableError
-from twinform.compiler.uris import SearchPath, UriError
-from twinform.compiler.xacro.expansion import expand
-from twinform.diagnostics import Notes
+from twinform.compiler.input.parsing import UnreadableError
+from twinform.compiler.input.xacro.expansion import expand
+from twinform.compiler.search.uris import SearchPath, UriError
+from twinform.diagnostics import DiagnosticSink
 
 _RUN = Path(__file__).with_name("plain_xacro_run.py")
 _SECONDS = 60
@@ -106,11 +106,11 @@ def _canonical(text: bytes) -> bytes:
 
 
 def _ours(path: Path, search: SearchPath) -> tuple[bytes | None, str]:
-    notes = Notes(str(path))
+    sink = DiagnosticSink(str(path))
     try:
-        return expand(path, {}, search, notes).text, ""
+        return expand(path, {}, search, sink).text, ""
     except UnreadableError:
-        return None, notes.diagnostics[-1].message
+        return None, sink.diagnostics[-1].message
 
 
 def _theirs(path: Path, packages: Mapping[str, str]) -> tuple[bytes | None, str]:

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from tests.corpus.files import CorpusFile, chunks
-from twinform.compiler.parsing import UnreadableError, parse, strip_default_namespace
-from twinform.diagnostics import Notes
+from twinform.compiler.input.parsing import UnreadableError, parse, strip_default_namespace
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import structure
 from twinform.schemas import (
     Context,
@@ -39,7 +39,7 @@ def test_both_engines_agree(chunk: str, corpus: Path):
 
 def _disagreement(file: CorpusFile) -> str | None:
     try:
-        root = parse(file.path.read_bytes(), Notes())
+        root = parse(file.path.read_bytes(), DiagnosticSink())
     except UnreadableError:
         return None
     strip_default_namespace(root)
@@ -54,8 +54,8 @@ def _disagreement(file: CorpusFile) -> str | None:
     if (default and names) is bool(normative):
         return f"{file.name}: {default=}, {names=}, {normative[:1]}"
     gate(root, context)
-    if any(found.rule is structure.SCHEMA_DISAGREEMENT for found in context.notes.diagnostics):
-        return f"{file.name}: {context.notes.diagnostics[-1].message}"
+    if any(found.rule is structure.SCHEMA_DISAGREEMENT for found in context.sink.diagnostics):
+        return f"{file.name}: {context.sink.diagnostics[-1].message}"
     return None
 
 
@@ -68,7 +68,7 @@ def _version(root: XmlElement, name: str) -> Version:
 
 
 def _read(root: XmlElement, name: str, version: Version) -> Context:
-    context = Context(Notes(), "", name, version)
+    context = Context(DiagnosticSink(), "", name, version)
     reader(name, version).read(root, context)
     return context
 

@@ -7,8 +7,8 @@ import pytest
 
 import twinform
 from tests.corpus.files import CorpusFile, Kind, chunks, models
-from twinform.compiler.emitting import emit
-from twinform.diagnostics import Notes
+from twinform.compiler.output.emitting import emit
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format, Link, Model, Plugin
 from twinform.ir.frames import WORLD
 from twinform.passes import Pass, Pipeline
@@ -78,7 +78,7 @@ def problems(files: Iterable[CorpusFile]) -> Iterator[tuple[str, str]]:
             document = twinform.load(file.path)
         except twinform.CompileError:
             continue
-        CheckPlugins().run(document, Notes())
+        CheckPlugins().run(document, DiagnosticSink())
         found = first_link(document)
         if found is not None:
             problem = added(document, *found)
@@ -104,17 +104,17 @@ def added(document: Document, model: Model, link: Link) -> str:
         for type_ in ("imu", "camera", "gpu_lidar")
     ]
     pipeline = Pipeline((*steps, AddPlugin.model_validate({"system": "pose-publisher", "model": model.name})))
-    notes = Notes()
-    made = pipeline.run(document, notes)
-    bridges(made, "harmonic", notes, "w")
-    if notes.has_errors:
-        return "; ".join(each.message for each in notes.diagnostics if each.is_error)
+    sink = DiagnosticSink()
+    made = pipeline.run(document, sink)
+    bridges(made, "harmonic", sink, "w")
+    if sink.has_errors:
+        return "; ".join(each.message for each in sink.diagnostics if each.is_error)
     if len(sensors_of(made)) != len(sensors_of(document)) + len(steps):
         return "the sensors are not there"
     if not any("pose-publisher" in (plugin.filename or "") for plugin, _ in plugins_of(made)):
         return "the plugin is not there"
-    if pipeline.run(made, Notes()) != made:
+    if pipeline.run(made, DiagnosticSink()) != made:
         return "adding twice is not adding once"
-    found = Notes()
+    found = DiagnosticSink()
     emit(made, found, fit=True)
     return "; ".join(each.message for each in found.diagnostics if each.is_error)

@@ -11,9 +11,9 @@ from xmlschema import XMLSchema11
 import twinform
 from tests.corpus.files import CorpusFile, chunks
 from tests.profile import DEEP
-from twinform.compiler.loading import declared_version, read_tree
-from twinform.compiler.parsing import UnreadableError
-from twinform.diagnostics import Notes, Rule
+from twinform.compiler.input.loading import declared_version, read_tree
+from twinform.compiler.input.parsing import UnreadableError
+from twinform.diagnostics import DiagnosticSink, Rule
 from twinform.diagnostics.rules import structure
 from twinform.schemas import Version, XmlElement, xmlschema_errors
 from twinform.schemas.xsd import lenient_schema_text
@@ -37,11 +37,11 @@ def _faults(file: CorpusFile) -> list[str]:
     if not checked.accepted or checked.unreadable:
         return []
     try:
-        root, _ = read_tree(file.path.read_bytes(), Notes())
+        root, _ = read_tree(file.path.read_bytes(), DiagnosticSink())
     except UnreadableError:  # of JSON
         return []
     name = "urdf" if root.tag == "robot" else "sdf"
-    version = declared_version(root, name, Notes())
+    version = declared_version(root, name, DiagnosticSink())
     faults: list[str] = []
     if not xmlschema_errors(root, name, version) and _readers_take(file):
         faults += [f"{file.name}: {each}" for each in xmlschema_errors(root, name, version, assertions=True)]

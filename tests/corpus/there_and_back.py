@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import twinform
 from tests.corpus.files import CorpusFile
 from twinform.ir import Document, Format, Include, Model
-from twinform.passes.legalise.candidates import candidates
+from twinform.passes.analyses.candidates import candidates
 from twinform.testing.round_trips import Astray, RoundTrip
 
 SDF_VERSION = "1.9"

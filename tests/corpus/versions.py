@@ -8,8 +8,8 @@ from tests.corpus.examine import rules_of
 from tests.corpus.ir_difference import first_difference
 from twinform.diagnostics import Fate, Ledger
 from twinform.ir import Document
-from twinform.passes.legalise.sdf_versions import known_version
-from twinform.passes.legalise.sdf_versions.comparison import comparable, without_carriers
+from twinform.passes.sdf_versions import known_version
+from twinform.passes.sdf_versions.comparison import comparable, without_carriers
 
 NEWEST = "1.12"
 

@@ -9,7 +9,7 @@ from lxml import etree
 
 from tests.differential.mutants import mutant
 from tests.profile import DEEP
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.schemas import (
     Context,
     Version,
@@ -58,7 +58,7 @@ def _document(seed: int) -> tuple[XmlElement, str, Version]:
 
 
 def _table_pass(root: XmlElement, name: str, version: Version) -> bool:
-    context = Context(Notes(), "", name, version)
+    context = Context(DiagnosticSink(), "", name, version)
     reader(name, version).read(root, context)
     return context.structural == 0
 

@@ -2,8 +2,8 @@
 
 import twinform
 from twinform.compiler import check
-from twinform.compiler.emitting import emit
-from twinform.diagnostics import Notes
+from twinform.compiler.output.emitting import emit
+from twinform.diagnostics import DiagnosticSink
 from twinform.passes import PipelineError, parse_pipeline
 
 
@@ -13,10 +13,10 @@ def load(data: bytes) -> None:
     if not checked.accepted or checked.document is None:
         assert checked.diagnostics, "refused without a word"
         return
-    notes = Notes()
-    text = emit(checked.document, notes)
-    if not notes.has_errors:
-        assert emit(twinform.loads(text), notes) == text, "another text once read again"
+    sink = DiagnosticSink()
+    text = emit(checked.document, sink)
+    if not sink.has_errors:
+        assert emit(twinform.loads(text), sink) == text, "another text once read again"
 
 
 def pipeline(data: bytes) -> None:

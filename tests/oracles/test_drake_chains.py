@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 import twinform
-from twinform.passes.legalise.token_mass import CHAIN_MASS
+from twinform.passes.carriers.token_mass import CHAIN_MASS
 from twinform.testing.oracles.comparison import IN_CHAINS
 
 np: Any = pytest.importorskip("numpy")

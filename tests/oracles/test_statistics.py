@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from twinform.compiler import Reading, read
+from twinform.compiler import LoadOptions, read
 from twinform.compiler.statistics import measure
 from twinform.ir import Axis, walk
 
@@ -21,7 +21,7 @@ def test_freedoms_and_mass_are_those_that_drake_finds(name: str) -> None:
     parser.package_map().Add("twinform_arm", str(_EXAMPLES / "twinform_arm"))
     parser.AddModels(str(_EXAMPLES / name))
     plant.Finalize()
-    reading = Reading()
+    reading = LoadOptions()
     checked = read(_EXAMPLES / name, reading)
     assert checked.document
     (found,) = measure(checked, checked.document, reading.search, meshes=False).models

@@ -4,7 +4,7 @@ from hypothesis import given
 
 from tests.profile import examples
 from twinform.ir import Document, Model
-from twinform.ir.changes import How, changes, count_changes
+from twinform.ir.changes import ChangeKind, changes, count_changes
 from twinform.testing import strategies
 
 _SETTINGS = examples()
@@ -35,7 +35,7 @@ def test_the_way_back_has_the_opposite_changes(old: Document, new: Document) -> 
 def test_links_in_another_order_are_one_change(document: Document) -> None:
     links = document.models[0].links
     found = list(changes(document, _changed(document, links=links[::-1])))
-    assert [each.how for each in found] == ([How.REORDERED] if len(links) > 1 else [])
+    assert [each.how for each in found] == ([ChangeKind.REORDERED] if len(links) > 1 else [])
 
 
 @_SETTINGS
@@ -43,5 +43,5 @@ def test_links_in_another_order_are_one_change(document: Document) -> None:
 def test_a_link_that_goes_is_what_goes(document: Document) -> None:
     first, *rest = document.models[0].links
     found = list(changes(document, _changed(document, links=tuple(rest))))
-    assert {each.how for each in found} == {How.REMOVED}
+    assert {each.how for each in found} == {ChangeKind.REMOVED}
     assert all(each.path.startswith(f"/models[{document.models[0].name!r}]/links[{first.name!r}]") for each in found)

@@ -10,8 +10,8 @@ import twinform
 from tests.profile import examples
 from twinform.compiler import check
 from twinform.compiler.audit import audit
-from twinform.compiler.emitting import emit
-from twinform.diagnostics import Notes
+from twinform.compiler.output.emitting import emit
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Axis, Document, Format, Joint, Link, Mesh
 from twinform.ir.frames import FrameGraph
 from twinform.schemas import table
@@ -24,9 +24,9 @@ _OTHER: dict[Format, Literal["urdf", "sdf"]] = {Format.URDF: "sdf", Format.SDF: 
 
 
 def _text(document: Document) -> str:
-    notes = Notes()
-    text = emit(document, notes)
-    assert notes.diagnostics == []
+    sink = DiagnosticSink()
+    text = emit(document, sink)
+    assert sink.diagnostics == []
     return text
 
 

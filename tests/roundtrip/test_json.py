@@ -14,7 +14,7 @@ import twinform
 from tests.json_judge import complaints
 from tests.profile import examples
 from twinform.compiler import CompileError
-from twinform.compiler.json_documents import json_data
+from twinform.compiler.output.json import json_data
 from twinform.ir import Document
 from twinform.schemas import table
 from twinform.schemas.json_check import is_array, is_object, json_faults

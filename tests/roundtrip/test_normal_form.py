@@ -8,9 +8,9 @@ from lxml import etree
 
 import twinform
 from tests.profile import examples
-from twinform.compiler.emitting import emit
 from twinform.compiler.normal_form import Discrepancy, NormalForm
-from twinform.diagnostics import Notes
+from twinform.compiler.output.emitting import emit
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.schemas import XmlElement
 from twinform.testing import strategies
@@ -24,7 +24,7 @@ _NEW = "x1y"
 
 
 def _tree(document: Document) -> XmlElement:
-    return etree.fromstring(emit(document, Notes()).encode(), etree.XMLParser(remove_blank_text=True))
+    return etree.fromstring(emit(document, DiagnosticSink()).encode(), etree.XMLParser(remove_blank_text=True))
 
 
 def _compared(source: XmlElement, back: XmlElement) -> tuple[Discrepancy, ...]:

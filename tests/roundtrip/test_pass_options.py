@@ -5,8 +5,8 @@ from hypothesis import given
 
 import twinform
 from tests.profile import examples
-from twinform.compiler.emitting import emit
-from twinform.diagnostics import Notes
+from twinform.compiler.output.emitting import emit
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.ir.verify import verify
 from twinform.passes import parse_pipeline
@@ -29,12 +29,12 @@ _PIPELINES = (
 
 
 def _judge(pipeline: str, document: Document) -> None:
-    once = parse_pipeline(pipeline).run(document, Notes(), verify=verify)
-    assert parse_pipeline(pipeline).run(once, Notes()) == once
+    once = parse_pipeline(pipeline).run(document, DiagnosticSink(), verify=verify)
+    assert parse_pipeline(pipeline).run(once, DiagnosticSink()) == once
     if once is not document:
-        notes = Notes()
-        text = emit(once, notes)
-        assert notes.diagnostics == []
+        sink = DiagnosticSink()
+        text = emit(once, sink)
+        assert sink.diagnostics == []
         assert twinform.loads(text) == once
 
 

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 import twinform
 from tests.profile import examples
 from twinform import Comparison
-from twinform.compiler.emitting import emit
-from twinform.diagnostics import Notes
+from twinform.compiler.output.emitting import emit
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.testing import strategies
 from twinform.testing.mutations import MUTATIONS, OF_SDF, OF_URDF, mutate
@@ -18,7 +18,7 @@ _FEW = examples(0.05)
 
 
 def _text(document: Document) -> bytes:
-    return emit(document, Notes()).encode()
+    return emit(document, DiagnosticSink()).encode()
 
 
 def _messages(comparison: Comparison) -> list[str]:

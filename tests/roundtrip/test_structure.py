@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 import twinform
 from tests.profile import examples
-from twinform.compiler.emitting import emit
-from twinform.diagnostics import Notes
+from twinform.compiler.output.emitting import emit
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Model, Pose
 from twinform.ir.frames import MODEL, FrameGraph
 from twinform.ir.solids import combined, placed
@@ -31,16 +31,16 @@ _TOLERANCE = 1e-9
 
 def run(one: Pass, document: Document) -> Document:
     """The document after a pass, which must leave a valid one and have no errors."""
-    notes, found = Notes(), Notes()
-    made = one.run(document, notes)
-    assert not notes.has_errors
+    sink, found = DiagnosticSink(), DiagnosticSink()
+    made = one.run(document, sink)
+    assert not sink.has_errors
     verify(made, found)
     assert not found.has_errors
     return made
 
 
 def text(document: Document) -> bytes:
-    return emit(document, Notes()).encode()
+    return emit(document, DiagnosticSink()).encode()
 
 
 def differences(one: Document, other: Document) -> list[str]:
@@ -89,7 +89,7 @@ def test_a_lumped_robot_is_the_same_robot(model: Document) -> None:
 @given(_MODELS)
 def test_lumping_again_changes_nothing(model: Document) -> None:
     lumped = run(LumpFixedJoints(), model)
-    assert LumpFixedJoints().run(lumped, Notes()) is lumped
+    assert LumpFixedJoints().run(lumped, DiagnosticSink()) is lumped
 
 
 @_SETTINGS
@@ -107,9 +107,9 @@ def test_lumping_as_libsdformat_does_keeps_mass_centre_and_inertia(robot: Docume
 def test_reroot_and_back_is_the_same_robot(model: Document, pick: int) -> None:
     links = [link.name for link in model.models[0].links]
     new = links[pick % len(links)]
-    notes = Notes()
-    rerooted = Reroot(link=new).run(model, notes)
-    assume(not notes.has_errors)  # a joint with two axes on the way
+    sink = DiagnosticSink()
+    rerooted = Reroot(link=new).run(model, sink)
+    assume(not sink.has_errors)  # a joint with two axes on the way
     assert relative_places(model, new) == approximately(relative_places(rerooted, new))
     back = run(Reroot(link=root_of(model, new)), rerooted)
     assert [link.name for link in back.models[0].links] == links

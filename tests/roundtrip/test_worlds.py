@@ -11,8 +11,8 @@ from hypothesis import given
 
 from reports.worlds.judging import Loaded, Together, judge
 from tests.profile import examples
-from twinform.compiler.emitting import emit
-from twinform.diagnostics import Notes
+from twinform.compiler.output.emitting import emit
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Box, Cylinder, Document, Sphere
 from twinform.testing import strategies
 
@@ -27,7 +27,7 @@ def _written(world: Document) -> Generator[tuple[Path, Path]]:
     """The world as a file, and a folder to take it apart in."""
     with TemporaryDirectory() as folder:
         path = Path(folder) / "arena.world"
-        path.write_text(emit(world, Notes()))
+        path.write_text(emit(world, DiagnosticSink()))
         yield path, Path(folder) / "out"
 
 

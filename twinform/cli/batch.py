@@ -7,9 +7,9 @@ from typing import Literal, Unpack
 import click
 
 from twinform.cli.failure import Unusable
-from twinform.cli.inputs import how_to_read, reading_options
-from twinform.cli.ordering import Asked, order_of, ordering_options
+from twinform.cli.inputs import load_options_of, reading_options
 from twinform.cli.policy import policy_of, policy_options
+from twinform.cli.request import Asked, ordering_options, request_of
 from twinform.compiler import write_atomically
 from twinform.compiler.batch import PATTERNS, Batch, FolderError, Outcome, Record, batch, report, summary
 
@@ -70,8 +70,8 @@ def command(
     whole = Batch(
         source=source,
         dest=dest,
-        order=order_of(asked, target),
-        reading=how_to_read({}, asked),
+        request=request_of(asked, target),
+        load_options=load_options_of({}, asked),
         policy=policy_of(ctx, allow, deny),
         patterns=patterns,
         jobs=jobs,

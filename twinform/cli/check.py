@@ -8,10 +8,10 @@ import click
 
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.findings import notes_option, show
-from twinform.cli.inputs import HowToRead, how_to_read, inputs, reading_options
-from twinform.cli.ordering import pipeline_option
+from twinform.cli.inputs import InputOptions, inputs, load_options_of, reading_options
 from twinform.cli.policy import policy_of, policy_options
-from twinform.compiler import Checked, LookingError, Reading, expand, inspect, read
+from twinform.cli.request import pipeline_option
+from twinform.compiler import LoadOptions, LoadResult, LookingError, expand, inspect, read
 from twinform.diagnostics import Severity
 from twinform.diagnostics.reporters import REPORTERS, Findings
 from twinform.passes import PassError, Pipeline
@@ -43,7 +43,7 @@ def command(
     deny: tuple[str, ...],
     check_passes: Pipeline,
     expand_includes: bool,
-    **how: Unpack[HowToRead],
+    **input_options: Unpack[InputOptions],
 ) -> None:
     """Find everything that is wrong with robot models.
 
@@ -51,42 +51,42 @@ def command(
     without errors, 1 with errors, 2 where a file could not be read.
     """
     sources, arguments = inputs(words)
-    policy, reading = policy_of(ctx, allow, deny), how_to_read(arguments, how)
-    checked = [read(each.content, reading, name=each.name) for each in sources]
-    checked = [expand(each, reading) for each in checked] if expand_includes else checked
-    checked = [_inspected(each, reading, check_passes) for each in checked]
-    checked, seen = [replace(each, diagnostics=policy.apply(each.diagnostics)) for each in checked], checked
-    allowed = sum(len(each.diagnostics) for each in seen) - sum(len(each.diagnostics) for each in checked)
-    findings = [Findings(each.path, each.diagnostics) for each in checked]
+    policy, load_options = policy_of(ctx, allow, deny), load_options_of(arguments, input_options)
+    loaded = [read(each.content, load_options, name=each.name) for each in sources]
+    loaded = [expand(each, load_options) for each in loaded] if expand_includes else loaded
+    loaded = [_inspected(each, load_options, check_passes) for each in loaded]
+    loaded, seen = [replace(each, diagnostics=policy.apply(each.diagnostics)) for each in loaded], loaded
+    allowed = sum(len(each.diagnostics) for each in seen) - sum(len(each.diagnostics) for each in loaded)
+    findings = [Findings(each.path, each.diagnostics) for each in loaded]
     if style == "text":
         for each in findings:
             show(each, notes=notes, on_stderr=False)
     else:
         click.echo(REPORTERS[style](findings), nl=False)
-    click.echo(_summary(checked) + (f"; {allowed} allowed" if allowed else ""), err=True)
-    ctx.exit(_exit_code(checked))
+    click.echo(_summary(loaded) + (f"; {allowed} allowed" if allowed else ""), err=True)
+    ctx.exit(_exit_code(loaded))
 
 
-def _inspected(checked: Checked, reading: Reading, passes: Pipeline) -> Checked:
+def _inspected(loaded: LoadResult, load_options: LoadOptions, passes: Pipeline) -> LoadResult:
     try:
-        return inspect(checked, reading, passes)
+        return inspect(loaded, load_options, passes)
     except LookingError as error:
         raise click.UsageError(str(error)) from error
     except PassError as error:
         raise Unusable(str(error)) from error
 
 
-def _exit_code(checked: list[Checked]) -> int:
-    if any(each.unreadable for each in checked):
+def _exit_code(loaded: list[LoadResult]) -> int:
+    if any(each.unreadable for each in loaded):
         return UNUSABLE
-    return 0 if all(each.accepted for each in checked) else FINDINGS
+    return 0 if all(each.accepted for each in loaded) else FINDINGS
 
 
-def _summary(checked: list[Checked]) -> str:
-    counts = Counter(diagnostic.severity for each in checked for diagnostic in each.diagnostics)
+def _summary(loaded: list[LoadResult]) -> str:
+    counts = Counter(diagnostic.severity for each in loaded for diagnostic in each.diagnostics)
     found = ", ".join(_count(counts[severity], word) for severity, word in _WORDS.items())
-    unreadable = sum(each.unreadable for each in checked)
-    return f"{_count(len(checked), 'file')}: {found}{f'; {unreadable} could not be read' if unreadable else ''}"
+    unreadable = sum(each.unreadable for each in loaded)
+    return f"{_count(len(loaded), 'file')}: {found}{f'; {unreadable} could not be read' if unreadable else ''}"
 
 
 def _count(number: int, word: str) -> str:

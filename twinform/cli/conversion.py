@@ -6,40 +6,42 @@ from pathlib import Path
 
 import click
 
-from twinform.cli.companions import Companions
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
+from twinform.cli.gazebo_files import Companions
+from twinform.cli.instrumentation import InstrumentationOptions
 from twinform.cli.outputs import Output, Outputs, beside
 from twinform.cli.targets import Job
-from twinform.cli.watching import Watching
-from twinform.compiler import CompileError, Conversion, Order, Reading, fulfil, read
+from twinform.compiler import CompileError, Conversion, ConversionRequest, LoadOptions, read, run_conversion
 from twinform.compiler.audit import audit
 from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
 from twinform.diagnostics.reporters import Findings
-from twinform.passes import CompanionPass, PassError
+from twinform.passes import PassError, SideFilePass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Options:
     """What is the same for every input; the order is for SDF unless an input's target says otherwise."""
 
-    order: Order
-    reading: Reading
+    request: ConversionRequest
+    load_options: LoadOptions
     ledger: Path | None
     notes: bool
     policy: Policy
-    watching: Watching
+    watching: InstrumentationOptions
     companions: Companions
     audit: bool = False
 
-    def order_for(self, job: Job) -> Order:
+    def request_for(self, job: Job) -> ConversionRequest:
         """What one input is to become."""
-        return replace(self.order, to=job.target, sdf_version=self.order.sdf_version if job.target == "sdf" else None)
+        return replace(
+            self.request, to=job.target, sdf_version=self.request.sdf_version if job.target == "sdf" else None
+        )
 
     @property
     def beside(self) -> list[str]:
         """The files that the user's passes make, by their paths below the folder of the result."""
-        return [step.file for step in self.order.passes if isinstance(step, CompanionPass)]
+        return [step.file for step in self.request.passes if isinstance(step, SideFilePass)]
 
     def places(self, job: Job, outputs: Outputs) -> Iterator[Output]:
         """All that one conversion writes.
@@ -61,20 +63,26 @@ class Options:
         return not any(each.is_error for each in seen)
 
 
-def run_conversion(job: Job, options: Options, label: str, outputs: Outputs) -> int:
+def run_job(job: Job, options: Options, label: str, outputs: Outputs) -> int:
     """Run one conversion, and add what it makes to what is written; gives its exit code."""
-    source, watched = job.source, options.watching.begin(job.source.name)
+    source, instrumented = job.source, options.watching.begin(job.source.name)
     try:
-        order = options.order_for(job)
-        conversion = fulfil(order, source.content, options.reading, name=source.name, watch=watched.watch)
+        request = options.request_for(job)
+        conversion = run_conversion(
+            request,
+            source.content,
+            options.load_options,
+            name=source.name,
+            instrumentation=instrumented.instrumentation,
+        )
     except CompileError as error:
-        watched.report()
+        instrumented.report()
         options.show(job.source.name, error.diagnostics)
         return UNUSABLE if error.unreadable else FINDINGS
     except PassError as error:
-        watched.fault(error)
+        instrumented.fault(error)
         return FINDINGS
-    watched.end()
+    instrumented.end()
     if not options.show(job.source.name, conversion.diagnostics):
         return FINDINGS
     _add(conversion, job.path, options.ledger, outputs)
@@ -118,9 +126,9 @@ def summary(ledger: Ledger) -> str:
 
 def print_plan(job: Job, options: Options, label: str) -> int:
     """Print the passes of one conversion; gives its exit code."""
-    checked = read(job.source.content, options.reading, name=job.source.name)
-    if checked.document is None or not checked.accepted:
-        options.show(checked.path, checked.diagnostics)
-        return UNUSABLE if checked.unreadable else FINDINGS
-    click.echo(f"{label}{': ' if label else ''}{options.order_for(job).plan(checked.document)}")
+    loaded = read(job.source.content, options.load_options, name=job.source.name)
+    if loaded.document is None or not loaded.accepted:
+        options.show(loaded.path, loaded.diagnostics)
+        return UNUSABLE if loaded.unreadable else FINDINGS
+    click.echo(f"{label}{': ' if label else ''}{options.request_for(job).plan(loaded.document)}")
     return 0

@@ -7,19 +7,19 @@ from typing import Unpack
 import click
 from click.core import ParameterSource
 
-from twinform.cli.companions import Companions, companion_options, version_for
 from twinform.cli.config import settings_of
-from twinform.cli.conversion import Options, print_plan, run_conversion
+from twinform.cli.conversion import Options, print_plan, run_job
 from twinform.cli.findings import notes_option
-from twinform.cli.inputs import how_to_read, inputs, reading_options
-from twinform.cli.ordering import Asked, order_of, ordering_options
+from twinform.cli.gazebo_files import Companions, companion_options, version_for
+from twinform.cli.inputs import inputs, load_options_of, reading_options
+from twinform.cli.instrumentation import InstrumentationOptions, watching_options
 from twinform.cli.outputs import Outputs
 from twinform.cli.policy import policy_of, policy_options
+from twinform.cli.request import Asked, ordering_options, request_of
 from twinform.cli.source import Source
 from twinform.cli.splitting import run_split
 from twinform.cli.targets import TARGETS, Job, Target, jobs, jobs_in_place
-from twinform.cli.watching import Watching, watching_options
-from twinform.compiler import Reading
+from twinform.compiler import LoadOptions
 
 
 @click.command("convert")
@@ -82,11 +82,13 @@ def command(
         raise click.UsageError("--ledger takes one input")
     if ctx.get_parameter_source("gazebo") is not ParameterSource.DEFAULT:
         asked["sdf_version"] = version_for(gazebo, asked["sdf_version"])
-    policy, reading = policy_of(ctx, allow, deny), how_to_read(arguments, asked)
-    watching = Watching(dumps=dumps, changes=changes, times=times, statistics=statistics, reproducers=reproducers)
+    policy, load_options = policy_of(ctx, allow, deny), load_options_of(arguments, asked)
+    watching = InstrumentationOptions(
+        dumps=dumps, changes=changes, times=times, statistics=statistics, reproducers=reproducers
+    )
     options = Options(
-        order=order_of(asked, "sdf", model),
-        reading=reading,
+        request=request_of(asked, "sdf", model),
+        load_options=load_options,
         ledger=ledger,
         notes=notes,
         policy=policy,
@@ -103,7 +105,7 @@ def command(
         whole = Outputs(read)
         folder = _folder(out, target, model, in_place=in_place)
         code = run_split(_only(sources), target or "urdf", options, folder, whole)
-        ctx.exit(_end(whole, [code], reading))
+        ctx.exit(_end(whole, [code], load_options))
     todo = jobs_in_place(sources, out, target) if in_place else jobs(sources, out, target)
     versioned = ctx.get_parameter_source("sdf_version") is ParameterSource.COMMANDLINE
     if versioned and all(job.target != "sdf" for job in todo):
@@ -112,7 +114,7 @@ def command(
         ctx.exit(max(print_plan(job, options, label=_label(job, todo)) for job in todo))
     outputs = Outputs(read, [job.path for job in todo if in_place and job.path])
     outputs.require_apart([place for job in todo for place in options.places(job, outputs)])
-    ctx.exit(_end(outputs, [run_conversion(job, options, _label(job, todo), outputs) for job in todo], reading))
+    ctx.exit(_end(outputs, [run_job(job, options, _label(job, todo), outputs) for job in todo], load_options))
 
 
 def _label(job: Job, todo: Sequence[Job]) -> str:
@@ -120,10 +122,10 @@ def _label(job: Job, todo: Sequence[Job]) -> str:
     return job.source.name if len(todo) > 1 else ""
 
 
-def _end(outputs: Outputs, codes: Sequence[int], reading: Reading) -> int:
+def _end(outputs: Outputs, codes: Sequence[int], load_options: LoadOptions) -> int:
     """Write everything if nothing is wrong; gives the exit code."""
     if not max(codes):
-        outputs.write(reading.search.seen)
+        outputs.write(load_options.search.seen)
     elif len(codes) > 1:
         wrong = sum(map(bool, codes))
         click.echo(f"nothing is written: {wrong} of {len(codes)} inputs could not be converted", err=True)

@@ -7,7 +7,7 @@ import click
 
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
-from twinform.cli.inputs import HowToRead, file_options, how_to_read, inputs
+from twinform.cli.inputs import InputOptions, file_options, inputs, load_options_of
 from twinform.compiler import CompileError
 from twinform.compiler.compare import TOLERANCE, Severity, compare_files
 from twinform.compiler.compare.reporters import REPORTERS, summary, text
@@ -37,7 +37,7 @@ def command(
     *,
     model: str | None,
     tolerance: float,
-    **how: Unpack[HowToRead],
+    **input_options: Unpack[InputOptions],
 ) -> None:
     """Say whether two files describe the same robot.
 
@@ -50,8 +50,8 @@ def command(
         raise click.UsageError("diff compares two files")
     a, b = sources
     try:
-        reading, names = how_to_read(arguments, how), (a.name, b.name)
-        found = compare_files(a.content, b.content, reading, names=names, model=model, tolerance=tolerance)
+        load_options, names = load_options_of(arguments, input_options), (a.name, b.name)
+        found = compare_files(a.content, b.content, load_options, names=names, model=model, tolerance=tolerance)
     except CompileError as error:
         show(Findings(a.name, error.diagnostics), notes=False, on_stderr=True)
         ctx.exit(UNUSABLE)

@@ -3,7 +3,7 @@
 import click
 
 from twinform.cli.failure import UNUSABLE
-from twinform.cli.watching import show_fault
+from twinform.cli.instrumentation import show_fault
 from twinform.passes import PassError
 
 

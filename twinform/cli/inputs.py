@@ -9,7 +9,7 @@ import click
 
 from twinform.cli.config import config_options, settings_of
 from twinform.cli.source import Source, open_source
-from twinform.compiler import Reading, SearchPath
+from twinform.compiler import LoadOptions, SearchPath
 from twinform.schemas import Engine
 
 Command = TypeVar("Command", bound=Callable[..., Any])
@@ -54,7 +54,7 @@ def reading_options(command: Command) -> Command:
     return file_options(_EXPAND_INCLUDES(command))
 
 
-class HowToRead(TypedDict):
+class InputOptions(TypedDict):
     """What these options give a command."""
 
     strict: bool
@@ -63,10 +63,12 @@ class HowToRead(TypedDict):
     xacro: bool | None
 
 
-def how_to_read(arguments: Mapping[str, str], how: HowToRead) -> Reading:
+def load_options_of(arguments: Mapping[str, str], input_options: InputOptions) -> LoadOptions:
     """The options as the compiler takes them; the folders of the project come after those of the command line."""
-    paths = (*how["paths"], *settings_of(click.get_current_context()).folders)
-    return Reading(how["strict"], how["engine"], SearchPath.of(paths), arguments, how["xacro"])
+    paths = (*input_options["paths"], *settings_of(click.get_current_context()).folders)
+    return LoadOptions(
+        input_options["strict"], input_options["engine"], SearchPath.of(paths), arguments, input_options["xacro"]
+    )
 
 
 def inputs(words: Sequence[str]) -> tuple[list[Source], dict[str, str]]:

@@ -10,8 +10,8 @@ import click
 
 from twinform.cli.failure import Unusable
 from twinform.compiler import write_all_atomically
-from twinform.compiler.same_files import folded, identities, is_below, is_nothing, is_stream
-from twinform.diagnostics import Companion
+from twinform.compiler.output.same_files import folded, identities, is_below, is_nothing, is_stream
+from twinform.diagnostics import SideFile
 
 _LONGEST_LINE = 2**12
 
@@ -83,7 +83,7 @@ class Outputs:
         """A file that an option names."""
         self.texts.append((Output(by, path), text))
 
-    def add_beside(self, result: Path | None, companions: Sequence[Companion]) -> None:
+    def add_beside(self, result: Path | None, companions: Sequence[SideFile]) -> None:
         """The files that passes have made.
 
         Raises:
@@ -116,7 +116,7 @@ class Outputs:
             click.echo(self.stdout.encode(), nl=False)  # the XML declaration says UTF-8, whatever the terminal's is
 
 
-def _require_ours(path: Path, companion: Companion) -> None:
+def _require_ours(path: Path, companion: SideFile) -> None:
     """Raise where a file is in the place of a companion that does not begin as it does."""
     own, _, _ = companion.text.partition("\n")
     with suppress(OSError), path.open("rb") as file:  # writing it will say what is wrong

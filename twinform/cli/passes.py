@@ -11,10 +11,10 @@ from twinform.cli.config.options import Project
 from twinform.cli.failure import Unusable
 from twinform.cli.findings import heading
 from twinform.passes import Pass, PipelineError, Registered, RegistryError, parse_pipeline, registered_passes
-from twinform.passes.options import nearest
-from twinform.passes.pages import OptionPage, description, options, summary
-from twinform.passes.registry import OWN
-from twinform.passes.tables import print_tables
+from twinform.passes.framework.options import nearest
+from twinform.passes.framework.pages import OptionPage, description, options, summary
+from twinform.passes.framework.registry import OWN
+from twinform.passes.framework.tables import print_tables
 
 _TABLE_NAME = "mine"
 

@@ -9,7 +9,7 @@ from twinform.cli.config import ConfigError, settings_of
 from twinform.cli.failure import Unusable
 from twinform.diagnostics import Policy
 from twinform.diagnostics.registry import RuleRegistryError, rules
-from twinform.passes.options import nearest
+from twinform.passes.framework.options import nearest
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 

@@ -7,12 +7,12 @@ import click
 
 from twinform import __version__
 from twinform.cli.failure import FINDINGS, Unusable
-from twinform.compiler import Reading
-from twinform.compiler.other_documents import OtherDocuments
-from twinform.compiler.reproducing import read_reproducer
-from twinform.compiler.uris import LocalAssets, SearchPath
+from twinform.compiler import LoadOptions
+from twinform.compiler.includes.other_documents import OtherDocuments
+from twinform.compiler.reproducers.files import read_reproducer
+from twinform.compiler.reproducers.reproducer import Reproducer
+from twinform.compiler.search.uris import LocalAssets, SearchPath
 from twinform.passes import PassError, PipelineError, RegistryError
-from twinform.passes.hooks.reproducer import Reproducer
 
 
 @click.command("reproduce")
@@ -58,6 +58,6 @@ def _read(file: Path) -> Reproducer:
 def _run(found: Reproducer, file: Path, search: SearchPath) -> PassError | None:
     assets = LocalAssets(search, Path(found.source))
     try:
-        return found.run(assets, OtherDocuments(Reading(search=search), found.source).read)
+        return found.run(assets, OtherDocuments(LoadOptions(search=search), found.source).read)
     except (PipelineError, RegistryError) as error:
         raise Unusable(f"{file}: {error}") from error

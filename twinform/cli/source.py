@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
-from twinform.compiler.limits import LARGEST
+from twinform.compiler.input.limits import LARGEST
 
 _ENOUGH = 2**16
 """Bytes that hold the root element of every file but those with a very long comment."""

@@ -17,18 +17,25 @@ def run_split(source: Source, to: Target, options: Options, folder: Path, output
 
     Models become URDF where Gazebo reads that as the same robots, or stay SDF with `to`.
     """
-    watched = options.watching.begin(source.name)
+    instrumented = options.watching.begin(source.name)
     try:
-        order = replace(options.order, to=to)
-        result = split(order, source.content, options.reading, name=source.name, watch=watched.watch, folder=folder)
+        request = replace(options.request, to=to)
+        result = split(
+            request,
+            source.content,
+            options.load_options,
+            name=source.name,
+            instrumentation=instrumented.instrumentation,
+            folder=folder,
+        )
     except CompileError as error:
-        watched.report()
+        instrumented.report()
         options.show(source.name, error.diagnostics)
         return UNUSABLE if error.unreadable else FINDINGS
     except PassError as error:
-        watched.fault(error)
+        instrumented.fault(error)
         return FINDINGS
-    watched.end()
+    instrumented.end()
     if not options.show(source.name, result.diagnostics):
         return FINDINGS
     _add(result, folder, options.ledger, outputs)

@@ -6,7 +6,7 @@ import click
 
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
-from twinform.cli.inputs import HowToRead, how_to_read, inputs, reading_options
+from twinform.cli.inputs import InputOptions, inputs, load_options_of, reading_options
 from twinform.compiler import expand, read
 from twinform.compiler.statistics import REPORTERS, FileStatistics, measure
 from twinform.diagnostics.reporters import Findings
@@ -25,7 +25,7 @@ def command(
     *,
     meshes: bool,
     expand_includes: bool,
-    **how: Unpack[HowToRead],
+    **input_options: Unpack[InputOptions],
 ) -> None:
     """Say in numbers what models are made of.
 
@@ -34,16 +34,16 @@ def command(
     Exit code: 0 without errors, 1 where a file has errors, 2 where one could not be read.
     """
     sources, arguments = inputs(words)
-    reading, code = how_to_read(arguments, how), 0
+    load_options, code = load_options_of(arguments, input_options), 0
     found: list[FileStatistics] = []
     for source in sources:
-        checked = read(source.content, reading, name=source.name)
-        checked = expand(checked, reading) if expand_includes else checked
-        if checked.document is None or not checked.accepted:
-            show(Findings(checked.path, checked.diagnostics), notes=False, on_stderr=True)
-            code = max(code, UNUSABLE if checked.unreadable else FINDINGS)
+        loaded = read(source.content, load_options, name=source.name)
+        loaded = expand(loaded, load_options) if expand_includes else loaded
+        if loaded.document is None or not loaded.accepted:
+            show(Findings(loaded.path, loaded.diagnostics), notes=False, on_stderr=True)
+            code = max(code, UNUSABLE if loaded.unreadable else FINDINGS)
         else:
-            found.append(measure(checked, checked.document, reading.search, meshes=meshes))
+            found.append(measure(loaded, loaded.document, load_options.search, meshes=meshes))
     if found or style == "json":
         click.echo(REPORTERS[style](found), nl=False)
     ctx.exit(code)

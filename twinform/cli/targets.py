@@ -9,7 +9,7 @@ from typing import Literal, NamedTuple, get_args
 import click
 
 from twinform.cli.source import Source, format_of_suffix
-from twinform.compiler.same_files import folded
+from twinform.compiler.output.same_files import folded
 
 Target = Literal["sdf", "urdf", "json"]
 TARGETS: tuple[Target, ...] = get_args(Target)

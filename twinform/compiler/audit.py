@@ -15,7 +15,7 @@ from lxml import etree
 
 from twinform.compiler.folded_chains import Folded
 from twinform.diagnostics import Fate, Ledger, Location
-from twinform.passes.legalise.carrier import NAMESPACE
+from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.schemas import XmlElement, path_of
 
 _OURS = f"{{{NAMESPACE}}}"

@@ -3,11 +3,11 @@
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from twinform.compiler.includes import expand
-from twinform.compiler.inputs import Checked, Input, Reading
+from twinform.compiler.includes.expanding import expand
+from twinform.compiler.input.loading import read
+from twinform.compiler.input.options import Input, LoadOptions, LoadResult
 from twinform.compiler.inspection import inspect
-from twinform.compiler.loading import read
-from twinform.compiler.uris import SearchPath
+from twinform.compiler.search.uris import SearchPath
 from twinform.passes import Pipeline, parse_pipeline
 from twinform.schemas import Engine
 
@@ -23,7 +23,7 @@ def check(
     xacro: bool | None = None,
     expand_includes: bool = False,
     passes: str | Pipeline | None = None,
-) -> Checked:
+) -> LoadResult:
     """Read a file, the bytes of one or a document, and say everything that is wrong with it.
 
     `paths` are folders in which URIs are looked up. A file whose name ends in `.xacro` is expanded with the
@@ -36,7 +36,7 @@ def check(
         PassError: a pass is at fault.
         PipelineError: `passes` is not a pipeline.
     """
-    how = Reading(strict, engine, SearchPath.of(paths), arguments or {}, xacro)
+    load_options = LoadOptions(strict, engine, SearchPath.of(paths), arguments or {}, xacro)
     pipeline = parse_pipeline(passes) if isinstance(passes, str) else passes
-    checked = read(source, how, name=name)
-    return inspect(expand(checked, how) if expand_includes else checked, how, pipeline)
+    loaded = read(source, load_options, name=name)
+    return inspect(expand(loaded, load_options) if expand_includes else loaded, load_options, pipeline)

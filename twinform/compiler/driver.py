@@ -4,21 +4,21 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from twinform.compiler.emitting import emit, emit_legal
 from twinform.compiler.errors import CompileError
-from twinform.compiler.includes import expand
-from twinform.compiler.loading import Checked, Input, Reading, garbage_collection_paused, read
-from twinform.compiler.orders import Language, Order, UrdfVersion
-from twinform.compiler.other_documents import OtherDocuments
-from twinform.compiler.uris import LocalAssets, SearchPath
-from twinform.diagnostics import Companion, Diagnostic, Ledger, Notes
+from twinform.compiler.includes.expanding import expand
+from twinform.compiler.includes.other_documents import OtherDocuments
+from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, garbage_collection_paused, read
+from twinform.compiler.output.emitting import emit, emit_legal
+from twinform.compiler.request import ConversionRequest, Language, UrdfVersion
+from twinform.compiler.search.uris import LocalAssets, SearchPath
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger, SideFile
 from twinform.diagnostics.rules.model import MISSING_LIMIT
 from twinform.diagnostics.rules.structure import MISSING_ATTRIBUTE, OUTSIDE_VERSION
 from twinform.ir import Document, Format, Include
 from twinform.ir.verify import verify
-from twinform.passes import Pass, Pipeline, Watch, parse_pipeline
-from twinform.passes.legalise.candidates import candidates, name_once_expanded, wanted_includes
-from twinform.passes.legalise.sdf_versions import has_early_frames
+from twinform.passes import Pass, PassInstrumentation, Pipeline, parse_pipeline
+from twinform.passes.analyses.candidates import candidates, name_once_expanded, wanted_includes
+from twinform.passes.sdf_versions import has_early_frames
 from twinform.schemas import Engine, XmlElement, table
 
 
@@ -35,7 +35,7 @@ class Conversion:
     diagnostics: tuple[Diagnostic, ...]
     ledger: Ledger
     source: XmlElement | None = field(default=None, repr=False, compare=False)
-    companions: tuple[Companion, ...] = ()
+    companions: tuple[SideFile, ...] = ()
 
 
 def plan(
@@ -53,7 +53,7 @@ def plan(
     Raises:
         ValueError: SDF has no such version.
     """
-    order = Order(
+    request = ConversionRequest(
         to=to,
         sdf_version=_known(sdf_version),
         urdf_version=urdf_version,
@@ -61,7 +61,7 @@ def plan(
         carriers=carriers,
         model=model,
     )
-    return order.plan(source)
+    return request.plan(source)
 
 
 def convert(
@@ -80,7 +80,7 @@ def convert(
     arguments: Mapping[str, str] | None = None,
     xacro: bool | None = None,
     expand_includes: bool = False,
-    watch: Watch | None = None,
+    instrumentation: PassInstrumentation | None = None,
 ) -> Conversion:
     """Compile a file, the bytes of one or a document into the target's language; `watch` is told of each pass.
 
@@ -93,7 +93,7 @@ def convert(
         PipelineError: `passes` is not a pipeline.
         ValueError: SDF has no such version.
     """
-    order = Order(
+    request = ConversionRequest(
         to=to,
         sdf_version=_known(sdf_version),
         urdf_version=urdf_version,
@@ -102,17 +102,17 @@ def convert(
         model=model,
         expand_includes=expand_includes,
     )
-    how = Reading(strict, engine, SearchPath.of(paths), arguments or {}, xacro)
-    return fulfil(order, source, how, name=name, watch=watch)
+    load_options = LoadOptions(strict, engine, SearchPath.of(paths), arguments or {}, xacro)
+    return run_conversion(request, source, load_options, name=name, instrumentation=instrumentation)
 
 
-def fulfil(
-    order: Order,
+def run_conversion(
+    request: ConversionRequest,
     source: Input,
-    how: Reading,
+    load_options: LoadOptions,
     *,
     name: str = "",
-    watch: Watch | None = None,
+    instrumentation: PassInstrumentation | None = None,
 ) -> Conversion:
     """`convert`, with all that is asked for in one place.
 
@@ -120,36 +120,36 @@ def fulfil(
         CompileError: the source, a pass or the result has an error.
     """
     with garbage_collection_paused():
-        checked = read(source, how, name=name)
-        order = replace(order, assets=LocalAssets(how.search, Path(checked.path)))
-        if checked.accepted and (order.expand_includes or order.to == "urdf" or order.model is not None):
-            wanted = None if order.expand_includes else _wanted(checked.document, order)
-            before, checked = checked, expand(checked, how, wanted=wanted, carriers=order.carriers)
-            order = replace(order, model=name_once_expanded(before.document, checked.document, order.model))
-        order = replace(order, mixed=has_mixed_words(checked))
-        if checked.document is None or not (checked.accepted or (order.passes and _may_be_mended(checked))):
-            raise CompileError(checked.diagnostics, unreadable=checked.unreadable)
-        return _run(checked, checked.document, order, how, watch=watch)
+        loaded = read(source, load_options, name=name)
+        request = replace(request, assets=LocalAssets(load_options.search, Path(loaded.path)))
+        if loaded.accepted and (request.expand_includes or request.to == "urdf" or request.model is not None):
+            wanted = None if request.expand_includes else _wanted(loaded.document, request)
+            before, loaded = loaded, expand(loaded, load_options, wanted=wanted, carriers=request.carriers)
+            request = replace(request, model=name_once_expanded(before.document, loaded.document, request.model))
+        request = replace(request, mixed=has_mixed_words(loaded))
+        if loaded.document is None or not (loaded.accepted or (request.passes and _may_be_mended(loaded))):
+            raise CompileError(loaded.diagnostics, unreadable=loaded.unreadable)
+        return _run(loaded, loaded.document, request, load_options, instrumentation=instrumentation)
 
 
-def _wanted(document: Document | None, order: Order) -> Callable[[Include], bool]:
+def _wanted(document: Document | None, request: ConversionRequest) -> Callable[[Include], bool]:
     """The includes that have to be put in their place; of a model that stays SDF, the one that stands for it."""
-    wanted = wanted_includes(document, order.model)
-    if order.to == "urdf" or document is None:
+    wanted = wanted_includes(document, request.model)
+    if request.to == "urdf" or document is None:
         return wanted
     standing = {id(one.model) for one in candidates(document)}
     return lambda include: id(include) in standing and wanted(include)
 
 
-def has_mixed_words(checked: Checked) -> bool:
+def has_mixed_words(loaded: LoadResult) -> bool:
     """Whether files have words that their version does not have, or frames where those have no meaning yet."""
-    early = checked.document is not None and has_early_frames(checked.document)
-    return checked.mixed or bool(mixed_words(checked)) or early
+    early = loaded.document is not None and has_early_frames(loaded.document)
+    return loaded.mixed or bool(mixed_words(loaded)) or early
 
 
-def mixed_words(checked: Checked) -> frozenset[str]:
+def mixed_words(loaded: LoadResult) -> frozenset[str]:
     """The words in files that the versions of these do not have."""
-    return frozenset(each.found for each in checked.diagnostics if _is_outside_version(each) and each.found)
+    return frozenset(each.found for each in loaded.diagnostics if _is_outside_version(each) and each.found)
 
 
 def _is_outside_version(found: Diagnostic) -> bool:
@@ -172,55 +172,62 @@ def _pipeline(passes: str | Sequence[Pass] | None) -> Pipeline:
 
 
 def _run(
-    checked: Checked,
+    loaded: LoadResult,
     document: Document,
-    order: Order,
-    how: Reading,
+    request: ConversionRequest,
+    load_options: LoadOptions,
     *,
-    watch: Watch | None,
+    instrumentation: PassInstrumentation | None,
 ) -> Conversion:
     """The rest of the way of a document that was read."""
-    kept = [each for each in checked.diagnostics if not each.is_error]
-    notes = Notes(checked.path, how.strict, kept, list(checked.entries), origins=dict(checked.origins))
-    passes = order.passes.with_files(order.assets, OtherDocuments(how, checked.path).read)
-    changed = passes.run(document, notes, watch=watch, verify=verify if checked.accepted else None)
-    if not checked.accepted:
-        verify(changed, notes)
+    kept = [each for each in loaded.diagnostics if not each.is_error]
+    sink = DiagnosticSink(loaded.path, load_options.strict, kept, list(loaded.entries), origins=dict(loaded.origins))
+    passes = request.passes.with_files(request.assets, OtherDocuments(load_options, loaded.path).read)
+    changed = passes.run(document, sink, instrumentation=instrumentation, verify=verify if loaded.accepted else None)
+    if not loaded.accepted:
+        verify(changed, sink)
     text = ""
-    if not notes.has_errors:
-        document, text = written(changed, order, notes, watch, kept=mixed_words(checked) if checked.mixed else None)
-    if notes.has_errors:
-        raise CompileError(tuple(notes.diagnostics))
-    lost = sum(entry.weight for entry in notes.entries)
-    ledger = Ledger(max(0, checked.size - lost), notes.traced_entries())
-    return Conversion(text, document, tuple(notes.diagnostics), ledger, checked.tree, tuple(notes.companions))
+    if not sink.has_errors:
+        document, text = written(
+            changed, request, sink, instrumentation, kept=mixed_words(loaded) if loaded.mixed else None
+        )
+    if sink.has_errors:
+        raise CompileError(tuple(sink.diagnostics))
+    lost = sum(entry.weight for entry in sink.entries)
+    ledger = Ledger(max(0, loaded.size - lost), sink.traced_entries())
+    return Conversion(text, document, tuple(sink.diagnostics), ledger, loaded.tree, tuple(sink.companions))
 
 
 def written(
-    document: Document, order: Order, notes: Notes, watch: Watch | None, *, kept: frozenset[str] | None
+    document: Document,
+    request: ConversionRequest,
+    sink: DiagnosticSink,
+    instrumentation: PassInstrumentation | None,
+    *,
+    kept: frozenset[str] | None,
 ) -> tuple[Document, str]:
     """What a document becomes, and its text.
 
     One that was put together from several files has words that are `kept` although its version does not have them: the
     files had them too. It is None where there was one file.
     """
-    document = order.selection(document).run(document, notes, watch=watch)
-    if notes.has_errors:
+    document = request.selection(document).run(document, sink, instrumentation=instrumentation)
+    if sink.has_errors:
         return document, ""
-    if order.to == "json":
-        from twinform.compiler.json_documents import json_text  # noqa: PLC0415 - few conversions need it
+    if request.to == "json":
+        from twinform.compiler.output.json import json_text  # noqa: PLC0415 - few conversions need it
 
-        emit(document, notes)
-        return document, json_text(document, notes)
-    legal = order.legalisation(document)
-    fit = (kept is not None or bool(len(legal))) and not order.target(document, Format(order.to)).mixed
+        emit(document, sink)
+        return document, json_text(document, sink)
+    legal = request.legalisation(document)
+    fit = (kept is not None or bool(len(legal))) and not request.target(document, Format(request.to)).mixed
     kept = frozenset() if len(legal) or kept is None else kept
-    return emit_legal(document, legal, notes, watch, fit=fit, kept=kept)
+    return emit_legal(document, legal, sink, instrumentation, fit=fit, kept=kept)
 
 
-def _may_be_mended(checked: Checked) -> bool:
+def _may_be_mended(loaded: LoadResult) -> bool:
     """Whether nothing is wrong but what a pass can put right: limits that are missing."""
-    errors = [each for each in checked.diagnostics if each.is_error]
+    errors = [each for each in loaded.diagnostics if each.is_error]
     return all(
         each.rule is MISSING_LIMIT or (each.rule is MISSING_ATTRIBUTE and each.location.path.endswith("/limit"))
         for each in errors

@@ -3,11 +3,11 @@
 from pathlib import Path
 from typing import Literal
 
-from twinform.compiler.emitting import emit
 from twinform.compiler.errors import CompileError
-from twinform.compiler.files import write_atomically
-from twinform.compiler.loading import Reading, read
-from twinform.diagnostics import Notes
+from twinform.compiler.input.loading import LoadOptions, read
+from twinform.compiler.output.emitting import emit
+from twinform.compiler.output.files import write_atomically
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 
 Written = Literal["urdf", "sdf", "json"]
@@ -26,17 +26,17 @@ def dumps(document: Document, *, to: Written | None = None) -> str:
         raise ValueError(
             f"the document is {document.format.upper()}; twinform.convert makes {to.upper() if to else to}"
         )
-    checked = read(document, Reading())
-    notes = Notes(checked.path, diagnostics=[each for each in checked.diagnostics if each.is_error])
+    checked = read(document, LoadOptions())
+    sink = DiagnosticSink(checked.path, diagnostics=[each for each in checked.diagnostics if each.is_error])
     text = ""
-    if not notes.has_errors and to == "json":
-        from twinform.compiler.json_documents import json_text  # noqa: PLC0415 - few documents are written so
+    if not sink.has_errors and to == "json":
+        from twinform.compiler.output.json import json_text  # noqa: PLC0415 - few documents are written so
 
-        text = json_text(document, notes)
-    elif not notes.has_errors:
-        text = emit(document, notes)
-    if notes.has_errors:
-        raise CompileError(tuple(notes.diagnostics))
+        text = json_text(document, sink)
+    elif not sink.has_errors:
+        text = emit(document, sink)
+    if sink.has_errors:
+        raise CompileError(tuple(sink.diagnostics))
     return text
 
 

@@ -6,20 +6,20 @@ from typing import Self
 
 from twinform.ir.defaults import UNLIMITED
 from twinform.ir.frames import MODEL
-from twinform.passes.legalise.automatic_inertias import COMPUTED_MASS
-from twinform.passes.legalise.carrier import NAMESPACE
-from twinform.passes.legalise.gearboxes import GEARED
-from twinform.passes.legalise.joint_chains import CHAIN, PART
-from twinform.passes.legalise.marks import MADE
+from twinform.passes.analyses.automatic_inertias import COMPUTED_MASS
+from twinform.passes.analyses.gearboxes import GEARED
+from twinform.passes.carriers.annotations import SYNTHESIZED
+from twinform.passes.carriers.carriers import NAMESPACE
+from twinform.passes.carriers.joint_chains import CHAIN, PART
+from twinform.passes.carriers.token_mass import TOKEN_MASS
 from twinform.passes.legalise.names import NAME, SCOPED_NAME
 from twinform.passes.legalise.to_sdf.bodies import UNSAID
 from twinform.passes.legalise.to_urdf.map_joints import MIMIC
-from twinform.passes.legalise.token_mass import TOKEN_MASS
 from twinform.schemas import XmlElement
 from twinform.schemas.values import format_number
 
 _OURS = f"{{{NAMESPACE}}}"
-_CHAIN, _PART, _MADE, _GEARED, _URDF = (f"{_OURS}{word}" for word in (CHAIN, PART, MADE, GEARED, "urdf"))
+_CHAIN, _PART, _MADE, _GEARED, _URDF = (f"{_OURS}{word}" for word in (CHAIN, PART, SYNTHESIZED, GEARED, "urdf"))
 _OLD_NAMES = tuple(f"{_OURS}{word}" for word in (NAME, SCOPED_NAME))
 _UNSAID = f"{_OURS}{UNSAID}"
 _MIMIC = f"{_OURS}{MIMIC}"
@@ -55,8 +55,8 @@ class Folded:
             name for end, kind in chains if end is not None and ("joint", name := end.get("name", ""), kind) in there
         )
         folded = cls(there, named, frozenset(), followers, ends)
-        marks = [mark.getparent() for word in (_PART, _MADE) for mark in source.iter(word)]
-        gone = {each.get("name", "") for each in marks if each is not None and folded.is_gone(each)}
+        annotations = [mark.getparent() for word in (_PART, _MADE) for mark in source.iter(word)]
+        gone = {each.get("name", "") for each in annotations if each is not None and folded.is_gone(each)}
         return cls(there, named, frozenset(gone | set(_made_names(source, result, named))), followers, ends)
 
     def says(self, element: XmlElement, attribute: str | None) -> bool:

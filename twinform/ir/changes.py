@@ -19,7 +19,7 @@ _NAMES = ("name", "reference", "uri")
 Part = TypeVar("Part", bound=Sourced)
 
 
-class How(StrEnum):
+class ChangeKind(StrEnum):
     """What became of a node or value; the value is the sign that stands for it."""
 
     ADDED = "+"
@@ -34,7 +34,7 @@ class Change(NamedTuple):
     Paths are those of the JSON of a document, with names in brackets where lists have names.
     """
 
-    how: How
+    how: ChangeKind
     node: str
     path: str
     old: object = None
@@ -64,12 +64,12 @@ def _field(old: object, new: object, node: str, path: str) -> Iterator[Change]:
     if isinstance(old, Node) and type(old) is type(new):
         yield from _inside(old, cast("Node", new), path)
     elif isinstance(old, Node) or isinstance(new, Node):
-        yield from _whole(How.REMOVED, old, path)
-        yield from _whole(How.ADDED, new, path)
+        yield from _whole(ChangeKind.REMOVED, old, path)
+        yield from _whole(ChangeKind.ADDED, new, path)
     elif _has_parts(old) or _has_parts(new):
         yield from _lists(cast("Sequence[Sourced]", old or ()), cast("Sequence[Sourced]", new or ()), node, path)
     elif old != new:
-        yield Change(How.CHANGED, node, path, old, new)
+        yield Change(ChangeKind.CHANGED, node, path, old, new)
 
 
 def _has_parts(value: object) -> bool:
@@ -77,7 +77,7 @@ def _has_parts(value: object) -> bool:
     return bool(parts) and isinstance(parts[0], Sourced)
 
 
-def _whole(how: How, part: object, path: str) -> Iterator[Change]:
+def _whole(how: ChangeKind, part: object, path: str) -> Iterator[Change]:
     """A node that only one document has, and all values in it."""
     if not isinstance(part, Node):
         return
@@ -95,11 +95,11 @@ def _whole(how: How, part: object, path: str) -> Iterator[Change]:
             yield _value(how, value, path, inner)
 
 
-def _value(how: How, value: object, node: str, path: str) -> Change:
-    return Change(how, node, path, *((value, None) if how is How.REMOVED else (None, value)))
+def _value(how: ChangeKind, value: object, node: str, path: str) -> Change:
+    return Change(how, node, path, *((value, None) if how is ChangeKind.REMOVED else (None, value)))
 
 
-def _alone(how: How, part: Sourced, node: str, path: str) -> Iterator[Change]:
+def _alone(how: ChangeKind, part: Sourced, node: str, path: str) -> Iterator[Change]:
     """A part of a list that only one document has."""
     if isinstance(part, Node):
         yield from _whole(how, part, path)
@@ -112,13 +112,13 @@ def _lists(old: Sequence[Sourced], new: Sequence[Sourced], node: str, path: str)
     old_labels, new_labels = _labels(old), _labels(new)
     for at, part in enumerate(old):
         if at not in pairs:
-            yield from _alone(How.REMOVED, part, node, path + old_labels[at])
+            yield from _alone(ChangeKind.REMOVED, part, node, path + old_labels[at])
     if [pairs[at] for at in sorted(pairs)] != sorted(pairs.values()):
-        yield Change(How.REORDERED, node, path, old_labels, new_labels)
+        yield Change(ChangeKind.REORDERED, node, path, old_labels, new_labels)
     back = {after: before for before, after in pairs.items()}
     for at, part in enumerate(new):
         if at not in back:
-            yield from _alone(How.ADDED, part, node, path + new_labels[at])
+            yield from _alone(ChangeKind.ADDED, part, node, path + new_labels[at])
             continue
         before = old[back[at]]
         if isinstance(before, Node) and isinstance(part, Node):  # others are pairs only where they are equal
@@ -190,7 +190,7 @@ def count_changes(old: Node, new: Node) -> Sizes:
     whole = set[str]()
     for each in changes(old, new):
         if each.is_node:
-            added, removed = added + (each.how is How.ADDED), removed + (each.how is How.REMOVED)
+            added, removed = added + (each.how is ChangeKind.ADDED), removed + (each.how is ChangeKind.REMOVED)
             whole.add(each.path)
         elif each.node not in whole:
             changed.add(each.node)

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from twinform.diagnostics import NOWHERE, Location, Notes, Rule, Source
+from twinform.diagnostics import NOWHERE, DiagnosticSink, Location, Rule, Source
 from twinform.diagnostics.rules import frames as rules
 from twinform.ir.frame import Frame
 from twinform.ir.joint import Joint
@@ -35,9 +35,9 @@ class FrameError(Exception):
         self.location = location
         self.found = found
 
-    def report(self, notes: Notes) -> None:
+    def report(self, sink: DiagnosticSink) -> None:
         """Say it as a diagnostic."""
-        notes.report(self.rule, self.message, self.location, found=self.found)
+        sink.report(self.rule, self.message, self.location, found=self.found)
 
 
 @dataclass(slots=True, eq=False)

@@ -1,13 +1,13 @@
 """Passes: steps from IR to IR, pipelines of them, and the registry that finds them."""
 
-from twinform.passes.assets import NO_ASSETS, AssetError, AssetPass, Assets
-from twinform.passes.base import Pass
-from twinform.passes.companions import CompanionPass, CompanionPath
-from twinform.passes.errors import BrokenPassError, FailedPassError, PassError
-from twinform.passes.named import Names, UnknownPipelineError
-from twinform.passes.other_documents import DocumentPass, DocumentReader
-from twinform.passes.pipeline import Pipeline, Verifier
-from twinform.passes.registry import (
+from twinform.passes.framework.assets import NO_ASSETS, AssetError, AssetPass, Assets
+from twinform.passes.framework.base import Pass
+from twinform.passes.framework.errors import BrokenPassError, FailedPassError, PassError
+from twinform.passes.framework.instrumentation import CombinedInstrumentation, PassInstrumentation
+from twinform.passes.framework.named import Names, UnknownPipelineError
+from twinform.passes.framework.other_documents import DocumentPass, DocumentReader
+from twinform.passes.framework.pipeline import Pipeline, Verifier
+from twinform.passes.framework.registry import (
     GROUP,
     Registered,
     RegistryError,
@@ -16,9 +16,9 @@ from twinform.passes.registry import (
     find_pass,
     registered_passes,
 )
-from twinform.passes.syntax import PipelineError
-from twinform.passes.text import parse_pipeline
-from twinform.passes.watch import Watch, Watches
+from twinform.passes.framework.side_files import CompanionPath, SideFilePass
+from twinform.passes.framework.syntax import PipelineError
+from twinform.passes.framework.text import parse_pipeline
 
 __all__ = [
     "GROUP",
@@ -27,7 +27,7 @@ __all__ = [
     "AssetPass",
     "Assets",
     "BrokenPassError",
-    "CompanionPass",
+    "CombinedInstrumentation",
     "CompanionPath",
     "DocumentPass",
     "DocumentReader",
@@ -35,15 +35,15 @@ __all__ = [
     "Names",
     "Pass",
     "PassError",
+    "PassInstrumentation",
     "Pipeline",
     "PipelineError",
     "Registered",
     "RegistryError",
+    "SideFilePass",
     "UnknownPassError",
     "UnknownPipelineError",
     "Verifier",
-    "Watch",
-    "Watches",
     "collect",
     "find_pass",
     "parse_pipeline",

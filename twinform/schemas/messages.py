@@ -4,7 +4,7 @@ from collections.abc import Collection
 from dataclasses import dataclass, field
 from typing import TypedDict, Unpack
 
-from twinform.diagnostics import Location, Notes, Rule, Severity, nearest_name
+from twinform.diagnostics import DiagnosticSink, Location, Rule, Severity, nearest_name
 from twinform.diagnostics.rules import structure
 from twinform.schemas.facts import Fact, Version, print_version
 from twinform.schemas.hints import hint_for_attribute, hint_for_element, hint_for_word
@@ -50,7 +50,7 @@ class Context:
     element says about the document rather than about its node.
     """
 
-    notes: Notes
+    sink: DiagnosticSink
     file: str
     format: str
     version: Version
@@ -67,14 +67,14 @@ class Context:
 
     def report(self, rule: Rule, element: XmlElement, message: str, step: str = "", **more: Unpack[Details]) -> None:
         """Report at an element, or at a step below it."""
-        if self.aside and rule.severity is Severity.ERROR and not self.notes.strict:
+        if self.aside and rule.severity is Severity.ERROR and not self.sink.strict:
             more["severity"] = Severity.WARNING
         self.structural += rule.name not in _BEYOND_THE_XSD
-        if not self.notes.takes(more.get("severity") or rule.severity_in(strict=self.notes.strict)):
-            self.notes.left_out += 1
+        if not self.sink.takes(more.get("severity") or rule.severity_in(strict=self.sink.strict)):
+            self.sink.left_out += 1
             return
         path = path_of(element, self.places) + (f"/{step}" if step else "")
-        self.notes.report(rule, message, Location(self.file, element.sourceline or 0, path), **more)
+        self.sink.report(rule, message, Location(self.file, element.sourceline or 0, path), **more)
 
 
 def unknown_element(
@@ -111,7 +111,7 @@ def outside_version(context: Context, element: XmlElement, fact: Fact) -> None:
     what = f"the attribute {name[1:]!r}" if fact.is_attribute else f"<{name}>"
     message = f"{what} {_when(context, fact)}"
     step = name if fact.is_attribute else ""
-    severity = None if context.declared or context.notes.strict else Severity.INFO
+    severity = None if context.declared or context.sink.strict else Severity.INFO
     context.report(structure.OUTSIDE_VERSION, element, message, step, found=name, severity=severity)
 
 
@@ -305,4 +305,4 @@ def stray_text(context: Context, element: XmlElement, text: str, after: XmlEleme
 
 def _is_shown(context: Context) -> bool:
     """Whether anybody will see a finding: there may be a hundred thousand more."""
-    return context.notes.takes(Severity.WARNING)
+    return context.sink.takes(Severity.WARNING)

@@ -67,9 +67,9 @@ def gate(
         errors = refusals(without_tolerated(root, context), context, engine)
     explained = _lines_with_faults(context) if errors else set[int]()
     for error in errors:
-        if error.line not in explained and not context.notes.left_out:
+        if error.line not in explained and not context.sink.left_out:
             message = f"the XSD of {context.format.upper()} {print_version(context.version)} refuses: {error.message}"
-            context.notes.report(structure.SCHEMA_DISAGREEMENT, message, Location(context.file, error.line, "/"))
+            context.sink.report(structure.SCHEMA_DISAGREEMENT, message, Location(context.file, error.line, "/"))
 
 
 def libxml2_errors(root: XmlElement, format: str, version: Version) -> list[SchemaError]:
@@ -144,7 +144,7 @@ def refusals(root: XmlElement, context: Context, engine: Engine) -> list[SchemaE
 
 def _lines_with_faults(context: Context) -> set[int]:
     """The lines of the elements that the table pass found a fault in."""
-    lines = {found.location.line for found in context.notes.diagnostics if found.rule.name in _FAULTS}
+    lines = {found.location.line for found in context.sink.diagnostics if found.rule.name in _FAULTS}
     # a copy of a tree loses the lines past 65,535, so where there are faults an error without a line may be one of them
     return lines | {0} if lines else lines
 

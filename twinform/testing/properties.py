@@ -9,9 +9,9 @@ from typing import Literal
 
 from twinform.compiler import CompileError, convert, read
 from twinform.compiler.compare import diff
-from twinform.compiler.emitting import emit
-from twinform.compiler.loading import Reading
-from twinform.diagnostics import Diagnostic, Notes
+from twinform.compiler.input.loading import LoadOptions
+from twinform.compiler.output.emitting import emit
+from twinform.diagnostics import Diagnostic, DiagnosticSink
 from twinform.diagnostics.reporters import REPORTERS, Findings
 from twinform.ir import Document
 from twinform.ir.verify import verify
@@ -27,7 +27,7 @@ Language = Literal["urdf", "sdf", "json"]
 def assert_valid(model: Model, *, strict: bool = False) -> Document:
     """The document of a model that has no error."""
     text, name = _text(model)
-    checked = read(text, Reading(strict=strict), name=name)
+    checked = read(text, LoadOptions(strict=strict), name=name)
     errors = [each for each in checked.diagnostics if each.is_error]
     assert not errors, _report(name, errors)
     assert checked.document is not None
@@ -90,21 +90,21 @@ def assert_pass_contract(step: Pass, model: Model, *, idempotent: bool = False) 
     """
     document = assert_valid(model)
     before = document.model_dump_json()
-    notes, again = Notes(), Notes()
-    made = step.run(document, notes)
+    sink, again = DiagnosticSink(), DiagnosticSink()
+    made = step.run(document, sink)
     assert step.run(document, again) == made, f"{step.name} makes something else of the same document"
-    assert again.diagnostics == notes.diagnostics, f"{step.name} reports something else of the same document"
-    assert again.entries == notes.entries, f"{step.name} accounts for something else of the same document"
+    assert again.diagnostics == sink.diagnostics, f"{step.name} reports something else of the same document"
+    assert again.entries == sink.entries, f"{step.name} accounts for something else of the same document"
     assert document.model_dump_json() == before, f"{step.name} changes the document that it is given"
-    if notes.has_errors:
+    if sink.has_errors:
         return made
-    found = Notes()
+    found = DiagnosticSink()
     verify(made, found)
     errors = [each for each in found.diagnostics if each.is_error]
     assert not errors, f"{step.name} makes a document that is not valid:\n{_report('', errors)}"
     assert_valid(_emitted(made))
     if idempotent:
-        assert step.run(made, Notes()) == made, f"{step.name} changes what it has made"
+        assert step.run(made, DiagnosticSink()) == made, f"{step.name} changes what it has made"
     return made
 
 
@@ -117,9 +117,9 @@ def _text(model: Model) -> tuple[bytes | Path, str]:
 
 
 def _emitted(document: Document) -> bytes:
-    notes = Notes()
-    text = emit(document, notes)
-    assert not notes.has_errors, "it cannot be written:\n" + _report("", notes.diagnostics)
+    sink = DiagnosticSink()
+    text = emit(document, sink)
+    assert not sink.has_errors, "it cannot be written:\n" + _report("", sink.diagnostics)
     return text.encode()
 
 

@@ -7,15 +7,15 @@ from typing import NamedTuple, Self
 
 from twinform.compiler import URDF_VERSIONS, UrdfVersion, convert
 from twinform.compiler.compare import diff
-from twinform.compiler.emitting import emit
-from twinform.compiler.includes import expand
-from twinform.compiler.loading import Reading, read
+from twinform.compiler.includes.expanding import expand
+from twinform.compiler.input.loading import LoadOptions, read
 from twinform.compiler.normal_form import normal_form
-from twinform.compiler.uris import SearchPath
-from twinform.diagnostics import Notes
+from twinform.compiler.output.emitting import emit
+from twinform.compiler.search.uris import SearchPath
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format
+from twinform.passes.analyses.candidates import name_once_expanded, wanted_includes
 from twinform.passes.includes import has_includes
-from twinform.passes.legalise.candidates import name_once_expanded, wanted_includes
 from twinform.passes.legalise.to_urdf.select_model import SelectModel
 from twinform.schemas import table
 
@@ -54,7 +54,7 @@ class RoundTrip:
             text = source.read_bytes() if isinstance(source, Path) else source
             return cls(text, document.format, document.version)
         alone = _alone(source, document, model, paths)
-        return cls(emit(alone, Notes()).encode(), alone.format, alone.version)
+        return cls(emit(alone, DiagnosticSink()).encode(), alone.format, alone.version)
 
     def back(self, there: str) -> str:
         """What comes home of a text in the other format, in the version that the robot went in.
@@ -86,14 +86,14 @@ def _is_robot(document: Document) -> bool:
 
 
 def _alone(source: Path | bytes, document: Document, model: str | None, paths: Iterable[str | Path]) -> Document:
-    notes = Notes()
-    alone = SelectModel(model=model).run(document, notes)
-    if not notes.has_errors and not has_includes(alone):
+    sink = DiagnosticSink()
+    alone = SelectModel(model=model).run(document, sink)
+    if not sink.has_errors and not has_includes(alone):
         return alone
-    how = Reading(search=SearchPath.of(paths))
-    checked = read(source, how)
-    whole = expand(checked, how, wanted=wanted_includes(checked.document, model)).document or document
-    return SelectModel(model=name_once_expanded(checked.document, whole, model)).run(whole, Notes())
+    load_options = LoadOptions(search=SearchPath.of(paths))
+    checked = read(source, load_options)
+    whole = expand(checked, load_options, wanted=wanted_includes(checked.document, model)).document or document
+    return SelectModel(model=name_once_expanded(checked.document, whole, model)).run(whole, DiagnosticSink())
 
 
 def _urdf_version(version: str | None) -> UrdfVersion | None:

@@ -10,9 +10,9 @@ from typing import Any, ClassVar
 
 import pytest
 
-from tests.unit.passes.conftest import write_distribution
+from tests.unit.passes.framework.conftest import write_distribution
 from twinform.compiler.batch.files import alone, outputs
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.passes import Pass, registered_passes
 
@@ -24,7 +24,7 @@ class Chaos(Pass):
 
     name: ClassVar[str] = "chaos"
 
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         match document.models[0].name:
             case "crash":
                 os._exit(9)

@@ -5,7 +5,7 @@ import pytest
 import twinform
 from twinform.compiler import check, plan
 from twinform.diagnostics import Severity
-from twinform.passes.hooks import Statistics
+from twinform.passes.framework.hooks import Statistics
 
 _LIMITLESS = b"""<robot name="r">
   <link name="a"/><link name="b"/><link name="c"/>
@@ -43,7 +43,7 @@ def test_other_errors_are_never_mended() -> None:
 def test_the_plan_is_what_runs() -> None:
     statistics = Statistics()
     text = b'<robot name="r"><link name="a"/></robot>'
-    made = twinform.convert(text, to="sdf", passes="check-inertia", watch=statistics)
+    made = twinform.convert(text, to="sdf", passes="check-inertia", instrumentation=statistics)
     ran = [each.name for each in statistics.records]
     assert made.document.version == "1.11"
     document = twinform.loads(text)

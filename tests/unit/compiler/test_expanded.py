@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from twinform.compiler import Checked, check
-from twinform.compiler.xacro import expansion
-from twinform.compiler.xacro.expansion import Expansion
+from twinform.compiler import LoadResult, check
+from twinform.compiler.input.xacro import expansion
+from twinform.compiler.input.xacro.expansion import Expansion
 from twinform.diagnostics import Location, Origins
 
 TEXT = b"""<robot name="r"><link name="a"/>
@@ -14,7 +14,7 @@ TEXT = b"""<robot name="r"><link name="a"/>
 <joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint></robot>"""
 
 
-def read(monkeypatch: pytest.MonkeyPatch, *, strict: bool, text: bytes = TEXT) -> Checked:
+def read(monkeypatch: pytest.MonkeyPatch, *, strict: bool, text: bytes = TEXT) -> LoadResult:
     origins = Origins.of([(1, Location("/arm.xacro", 10)), (2, Location("/parts.xacro", 20))])
 
     def expand(path: Path, *_: object) -> Expansion:
@@ -27,16 +27,16 @@ def read(monkeypatch: pytest.MonkeyPatch, *, strict: bool, text: bytes = TEXT) -
 
 @pytest.mark.parametrize(("strict", "severity"), [(False, "warning"), (True, "error")])
 def test_it_is_read_as_strictly(monkeypatch: pytest.MonkeyPatch, *, strict: bool, severity: str) -> None:
-    checked = read(monkeypatch, strict=strict)
+    loaded = read(monkeypatch, strict=strict)
     path = "/robot[@name='r']/link[@name='b']/nonsense"
-    assert [(each.rule.name, str(each.severity), each.location) for each in checked.diagnostics] == [
+    assert [(each.rule.name, str(each.severity), each.location) for each in loaded.diagnostics] == [
         ("unknown-element", severity, Location("/parts.xacro", 20, path))
     ]
-    assert checked.diagnostics[0].related == (Location("arm.xacro (expanded)", 2, path),)
-    assert checked.accepted is not strict
-    assert not checked.unreadable
-    assert checked.path == "arm.xacro"
-    assert list(checked.origins) == ["arm.xacro (expanded)"]
+    assert loaded.diagnostics[0].related == (Location("arm.xacro (expanded)", 2, path),)
+    assert loaded.accepted is not strict
+    assert not loaded.unreadable
+    assert loaded.path == "arm.xacro"
+    assert list(loaded.origins) == ["arm.xacro (expanded)"]
 
 
 def test_the_document_knows_its_lines_in_the_expanded_text(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -49,16 +49,16 @@ def test_the_document_knows_its_lines_in_the_expanded_text(monkeypatch: pytest.M
 
 
 def test_what_is_expanded_may_be_no_model_at_all(monkeypatch: pytest.MonkeyPatch) -> None:
-    checked = read(monkeypatch, strict=False, text=b"<mujoco/>")
-    assert [(each.rule.name, each.location.file) for each in checked.diagnostics] == [("unknown-root", "/arm.xacro")]
-    assert checked.document is None
-    assert checked.unreadable
+    loaded = read(monkeypatch, strict=False, text=b"<mujoco/>")
+    assert [(each.rule.name, each.location.file) for each in loaded.diagnostics] == [("unknown-root", "/arm.xacro")]
+    assert loaded.document is None
+    assert loaded.unreadable
 
 
 def test_where_it_is_refused_nothing_is_expanded(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(expansion, "expand", None)
-    checked = check(Path("arm.xacro"), xacro=False)
-    assert [(each.rule.name, each.location, each.message) for each in checked.diagnostics] == [
+    loaded = check(Path("arm.xacro"), xacro=False)
+    assert [(each.rule.name, each.location, each.message) for each in loaded.diagnostics] == [
         ("xacro-refused", Location("arm.xacro", 1), "this is a xacro file, and xacro is refused here")
     ]
-    assert checked.unreadable
+    assert loaded.unreadable

@@ -7,7 +7,7 @@ import pytest
 
 import twinform
 from twinform.compiler import LookingError
-from twinform.diagnostics import Diagnostic, Notes
+from twinform.diagnostics import Diagnostic, DiagnosticSink
 from twinform.diagnostics.rules.limits import EMPTY_RANGE
 from twinform.ir import Document
 from twinform.passes import Pass, Pipeline, PipelineError, parse_pipeline
@@ -139,9 +139,9 @@ def test_a_pass_of_somebody_else_looks_as_well() -> None:
     class CheckNames(Pass):
         name: ClassVar[str] = "check-names"
 
-        def run(self, document: Document, notes: Notes) -> Document:
+        def run(self, document: Document, sink: DiagnosticSink) -> Document:
             for joint in document.models[0].joints:
-                notes.report(EMPTY_RANGE, f"{joint.name} is short", joint.location.at("child"))
+                sink.report(EMPTY_RANGE, f"{joint.name} is short", joint.location.at("child"))
             return document.model_copy()
 
     found = twinform.check(MOVING.encode(), passes=Pipeline((CheckNames(), *parse_pipeline("check-limits"))))

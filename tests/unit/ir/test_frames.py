@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from twinform.diagnostics import Notes, Source
+from twinform.diagnostics import DiagnosticSink, Source
 from twinform.ir import Frame, Include, Joint, Link, Model, Pose, World
 from twinform.ir.frames import FrameError, FrameGraph
 from twinform.ir.transform import Transform
@@ -220,9 +220,9 @@ def test_long_chains_are_no_recursion() -> None:
 def test_what_cannot_be_resolved_is_a_located_error(model: Model, ask: str, rule: str, line: int) -> None:
     with pytest.raises(FrameError) as caught:
         FrameGraph(model).pose(ask, "__model__")
-    notes = Notes()
-    caught.value.report(notes)
-    assert [(each.rule.name, each.location.line, each.is_error) for each in notes.diagnostics] == [(rule, line, True)]
+    sink = DiagnosticSink()
+    caught.value.report(sink)
+    assert [(each.rule.name, each.location.line, each.is_error) for each in sink.diagnostics] == [(rule, line, True)]
 
 
 def source(line: int, tag: str) -> Source:

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 
 from twinform.compiler import check
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Node, ReferenceKind, map_references, walk
 from twinform.ir.references import REFERENCES
 from twinform.ir.verify import verify
@@ -122,6 +122,6 @@ def test_a_reference_of_sdf_that_leads_nowhere_is_reported(
     assert change(document, counter) == document
     assert counter.count == count
     for number in range(1, count + 1):
-        notes = Notes()
-        verify(change(document, _Breaker(number)), notes)
-        assert NOWHERE in {each.found for each in notes.diagnostics}, f"reference {number}"
+        sink = DiagnosticSink()
+        verify(change(document, _Breaker(number)), sink)
+        assert NOWHERE in {each.found for each in sink.diagnostics}, f"reference {number}"

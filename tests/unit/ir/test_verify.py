@@ -1,7 +1,7 @@
 """What the verifier says where it says several things, or has to keep quiet."""
 
 from twinform.compiler import check
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Pose
 from twinform.ir.verify import verify
 
@@ -44,8 +44,8 @@ def test_a_pose_that_a_pass_made_is_where_its_link_is() -> None:
     (link,) = document.models[0].links
     link = link.model_copy(update={"pose": Pose(relative_to="nowhere")})
     model = document.models[0].model_copy(update={"links": (link,)})
-    notes = Notes()
-    verify(document.model_copy(update={"models": (model,)}), notes)
-    (found,) = notes.diagnostics
+    sink = DiagnosticSink()
+    verify(document.model_copy(update={"models": (model,)}), sink)
+    (found,) = sink.diagnostics
     assert found.location.line == 2
     assert found.location.path == "/sdf/model[@name='m']/link[@name='a']/pose/@relative_to"

@@ -4,7 +4,7 @@ import pytest
 
 import twinform
 from tests.corpus.files import ROOT
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format, Link, Model
 from twinform.passes import NO_ASSETS, DocumentReader, Pipeline, PipelineError, parse_pipeline
 from twinform.passes.structure.attach import Attach
@@ -19,7 +19,7 @@ def robot(*names: str) -> Document:
     return Document(format=Format.URDF, models=(model,))
 
 
-def errors(found: Notes) -> list[str]:
+def errors(found: DiagnosticSink) -> list[str]:
     return [each.rule.name for each in found.diagnostics]
 
 
@@ -54,20 +54,20 @@ def test_a_pipeline_is_printed_as_it_was_read(text: str) -> None:
 
 
 def test_a_pass_that_needs_files_says_so_where_nobody_reads_them() -> None:
-    notes, document = Notes(), robot("tool0")
-    assert Pipeline((Attach(file="gripper.urdf", to="tool0"),)).run(document, notes) is document
-    assert errors(notes) == ["unread-document"]
+    sink, document = DiagnosticSink(), robot("tool0")
+    assert Pipeline((Attach(file="gripper.urdf", to="tool0"),)).run(document, sink) is document
+    assert errors(sink) == ["unread-document"]
 
 
 def test_a_pipeline_lends_its_reader() -> None:
-    def read(path: str, around: Document, notes: Notes) -> Document | None:
-        del around, notes
+    def read(path: str, around: Document, sink: DiagnosticSink) -> Document | None:
+        del around, sink
         return robot("palm") if path == "palm" else None
 
     reader: DocumentReader = read
-    notes = Notes()
+    sink = DiagnosticSink()
     pipeline = Pipeline((Attach(file="palm", to="tool0"),)).with_files(NO_ASSETS, reader)
-    made = pipeline.run(robot("tool0"), notes)
+    made = pipeline.run(robot("tool0"), sink)
     assert [link.name for link in made.models[0].links] == ["tool0", "palm"]
     assert [(joint.name, joint.parent, joint.child) for joint in made.models[0].joints] == [
         ("palm_mount", "tool0", "palm")

@@ -8,7 +8,7 @@ import pytest
 from lxml import etree
 
 from tests.differential.mutants import mutant
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.schemas import (
     Context,
     Engine,
@@ -47,8 +47,8 @@ def test_a_mutant_gets_one_verdict(seed: int):
         for engine in engines:
             context = _read(root, name, version)
             gate(root, context, engine)
-            said = [found.message for found in context.notes.diagnostics]
-            assert said == [found.message for found in table_pass.notes.diagnostics], etree.tostring(root).decode()
+            said = [found.message for found in context.sink.diagnostics]
+            assert said == [found.message for found in table_pass.sink.diagnostics], etree.tostring(root).decode()
 
 
 def test_a_reader_that_trusts_the_schema_says_the_same():
@@ -56,9 +56,9 @@ def test_a_reader_that_trusts_the_schema_says_the_same():
     for root in [mutant(random.choice(_sources()), random) for _ in range(300)]:
         name, version = _version(root)
         if not libxml2_errors(root, name, version):
-            trusting = Context(Notes(), "", name, version, clean=True)
+            trusting = Context(DiagnosticSink(), "", name, version, clean=True)
             reader(name, version).read(root, trusting)
-            assert trusting.notes == _read(root, name, version).notes, etree.tostring(root).decode()
+            assert trusting.sink == _read(root, name, version).sink, etree.tostring(root).decode()
 
 
 def test_mutants_are_of_both_kinds():
@@ -75,6 +75,6 @@ def _version(root: XmlElement) -> tuple[str, Version]:
 
 
 def _read(root: XmlElement, name: str, version: Version) -> Context:
-    context = Context(Notes(), "", name, version)
+    context = Context(DiagnosticSink(), "", name, version)
     reader(name, version).read(root, context)
     return context

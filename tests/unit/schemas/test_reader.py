@@ -12,7 +12,7 @@ from typing import Any, cast
 import pytest
 from lxml import etree
 
-from twinform.diagnostics import Notes, Source
+from twinform.diagnostics import DiagnosticSink, Source
 from twinform.schemas import Context, Reader, Table
 from twinform.schemas.facts import parse_facts
 
@@ -93,8 +93,8 @@ def shown(data: object) -> object:
 
 def read(text: str, definition: str, *, simple: bool = False) -> dict[str, object]:
     """All that becomes of a text."""
-    notes = Notes(file="notes")
-    context = Context(notes, "file", "sdf", (1, 1), clean=simple, simple=simple)
+    sink = DiagnosticSink(file="notes")
+    context = Context(sink, "file", "sdf", (1, 1), clean=simple, simple=simple)
     data = Reader(TABLE, (1, 1)).read(etree.fromstring(text), context, definition)
     return {
         "text": text,
@@ -110,7 +110,7 @@ def read(text: str, definition: str, *, simple: bool = False) -> dict[str, objec
                 each.expected,
                 each.help,
             ]
-            for each in notes.diagnostics
+            for each in sink.diagnostics
         ],
         "tolerated": [[str(element.tag), what] for element, what in context.tolerated],
         "structural": context.structural,
@@ -132,7 +132,7 @@ def test_the_short_way_leads_to_the_same(name: str) -> None:
 
 
 def test_a_source_may_be_given() -> None:
-    context = Context(Notes(), "file", "sdf", (1, 1))
+    context = Context(DiagnosticSink(), "file", "sdf", (1, 1))
     source = Source("elsewhere", 7, None, "origin", "o")
     given = Reader(TABLE, (1, 1)).read(etree.fromstring("<sensor><child>c</child></sensor>"), context, "part", source)
     assert given == {"source": source, "child": "c"}
@@ -144,7 +144,7 @@ def test_a_source_may_be_given() -> None:
 def test_what_is_read_depends_on_the_version() -> None:
     element = etree.fromstring("<thing name='t' unit='1' old='1' new='2'><late>1</late></thing>")
     for version, strange in (((1, 0), ["new", "late"]), ((1, 1), ["old", "new", "late"]), ((1, 2), ["old"])):
-        context = Context(Notes(), "", "sdf", version)
+        context = Context(DiagnosticSink(), "", "sdf", version)
         data = Reader(TABLE, version).read(element, context)
         assert (data["old"], data["new"], data["late"]) == (1.0, 2.0, 1.0)
         assert [what or str(where.tag) for where, what in context.tolerated] == strange

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 from lxml import etree
 
-from twinform.diagnostics import Notes, Source
+from twinform.diagnostics import DiagnosticSink, Source
 from twinform.schemas import Context, Fact
 from twinform.schemas.stores import value_check, value_store
 
@@ -55,7 +55,7 @@ CHECKS: list[tuple[Fact, object, tuple[str, str, str | None] | None]] = [
 
 
 def on(text: str = "<a/>") -> tuple[Any, Context]:
-    return etree.fromstring(text), Context(Notes(), "f", "sdf", (1, 2))
+    return etree.fromstring(text), Context(DiagnosticSink(), "f", "sdf", (1, 2))
 
 
 @pytest.mark.parametrize(("row", "value", "expected"), CHECKS)
@@ -66,10 +66,10 @@ def test_what_is_wrong_with_a_value_is_said(
     check = value_check(row)
     assert check
     check(element, value, context)
-    said = [(each.rule.name, each.message, each.expected) for each in context.notes.diagnostics]
+    said = [(each.rule.name, each.message, each.expected) for each in context.sink.diagnostics]
     assert said == ([expected] if expected else [])
     step = f"/a/{row.name}" if row.is_attribute else "/a"
-    assert {each.location.path for each in context.notes.diagnostics} <= {step}
+    assert {each.location.path for each in context.sink.diagnostics} <= {step}
     named = row.name[1:] if row.is_attribute else "#text"
     assert context.replaced == ([(element, named, "fast")] if value in row.elsewhere else [])
 
@@ -108,7 +108,7 @@ def test_a_pose_has_the_numbers_of_its_notation(
     check = value_check(Fact("a", type="pose"))
     assert check
     check(element, (0.0,) * count, context)
-    assert [(each.location.path, each.message, each.expected) for each in context.notes.diagnostics] == (
+    assert [(each.location.path, each.message, each.expected) for each in context.sink.diagnostics] == (
         [expected] if expected else []
     )
     assert context.structural == 0

@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 from lxml import etree
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import structure
 from twinform.schemas import (
     Context,
@@ -74,7 +74,7 @@ _VERSION = {"urdf": (1, 0), "sdf": (1, 9)}
 
 
 def _context(name: str, *, strict: bool = False) -> Context:
-    return Context(Notes("robot.xml", strict=strict), "robot.xml", name, _VERSION[name])
+    return Context(DiagnosticSink("robot.xml", strict=strict), "robot.xml", name, _VERSION[name])
 
 
 def _read(name: str, root: XmlElement, *, strict: bool = False) -> Context:
@@ -84,7 +84,7 @@ def _read(name: str, root: XmlElement, *, strict: bool = False) -> Context:
 
 
 def _of_two_minds(context: Context) -> list[int]:
-    found = context.notes.diagnostics
+    found = context.sink.diagnostics
     return [one.location.line for one in found if one.rule is structure.SCHEMA_DISAGREEMENT]
 
 
@@ -95,9 +95,9 @@ def test_the_gate_agrees_with_the_table_pass(what: str, engine: Engine, strict: 
     name, text = DOCUMENTS[what]
     root = etree.fromstring(text)
     context = _read(name, root, strict=strict)
-    said = list(context.notes.diagnostics)
+    said = list(context.sink.diagnostics)
     gate(root, context, engine)
-    assert context.notes.diagnostics == said
+    assert context.sink.diagnostics == said
 
 
 @pytest.mark.parametrize("engine", ENGINES)
@@ -117,7 +117,7 @@ def test_what_the_table_pass_did_not_speak_of_is_a_disagreement(engine: Engine):
     gate(root, silent, engine)
     assert 3 in _of_two_minds(silent) or 1 in _of_two_minds(silent)
     assert 4 in _of_two_minds(silent) or engine == "libxml2"  # libxml2 passes over the siblings of an unknown child
-    assert silent.notes.has_errors
+    assert silent.sink.has_errors
 
 
 @pytest.mark.parametrize("engine", ENGINES)

@@ -5,7 +5,7 @@ from typing import ClassVar
 
 import pytest
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules.limits import FILLED_LIMIT
 from twinform.ir import Document, map_children
 from twinform.passes import Pass
@@ -21,25 +21,25 @@ class _Broken(Pass):
 
 
 class _Forgets(_Broken):
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         return map_children(document, lambda node: node.model_copy(update={"links": ()}))
 
 
 class _Counts(_Broken):
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         self.seen.append(1)
         return map_children(document, lambda node: node.model_copy(update={"name": f"r{len(self.seen)}"}))
 
 
 class _Talks(_Broken):
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         self.seen.append(1)
-        notes.report(FILLED_LIMIT, f"the {len(self.seen)}th time")
+        sink.report(FILLED_LIMIT, f"the {len(self.seen)}th time")
         return document
 
 
 class _Grows(_Broken):
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         return map_children(document, lambda node: node.model_copy(update={"name": node.__dict__["name"] + "x"}))
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import cast
 
 from twinform.cli.config.errors import ConfigError
-from twinform.compiler.surroundings import TOPS
+from twinform.compiler.search.search_roots import TOPS
 
 OWN = "twinform.toml"
 _SHARED = "pyproject.toml"

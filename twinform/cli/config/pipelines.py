@@ -5,9 +5,9 @@ from pathlib import Path
 
 from twinform.cli.config.errors import ConfigError
 from twinform.passes import Pipeline, PipelineError, UnknownPipelineError, parse_pipeline
-from twinform.passes.options import nearest
-from twinform.passes.syntax import KEY
-from twinform.passes.tables import TableError, parse_tables
+from twinform.passes.framework.options import nearest
+from twinform.passes.framework.syntax import KEY
+from twinform.passes.framework.tables import TableError, parse_tables
 
 
 class NamedPipelines:

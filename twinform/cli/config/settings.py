@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_valida
 
 from twinform.cli.config.errors import ConfigError
 from twinform.cli.config.files import Table
-from twinform.passes.options import nearest
+from twinform.passes.framework.options import nearest
 from twinform.schemas import table
 
 UrdfVersion = Literal["1.0", "1.1", "1.2"]

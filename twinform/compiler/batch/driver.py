@@ -12,14 +12,14 @@ from twinform.compiler.batch.manifest import Manifest, digest, is_unchanged
 from twinform.compiler.batch.places import Places, ledger_of, texts_of
 from twinform.compiler.batch.record import Outcome, Record
 from twinform.compiler.batch.task import Done, Task, work
-from twinform.compiler.files import write_all_atomically
-from twinform.compiler.loading import Reading
-from twinform.compiler.orders import Order
-from twinform.compiler.same_files import is_below
+from twinform.compiler.input.loading import LoadOptions
+from twinform.compiler.output.files import write_all_atomically
+from twinform.compiler.output.same_files import is_below
+from twinform.compiler.request import ConversionRequest
 from twinform.compiler.workers import Failure, run
 from twinform.diagnostics import Policy
-from twinform.passes import AssetPass, CompanionPass, registered_passes
-from twinform.passes.other_documents import DocumentPass
+from twinform.passes import AssetPass, SideFilePass, registered_passes
+from twinform.passes.framework.other_documents import DocumentPass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,8 +32,8 @@ class Batch:
 
     source: Path
     dest: Path
-    order: Order
-    reading: Reading
+    request: ConversionRequest
+    load_options: LoadOptions
     policy: Policy = field(default_factory=Policy)
     patterns: tuple[str, ...] = PATTERNS
     jobs: int | None = None
@@ -45,20 +45,33 @@ class Batch:
     @property
     def digest(self) -> str:
         """What tells orders apart: all that has a say in the results besides the model."""
-        order, reading = self.order, self.reading
-        asked: list[object] = [version("twinform"), order.to, order.sdf_version, order.urdf_version, order.carriers]
-        asked += [str(order.passes), order.expand_includes, self.ledgers, reading.strict, reading.engine, reading.xacro]
+        request, load_options = self.request, self.load_options
+        asked: list[object] = [
+            version("twinform"),
+            request.to,
+            request.sdf_version,
+            request.urdf_version,
+            request.carriers,
+        ]
+        asked += [
+            str(request.passes),
+            request.expand_includes,
+            self.ledgers,
+            load_options.strict,
+            load_options.engine,
+            load_options.xacro,
+        ]
         asked += [sorted(self.policy.allow), sorted(self.policy.deny), sorted(self._packages())]
         return digest(json.dumps(asked).encode())
 
     @property
     def repeats(self) -> bool:
         """Whether all is done again: because that is asked for, or because a pass may read more than the model."""
-        return self.fresh or any(isinstance(step, AssetPass | DocumentPass) for step in self.order.passes)
+        return self.fresh or any(isinstance(step, AssetPass | DocumentPass) for step in self.request.passes)
 
     def _packages(self) -> Iterator[str]:
         """The packages that bring the passes, in their versions."""
-        for name in {step.name for step in self.order.passes}:
+        for name in {step.name for step in self.request.passes}:
             owner = registered_passes()[name].owner if name in registered_passes() else ""
             with suppress(ModuleNotFoundError):
                 yield f"{owner} {version(owner)}" if owner else name
@@ -81,8 +94,8 @@ def batch(asked: Batch) -> Iterator[tuple[Record, bool]]:
         OSError: the manifest cannot be written.
     """
     require_apart(asked.source, asked.dest)
-    _require_one_file(asked.order)
-    names = outputs(models(asked.source, asked.dest, asked.patterns), asked.order.to)
+    _require_one_file(asked.request)
+    names = outputs(models(asked.source, asked.dest, asked.patterns), asked.request.to)
     places = Places(asked.source, asked.dest, names, ledgers=asked.ledgers)
     if asked.report:
         places.require_free(asked.report)
@@ -96,16 +109,16 @@ def batch(asked: Batch) -> Iterator[tuple[Record, bool]]:
         yield record, known
 
 
-def _require_one_file(order: Order) -> None:
-    for step in order.passes:
-        if isinstance(step, CompanionPass):
+def _require_one_file(request: ConversionRequest) -> None:
+    for step in request.passes:
+        if isinstance(step, SideFilePass):
             raise FolderError(f"{step.name} makes a file beside a result, and a batch has many: use twinform convert")
 
 
-def _blanks(names: Mapping[PurePosixPath, PurePosixPath], order: str) -> Iterator[tuple[PurePosixPath, Record]]:
+def _blanks(names: Mapping[PurePosixPath, PurePosixPath], request: str) -> Iterator[tuple[PurePosixPath, Record]]:
     """Each model with its record before anything is known of it."""
     for name, output in names.items():
-        yield name, Record(source=str(name), digest="", order=order, output=str(output), outcome=Outcome.UNREADABLE)
+        yield name, Record(source=str(name), digest="", request=request, output=str(output), outcome=Outcome.UNREADABLE)
 
 
 def _worked(todo: Mapping[Path, _Job], asked: Batch, places: Places, faults: Path) -> Iterator[tuple[Record, bool]]:
@@ -126,9 +139,9 @@ def _worked(todo: Mapping[Path, _Job], asked: Batch, places: Places, faults: Pat
 
 def _task(path: Path, job: _Job, asked: Batch, faults: Path) -> Task:
     known = job.known
-    same = known and (known.order, known.output) == (job.blank.order, job.blank.output) and known.outcome.is_final
+    same = known and (known.request, known.output) == (job.blank.request, job.blank.output) and known.outcome.is_final
     known = known if same and not asked.repeats else None
-    return Task(path, asked.order, asked.reading, asked.policy, faults, known, asked.dest)
+    return Task(path, asked.request, asked.load_options, asked.policy, faults, known, asked.dest)
 
 
 def _done(result: Done | Failure) -> Done:

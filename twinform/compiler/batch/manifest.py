@@ -9,9 +9,9 @@ from pathlib import Path
 from pydantic import TypeAdapter, ValidationError
 
 from twinform.compiler.batch.record import Record
-from twinform.compiler.files import write_atomically
-from twinform.compiler.regular_files import read_regular
-from twinform.compiler.same_files import is_stream
+from twinform.compiler.input.regular_files import read_regular
+from twinform.compiler.output.files import write_atomically
+from twinform.compiler.output.same_files import is_stream
 
 _FOLDER = ".twinform-batch"
 _FILE = "manifest.jsonl"

@@ -6,7 +6,7 @@ from collections.abc import Hashable, Iterator, Mapping
 from pathlib import Path, PurePosixPath
 
 from twinform.compiler.batch.files import FolderError
-from twinform.compiler.same_files import identities, is_stream
+from twinform.compiler.output.same_files import identities, is_stream
 
 LEDGER = ".ledger.json"
 """What the name of a result has more where it is that of its ledger."""

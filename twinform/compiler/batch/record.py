@@ -47,7 +47,7 @@ class Record:
 
     source: str
     digest: str
-    order: str
+    request: str
     output: str
     outcome: Outcome
     alone: bool = True

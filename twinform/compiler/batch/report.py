@@ -7,7 +7,7 @@ from dataclasses import asdict
 
 from twinform.compiler.batch.record import Outcome, Record
 
-_LEFT_OUT = ("digest", "order", "made", "alone")
+_LEFT_OUT = ("digest", "request", "made", "alone")
 """What only the manifest needs."""
 
 

@@ -6,13 +6,13 @@ from pathlib import Path
 from twinform.compiler.batch.files import alone
 from twinform.compiler.batch.manifest import digest, is_unchanged
 from twinform.compiler.batch.record import Outcome, Record, Row
-from twinform.compiler.driver import fulfil
+from twinform.compiler.driver import run_conversion
 from twinform.compiler.errors import CompileError
-from twinform.compiler.limits import LARGEST
-from twinform.compiler.loading import XACRO, Reading
-from twinform.compiler.orders import Order
-from twinform.compiler.regular_files import read_regular
-from twinform.compiler.reproducing import write_reproducer
+from twinform.compiler.input.limits import LARGEST
+from twinform.compiler.input.loading import XACRO, LoadOptions
+from twinform.compiler.input.regular_files import read_regular
+from twinform.compiler.reproducers.files import write_reproducer
+from twinform.compiler.request import ConversionRequest
 from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy, Severity
 from twinform.diagnostics.reporters.json import row
 from twinform.passes import PassError
@@ -23,8 +23,8 @@ class Task:
     """One model, and what is asked for."""
 
     path: Path
-    order: Order
-    reading: Reading
+    request: ConversionRequest
+    load_options: LoadOptions
     policy: Policy
     faults: Path
     """The folder for what makes the faults of passes come again."""
@@ -85,7 +85,7 @@ def _converted(task: Task, content: bytes) -> Done:
     name = str(task.path)
     source = task.path if task.path.suffix.lower() == XACRO else content  # expanding it needs the path
     try:
-        made = fulfil(task.order, source, task.reading, name=name)
+        made = run_conversion(task.request, source, task.load_options, name=name)
     except CompileError as error:
         outcome = Outcome.UNREADABLE if error.unreadable else Outcome.REFUSED
         return Done(outcome, message=str(error), diagnostics=_rows(task.policy.apply(error.diagnostics), name))

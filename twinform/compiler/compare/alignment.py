@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from twinform.compiler.compare.findings import Base, Terms
 from twinform.compiler.compare.matching import unmatched
-from twinform.compiler.compare.robot import Body, Hinge, Robot, carriers
+from twinform.compiler.compare.robot import Body, JointView, Robot, carriers
 from twinform.compiler.compare.values import Place, Point, Tensor
 from twinform.ir.frames import WORLD
 
@@ -39,7 +39,7 @@ def align(a: Robot, b: Robot, terms: Terms) -> Alignment:
     return Alignment(work.bases, frozenset(work.moved), frozenset(work.placed))
 
 
-def _from_the_roots(robot: Robot, above: Mapping[str, Hinge]) -> Iterator[str]:
+def _from_the_roots(robot: Robot, above: Mapping[str, JointView]) -> Iterator[str]:
     """The links, each after the one that it hangs from."""
     seen: set[str] = set()
     for name in robot.bodies:
@@ -58,7 +58,7 @@ class _Work:
         self.bases: dict[str, Base] = {WORLD: Base(a.world, b.world)}
         self.moved: set[str] = set()
         self.placed: set[str] = set()
-        self.joints_below: dict[str, list[Hinge]] = {}
+        self.joints_below: dict[str, list[JointView]] = {}
         for joint in a.joints.values():
             self.joints_below.setdefault(joint.parent, []).append(joint)
         self.frames_on: dict[str, list[str]] = {}
@@ -72,7 +72,7 @@ class _Work:
         else:
             self._stand(name)
 
-    def _hang(self, name: str, one: Hinge, other: Hinge) -> None:
+    def _hang(self, name: str, one: JointView, other: JointView) -> None:
         stay, follow = self.bases[one.parent], Base(one.frame, other.frame)
         if not self.terms.worst(Place(one.frame), Place(other.frame), stay):
             self.bases[name] = follow

@@ -6,7 +6,7 @@ from copy import deepcopy
 from lxml import etree
 
 from twinform.compiler.compare.leaves import CARRIED
-from twinform.passes.legalise.carrier import NAMESPACE
+from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.schemas import Fact, XmlElement, table
 
 _CARRIER = {name: f"{{{NAMESPACE}}}{name}" for name in ("sdf", "urdf", "version")}

@@ -14,7 +14,7 @@ class Severity(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Said:
+class Side:
     """What one file says: the value as text, in SI units, or None where it says nothing; and where."""
 
     text: str | None = None
@@ -37,8 +37,8 @@ class Difference:
     name: str
     aspect: str
     message: str
-    a: Said = Said()
-    b: Said = Said()
+    a: Side = Side()
+    b: Side = Side()
     absolute: float | None = None
     relative: float | None = None
     unit: str = ""

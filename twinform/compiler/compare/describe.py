@@ -7,16 +7,16 @@ from functools import partial
 from twinform.compiler.compare.joint_values import joint_leaves
 from twinform.compiler.compare.leaves import THERE
 from twinform.compiler.compare.reading import Reading
-from twinform.compiler.compare.robot import Body, Hinge, Leaf, Mass, NamedFrame, Part, Robot
+from twinform.compiler.compare.robot import Body, JointView, Leaf, Mass, NamedFrame, Part, Robot
 from twinform.diagnostics import Origins
 from twinform.ir import Axis, Element, Format, Frame, Inertial, Joint, Link, Model, Node, Pose, Vector3
 from twinform.ir.defaults import direction
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.ir.solids import placed, written_solid
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.carrier import is_carrier, unpack
-from twinform.passes.legalise.flattening import flatten
-from twinform.passes.legalise.marks import is_made
+from twinform.passes.carriers.annotations import is_synthesized
+from twinform.passes.carriers.carriers import is_carrier, unpack
+from twinform.passes.transforms.flattening import flatten
 from twinform.schemas import element_xml
 
 _WITHOUT_AXIS = frozenset({"fixed", "ball"})
@@ -38,7 +38,7 @@ def _noted(shells: list[tuple[Frame, Model]], frame: Frame, shell: Model) -> Fra
 def _without_made_root(model: Model) -> Model:
     """The model without the link that was made because URDF needs one."""
     link = model.links[0] if len(model.links) == 1 else None
-    if link is None or not is_made(link) or (link.inertial and link.inertial.mass):
+    if link is None or not is_synthesized(link) or (link.inertial and link.inertial.mass):
         return model
     name = link.name
     frames = (
@@ -88,10 +88,10 @@ class _Description:
         solid = placed(written_solid(inertial, Format.SDF), pose)
         return Mass(solid, bool(inertial.auto), self.reading.place(inertial))
 
-    def _joint(self, joint: Joint) -> Hinge:
+    def _joint(self, joint: Joint) -> JointView:
         frame = self.graph.pose(joint.name, MODEL, kind="joint", base="model")
         leaves, parts = self.reading.parts(joint, frame)
-        return Hinge(
+        return JointView(
             joint.name,
             joint.type,
             self._end(joint.parent),
@@ -158,7 +158,7 @@ def _carried(node: Node) -> Iterator[Element]:
 
 def _is_made_for_static(joint: Joint, model: Model) -> bool:
     """Whether it holds a link of a static model, which stands still anyway."""
-    return bool(model.static) and joint.type == "fixed" and is_made(joint)
+    return bool(model.static) and joint.type == "fixed" and is_synthesized(joint)
 
 
 def _unit(vector: Vector3) -> Vector3:

@@ -9,8 +9,8 @@ from twinform.compiler.compare.judge import compare_robots
 from twinform.compiler.compare.language import Robots, read_robots
 from twinform.compiler.compare.robot import Robot
 from twinform.compiler.errors import CompileError
-from twinform.compiler.loading import Input, Reading, garbage_collection_paused, name_of_input
-from twinform.compiler.uris import SearchPath
+from twinform.compiler.input.loading import Input, LoadOptions, garbage_collection_paused, name_of_input
+from twinform.compiler.search.uris import SearchPath
 from twinform.schemas import Engine
 
 TOLERANCE = 1e-9
@@ -37,14 +37,14 @@ def diff(
     Raises:
         CompileError: a file has an error; what was found is in its diagnostics.
     """
-    how = Reading(strict, engine, SearchPath.of(paths), arguments or {}, xacro)
-    return compare_files(a, b, how, model=model, tolerance=tolerance)
+    load_options = LoadOptions(strict, engine, SearchPath.of(paths), arguments or {}, xacro)
+    return compare_files(a, b, load_options, model=model, tolerance=tolerance)
 
 
 def compare_files(
     a: Input,
     b: Input,
-    how: Reading,
+    load_options: LoadOptions,
     *,
     names: tuple[str, str] = ("", ""),
     model: str | None = None,
@@ -61,7 +61,7 @@ def compare_files(
         errors: list[CompileError] = []
         for source, name in zip((a, b), names, strict=True):
             try:
-                robots.append(read_robots(source, how, name=name, model=model))
+                robots.append(read_robots(source, load_options, name=name, model=model))
             except CompileError as error:
                 errors.append(error)
         if errors:
@@ -94,5 +94,5 @@ def _compared(a: Robots, b: Robots, tolerance: float) -> Iterator[Difference]:
 
 def _missing(robot: Robot, terms: Terms, *, in_a: bool) -> list[Difference]:
     found = Findings(terms)
-    found.lonely(Subject("model", robot.name), "", "model", robot.where, in_a=in_a)
+    found.only_in_one(Subject("model", robot.name), "", "model", robot.where, in_a=in_a)
     return found.items

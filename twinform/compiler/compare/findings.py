@@ -3,9 +3,9 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from twinform.compiler.compare.comparison import Difference, Said, Severity
+from twinform.compiler.compare.comparison import Difference, Severity, Side
 from twinform.compiler.compare.robot import Leaf
-from twinform.compiler.compare.values import Gap, Value, gaps, show
+from twinform.compiler.compare.values import Delta, Value, gaps, show
 from twinform.diagnostics import Location
 from twinform.ir import Format
 from twinform.ir.transform import Transform
@@ -40,11 +40,11 @@ class Terms:
     format_b: Format
     tolerance: float
 
-    def differs(self, gap: Gap) -> bool:
+    def differs(self, gap: Delta) -> bool:
         """Whether it is more than rounding."""
         return gap.exceeds(self.tolerance)
 
-    def worst(self, a: Value, b: Value, base: Base | None = None) -> list[Gap]:
+    def worst(self, a: Value, b: Value, base: Base | None = None) -> list[Delta]:
         """The gaps between two values that are more than rounding."""
         if base is not None:
             a, b = a.seen_from(base.a), b.seen_from(base.b)
@@ -75,7 +75,7 @@ class Findings:
         self,
         subject: Subject,
         aspect: str,
-        found: Iterable[Gap],
+        found: Iterable[Delta],
         places: tuple[Location, Location],
         severity: Severity = Severity.DIFFERENCE,
         message: str = "",
@@ -85,13 +85,13 @@ class Findings:
             path = f"{aspect}/{gap.aspect}" if gap.aspect else aspect
             words = message or f"{path} of {subject} is {gap.a} in {self.terms.a}, and {gap.b} in {self.terms.b}"
             number = gap if gap.absolute != float("inf") or gap.unit else None
-            self._add(severity, subject, path, words, Said(gap.a, places[0]), Said(gap.b, places[1]), number)
+            self._add(severity, subject, path, words, Side(gap.a, places[0]), Side(gap.b, places[1]), number)
 
     def note(self, subject: Subject, aspect: str, message: str, places: tuple[Location, Location]) -> None:
         """Add a note."""
-        self._add(Severity.NOTE, subject, aspect, message, Said(None, places[0]), Said(None, places[1]))
+        self._add(Severity.NOTE, subject, aspect, message, Side(None, places[0]), Side(None, places[1]))
 
-    def lonely(
+    def only_in_one(
         self,
         subject: Subject,
         aspect: str,
@@ -111,8 +111,8 @@ class Findings:
             message, severity = f"{name} is only in {here}: {other.upper()} has no word for it", Severity.NOTE
         if carried:
             message = f"{name} is only in {here}, where it travels unseen by other readers"
-        said = Said(what, where)
-        self._add(severity, subject, aspect, message, said if in_a else Said(), Said() if in_a else said)
+        said = Side(what, where)
+        self._add(severity, subject, aspect, message, said if in_a else Side(), Side() if in_a else said)
 
     def leaf(
         self,
@@ -139,14 +139,21 @@ class Findings:
     ) -> None:
         if one.default is None:
             what = show(one.value)
-            self.lonely(subject, aspect, what, one.where, in_a=in_a, only=one.only, carried=one.carried)
+            self.only_in_one(subject, aspect, what, one.where, in_a=in_a, only=one.only, carried=one.carried)
         elif in_a:
             self.values(subject, aspect, one.value, one.default, (one.where, places[1]))
         else:
             self.values(subject, aspect, one.default, one.value, (places[0], one.where))
 
     def _add(
-        self, severity: Severity, subject: Subject, aspect: str, message: str, a: Said, b: Said, gap: Gap | None = None
+        self,
+        severity: Severity,
+        subject: Subject,
+        aspect: str,
+        message: str,
+        a: Side,
+        b: Side,
+        gap: Delta | None = None,
     ) -> None:
         self.items.append(
             Difference(

@@ -48,23 +48,23 @@ def _without_like(
     findings: Findings, robot: Robot, other: Robot, bases: Mapping[str, Base], *, in_a: bool
 ) -> list[NamedFrame]:
     """The frames that the other robot has neither as a frame nor as a link; a link is compared here."""
-    lonely: list[NamedFrame] = []
+    only_in_one: list[NamedFrame] = []
     for name, frame in robot.frames.items():
         if name in other.frames or (frame.lumped and name not in other.bodies):
             continue
         body = other.bodies.get(name)
         if body is None:
-            lonely.append(frame)
+            only_in_one.append(frame)
             continue
         like = NamedFrame(name, frame.body, body.frame, where=body.where)
         pair = (frame, like) if in_a else (like, frame)
         _compare(findings, pair[0], pair[1], bases)
-    return lonely
+    return only_in_one
 
 
 def _report(
     findings: Findings,
-    lonely: list[NamedFrame],
+    only_in_one: list[NamedFrame],
     robots: tuple[Robot, Robot],
     twins: Mapping[str, str],
     *,
@@ -73,7 +73,7 @@ def _report(
     """Frames of one robot: a note where nothing is lost with them, and nothing to say of joints that hold a frame."""
     lumped = _is_lumped(*robots)
     here, there = (findings.terms.a, findings.terms.b) if in_a else (findings.terms.b, findings.terms.a)
-    for frame in lonely:
+    for frame in only_in_one:
         subject, places = Subject("frame", frame.name), (frame.where, frame.where)
         if frame.name in twins:
             message = f"frame {frame.name!r} of {here} is where frame {twins[frame.name]!r} is"
@@ -82,13 +82,13 @@ def _report(
         elif lumped and (frame.was_link or frame.was_joint):
             findings.note(subject, "", f"{frame.name!r} is a part of link {frame.body!r} in {there}", places)
         else:
-            findings.lonely(subject, "", "frame", frame.where, in_a=in_a)
+            findings.only_in_one(subject, "", "frame", frame.where, in_a=in_a)
 
 
-def _twins(findings: Findings, lonely: list[NamedFrame], robot: Robot, other: Robot) -> dict[str, str]:
+def _twins(findings: Findings, only_in_one: list[NamedFrame], robot: Robot, other: Robot) -> dict[str, str]:
     """For frames that one robot has: another one at the same place that both have, as fixed joints of URDF do."""
     found: dict[str, str] = {}
-    for frame in lonely:
+    for frame in only_in_one:
         for name, like in robot.frames.items():
             shared = name != frame.name and like.body == frame.body and (name in other.frames or name in other.bodies)
             if shared and not findings.terms.worst(Place(frame.pose), Place(like.pose)):

@@ -13,11 +13,11 @@ from twinform.compiler.compare.joint_values import joint_type
 from twinform.compiler.compare.kinematics import compare_kinematics
 from twinform.compiler.compare.lumping import Lumped, lump
 from twinform.compiler.compare.matching import compare_leaves, compare_parts
-from twinform.compiler.compare.robot import Body, Hinge, Leaves, Mass, Robot
-from twinform.compiler.compare.values import Direction, Flag, Gap, Numbers, Place, Point, Tensor, Words, gaps
+from twinform.compiler.compare.robot import Body, JointView, Leaves, Mass, Robot
+from twinform.compiler.compare.values import Delta, Direction, Flag, Numbers, Place, Point, Tensor, Words, gaps
 from twinform.ir.frames import WORLD
 
-Named = TypeVar("Named", Body, Hinge)
+Named = TypeVar("Named", Body, JointView)
 _ABOUT_A_LINE = frozenset({"revolute", "continuous", "screw", "gearbox"})
 _ABOUT_A_POINT = frozenset({"ball", "universal", "revolute2"})
 """Joints for which it matters where along the axis they are; others have no place at all, only directions."""
@@ -53,10 +53,10 @@ class _Judge:
             if name in b:
                 compare(one, b[name])
             else:
-                self.found.lonely(Subject(group, name), "", group, one.where, in_a=True)
+                self.found.only_in_one(Subject(group, name), "", group, one.where, in_a=True)
         for name, other in b.items():
             if name not in a:
-                self.found.lonely(Subject(group, name), "", group, other.where, in_a=False)
+                self.found.only_in_one(Subject(group, name), "", group, other.where, in_a=False)
 
     def _note_lumped(self) -> None:
         both = ((self.lumped.from_a, self.terms.b), (self.lumped.from_b, self.terms.a))
@@ -109,7 +109,7 @@ class _Judge:
             self.found.values(subject, "inertial/center", Point(one.centre), Point(other.centre), places, base)
             self.found.values(subject, "inertial/inertia", Tensor(one.inertia), Tensor(other.inertia), places, base)
 
-    def _joint(self, a: Hinge, b: Hinge) -> None:
+    def _joint(self, a: JointView, b: JointView) -> None:
         subject, places = Subject("joint", a.name), (a.where, b.where)
         for aspect, one, other in (("parent", a.parent, b.parent), ("child", a.child, b.child)):
             self.found.values(subject, aspect, Words(one), Words(other), places)
@@ -125,7 +125,7 @@ class _Judge:
         compare_leaves(self.found, subject, *_same_kind(a, b), base, places)
         compare_parts(self.found, subject, a.parts, b.parts, base)
 
-    def _place_of_joint(self, subject: Subject, a: Hinge, b: Hinge) -> None:
+    def _place_of_joint(self, subject: Subject, a: JointView, b: JointView) -> None:
         base = self.alignment.bases.get(a.parent, Base())
         away = self.terms.worst(Place(a.frame), Place(b.frame), base)
         if not away:
@@ -141,7 +141,7 @@ class _Judge:
             self.found.note(subject, "frame", message, places)
 
 
-def _same_kind(a: Hinge, b: Hinge) -> tuple[Leaves, Leaves]:
+def _same_kind(a: JointView, b: JointView) -> tuple[Leaves, Leaves]:
     """The values of two joints; of different types, those that both may have."""
     if joint_type(a.type) == joint_type(b.type):
         return a.leaves, b.leaves
@@ -150,7 +150,7 @@ def _same_kind(a: Hinge, b: Hinge) -> tuple[Leaves, Leaves]:
     return one, other
 
 
-def _off_axis(a: Hinge, b: Hinge, base: Base) -> Iterable[Gap]:
+def _off_axis(a: JointView, b: JointView, base: Base) -> Iterable[Delta]:
     """How far the second joint is off the axis, or the centre, of the first."""
     one, other = (Point(each.frame.translation).seen_from(to).xyz for each, to in ((a, base.a), (b, base.b)))
     away = tuple(other[i] - one[i] for i in range(3))
@@ -164,7 +164,7 @@ def _off_axis(a: Hinge, b: Hinge, base: Base) -> Iterable[Gap]:
     return [replace(gap, absolute=math.hypot(*away), aspect="") for gap in gaps(Point(one), Point(other))]
 
 
-def _amount(gaps: Iterable[Gap]) -> str:
+def _amount(gaps: Iterable[Delta]) -> str:
     return ", ".join(f"{gap.absolute:.3g} {gap.unit}" for gap in gaps)
 
 

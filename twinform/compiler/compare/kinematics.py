@@ -7,8 +7,8 @@ from random import Random
 
 from twinform.compiler.compare.findings import Base, Findings, Subject
 from twinform.compiler.compare.joint_values import joint_type, number_of
-from twinform.compiler.compare.robot import Hinge, Robot, carriers
-from twinform.compiler.compare.values import Gap, Place, Words, gaps
+from twinform.compiler.compare.robot import JointView, Robot, carriers
+from twinform.compiler.compare.values import Delta, Place, Words, gaps
 from twinform.ir import Vector3
 from twinform.ir.defaults import MULTIPLIER, SCREW_THREAD_PITCH
 from twinform.ir.transform import Transform
@@ -21,7 +21,7 @@ _STILL = Transform()
 
 def compare_kinematics(findings: Findings, a: Robot, b: Robot, bases: Mapping[str, Base]) -> None:
     """Report the link that is furthest from where it is in the other robot, over all samples."""
-    worst: dict[str, tuple[Gap, str]] = {}
+    worst: dict[str, tuple[Delta, str]] = {}
     one = Moving(a, {name: base.a for name, base in bases.items()})
     other = Moving(b, {name: base.b for name, base in bases.items()})
     names = [name for name in a.bodies if name in bases]
@@ -68,7 +68,7 @@ class Moving:
             motion = moved[each] = motion.compose(self._motion(self.hung[each], sample))
         return motion
 
-    def _motion(self, joint: Hinge, sample: int) -> Transform:
+    def _motion(self, joint: JointView, sample: int) -> Transform:
         type, position = joint_type(joint.type), joint.frame.translation
         if type == "fixed":
             return _STILL
@@ -84,7 +84,7 @@ class Moving:
             turned = turned.compose(_turn(axis, angle, position, self._advance(joint, angle)))
         return turned
 
-    def _advance(self, joint: Hinge, angle: float) -> float:
+    def _advance(self, joint: JointView, angle: float) -> float:
         """How far a screw goes."""
         if joint.type != "screw":
             return 0.0

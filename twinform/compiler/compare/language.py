@@ -8,21 +8,21 @@ from pathlib import Path
 from twinform.compiler.compare.describe import describe
 from twinform.compiler.compare.robot import Robot
 from twinform.compiler.errors import CompileError
-from twinform.compiler.includes import expand
-from twinform.compiler.loading import Checked, Input, Reading, read
-from twinform.compiler.uris import LocalAssets
-from twinform.diagnostics import Notes
+from twinform.compiler.includes.expanding import expand
+from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, read
+from twinform.compiler.search.uris import LocalAssets
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format, Model
 from twinform.ir.frames import FrameError
 from twinform.passes import Assets, Pass, Pipeline
-from twinform.passes.legalise.candidates import candidates, name_once_expanded, wanted_includes
+from twinform.passes.analyses.candidates import candidates, name_once_expanded, wanted_includes
+from twinform.passes.carriers.token_mass import without_tokens
 from twinform.passes.legalise.names import RestoreNames
-from twinform.passes.legalise.sdf_versions import raise_words
 from twinform.passes.legalise.to_sdf import to_sdf
 from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
 from twinform.passes.legalise.to_urdf.floating_links import without_loose_floating
 from twinform.passes.legalise.to_urdf.select_model import SelectModel
-from twinform.passes.legalise.token_mass import without_tokens
+from twinform.passes.sdf_versions import raise_words
 from twinform.schemas import table
 
 
@@ -35,50 +35,50 @@ class Robots:
     by_name: dict[str, Robot]
 
 
-def read_robots(source: Input, how: Reading, *, name: str, model: str | None) -> Robots:
+def read_robots(source: Input, load_options: LoadOptions, *, name: str, model: str | None) -> Robots:
     """The robots of a file; where there are several and `model` names one, that one.
 
     Raises:
         CompileError: the file has an error, or no such model.
     """
-    checked = read(source, how, name=name)
-    if checked.accepted:
-        wanted = wanted_includes(checked.document, model) if model is not None else None
-        before, checked = checked.document, expand(checked, how, wanted=wanted)
-        model = name_once_expanded(before, checked.document, model)
-    document = checked.document
-    if document is None or not checked.accepted:
-        raise CompileError(checked.diagnostics, unreadable=checked.unreadable)
-    notes = Notes(checked.path, how.strict, origins=dict(checked.origins))
+    loaded = read(source, load_options, name=name)
+    if loaded.accepted:
+        wanted = wanted_includes(loaded.document, model) if model is not None else None
+        before, loaded = loaded.document, expand(loaded, load_options, wanted=wanted)
+        model = name_once_expanded(before, loaded.document, model)
+    document = loaded.document
+    if document is None or not loaded.accepted:
+        raise CompileError(loaded.diagnostics, unreadable=loaded.unreadable)
+    sink = DiagnosticSink(loaded.path, load_options.strict, origins=dict(loaded.origins))
     try:
-        robots = dict(_robots(checked, document, model, notes, LocalAssets(how.search, Path(checked.path))))
+        robots = dict(_robots(loaded, document, model, sink, LocalAssets(load_options.search, Path(loaded.path))))
     except FrameError as error:
-        error.report(notes)
+        error.report(sink)
         robots = {}
-    if notes.has_errors:
-        raise CompileError(tuple(notes.diagnostics))
-    return Robots(checked.path, document.format, robots)
+    if sink.has_errors:
+        raise CompileError(tuple(sink.diagnostics))
+    return Robots(loaded.path, document.format, robots)
 
 
 def _robots(
-    checked: Checked, document: Document, model: str | None, notes: Notes, assets: Assets
+    loaded: LoadResult, document: Document, model: str | None, sink: DiagnosticSink, assets: Assets
 ) -> Iterator[tuple[str, Robot]]:
     """Each robot by its name, with its world's where several are called so."""
-    said = Pipeline(_into_words_of_sdf(document)).with_files(assets).run(document, notes)
-    if notes.has_errors:
+    said = Pipeline(_into_words_of_sdf(document)).with_files(assets).run(document, sink)
+    if sink.has_errors:
         return
     if document.format is Format.SDF:  # names that a model of URDF had, as far as these are unlike others
-        said = RestoreNames(to=Format.URDF, unique=True).run(said, Notes())
+        said = RestoreNames(to=Format.URDF, unique=True).run(said, DiagnosticSink())
     names = list(dict.fromkeys(one.full_name for one in candidates(said)))
     called = Counter(one.model.name for one in candidates(said))
     for name in [None] if len(names) == 1 else names if model is None else [model]:
-        chosen = SelectModel(model=name).run(said, notes)
-        if notes.has_errors:
+        chosen = SelectModel(model=name).run(said, sink)
+        if sink.has_errors:
             return
-        chosen = UniqueNames().run(chosen, Notes())  # before 1.7 a joint and a link could share theirs
+        chosen = UniqueNames().run(chosen, DiagnosticSink())  # before 1.7 a joint and a link could share theirs
         chosen = chosen.model_copy(update={"models": tuple(map(_comparable, chosen.models))})
         source = document.models[0] if document.format is Format.URDF else chosen.models[0]
-        robot = describe(chosen.models[0], source, document.format, checked.origins)
+        robot = describe(chosen.models[0], source, document.format, loaded.origins)
         yield (robot.name if called[robot.name] == 1 or name is None else name), robot
 
 

@@ -9,10 +9,10 @@ from twinform.compiler.compare.values import Numbers, Place, Value, Words
 from twinform.diagnostics import Location
 from twinform.ir import Pose
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.carrier import NAMESPACE, from_xml
-from twinform.passes.legalise.element_poses import read_pose
-from twinform.passes.legalise.gazebo_tags import SCRIPT_URI
-from twinform.passes.legalise.sdf_versions.name_the_nameless import plugin_stem
+from twinform.passes.carriers.carriers import NAMESPACE, from_xml
+from twinform.passes.sdf_versions.name_the_nameless import plugin_stem
+from twinform.passes.transforms.element_poses import read_pose
+from twinform.passes.transforms.gazebo_tags import SCRIPT_URI
 from twinform.schemas import Fact, XmlElement, table
 
 CARRIED = f"{{{NAMESPACE}}}carried"

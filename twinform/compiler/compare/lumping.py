@@ -8,7 +8,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from twinform.compiler.compare.robot import Body, Hinge, Mass, NamedFrame, Robot, carriers
+from twinform.compiler.compare.robot import Body, JointView, Mass, NamedFrame, Robot, carriers
 from twinform.ir.solids import combined
 
 _EVIDENCE = 1e-5
@@ -89,7 +89,7 @@ def _lumped(robot: Robot, into: Mapping[str, str]) -> Robot:
     return replace(robot, bodies=bodies, joints=joints, frames=frames)
 
 
-def _connected(joint: Hinge, into: Mapping[str, str]) -> Hinge:
+def _connected(joint: JointView, into: Mapping[str, str]) -> JointView:
     return replace(joint, parent=into.get(joint.parent, joint.parent), child=into.get(joint.child, joint.child))
 
 

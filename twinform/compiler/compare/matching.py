@@ -62,7 +62,7 @@ def compare_parts(findings: Findings, subject: Subject, a: Iterable[Part], b: It
         for in_a, rest in ((True, only_a), (False, only_b)):
             for part in rest:
                 name = f"{kind} {part.name!r}"
-                findings.lonely(subject, name, kind, part.where, in_a=in_a, only=part.only, carried=part.carried)
+                findings.only_in_one(subject, name, kind, part.where, in_a=in_a, only=part.only, carried=part.carried)
 
 
 def _note_renamed(findings: Findings, subject: Subject, a: Part, b: Part) -> None:

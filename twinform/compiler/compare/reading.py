@@ -13,12 +13,12 @@ from twinform.diagnostics import NOWHERE, Location, Origins
 from twinform.ir import Element, Format, Frame, Joint, Link, Model, Node, Sensor, node_fields
 from twinform.ir.sensor import RENAMED_ELEMENTS
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.carrier import NAMESPACE, from_xml
-from twinform.passes.legalise.marks import find_mark
+from twinform.passes.carriers.annotations import find_annotation
+from twinform.passes.carriers.carriers import NAMESPACE, from_xml
 from twinform.passes.legalise.names import NAME
-from twinform.passes.legalise.sdf_versions.name_the_nameless import plugin_stem
 from twinform.passes.legalise.to_sdf.joints import FLOATING
 from twinform.passes.legalise.urdf_pieces import OF_AN_AXIS, WITHOUT_AXIS, joints_of
+from twinform.passes.sdf_versions.name_the_nameless import plugin_stem
 from twinform.schemas import XmlElement, table, writer
 
 _PARTS: Mapping[type[Node], Mapping[str, str]] = {
@@ -186,12 +186,12 @@ def _is_about_nothing(piece: XmlElement, model: Model) -> bool:
         return False
     names = {name for joint in model.joints for name in (joint.name, _old_name(joint))}
     names |= {name for frame in model.frames for name in (frame.name, _old_name(frame))}
-    names |= {(find_mark(link, FLOATING) or _NOTHING).get("joint") for link in model.links}
+    names |= {(find_annotation(link, FLOATING) or _NOTHING).get("joint") for link in model.links}
     return any(name not in names for name in joints_of(from_xml(piece)))
 
 
 def _old_name(node: Joint | Frame) -> str | None:
-    return (find_mark(node, NAME) or _NOTHING).text
+    return (find_annotation(node, NAME) or _NOTHING).text
 
 
 def _is_idle(at: str, piece: XmlElement, joint: Joint) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from itertools import groupby
 from types import MappingProxyType
 
-from twinform.compiler.compare.comparison import Comparison, Difference, Said, Severity
+from twinform.compiler.compare.comparison import Comparison, Difference, Severity, Side
 from twinform.diagnostics import Location
 from twinform.diagnostics.reporters import printable
 
@@ -107,7 +107,7 @@ def _row(item: Difference) -> dict[str, object]:
     }
 
 
-def _side(said: Said) -> dict[str, object]:
+def _side(said: Side) -> dict[str, object]:
     where = said.location
     return {"value": said.text, "file": where.file, "line": where.line, "path": where.path}
 

@@ -66,7 +66,7 @@ class Body:
 
 
 @dataclass(frozen=True, slots=True)
-class Hinge:
+class JointView:
     """A joint between two bodies, or the world; `axes` are unit vectors."""
 
     name: str
@@ -105,7 +105,7 @@ class Robot:
     format: Format
     world: Transform
     bodies: Mapping[str, Body]
-    joints: Mapping[str, Hinge]
+    joints: Mapping[str, JointView]
     frames: Mapping[str, NamedFrame]
     models: frozenset[str] = frozenset()
     leaves: Leaves = field(default_factory=dict[str, Leaf])
@@ -113,16 +113,16 @@ class Robot:
     where: Location = NOWHERE
 
 
-def carriers(robot: Robot) -> Mapping[str, Hinge]:
+def carriers(robot: Robot) -> Mapping[str, JointView]:
     """The joints that make a tree, by the bodies that hang from them: of several, a fixed one, or the first by name."""
-    above: dict[str, Hinge] = {}
+    above: dict[str, JointView] = {}
     for joint in sorted(robot.joints.values(), key=lambda joint: (joint.type != "fixed", joint.name)):
         if joint.child not in above and not _is_below(joint.parent, joint.child, above):
             above[joint.child] = joint
     return above
 
 
-def _is_below(body: str, ancestor: str, above: Mapping[str, Hinge]) -> bool:
+def _is_below(body: str, ancestor: str, above: Mapping[str, JointView]) -> bool:
     while body != ancestor and body in above:
         body = above[body].parent
     return body == ancestor

@@ -15,7 +15,7 @@ _DIGITS = 10
 
 
 @dataclass(frozen=True, slots=True)
-class Gap:
+class Delta:
     """By how much two values differ.
 
     `scale` is what the tolerance is a share of, and `size` the larger one of the two; `aspect` says which part of the
@@ -117,7 +117,7 @@ class Tensor(Value):
         return Tensor(turned(self.moments, base.inverse()))
 
 
-def gaps(a: Value, b: Value) -> Iterator[Gap]:
+def gaps(a: Value, b: Value) -> Iterator[Delta]:
     """By how much two values differ; nothing where they are exactly the same."""
     if a == b:
         return
@@ -129,11 +129,11 @@ def gaps(a: Value, b: Value) -> Iterator[Gap]:
         case Point(), Point():
             yield _distance(a.xyz, b.xyz)
         case Direction(), Direction():
-            yield Gap(_angle_between(a.xyz, b.xyz), 1.0, _row(a.xyz), _row(b.xyz), "rad")
+            yield Delta(_angle_between(a.xyz, b.xyz), 1.0, _row(a.xyz), _row(b.xyz), "rad")
         case Tensor(), Tensor():
             yield from _tensors(a, b)
         case _:
-            yield Gap(math.inf, 1.0, show(a), show(b))
+            yield Delta(math.inf, 1.0, show(a), show(b))
 
 
 def show(value: Value) -> str:
@@ -155,13 +155,13 @@ def show(value: Value) -> str:
             return ""
 
 
-def _numbers(a: Numbers, b: Numbers) -> Iterator[Gap]:
+def _numbers(a: Numbers, b: Numbers) -> Iterator[Delta]:
     apart = [_apart(one, other) for one, other in zip(a.values, b.values, strict=True)]
     finite = [abs(number) for number in (*a.values, *b.values) if math.isfinite(number)]
     if any(apart):
         unit = a.unit or b.unit
         size = max(finite, default=0.0)
-        yield Gap(max(apart), max(a.floor, b.floor, size), show(a), show(b), unit, size=size)
+        yield Delta(max(apart), max(a.floor, b.floor, size), show(a), show(b), unit, size=size)
 
 
 def _apart(one: float, other: float) -> float:
@@ -171,14 +171,14 @@ def _apart(one: float, other: float) -> float:
     return gap if math.isfinite(gap) else math.inf
 
 
-def _places(a: Transform, b: Transform) -> Iterator[Gap]:
+def _places(a: Transform, b: Transform) -> Iterator[Delta]:
     yield _distance(a.translation, b.translation)
-    yield Gap(_angle(a, b), 1.0, f"{_row(a.rpy())} rad", f"{_row(b.rpy())} rad", "rad", "rotation")
+    yield Delta(_angle(a, b), 1.0, f"{_row(a.rpy())} rad", f"{_row(b.rpy())} rad", "rad", "rotation")
 
 
-def _distance(a: Vector3, b: Vector3) -> Gap:
+def _distance(a: Vector3, b: Vector3) -> Delta:
     size = max(math.hypot(*a), math.hypot(*b))
-    return Gap(math.dist(a, b), max(1.0, size), f"{_row(a)} m", f"{_row(b)} m", "m", "position", size)
+    return Delta(math.dist(a, b), max(1.0, size), f"{_row(a)} m", f"{_row(b)} m", "m", "position", size)
 
 
 def _angle(a: Transform, b: Transform) -> float:
@@ -191,13 +191,13 @@ def _angle_between(a: Vector3, b: Vector3) -> float:
     return 2 * math.asin(min(1.0, math.dist(a, b) / 2))
 
 
-def _tensors(a: Tensor, b: Tensor) -> Iterator[Gap]:
+def _tensors(a: Tensor, b: Tensor) -> Iterator[Delta]:
     """The element that differs most, measured against the largest one."""
     apart = [_apart(one, other) for one, other in zip(a.moments, b.moments, strict=True)]
     worst = apart.index(max(apart))
     scale = max(map(abs, (*a.moments, *b.moments)))
     one, other = (f"{_number(each.moments[worst])} kg*m^2" for each in (a, b))
-    yield Gap(apart[worst], scale, one, other, "kg*m^2", ELEMENTS[worst], scale)
+    yield Delta(apart[worst], scale, one, other, "kg*m^2", ELEMENTS[worst], scale)
 
 
 def _row(values: Sequence[float]) -> str:

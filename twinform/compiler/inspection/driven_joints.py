@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Iterator
 
-from twinform.diagnostics import Location, Notes, did_you_mean
+from twinform.diagnostics import DiagnosticSink, Location, did_you_mean
 from twinform.diagnostics.rules import control as rules
 from twinform.ir import Document, Element, Model
 from twinform.passes.control.carried_elements import elements
@@ -14,25 +14,25 @@ _WITH_JOINT = frozenset({*_JOINTS, "gap_joint", "simulated_actuated_joint", "fle
 """What in a transmission says which joint it drives; the last four are those of the PR2."""
 
 
-def report_driven_joints(document: Document, notes: Notes) -> None:
+def report_driven_joints(document: Document, sink: DiagnosticSink) -> None:
     """Report the names of joints that are not there, and transmissions without any."""
     for model in document.models:
-        _report(model, document, notes)
+        _report(model, document, sink)
 
 
-def _report(model: Model, document: Document, notes: Notes) -> None:
+def _report(model: Model, document: Document, sink: DiagnosticSink) -> None:
     joints = {joint.name for joint in model.joints}
     for holder in _HOLDERS:
         for part, element in elements(model, document.format, holder):
             called = element.get("name") or ""
             if holder == "transmission" and not any(child.name in _WITH_JOINT for child in element.children):
                 message = f"transmission {called!r} has no <joint>: it drives nothing"
-                notes.report(rules.TRANSMISSION_WITHOUT_JOINT, message, part.location, expected="<joint name='...'>")
+                sink.report(rules.TRANSMISSION_WITHOUT_JOINT, message, part.location, expected="<joint name='...'>")
             for name, where in _named(element, part.location):
                 if name not in joints and "$" not in name:
                     message = f"<{holder}> {called!r} names the joint {name!r}, which the robot does not have"
                     hint = did_you_mean(name, joints)
-                    notes.report(rules.UNKNOWN_DRIVEN_JOINT, message, where, found=name, help=hint)
+                    sink.report(rules.UNKNOWN_DRIVEN_JOINT, message, where, found=name, help=hint)
 
 
 def _named(element: Element, place: Location) -> Iterator[tuple[str, Location]]:

@@ -2,30 +2,30 @@
 
 from pathlib import Path
 
-from twinform.compiler.loading import Reading
-from twinform.compiler.other_documents import OtherDocuments
-from twinform.compiler.uris import LocalAssets
-from twinform.diagnostics import Notes
+from twinform.compiler.includes.other_documents import OtherDocuments
+from twinform.compiler.input.loading import LoadOptions
+from twinform.compiler.search.uris import LocalAssets
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
-from twinform.passes import CompanionPass, Pass, Pipeline
+from twinform.passes import Pass, Pipeline, SideFilePass
 
 
 class LookingError(Exception):
     """A pass does more than look."""
 
 
-def look(document: Document, passes: Pipeline, notes: Notes, path: Path, how: Reading) -> None:
+def look(document: Document, passes: Pipeline, sink: DiagnosticSink, path: Path, load_options: LoadOptions) -> None:
     """Run passes on a document for what they report.
 
     Raises:
         LookingError: one of them changes the document, or makes a file.
         PassError: one of them is at fault.
     """
-    lent = passes.with_files(LocalAssets(how.search, path), OtherDocuments(how, str(path)).read)
+    lent = passes.with_files(LocalAssets(load_options.search, path), OtherDocuments(load_options, str(path)).read)
     for step in lent:
-        if isinstance(step, CompanionPass):
+        if isinstance(step, SideFilePass):
             raise _refusal(step, "writes a file")
-        if Pipeline((step,)).run(document, notes) != document:
+        if Pipeline((step,)).run(document, sink) != document:
             raise _refusal(step, "changes the model")
 
 

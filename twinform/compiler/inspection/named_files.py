@@ -5,13 +5,13 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple
 
-from twinform.compiler.exact_lines import line_of_text
+from twinform.compiler.input.finding_lines import line_of_text
 from twinform.compiler.inspection.near_files import is_elsewhere, near_file
-from twinform.compiler.uris import SearchPath, UriError, exists
-from twinform.diagnostics import Location, Notes
+from twinform.compiler.search.uris import SearchPath, UriError, exists
+from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import files as rules
 from twinform.ir import Document
-from twinform.passes.uris import Kind, map_uris
+from twinform.passes.transforms.uris import Kind, map_uris
 from twinform.schemas import XmlElement
 
 _MOST = 1000
@@ -38,7 +38,7 @@ class _Missing(NamedTuple):
 
 
 def report_named_files(
-    document: Document, path: Path, search: SearchPath, tree: XmlElement | None, notes: Notes
+    document: Document, path: Path, search: SearchPath, tree: XmlElement | None, sink: DiagnosticSink
 ) -> None:
     """Report each URI once, where it stands first; of a text that lies nowhere only how it is written.
 
@@ -49,7 +49,7 @@ def report_named_files(
     for use in wrong:
         message = f"backslashes in the path of a file, '{use.uri}', are no separators"
         hint = f"write '{use.uri.replace(chr(92), '/')}'"
-        notes.report(rules.BACKSLASH_IN_PATH, message, _place(use, tree), found=use.uri, help=hint)
+        sink.report(rules.BACKSLASH_IN_PATH, message, _place(use, tree), found=use.uri, help=hint)
     if not exists(path):
         return
     found: set[str] = set()
@@ -61,12 +61,12 @@ def report_named_files(
         if gone is None:
             found.add(_holder(use.uri))
         elif gone.near is not None:
-            _report((gone,), tree, notes)
+            _report((gone,), tree, sink)
         elif not is_elsewhere(use.uri, search, path):
             missing[_holder(use.uri)].append(gone)
     for holder, gone in missing.items():
         for group in ((each,) for each in gone) if holder in found else (gone,):
-            _report(group, tree, notes)
+            _report(group, tree, sink)
 
 
 def _uses(document: Document) -> list[_Use]:
@@ -98,7 +98,7 @@ def _look_for(use: _Use, path: Path, search: SearchPath, *, asks: bool) -> _Miss
     return None
 
 
-def _report(missing: Iterable[_Missing], tree: XmlElement | None, notes: Notes) -> None:
+def _report(missing: Iterable[_Missing], tree: XmlElement | None, sink: DiagnosticSink) -> None:
     first, *others = missing
     use = first.use
     message = f"the {_WORDS[use.kind]} {use.uri!r} is not there"
@@ -106,7 +106,7 @@ def _report(missing: Iterable[_Missing], tree: XmlElement | None, notes: Notes) 
         message += f", nor is anything else of {_holder(use.uri) or 'what is named by a path'}: {len(others)} more"
     hint = f"did you mean {first.near!r}?" if first.near else first.looked
     related = tuple(each.use.where for each in others)
-    notes.report(rules.MISSING_FILE, message, _place(use, tree), found=use.uri, help=hint, related=related)
+    sink.report(rules.MISSING_FILE, message, _place(use, tree), found=use.uri, help=hint, related=related)
 
 
 def _place(use: _Use, tree: XmlElement | None) -> Location:

@@ -8,9 +8,9 @@ from pathlib import Path
 from posixpath import normpath
 from urllib.parse import unquote
 
-from twinform.compiler.packages import package_name
-from twinform.compiler.surroundings import folders_around
-from twinform.compiler.uris import SearchPath, UriError, exists
+from twinform.compiler.search.packages import package_name
+from twinform.compiler.search.search_roots import folders_around
+from twinform.compiler.search.uris import SearchPath, UriError, exists
 from twinform.diagnostics import nearest_name
 
 _MODEL_MARK = "model.config"

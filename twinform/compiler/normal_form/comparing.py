@@ -4,12 +4,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-from twinform.compiler.compare.comparison import Said
+from twinform.compiler.compare.comparison import Side
 from twinform.compiler.compare.values import show
 from twinform.compiler.normal_form.part import TEXT, Key, Part, text_of
 from twinform.compiler.normal_form.values import same
 from twinform.diagnostics import Location
-from twinform.passes.legalise.carrier import NAMESPACE
+from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.schemas import XmlElement, path_of
 
 _LONGEST = 100
@@ -33,8 +33,8 @@ class Discrepancy:
     """One thing that the source says and the file that came back does not, or the other way round."""
 
     kind: Kind
-    source: Said
-    back: Said
+    source: Side
+    back: Side
 
     @property
     def location(self) -> Location:
@@ -77,22 +77,22 @@ class Comparing:
             if key in pairs:
                 yield from self.parts(child, back.children[pairs[key]])
             else:
-                yield Discrepancy(Kind.MISSING, self._in_source(child), Said())
+                yield Discrepancy(Kind.MISSING, self._in_source(child), Side())
         for key, child in back.children.items():
             if key not in found:
-                yield Discrepancy(_kind_of_new(key.tag), Said(), self._in_back(child))
+                yield Discrepancy(_kind_of_new(key.tag), Side(), self._in_back(child))
         yield from self._orders(source, back)
 
     def _values(self, source: Part, back: Part) -> Iterator[Discrepancy]:
         for step, value in source.values.items():
             other = back.values.get(step)
             if other is None:
-                yield Discrepancy(Kind.MISSING, self._in_source(source, step), Said())
+                yield Discrepancy(Kind.MISSING, self._in_source(source, step), Side())
             elif not same(value, other):
                 yield Discrepancy(Kind.CHANGED, self._in_source(source, step), self._in_back(back, step))
         for step in back.values:
             if step not in source.values:
-                yield Discrepancy(_kind_of_new(step.removeprefix("@")), Said(), self._in_back(back, step))
+                yield Discrepancy(_kind_of_new(step.removeprefix("@")), Side(), self._in_back(back, step))
 
     def _orders(self, source: Part, back: Part) -> Iterator[Discrepancy]:
         """The first place where the order is another one, where order counts."""
@@ -105,18 +105,18 @@ class Comparing:
             one, other = source.children[mine[at]], back.children[theirs[at]]
             yield Discrepancy(Kind.ORDER, self._in_source(one), self._in_back(other))
 
-    def _in_source(self, part: Part, step: str = _ITSELF) -> Said:
+    def _in_source(self, part: Part, step: str = _ITSELF) -> Side:
         return self._said(self.source, part, step)
 
-    def _in_back(self, part: Part, step: str = _ITSELF) -> Said:
+    def _in_back(self, part: Part, step: str = _ITSELF) -> Side:
         return self._said(self.back, part, step)
 
-    def _said(self, file: str, part: Part, step: str) -> Said:
+    def _said(self, file: str, part: Part, step: str) -> Side:
         where = Location(file, part.element.sourceline or 0, path_of(part.element, self._places))
         if step.startswith("@"):
             text = part.element.get(step[1:])
-            return Said(show(part.values[step]) if text is None else repr(_short(text)), where.at(step))
-        return Said(repr(_short(text_of(part.element))) if step == TEXT else _spelled(part.element), where)
+            return Side(show(part.values[step]) if text is None else repr(_short(text)), where.at(step))
+        return Side(repr(_short(text_of(part.element))) if step == TEXT else _spelled(part.element), where)
 
 
 def _paired(source: Part, back: Part) -> dict[Key, Key]:

@@ -4,12 +4,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from twinform.compiler.errors import CompileError
-from twinform.compiler.loading import Reading, declared_version, read, read_tree
+from twinform.compiler.input.loading import LoadOptions, declared_version, read, read_tree
+from twinform.compiler.input.parsing import UnreadableError
 from twinform.compiler.normal_form.building import builder
 from twinform.compiler.normal_form.comparing import Comparing, Discrepancy
 from twinform.compiler.normal_form.part import Part
-from twinform.compiler.parsing import UnreadableError
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.schemas import XmlElement
 
 _FORMATS = {"robot": "urdf", "sdf": "sdf"}
@@ -26,7 +26,7 @@ class NormalForm:
     def of(cls, tree: XmlElement, file: str = "") -> "NormalForm":
         """That of a tree which `check` or `convert` has read."""
         format = _FORMATS[str(tree.tag)]
-        return cls(builder(format, declared_version(tree, format, Notes())).root(tree), file)
+        return cls(builder(format, declared_version(tree, format, DiagnosticSink())).root(tree), file)
 
     def compare(self, back: "NormalForm") -> tuple[Discrepancy, ...]:
         """In what a file that came back differs from this one, in the order of this one."""
@@ -42,13 +42,13 @@ def normal_form(source: str | Path | bytes, *, name: str = "") -> NormalForm:
         CompileError: it is not.
     """
     if not isinstance(source, bytes):
-        checked = read(source, Reading(), name=name)
+        checked = read(source, LoadOptions(), name=name)
         if checked.tree is None:
             raise CompileError(checked.diagnostics, unreadable=True)
         return NormalForm.of(checked.tree, checked.path)
-    notes = Notes(file=name or "<bytes>")
+    sink = DiagnosticSink(file=name or "<bytes>")
     try:
-        tree, _ = read_tree(source, notes)
+        tree, _ = read_tree(source, sink)
     except UnreadableError as error:
-        raise CompileError(tuple(notes.diagnostics), unreadable=True) from error
-    return NormalForm.of(tree, notes.file)
+        raise CompileError(tuple(sink.diagnostics), unreadable=True) from error
+    return NormalForm.of(tree, sink.file)

@@ -5,7 +5,7 @@ from functools import cache
 
 from twinform.compiler.compare.values import Value, Words
 from twinform.compiler.normal_form.values import parsed_value
-from twinform.passes.legalise.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
+from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
 from twinform.schemas import Fact, XmlElement, parse_value, rows_by_name, table
 
 _TAGS = MODEL_TAGS | JOINT_TAGS | LINK_TAGS

@@ -4,11 +4,11 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from twinform.compiler.loading import Checked
+from twinform.compiler.input.loading import LoadResult
+from twinform.compiler.search.uris import LocalAssets, SearchPath
 from twinform.compiler.statistics.meshes import MeshFiles
 from twinform.compiler.statistics.model import ModelStatistics, model_statistics
-from twinform.compiler.uris import LocalAssets, SearchPath
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format, Link, Model, walk
 from twinform.passes import NO_ASSETS, Assets, Pipeline
 
@@ -36,9 +36,9 @@ class FileStatistics:
     models: tuple[ModelStatistics, ...]
 
 
-def measure(checked: Checked, document: Document, search: SearchPath, *, meshes: bool = True) -> FileStatistics:
+def measure(loaded: LoadResult, document: Document, search: SearchPath, *, meshes: bool = True) -> FileStatistics:
     """Count what a file holds. `meshes` says whether to look into mesh files, which `search` finds."""
-    beside = Path(checked.path)
+    beside = Path(loaded.path)
     whole = _spoken(document, LocalAssets(search, beside) if meshes else NO_ASSETS)
     files = MeshFiles(search, beside, meshes)
 
@@ -57,7 +57,7 @@ def measure(checked: Checked, document: Document, search: SearchPath, *, meshes:
         for world in whole.worlds
     )
     return FileStatistics(
-        path=checked.path,
+        path=loaded.path,
         format=document.format,
         version=document.version,
         worlds=worlds,
@@ -67,13 +67,13 @@ def measure(checked: Checked, document: Document, search: SearchPath, *, meshes:
 
 def _spoken(document: Document, assets: Assets) -> Document:
     """The document with what its `<gazebo>` elements say and what its readers compute in their places."""
-    notes = Notes()
+    sink = DiagnosticSink()
     if document.format is Format.URDF:
         from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo  # noqa: PLC0415 - SDF does not need it
 
-        return Pipeline((FoldGazebo(),)).run(document, notes)
+        return Pipeline((FoldGazebo(),)).run(document, sink)
     if not any(isinstance(node, Link) and node.inertial and node.inertial.auto for node in walk(document)):
         return document
-    from twinform.passes.legalise.sdf_versions.write_inertias import WriteInertias  # noqa: PLC0415 - likewise
+    from twinform.passes.sdf_versions.write_inertias import WriteInertias  # noqa: PLC0415 - likewise
 
-    return Pipeline((WriteInertias(version="1.10"),)).with_files(assets).run(document, notes)
+    return Pipeline((WriteInertias(version="1.10"),)).with_files(assets).run(document, sink)

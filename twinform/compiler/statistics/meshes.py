@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
-from twinform.compiler.uris import SearchPath, UriError
+from twinform.compiler.search.uris import SearchPath, UriError
 from twinform.ir import Collision, Mesh, Model, Visual, walk
-from twinform.passes.mesh_files import EXTRA, READ, READERS, RefusedMeshError, kind_of, open_scene
+from twinform.passes.analyses.mesh_files import EXTRA, READ, READERS, RefusedMeshError, kind_of, open_scene
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

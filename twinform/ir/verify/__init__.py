@@ -4,7 +4,7 @@ What is true of both formats is in `names`, `joints`, `tree`, `shapes` and `iner
 is asked of a robot and of a model, and what only they know: materials, scopes, frames, sensors.
 """
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules.bodies import UNKNOWN_COLLISION, UNKNOWN_GRIPPER_LINK
 from twinform.ir.document import Document, Format
 from twinform.ir.verify.sdf import verify_sdf
@@ -16,20 +16,20 @@ _OF_SDF = (UNKNOWN_COLLISION, UNKNOWN_GRIPPER_LINK)
 """What may be said in the `<gazebo>` elements of URDF about names that are there only in SDF."""
 
 
-def verify(document: Document, notes: Notes) -> None:
+def verify(document: Document, sink: DiagnosticSink) -> None:
     """Report what is wrong with a document, in the order of its parts."""
     if document.format is Format.SDF:
-        verify_sdf(document, notes)
+        verify_sdf(document, sink)
         return
     for model in document.models:
-        verify_robot(model, notes, optional=document.version == "1.2")
+        verify_robot(model, sink, optional=document.version == "1.2")
 
 
-def verify_again(document: Document, notes: Notes) -> None:
+def verify_again(document: Document, sink: DiagnosticSink) -> None:
     """Report what is wrong with what passes have made: errors, and what cannot be seen in URDF.
 
     About the source as it was written, all is said already.
     """
-    found = Notes(file=notes.file, strict=notes.strict)
+    found = DiagnosticSink(file=sink.file, strict=sink.strict)
     verify(document, found)
-    notes.extend_new(each for each in found.diagnostics if each.is_error or each.rule in _OF_SDF)
+    sink.extend_new(each for each in found.diagnostics if each.is_error or each.rule in _OF_SDF)

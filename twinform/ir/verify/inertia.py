@@ -2,7 +2,7 @@
 
 import math
 
-from twinform.diagnostics import Location, Notes, Rule, Severity
+from twinform.diagnostics import DiagnosticSink, Location, Rule, Severity
 from twinform.diagnostics.rules import inertia as rules
 from twinform.ir.inertial import Inertia, Inertial
 from twinform.ir.link import Link
@@ -19,7 +19,7 @@ _USUAL = (1e-90, 1e90)
 """Traces whose third power is a double by far."""
 
 
-def verify_inertial(link: Link, default: float | None, notes: Notes) -> None:
+def verify_inertial(link: Link, default: float | None, sink: DiagnosticSink) -> None:
     """Report a mass or inertia that libsdformat refuses, or takes and cannot simulate.
 
     `default` is the moment that the format means where none is written; None where it has none.
@@ -27,7 +27,7 @@ def verify_inertial(link: Link, default: float | None, notes: Notes) -> None:
     inertial = link.inertial
     if inertial is None:
         return
-    verify_rotation(inertial.pose, notes)
+    verify_rotation(inertial.pose, sink)
     mass = inertial.mass
     is_seen = default is None and mass is not None and mass < 0  # the table of URDF has a least value
     if mass is not None and not is_seen and not 0 < mass < math.inf:  # the negation catches what is not a number
@@ -35,13 +35,13 @@ def verify_inertial(link: Link, default: float | None, notes: Notes) -> None:
         severity = Severity.INFO if mass == 0 else None
         where = inertial.location
         expected = "finite" if mass > 0 else "more than 0"
-        notes.report(rules.NON_POSITIVE_MASS, message, where, found=f"{mass:g}", expected=expected, severity=severity)
+        sink.report(rules.NON_POSITIVE_MASS, message, where, found=f"{mass:g}", expected=expected, severity=severity)
     matrix = inertia_matrix(inertial.inertia, default)
     if inertial.auto and not link.collisions:
         message = f"the inertia of link {link.name!r} is to come from its collisions, and it has none"
-        notes.report(rules.INERTIA_FROM_NOTHING, message, inertial.location, expected="<collision>")
+        sink.report(rules.INERTIA_FROM_NOTHING, message, inertial.location, expected="<collision>")
     if matrix is not None and not inertial.auto and not _is_plain(matrix):
-        report_moments(link, inertial, matrix, _ROUNDING, notes)
+        report_moments(link, inertial, matrix, _ROUNDING, sink)
 
 
 def inertia_matrix(inertia: Inertia | None, default: float | None) -> Symmetric | None:
@@ -68,7 +68,7 @@ def _is_plain(matrix: Symmetric) -> bool:
 
 
 def report_moments(
-    link: Link, inertial: Inertial, matrix: Symmetric, eps: float, notes: Notes, *, least: float | None = None
+    link: Link, inertial: Inertial, matrix: Symmetric, eps: float, sink: DiagnosticSink, *, least: float | None = None
 ) -> None:
     """Report principal moments below zero, or one that exceeds the sum of the others by more than `eps` of the trace.
 
@@ -76,7 +76,7 @@ def report_moments(
     """
     where = _place(inertial)
     if not all(map(math.isfinite, matrix)):
-        _report(rules.INDEFINITE_INERTIA, f"the inertia of link {link.name!r} is not finite", where, notes)
+        _report(rules.INDEFINITE_INERTIA, f"the inertia of link {link.name!r} is not finite", where, sink)
         return
     smallest, middle, largest = relative_moments(matrix)
     trace = abs(smallest + middle + largest)
@@ -84,20 +84,25 @@ def report_moments(
     listed = ", ".join(f"{moment:.6g}" for moment in moments)
     if smallest <= least * trace if least is not None else smallest < -eps * trace:
         message = f"the inertia of link {link.name!r} is not positive definite: its principal moments are {listed}"
-        _report(rules.INDEFINITE_INERTIA, message, where, notes, listed, "all more than 0")
+        _report(rules.INDEFINITE_INERTIA, message, where, sink, listed, "all more than 0")
     elif largest - smallest - middle > eps * trace:
         message = (
             f"no body has the principal moments of link {link.name!r}, {listed}: the last exceeds the sum of the others"
         )
         expected = f"at most {moments[0] + moments[1]:.6g}"
-        _report(rules.IMPOSSIBLE_INERTIA, f"{message}; Gazebo refuses it", where, notes, listed, expected)
+        _report(rules.IMPOSSIBLE_INERTIA, f"{message}; Gazebo refuses it", where, sink, listed, expected)
 
 
 def _report(
-    rule: Rule, message: str, where: Location, notes: Notes, found: str | None = None, expected: str | None = None
+    rule: Rule,
+    message: str,
+    where: Location,
+    sink: DiagnosticSink,
+    found: str | None = None,
+    expected: str | None = None,
 ) -> None:
-    if not notes.has(rule, where):  # a pass that is stricter looks again at what `check` has looked at
-        notes.report(rule, message, where, found=found, expected=expected, help=_HELP if found else None)
+    if not sink.has(rule, where):  # a pass that is stricter looks again at what `check` has looked at
+        sink.report(rule, message, where, found=found, expected=expected, help=_HELP if found else None)
 
 
 def _place(inertial: Inertial) -> Location:

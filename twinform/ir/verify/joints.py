@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable
 
-from twinform.diagnostics import Location, Notes, did_you_mean
+from twinform.diagnostics import DiagnosticSink, Location, did_you_mean
 from twinform.diagnostics.rules import joints as rules
 from twinform.diagnostics.rules import model as names
 from twinform.diagnostics.rules.limits import RANGE_IN_DEGREES
@@ -24,39 +24,39 @@ _ROUNDING = 1e-3
 """How far from 1 the length of an axis may be: files write three digits."""
 
 
-def verify_joint(joint: Joint, notes: Notes) -> None:
+def verify_joint(joint: Joint, sink: DiagnosticSink) -> None:
     """Report what is wrong with a joint by itself."""
     if joint.parent is not None and joint.parent == joint.child:
         message = f"joint {joint.name!r} connects {joint.parent!r} to itself"
-        notes.report(names.SELF_JOINT, message, joint.location, found=joint.parent)
+        sink.report(names.SELF_JOINT, message, joint.location, found=joint.parent)
     freedoms = _FREEDOMS.get(joint.type, 0)
     axis, axis2 = joint.axis, joint.axis2
     if axis is not None:
-        _verify_axis(joint, "axis", axis, notes, moves=freedoms > 0)
+        _verify_axis(joint, "axis", axis, sink, moves=freedoms > 0)
     if axis2 is not None:
-        _verify_axis(joint, "axis2", axis2, notes, moves=freedoms > 1)
+        _verify_axis(joint, "axis2", axis2, sink, moves=freedoms > 1)
     if freedoms and (axis is None or axis.xyz is None):
-        _missing(joint, "axis", notes)
+        _missing(joint, "axis", sink)
     if freedoms > 1 and (axis2 is None or axis2.xyz is None):
-        _missing(joint, "axis2", notes)
+        _missing(joint, "axis2", sink)
 
 
-def _missing(joint: Joint, name: str, notes: Notes) -> None:
+def _missing(joint: Joint, name: str, sink: DiagnosticSink) -> None:
     message = f"{joint.type} joint {joint.name!r} has no <{name}>; readers take their default"
-    notes.report(rules.MISSING_AXIS, message, joint.location, expected=f"<{name}>")
+    sink.report(rules.MISSING_AXIS, message, joint.location, expected=f"<{name}>")
 
 
-def _verify_axis(joint: Joint, name: str, axis: Axis, notes: Notes, *, moves: bool) -> None:
+def _verify_axis(joint: Joint, name: str, axis: Axis, sink: DiagnosticSink, *, moves: bool) -> None:
     if not moves:
         message = f"{joint.type} joint {joint.name!r} has an <{name}>, which nothing turns about or slides along"
-        notes.report(rules.UNUSED_AXIS, message, _place(joint, name, axis), found=f"<{name}>")
+        sink.report(rules.UNUSED_AXIS, message, _place(joint, name, axis), found=f"<{name}>")
         return
     if axis.xyz is not None:
         x, y, z = axis.xyz
         if x * x + y * y + z * z != 1.0:
-            _verify_length(joint, axis.xyz, _place(joint, name, axis), notes)
+            _verify_length(joint, axis.xyz, _place(joint, name, axis), sink)
     if axis.limit is not None:
-        _verify_limit(joint, axis.limit, notes)
+        _verify_limit(joint, axis.limit, sink)
 
 
 def _place(joint: Joint, name: str, axis: Axis) -> Location:
@@ -64,35 +64,35 @@ def _place(joint: Joint, name: str, axis: Axis) -> Location:
     return axis.location if axis.source and axis.source.step == name else joint.location.at(name)
 
 
-def _verify_length(joint: Joint, xyz: Vector3, where: Location, notes: Notes) -> None:
+def _verify_length(joint: Joint, xyz: Vector3, where: Location, sink: DiagnosticSink) -> None:
     if not any(xyz):
         message = f"the axis of joint {joint.name!r} has length zero"
-        notes.report(names.ZERO_AXIS, message, where, found="0 0 0")
+        sink.report(names.ZERO_AXIS, message, where, found="0 0 0")
         return
     length = math.hypot(*xyz)
     if abs(length - 1) > _ROUNDING:
         message = f"the axis of joint {joint.name!r} has length {length:.4g}; readers make it 1"
-        notes.report(rules.UNNORMALISED_AXIS, message, where, found=f"{length:.4g}", expected="1")
+        sink.report(rules.UNNORMALISED_AXIS, message, where, found=f"{length:.4g}", expected="1")
 
 
-def _verify_limit(joint: Joint, limit: Limit, notes: Notes) -> None:
+def _verify_limit(joint: Joint, limit: Limit, sink: DiagnosticSink) -> None:
     if joint.type == "continuous":
         if limit.lower or limit.upper:
             message = f"continuous joint {joint.name!r} has limits, which every reader ignores"
-            notes.report(rules.UNUSED_LIMIT, message, limit.location)
+            sink.report(rules.UNUSED_LIMIT, message, limit.location)
     elif limit.lower is not None and limit.upper is not None and limit.lower > limit.upper:
         message = f"joint {joint.name!r} has the lower limit {limit.lower:g} above the upper limit {limit.upper:g}"
-        notes.report(names.LOWER_ABOVE_UPPER, message, limit.location, found=f"{limit.lower:g}")
+        sink.report(names.LOWER_ABOVE_UPPER, message, limit.location, found=f"{limit.lower:g}")
     if joint.type == "revolute" and _is_in_degrees(limit.lower or 0.0, limit.upper or 0.0):
         message = (
             f"joint {joint.name!r} turns from {limit.lower or 0:g} to {limit.upper or 0:g} rad; are these degrees?"
         )
         hint = f"write radians: {math.radians(limit.lower or 0):.6g} to {math.radians(limit.upper or 0):.6g}"
-        notes.report(RANGE_IN_DEGREES, message, limit.location, found=f"{limit.upper or limit.lower:g}", help=hint)
+        sink.report(RANGE_IN_DEGREES, message, limit.location, found=f"{limit.upper or limit.lower:g}", help=hint)
     if limit.effort == 0 or limit.velocity == 0:
         which = " and ".join(word for word in ("effort", "velocity") if getattr(limit, word) == 0)
         message = f"joint {joint.name!r} has the limit 0 for {which}; a controller that obeys it cannot move it"
-        notes.report(rules.ZERO_LIMIT, message, limit.location, found="0")
+        sink.report(rules.ZERO_LIMIT, message, limit.location, found="0")
 
 
 def _is_in_degrees(lower: float, upper: float) -> bool:
@@ -101,19 +101,19 @@ def _is_in_degrees(lower: float, upper: float) -> bool:
     return _MOST_TURNS < most <= _WHOLE_TURN and not lower % _STEP and not upper % _STEP
 
 
-def verify_limits_there(joint: Joint, notes: Notes, *, optional: bool) -> None:
+def verify_limits_there(joint: Joint, sink: DiagnosticSink, *, optional: bool) -> None:
     """URDF asks for limits where SDF has none by default, and before 1.2 for effort and velocity in them."""
     limit = joint.axis.limit if joint.axis else None
     missing = [name for name in ("effort", "velocity") if limit and getattr(limit, name) is None]
     if limit and missing and not optional:
         message = f"the limit of joint {joint.name!r} has no {' and no '.join(missing)}"
-        notes.report(names.PARTIAL_LIMIT, message, limit.location, expected=f"@{missing[0]}")
+        sink.report(names.PARTIAL_LIMIT, message, limit.location, expected=f"@{missing[0]}")
     if joint.type in _LIMITED and limit is None:
         message = f"{joint.type} joint {joint.name!r} has no <limit>"
-        notes.report(names.MISSING_LIMIT, message, joint.location, expected="<limit>")
+        sink.report(names.MISSING_LIMIT, message, joint.location, expected="<limit>")
 
 
-def verify_mimics(joints: Iterable[Joint], notes: Notes) -> None:
+def verify_mimics(joints: Iterable[Joint], sink: DiagnosticSink) -> None:
     """Report followers of nothing, and of each other."""
     followers = [(joint, axis) for joint in joints for axis in (joint.axis, joint.axis2) if axis and axis.mimic]
     if not followers:
@@ -129,11 +129,11 @@ def verify_mimics(joints: Iterable[Joint], notes: Notes) -> None:
         what = "which is no joint" if leader is None else "itself" if leader is joint else "which has no axis"
         message = f"joint {joint.name!r} mimics {mimic.joint!r}, {what}"
         hint = did_you_mean(mimic.joint or "", (each for each in known if each != joint.name)) if not leader else None
-        notes.report(names.UNKNOWN_LEADER, message, mimic.location, found=mimic.joint, help=hint)
-    _report_circles(followers, leaders, notes)
+        sink.report(names.UNKNOWN_LEADER, message, mimic.location, found=mimic.joint, help=hint)
+    _report_circles(followers, leaders, sink)
 
 
-def _report_circles(followers: list[tuple[Joint, Axis]], leaders: dict[str, str], notes: Notes) -> None:
+def _report_circles(followers: list[tuple[Joint, Axis]], leaders: dict[str, str], sink: DiagnosticSink) -> None:
     settled: set[str] = set()
     for joint, axis in followers:
         path: list[str] = []
@@ -143,5 +143,5 @@ def _report_circles(followers: list[tuple[Joint, Axis]], leaders: dict[str, str]
             name = leaders[name]
         if name in path and axis.mimic:
             message = f"joints mimic each other: {', '.join(path[path.index(name) :])}"
-            notes.report(rules.MIMIC_CYCLE, message, axis.mimic.location, found=name)
+            sink.report(rules.MIMIC_CYCLE, message, axis.mimic.location, found=name)
         settled.update(path)

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from twinform.diagnostics import Notes, Severity
+from twinform.diagnostics import DiagnosticSink, Severity
 from twinform.diagnostics.rules import model as rules
 from twinform.ir.node import Node
 
@@ -17,44 +17,44 @@ def name_of(node: Node) -> str:
     return str(node.__dict__["name"])
 
 
-def report_names(kind: str, nodes: Iterable[Node], notes: Notes) -> None:
+def report_names(kind: str, nodes: Iterable[Node], sink: DiagnosticSink) -> None:
     """Report names that are empty or blank, cannot be printed, or are there twice."""
     seen: dict[str, Node] = {}
     for node in nodes:
         name = name_of(node)
         if not name.strip() and kind in _NEED_NAMES:
-            notes.report(rules.EMPTY_NAME, f"a {kind} has an empty name", node.location)
-        report_unprintable(kind, node, notes)
+            sink.report(rules.EMPTY_NAME, f"a {kind} has an empty name", node.location)
+        report_unprintable(kind, node, sink)
         if name in seen:
             message = f"{kind} {name!r} is there twice"
-            notes.report(rules.DUPLICATE_NAME, message, node.location, found=name, related=(seen[name].location,))
+            sink.report(rules.DUPLICATE_NAME, message, node.location, found=name, related=(seen[name].location,))
         seen.setdefault(name, node)
 
 
-def report_unprintable(kind: str, node: Node, notes: Notes) -> None:
+def report_unprintable(kind: str, node: Node, sink: DiagnosticSink) -> None:
     """Report a name with a character that nobody can see."""
     name = node.__dict__["name"]
     if name is not None and not name.isprintable():
         message = f"{kind} {name!r} has characters in its name that cannot be seen"
-        notes.report(rules.UNPRINTABLE_NAME, message, node.location, found=name)
+        sink.report(rules.UNPRINTABLE_NAME, message, node.location, found=name)
 
 
-def report_scope(kinds: Kinds, shared: Severity, notes: Notes) -> None:
+def report_scope(kinds: Kinds, shared: Severity, sink: DiagnosticSink) -> None:
     """Report names that several kinds of one scope share, beside what is wrong within each kind."""
     owners: dict[str, tuple[str, Node]] = {}
     for kind, nodes in kinds:
         named = [node for node in nodes if node.__dict__["name"] is not None]
-        report_names(kind, named, notes)
+        report_names(kind, named, sink)
         for node in named:
             name = name_of(node)
             other, first = owners.setdefault(name, (kind, node))
             if other != kind:
                 message = f"{kind} {name!r} has the name of a {other}"
                 related = (first.location,)
-                notes.report(rules.SHARED_NAME, message, node.location, found=name, related=related, severity=shared)
+                sink.report(rules.SHARED_NAME, message, node.location, found=name, related=related, severity=shared)
 
 
-def report_reserved(kinds: Kinds, severity: Severity, notes: Notes, *, scoped: bool) -> None:
+def report_reserved(kinds: Kinds, severity: Severity, sink: DiagnosticSink, *, scoped: bool) -> None:
     """Report names that SDF keeps for itself; where `scoped`, also those with `::`, which stands between scopes.
 
     Where they are not, `::` is part of a name and stands between two others.
@@ -71,8 +71,8 @@ def report_reserved(kinds: Kinds, severity: Severity, notes: Notes, *, scoped: b
                 message = f"{kind} {name!r} has '::' in its name, which stands between a model and what is in it"
             elif not all(part.strip() for part in name.split("::")):
                 message = f"{kind} {name!r} has nothing on one side of '::', where a name belongs"
-                notes.report(rules.RESERVED_NAME, message, where, found=name, severity=Severity.WARNING)
+                sink.report(rules.RESERVED_NAME, message, where, found=name, severity=Severity.WARNING)
                 continue
             else:
                 continue
-            notes.report(rules.RESERVED_NAME, message, where, found=name, severity=severity)
+            sink.report(rules.RESERVED_NAME, message, where, found=name, severity=severity)

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from twinform.diagnostics import Notes, Rule, Severity, did_you_mean
+from twinform.diagnostics import DiagnosticSink, Rule, Severity, did_you_mean
 from twinform.diagnostics.rules import frames as rules
 from twinform.diagnostics.rules import model as joints
 from twinform.ir.frame import Frame
@@ -31,11 +31,11 @@ class References:
     Where links and joints have a scope each, a reference means one of its own kind: nothing is ambiguous.
     """
 
-    def __init__(self, holder: Model | World, notes: Notes, *, one_scope: bool) -> None:
+    def __init__(self, holder: Model | World, sink: DiagnosticSink, *, one_scope: bool) -> None:
         self.one_scope = one_scope
         self.scope = Scope(holder)
         self.own = MODEL if isinstance(holder, Model) else WORLD
-        self.notes = notes
+        self.sink = sink
         self._holder = holder
         self._inner_frames = _NONE
 
@@ -65,7 +65,7 @@ class References:
             message = f"the canonical link of model {model.name!r} is {model.canonical_link!r}, which is no link in it"
             where = model.location.at("@canonical_link")
             hint = did_you_mean(model.canonical_link, self.scope.names("link"))
-            self.notes.report(rules.UNKNOWN_CANONICAL_LINK, message, where, found=model.canonical_link, help=hint)
+            self.sink.report(rules.UNKNOWN_CANONICAL_LINK, message, where, found=model.canonical_link, help=hint)
         self._frame(model.placement_frame, model, "@placement_frame")
 
     def _link(self, link: Link) -> None:
@@ -98,14 +98,14 @@ class References:
             where = joint.location.at("gearbox_reference_body")
             message = f"joint {joint.name!r} has the reference body {reference!r}, which is no link"
             hint = did_you_mean(reference, self.scope.names("link"))
-            self.notes.report(
+            self.sink.report(
                 joints.DANGLING_LINK, message, where, found=reference, severity=Severity.WARNING, help=hint
             )
 
     def _end(self, joint: Joint, end: str, name: str) -> None:
         if name == joint.name and self.scope.find(name) == "joint":
             message = f"joint {joint.name!r} has itself as its {end}"
-            self.notes.report(joints.SELF_JOINT, message, joint.location.at(end), found=name)
+            self.sink.report(joints.SELF_JOINT, message, joint.location.at(end), found=name)
         elif name != self.own:
             what = f"joint {joint.name!r} has the {end} {name!r}, which is no link or frame of the "
             message = what + ("model" if self.own == MODEL else "world")
@@ -115,7 +115,7 @@ class References:
         pose = placed.pose
         if pose is None:
             return
-        verify_rotation(pose, self.notes)
+        verify_rotation(pose, self.sink)
         where, step = (placed, "pose/") if pose.source is None else (pose, "")  # a pass may have made it
         if pose.relative_to:
             self._frame(pose.relative_to, where, f"{step}@relative_to")
@@ -143,10 +143,10 @@ class References:
         where = node.location.at(step)
         if found is None:
             known = (each for each in self.scope.names() if each not in taken)
-            self.notes.report(rule, message, where, found=name, help=did_you_mean(name, known))
+            self.sink.report(rule, message, where, found=name, help=did_you_mean(name, known))
         else:
             message = f"{name!r} is the name of two things, and this may mean either"
-            self.notes.report(rules.AMBIGUOUS_FRAME, message, where, found=name)
+            self.sink.report(rules.AMBIGUOUS_FRAME, message, where, found=name)
 
 
 def _old_frame(pose: Pose) -> str:

@@ -1,6 +1,6 @@
 """The rules of SDF: models in models, whose links, joints and frames share one scope of names."""
 
-from twinform.diagnostics import Notes, Severity
+from twinform.diagnostics import DiagnosticSink, Severity
 from twinform.diagnostics.rules import frames as frame_rules
 from twinform.diagnostics.rules import joints as joint_rules
 from twinform.diagnostics.rules import model as rules
@@ -30,9 +30,9 @@ _ALONE = frozenset({"model", "light"})
 """What may stand once at the top of a file from 1.8 on; the table pass reports a second one and keeps it as it is."""
 
 
-def verify_sdf(document: Document, notes: Notes) -> None:
+def verify_sdf(document: Document, sink: DiagnosticSink) -> None:
     """Report what is wrong with the worlds and models of an SDF document."""
-    verifier = _Verifier(document.version, notes)
+    verifier = _Verifier(document.version, sink)
     verifier.file(document)
     for world in document.worlds:
         verifier.world(world)
@@ -43,17 +43,17 @@ def verify_sdf(document: Document, notes: Notes) -> None:
 class _Verifier:
     """One run over one document."""
 
-    def __init__(self, version: str | None, notes: Notes) -> None:
-        self.notes = notes
+    def __init__(self, version: str | None, sink: DiagnosticSink) -> None:
+        self.sink = sink
         self.shared = Severity.WARNING if version in _BEFORE_FRAMES else Severity.ERROR
         self.frames = version not in _BEFORE_FRAMES
         self.scoped = version not in _BEFORE_SCOPES
 
     def world(self, world: World) -> None:
-        before = len(self.notes.diagnostics)
+        before = len(self.sink.diagnostics)
         names = (("model", world.models), ("light", world.lights), ("frame", world.frames), ("joint", world.joints))
         kinds = (*names, ("include", world.includes))
-        report_scope(names, self.shared, self.notes)
+        report_scope(names, self.shared, self.sink)
         self._reserved((*kinds, ("world", (world,))))
         self._references(world)
         for joint in world.joints:
@@ -63,62 +63,62 @@ class _Verifier:
 
     def file(self, document: Document) -> None:
         """What stands at the top of the file."""
-        report_names("world", document.worlds, self.notes)
-        report_names("model", document.models, self.notes)
+        report_names("world", document.worlds, self.sink)
+        report_names("model", document.models, self.sink)
         self._reserved((("model", document.models), ("light", document.lights)))
         actors = [part for part in document.opaque if part.element and part.element.name == "actor"]
         alone = (*document.models, *document.lights, *actors)
         if len(alone) > 1 and not any(part.element and part.element.name in _ALONE for part in document.opaque):
             message = f"the file has {len(alone)} models, lights and actors outside of a world; readers take the first"
-            self.notes.report(rules.SEVERAL_AT_TOP, message, alone[1].location, related=(alone[0].location,))
+            self.sink.report(rules.SEVERAL_AT_TOP, message, alone[1].location, related=(alone[0].location,))
         for model in document.models:
             self._at_top(model)
 
     def _at_top(self, model: Model) -> None:
         """A model that stands in no world has nothing around it to be relative to."""
-        verify_rotation(model.pose, self.notes)
+        verify_rotation(model.pose, self.sink)
         if model.pose is not None and model.pose.relative_to:
             message = f"the pose of model {model.name!r} names a frame, and there is nothing around a model at the top"
             where = model.pose.location.at("@relative_to")
-            self.notes.report(frame_rules.DANGLING_FRAME, message, where, found=model.pose.relative_to)
+            self.sink.report(frame_rules.DANGLING_FRAME, message, where, found=model.pose.relative_to)
 
     def model_with_frames(self, model: Model) -> None:
-        before = len(self.notes.diagnostics)
+        before = len(self.sink.diagnostics)
         self.model(model)
         if self.frames:
             self._resolve(model, before)
 
     def model(self, model: Model) -> None:
-        notes = self.notes
+        sink = self.sink
         kinds = (("link", model.links), ("joint", model.joints), ("frame", model.frames), ("model", model.models))
-        report_scope(kinds, self.shared, notes)
+        report_scope(kinds, self.shared, sink)
         self._reserved((*kinds, ("include", model.includes)))
         references = self._references(model)
         for link in model.links:
             self._link(link, model)
         for joint in model.joints:
             self._joint(joint)
-        report_loops(model.joints, notes, Severity.INFO)
+        report_loops(model.joints, sink, Severity.INFO)
         if not model.includes:
-            verify_mimics(model.joints, notes)
-        verify_joint_sensors(model, notes)
-        verify_grippers(model, references.is_link, notes)
+            verify_mimics(model.joints, sink)
+        verify_joint_sensors(model, sink)
+        verify_grippers(model, references.is_link, sink)
         if not (model.links or model.models or model.includes or model.static):
-            notes.report(rules.EMPTY_MODEL, f"model {model.name!r} has no link", model.location, expected="<link>")
+            sink.report(rules.EMPTY_MODEL, f"model {model.name!r} has no link", model.location, expected="<link>")
         for nested in model.models:
             self.model(nested)
 
     def _joint(self, joint: Joint) -> None:
-        verify_joint(joint, self.notes)
+        verify_joint(joint, self.sink)
         if joint.type == "continuous":
             message = f"joint {joint.name!r} is continuous, which no engine of Gazebo turns"
             where = joint.location.at("@type")
-            self.notes.report(
+            self.sink.report(
                 joint_rules.CONTINUOUS_IN_SDF, message, where, found="continuous", expected="revolute without limits"
             )
         if joint.child == "world":
             message = f"joint {joint.name!r} has the child 'world'"
-            self.notes.report(rules.WORLD_CHILD, message, joint.location.at("child"))
+            self.sink.report(rules.WORLD_CHILD, message, joint.location.at("child"))
 
     def _link(self, link: Link, model: Model) -> None:
         kinds: Kinds = (
@@ -128,13 +128,13 @@ class _Verifier:
             ("light", link.lights),
         )
         for kind, nodes in kinds:
-            report_names(kind, [node for node in nodes if node.name is not None], self.notes)
+            report_names(kind, [node for node in nodes if node.name is not None], self.sink)
         self._reserved(kinds)
         self._siblings(link)
-        verify_inertial(link, MOMENT[Format.SDF], self.notes)
-        verify_shapes(link, self.notes, geometry_is_required=False)
+        verify_inertial(link, MOMENT[Format.SDF], self.sink)
+        verify_shapes(link, self.sink, geometry_is_required=False)
         if link.sensors:
-            verify_sensors(link, model, self.notes)
+            verify_sensors(link, model, self.sink)
 
     def _siblings(self, link: Link) -> None:
         """A visual and a collision of one name: good everywhere but for `gz sdf --check`."""
@@ -143,21 +143,21 @@ class _Verifier:
             if collision.name in visuals:
                 message = f"collision {collision.name!r} has the name of a visual"
                 related = (visuals[collision.name].location,)
-                self.notes.report(
+                self.sink.report(
                     rules.SHARED_NAME, message, collision.location, related=related, severity=Severity.INFO
                 )
 
     def _reserved(self, kinds: Kinds) -> None:
-        report_reserved(kinds, self.shared, self.notes, scoped=self.scoped)
+        report_reserved(kinds, self.shared, self.sink, scoped=self.scoped)
 
     def _references(self, holder: Model | World) -> References:
-        references = References(holder, self.notes, one_scope=self.frames)
+        references = References(holder, self.sink, one_scope=self.frames)
         references.verify()
         return references
 
     def _resolve(self, holder: Model | World, before: int) -> None:
         """Report frames that go round in a circle, where all names lead somewhere, and what they resolve to."""
-        if any(each.is_error for each in self.notes.diagnostics[before:]):
+        if any(each.is_error for each in self.sink.diagnostics[before:]):
             return
         seen: set[str] = set()
         try:
@@ -168,7 +168,7 @@ class _Verifier:
         for problem in problems:
             # a name that leads nowhere is in an include, or was reported where it stands
             if problem.rule is frame_rules.FRAME_CYCLE and problem.found not in seen:
-                problem.report(self.notes)
+                problem.report(self.sink)
                 seen.add(problem.found)
         if graph is not None and not problems:
             self._ends(holder, graph)
@@ -178,7 +178,7 @@ class _Verifier:
     def _ends_inside(self, model: Model, graph: FrameGraph, scope: str) -> None:
         """Nested models too; libsdformat does not look there, so it is no error until a format cannot say it."""
         scope = f"{scope}{model.name}::"
-        self._ends(model, graph, scope, None if self.notes.strict else Severity.WARNING)
+        self._ends(model, graph, scope, None if self.sink.strict else Severity.WARNING)
         for nested in model.models:
             self._ends_inside(nested, graph, scope)
 
@@ -196,7 +196,7 @@ class _Verifier:
             body = graph.body(scope + parent)
             if body == graph.body(scope + child) and (body.removeprefix(scope) in links or "::" in body):
                 message = f"joint {joint.name!r} connects {body!r} to itself: {parent!r} and {child!r} are both on it"
-                self.notes.report(rules.SELF_JOINT, message, joint.location, found=body, severity=severity)
+                self.sink.report(rules.SELF_JOINT, message, joint.location, found=body, severity=severity)
 
 
 def _names_frames(world: World) -> bool:

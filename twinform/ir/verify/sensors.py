@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 
-from twinform.diagnostics import Notes, did_you_mean
+from twinform.diagnostics import DiagnosticSink, did_you_mean
 from twinform.diagnostics.rules import bodies as rules
 from twinform.ir.element import Opaque
 from twinform.ir.link import Link
@@ -14,25 +14,25 @@ _DEFAULT = "__default__"
 """What SDF takes for the name of a collision that is not written."""
 
 
-def verify_sensors(link: Link, model: Model, notes: Notes) -> None:
+def verify_sensors(link: Link, model: Model, sink: DiagnosticSink) -> None:
     """Report sensors of a link that are not what they say."""
     for sensor in link.sensors:
-        _verify_content(sensor, notes)
+        _verify_content(sensor, sink)
         if sensor.type == "force_torque":
             message = f"sensor {sensor.name!r} measures the force in a joint, and is on link {link.name!r}"
-            notes.report(rules.MISPLACED_SENSOR, message, sensor.location, found="force_torque")
+            sink.report(rules.MISPLACED_SENSOR, message, sensor.location, found="force_torque")
         if sensor.type == "contact":
-            _verify_contact(sensor, model, notes)
+            _verify_contact(sensor, model, sink)
 
 
-def verify_joint_sensors(model: Model, notes: Notes) -> None:
+def verify_joint_sensors(model: Model, sink: DiagnosticSink) -> None:
     """The same for the sensors of joints."""
     for joint in model.joints:
         for sensor in joint.sensors:
-            _verify_content(sensor, notes)
+            _verify_content(sensor, sink)
 
 
-def _verify_content(sensor: Sensor, notes: Notes) -> None:
+def _verify_content(sensor: Sensor, sink: DiagnosticSink) -> None:
     allowed = SENSOR_ELEMENTS.get(sensor.type or "")
     if allowed is None:
         return
@@ -41,10 +41,10 @@ def _verify_content(sensor: Sensor, notes: Notes) -> None:
         if name in _PARAMETERS and name not in allowed:
             message = f"sensor {sensor.name!r} is of the type {sensor.type!r} and has <{name}>"
             expected = " or ".join(f"<{one}>" for one in sorted(allowed))
-            notes.report(rules.SENSOR_MISMATCH, message, part.location, found=f"<{name}>", expected=expected)
+            sink.report(rules.SENSOR_MISMATCH, message, part.location, found=f"<{name}>", expected=expected)
 
 
-def _verify_contact(sensor: Sensor, model: Model, notes: Notes) -> None:
+def _verify_contact(sensor: Sensor, model: Model, sink: DiagnosticSink) -> None:
     known: set[str] | None = None
     for part, step, name in _texts(sensor.opaque, "contact", "collision"):
         if known is None:
@@ -52,17 +52,17 @@ def _verify_contact(sensor: Sensor, model: Model, notes: Notes) -> None:
         if name.rpartition("::")[2] not in known and name != _DEFAULT and not _has_includes(model):
             message = f"contact sensor {sensor.name!r} looks at the collision {name!r}, which does not exist"
             hint = did_you_mean(name.rpartition("::")[2], known)
-            notes.report(rules.UNKNOWN_COLLISION, message, part.location.at(step), found=name, help=hint)
+            sink.report(rules.UNKNOWN_COLLISION, message, part.location.at(step), found=name, help=hint)
 
 
-def verify_grippers(model: Model, is_link: Callable[[str], bool], notes: Notes) -> None:
+def verify_grippers(model: Model, is_link: Callable[[str], bool], sink: DiagnosticSink) -> None:
     """Report grippers whose links do not exist."""
     for word in ("gripper_link", "palm_link"):
         for part, step, name in _texts(model.opaque, "gripper", word):
             if not is_link(name):
                 message = f"<{word}> of a gripper names {name!r}, which is no link of model {model.name!r}"
                 hint = did_you_mean(name, (link.name for link in model.links))
-                notes.report(rules.UNKNOWN_GRIPPER_LINK, message, part.location.at(step), found=name, help=hint)
+                sink.report(rules.UNKNOWN_GRIPPER_LINK, message, part.location.at(step), found=name, help=hint)
 
 
 def _texts(parts: tuple[Opaque, ...], outer: str, inner: str) -> Iterator[tuple[Opaque, str, str]]:

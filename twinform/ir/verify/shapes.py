@@ -1,6 +1,6 @@
 """Visuals and collisions: whether there is a shape, and whether one can see or touch it."""
 
-from twinform.diagnostics import Location, Notes
+from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import bodies as rules
 from twinform.ir.geometry import Geometry, Plane
 from twinform.ir.link import Link
@@ -16,24 +16,24 @@ _SIZES = {
 }
 
 
-def verify_shapes(link: Link, notes: Notes, *, geometry_is_required: bool) -> None:
+def verify_shapes(link: Link, sink: DiagnosticSink, *, geometry_is_required: bool) -> None:
     """Report shapes that are missing or without extent.
 
     Where the schema requires `<geometry>`, its absence is reported already.
     """
     for shape in link.visuals:
-        _verify_shape("visual", shape, link, notes, required=geometry_is_required)
+        _verify_shape("visual", shape, link, sink, required=geometry_is_required)
     for shape in link.collisions:
-        _verify_shape("collision", shape, link, notes, required=geometry_is_required)
+        _verify_shape("collision", shape, link, sink, required=geometry_is_required)
 
 
-def _verify_shape(kind: str, shape: Visual | Collision, link: Link, notes: Notes, *, required: bool) -> None:
+def _verify_shape(kind: str, shape: Visual | Collision, link: Link, sink: DiagnosticSink, *, required: bool) -> None:
     geometry = shape.geometry
     if geometry is not None and geometry.shape is not None:
-        _verify_sizes(geometry, kind, link, notes)
+        _verify_sizes(geometry, kind, link, sink)
     elif _says_nothing(shape, required=required):
         message = f"a {kind} of link {link.name!r} has no shape"
-        notes.report(rules.MISSING_SHAPE, message, shape.location, expected="<geometry> with a shape in it")
+        sink.report(rules.MISSING_SHAPE, message, shape.location, expected="<geometry> with a shape in it")
 
 
 def _says_nothing(shape: Visual | Collision, *, required: bool) -> bool:
@@ -44,21 +44,21 @@ def _says_nothing(shape: Visual | Collision, *, required: bool) -> bool:
     return not empty[0].children if empty else not required
 
 
-def _verify_sizes(geometry: Geometry, kind: str, link: Link, notes: Notes) -> None:
+def _verify_sizes(geometry: Geometry, kind: str, link: Link, sink: DiagnosticSink) -> None:
     shape = geometry.shape
     if shape is None:
         return
     values = shape.__dict__
     if isinstance(shape, Plane):
         if shape.normal is not None and not any(shape.normal):
-            _flat(f"the normal of a plane of link {link.name!r} has length zero", shape.location, notes)
+            _flat(f"the normal of a plane of link {link.name!r} has length zero", shape.location, sink)
         return
     for name in _SIZES.get(shape.kind, ()):
         value = values[name]
         if value is not None and (0.0 in value if isinstance(value, tuple) else value == 0.0):
             message = f"the {name} of a {kind} of link {link.name!r}, a {shape.kind}, is zero"
-            _flat(message, shape.location, notes)
+            _flat(message, shape.location, sink)
 
 
-def _flat(message: str, where: Location, notes: Notes) -> None:
-    notes.report(rules.ZERO_SIZE, message, where, found="0")
+def _flat(message: str, where: Location, sink: DiagnosticSink) -> None:
+    sink.report(rules.ZERO_SIZE, message, where, found="0")

@@ -2,12 +2,12 @@
 
 from collections.abc import Iterable
 
-from twinform.diagnostics import Notes, Severity
+from twinform.diagnostics import DiagnosticSink, Severity
 from twinform.diagnostics.rules import model as rules
 from twinform.ir.joint import Joint
 
 
-def report_loops(joints: Iterable[Joint], notes: Notes, severity: Severity | None = None) -> dict[str, Joint]:
+def report_loops(joints: Iterable[Joint], sink: DiagnosticSink, severity: Severity | None = None) -> dict[str, Joint]:
     """Report second parents and circles; give the first joint of each child."""
     parents: dict[str, Joint] = {}
     for joint in joints:
@@ -17,10 +17,10 @@ def report_loops(joints: Iterable[Joint], notes: Notes, severity: Severity | Non
         if first is not joint:
             message = f"link {joint.child!r} is the child of joint {first.name!r} and of joint {joint.name!r}"
             related = (first.location,)
-            notes.report(rules.TWO_PARENTS, message, joint.location, related=related, severity=severity)
+            sink.report(rules.TWO_PARENTS, message, joint.location, related=related, severity=severity)
     for joint in _circles(parents):
         message = f"joint {joint.name!r} closes a circle of joints through link {joint.child!r}"
-        notes.report(rules.KINEMATIC_LOOP, message, joint.location, severity=severity)
+        sink.report(rules.KINEMATIC_LOOP, message, joint.location, severity=severity)
     return parents
 
 

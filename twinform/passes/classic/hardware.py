@@ -1,6 +1,6 @@
 """The hardware of `<ros2_control>` that simulators bring, under the name that it has now."""
 
-from twinform.diagnostics import Fate, Notes
+from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import classic as rules
 from twinform.ir import Document, Element, Format, Model, rewrite
 from twinform.passes.classic.element_edits import text_at, with_text
@@ -13,14 +13,14 @@ _OWN_NAMES = 6
 _PLUGIN = "hardware/plugin"
 
 
-def modern_hardware(document: Document, release: Release, notes: Notes) -> Document:
+def modern_hardware(document: Document, release: Release, sink: DiagnosticSink) -> Document:
     """The document with the simulator's hardware in `<ros2_control>` under the name for a release."""
     if release.sim <= _OWN_NAMES:
         return document
-    return rewrite(document, Model, lambda model: _in_model(model, document.format, notes))
+    return rewrite(document, Model, lambda model: _in_model(model, document.format, sink))
 
 
-def _in_model(model: Model, format_: Format, notes: Notes) -> Model:
+def _in_model(model: Model, format_: Format, sink: DiagnosticSink) -> Model:
     names, result = hardware_names(), model
     for part, system in list(elements(model, format_, "ros2_control")):
         old = text_at(system, _PLUGIN)
@@ -28,8 +28,8 @@ def _in_model(model: Model, format_: Format, notes: Notes) -> Model:
             continue
         where = place_of(part, model)
         message = f"the hardware of ros2_control {system.get('name')!r} is {names[old]} now, and was {old}"
-        notes.report(rules.MIGRATED_PLUGIN, message, where, found=old)
-        notes.account(Fate.APPROXIMATED, rules.MIGRATED_PLUGIN, message, where.at("hardware/plugin"))
+        sink.report(rules.MIGRATED_PLUGIN, message, where, found=old)
+        sink.account(Fate.APPROXIMATED, rules.MIGRATED_PLUGIN, message, where.at("hardware/plugin"))
         changed: Element = with_text(system, _PLUGIN, names[old])
         result = replace(result, (part,), as_parts([changed], format_), after=part)
     return result

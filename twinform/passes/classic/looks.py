@@ -1,12 +1,12 @@
 """The looks of Gazebo Classic in the words of gz-sim."""
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
-from twinform.passes.registry import find_pass, registered_passes
+from twinform.passes.framework.registry import find_pass, registered_passes
 
 _MATERIALS = "materials"
 
 
-def in_colours(document: Document, notes: Notes) -> Document:
+def in_colours(document: Document, sink: DiagnosticSink) -> Document:
     """The document with material scripts as colours, by the pass that knows them, where it is installed."""
-    return find_pass(_MATERIALS)().run(document, notes) if _MATERIALS in registered_passes() else document
+    return find_pass(_MATERIALS)().run(document, sink) if _MATERIALS in registered_passes() else document

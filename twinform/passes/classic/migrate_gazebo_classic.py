@@ -4,10 +4,9 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from twinform.diagnostics import Fate, Notes
+from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.ir import Document, Format, Model
-from twinform.passes.base import Pass
-from twinform.passes.classic.deeds import Deeds
+from twinform.passes.classic.deferred_edits import DeferredEdits
 from twinform.passes.classic.emptied import without_emptied
 from twinform.passes.classic.hardware import modern_hardware
 from twinform.passes.classic.looks import in_colours
@@ -17,11 +16,12 @@ from twinform.passes.classic.sensors import SensorMigration
 from twinform.passes.classic.worlds import complete_worlds, report_needs, report_unread, ship_models
 from twinform.passes.control.carried_elements import declare_carriers
 from twinform.passes.control.ros2_control_from_transmissions import Ros2ControlFromTransmissions
-from twinform.passes.legalise.sdf_versions import change_version, known_version
+from twinform.passes.framework.base import Pass
 from twinform.passes.plugins.catalogue import release
 from twinform.passes.plugins.check_plugins import ReleaseName
 from twinform.passes.plugins.parts import Release
 from twinform.passes.plugins.sites import map_plugins, map_sensors
+from twinform.passes.sdf_versions import change_version, known_version
 from twinform.schemas import parse_version
 
 _HARDWARE = "gz_ros2_control/GazeboSimSystem"
@@ -64,51 +64,51 @@ class MigrateGazeboClassic(Pass):
         default=None, min_length=1, description="The file with the controllers' parameters, for gz_ros2_control."
     )
 
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document for gz-sim."""
-        target, raising = release(self.release), scratch(notes)
+        target, raising = release(self.release), scratch(sink)
         raised = _raised(document, target, raising)
-        migrating = scratch(notes)
+        migrating = scratch(sink)
         changed = raised if raising.has_errors else self._migrated(raised, target, migrating)
         if raising.has_errors or changed is not raised:
-            accept(notes, raising)
-        accept(notes, migrating)
+            accept(sink, raising)
+        accept(sink, migrating)
         if changed is raised:
             return document
-        carried = any(entry.fate is Fate.CARRIED for entry in notes.entries)
+        carried = any(entry.fate is Fate.CARRIED for entry in sink.entries)
         return declare_carriers(changed) if carried else changed
 
-    def _migrated(self, document: Document, target: Release, notes: Notes) -> Document:
-        deeds = Deeds(document.format)
-        sensed = map_sensors(document, SensorMigration(target, notes))
+    def _migrated(self, document: Document, target: Release, sink: DiagnosticSink) -> Document:
+        deeds = DeferredEdits(document.format)
+        sensed = map_sensors(document, SensorMigration(target, sink))
         migration = PluginMigration(
             release=target,
             format=document.format,
-            notes=notes,
+            sink=sink,
             deeds=deeds,
             keep=self.keep,
             controllers=self.controllers,
-            control=lambda model: self._controlled(model, document.format, notes),
+            control=lambda model: self._controlled(model, document.format, sink),
         )
         done = deeds.run(without_emptied(sensed, map_plugins(sensed, migration)))
-        done = ship_models(modern_hardware(done, target, notes), notes)
-        done = in_colours(complete_worlds(done, target, notes), notes)
+        done = ship_models(modern_hardware(done, target, sink), sink)
+        done = in_colours(complete_worlds(done, target, sink), sink)
         if done is not document:
-            report_needs(done, target, notes)
-        report_unread(done, notes)
+            report_needs(done, target, sink)
+        report_unread(done, sink)
         return done
 
-    def _controlled(self, model: Model, format_: Format, notes: Notes) -> Model:
+    def _controlled(self, model: Model, format_: Format, sink: DiagnosticSink) -> Model:
         hardware = _HARDWARE_BEFORE if self.release == "fortress" else _HARDWARE
-        return Ros2ControlFromTransmissions(hardware=hardware).convert(model, format_, notes)
+        return Ros2ControlFromTransmissions(hardware=hardware).convert(model, format_, sink)
 
 
-def _raised(document: Document, target: Release, notes: Notes) -> Document:
+def _raised(document: Document, target: Release, sink: DiagnosticSink) -> Document:
     """An SDF document in the version that the release reads, where it is older."""
     if document.format is Format.URDF:
         return document
     if parse_version(known_version(document.version)) >= parse_version(target.sdf):
         return document
     for step in change_version(document.version, target.sdf):
-        document = step.run(document, notes)
+        document = step.run(document, sink)
     return document

@@ -3,13 +3,13 @@
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import classic as rules
 from twinform.ir import Axis, Format, Joint, Mimic, Model, Plugin
 from twinform.ir.defaults import multiplier
 from twinform.ir.element import Element
 from twinform.passes.classic.caveats import reasons_to_look
-from twinform.passes.classic.deeds import Deeds
+from twinform.passes.classic.deferred_edits import DeferredEdits
 from twinform.passes.classic.ignition import modern_plugin
 from twinform.passes.classic.link_pose import OtherQuantityError, offset_of
 from twinform.passes.classic.measuring import with_measures
@@ -34,15 +34,15 @@ class PluginMigration:
 
     release: Release
     format: Format
-    notes: Notes
-    deeds: Deeds
+    sink: DiagnosticSink
+    deeds: DeferredEdits
     keep: bool
     controllers: str | None
     control: Callable[[Model], Model]
 
     def __call__(self, plugin: Plugin, site: Site) -> Iterable[Plugin]:
         """The plugins that take the place of one."""
-        filename, report = plugin.filename or "", Report(self.notes, plugin, site)
+        filename, report = plugin.filename or "", Report(self.sink, plugin, site)
         migration = migration_of(filename, plugin.content)
         if migration is None:
             return self._of_no_table(plugin, site, report)
@@ -68,7 +68,7 @@ class PluginMigration:
             report.renamed(modern)
         elif site.scope != "gui" and not systems_of_file(plugin.filename or "") and _looks_built(plugin):
             message = f"{report.what} is neither of Gazebo Classic nor of gz-sim; it stays as it is"
-            self.notes.report(rules.UNKNOWN_PLUGIN, message, report.where, found=plugin.filename)
+            self.sink.report(rules.UNKNOWN_PLUGIN, message, report.where, found=plugin.filename)
         elif site.scope == "gui" and _looks_built(plugin):
             return self._without(plugin, report, "the GUI of gz-sim has plugins of its own")
         return (modern,)
@@ -120,11 +120,11 @@ class PluginMigration:
         if site.model is None or holder not in _names(site.model, make.on):
             return self._without(plugin, report, f"there is no {make.on} {holder!r} to put the sensor on")
         element = Element(name="sensor", attributes=(("name", plugin.name or make.type), ("type", make.type)))
-        trial = SensorMigration(self.release, scratch(self.notes))
+        trial = SensorMigration(self.release, scratch(self.sink))
         sensor = sensor_of(trial.move(plugin, migration, element, site))
         if sensor is None:
             return self._without(plugin, report, "a value in it is not of the type that sensors have")
-        accept(self.notes, trial.notes)
+        accept(self.sink, trial.sink)
         self.deeds.sensor(site, holder, sensor)
         return ()
 

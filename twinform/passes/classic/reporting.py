@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from twinform.diagnostics import Fate, Location, Notes
+from twinform.diagnostics import DiagnosticSink, Fate, Location
 from twinform.diagnostics.rules import classic as rules
 from twinform.ir import Element, Plugin
 from twinform.passes.classic.moving import Lost
@@ -11,23 +11,23 @@ from twinform.passes.plugins.elements import plugin_element
 from twinform.passes.plugins.sites import Site
 
 
-def scratch(notes: Notes) -> Notes:
+def scratch(sink: DiagnosticSink) -> DiagnosticSink:
     """Notes for something that may fail, to be accepted when it has not."""
-    return Notes(notes.file, notes.strict, origins=notes.origins)
+    return DiagnosticSink(sink.file, sink.strict, origins=sink.origins)
 
 
-def accept(notes: Notes, tried: Notes) -> None:
+def accept(sink: DiagnosticSink, tried: DiagnosticSink) -> None:
     """Take over what was noted."""
-    notes.diagnostics.extend(tried.diagnostics)
-    notes.entries.extend(tried.entries)
-    notes.has_errors = notes.has_errors or tried.has_errors
+    sink.diagnostics.extend(tried.diagnostics)
+    sink.entries.extend(tried.entries)
+    sink.has_errors = sink.has_errors or tried.has_errors
 
 
 @dataclass(frozen=True, slots=True)
 class Report:
     """Writes into the notes where a plugin stands."""
 
-    notes: Notes
+    sink: DiagnosticSink
     plugin: Plugin
     site: Site
 
@@ -53,43 +53,43 @@ class Report:
         self._account(f"{self.what} is not needed: {reason}", lost)
 
     def _account(self, message: str, lost: Iterable[Lost]) -> None:
-        self.notes.report(rules.MIGRATED_PLUGIN, message, self.where, found=self.plugin.filename)
+        self.sink.report(rules.MIGRATED_PLUGIN, message, self.where, found=self.plugin.filename)
         weight = plugin_element(self.plugin).weight
         for each in lost:
             weight -= each.parameter.weight
             self._lost(each)
-        self.notes.account(Fate.APPROXIMATED, rules.MIGRATED_PLUGIN, message, self.where, max(weight, 0))
+        self.sink.account(Fate.APPROXIMATED, rules.MIGRATED_PLUGIN, message, self.where, max(weight, 0))
 
     def without(self, reason: str, *, keeps: bool) -> None:
         """Say that nothing stands for it, and why."""
         end = "it stays" if keeps else "it is left out"
         message = f"{self.what} has no counterpart in gz-sim, so {end}: {reason}"
-        self.notes.report(rules.PLUGIN_WITHOUT_COUNTERPART, message, self.where, found=self.plugin.filename)
+        self.sink.report(rules.PLUGIN_WITHOUT_COUNTERPART, message, self.where, found=self.plugin.filename)
         if not keeps:
             weight = plugin_element(self.plugin).weight
-            self.notes.account(Fate.DROPPED, rules.PLUGIN_WITHOUT_COUNTERPART, message, self.where, weight)
+            self.sink.account(Fate.DROPPED, rules.PLUGIN_WITHOUT_COUNTERPART, message, self.where, weight)
 
     def renamed(self, modern: Plugin) -> None:
         """Say what it is called now."""
         message = f"{self.what} is called {modern.filename} now"
         if modern.filename == self.plugin.filename:
             message = f"{self.what} says its parameters in the names of now"
-        self.notes.report(rules.IGNITION_NAME, message, self.where, found=self.plugin.filename)
+        self.sink.report(rules.IGNITION_NAME, message, self.where, found=self.plugin.filename)
         weight = plugin_element(self.plugin).weight
-        self.notes.account(Fate.APPROXIMATED, rules.IGNITION_NAME, message, self.where, weight)
+        self.sink.account(Fate.APPROXIMATED, rules.IGNITION_NAME, message, self.where, weight)
 
     def missing(self, what: str) -> None:
         """Say what the author has to write beside it."""
         message = f"{self.what} was migrated, but {what}"
-        self.notes.report(rules.INCOMPLETE_MIGRATION, message, self.where, found=self.plugin.filename)
+        self.sink.report(rules.INCOMPLETE_MIGRATION, message, self.where, found=self.plugin.filename)
 
     def _lost(self, lost: Lost) -> None:
         parameter, where = lost.parameter, self._place(lost.parameter)
         message = f"<{parameter.name}> of {self.what} has no counterpart: {lost.reason}"
         if not lost.harmless:
             found = parameter.text
-            self.notes.report(rules.PARAMETER_WITHOUT_COUNTERPART, message, where, found=found)
-        self.notes.account(Fate.DROPPED, rules.PARAMETER_WITHOUT_COUNTERPART, message, where, parameter.weight)
+            self.sink.report(rules.PARAMETER_WITHOUT_COUNTERPART, message, where, found=found)
+        self.sink.account(Fate.DROPPED, rules.PARAMETER_WITHOUT_COUNTERPART, message, where, parameter.weight)
 
     def _place(self, parameter: Element) -> Location:
         return parameter.location if parameter.source else self.where

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
 
-from twinform.diagnostics import Fate, Location, Notes
+from twinform.diagnostics import DiagnosticSink, Fate, Location
 from twinform.diagnostics.rules import classic as rules
 from twinform.ir import Element, Plugin, Sensor
 from twinform.ir.sensor import RENAMED_ELEMENTS
@@ -32,7 +32,7 @@ class SensorMigration:
     """Migrates the sensors of a document for one release."""
 
     release: Release
-    notes: Notes
+    sink: DiagnosticSink
 
     def __call__(self, sensor: Sensor, site: Site) -> Iterable[Sensor]:
         """The sensors that take the place of one."""
@@ -49,7 +49,7 @@ class SensorMigration:
     def _changed(self, sensor: Sensor, site: Site, found: list[tuple[Plugin, Migration]]) -> Sensor:
         type_ = self._type(sensor, found)
         element = with_frame(_bare(sensor, type_), self.release)
-        trial = SensorMigration(self.release, scratch(self.notes))
+        trial = SensorMigration(self.release, scratch(self.sink))
         for plugin, migration in found:
             element = trial.move(plugin, migration, element, Site("sensor", sensor.name or "", sensor=sensor))
         trial.say_type(sensor, type_, site)
@@ -58,7 +58,7 @@ class SensorMigration:
         made = _unless_same(sensor, complete_lens(element), rest)
         if made is None:
             return sensor
-        accept(self.notes, trial.notes)
+        accept(self.sink, trial.sink)
         return made
 
     def _type(self, sensor: Sensor, found: list[tuple[Plugin, Migration]]) -> str:
@@ -84,7 +84,7 @@ class SensorMigration:
                 element = with_text(element, path, topic)
         taken = moved.moved | set(migration.make.of if migration.make else ())
         lost: list[Lost] = [*moved.lost, *unused(plugin, taken, names)]
-        report = Report(self.notes, plugin, site)
+        report = Report(self.sink, plugin, site)
         if migration.nothing is not None:
             report.needless(migration.nothing, lost)
         else:
@@ -102,14 +102,14 @@ class SensorMigration:
             reason = f"gz-sim of {self.release.name} has none of its type"
         if reason is not None:
             message = f"sensor {sensor.name!r} on {site.holder!r} is {type_}, and measures nothing: {reason}"
-            self.notes.report(rules.SENSOR_WITHOUT_COUNTERPART, message, where, found=type_)
+            self.sink.report(rules.SENSOR_WITHOUT_COUNTERPART, message, where, found=type_)
         if type_ != sensor.type:
             message = f"sensor {sensor.name!r} on {site.holder!r} was {sensor.type} and is {type_}"
             self._account_type(message, where, sensor.type)
 
     def _account_type(self, message: str, where: Location, found: str | None) -> None:
-        self.notes.report(rules.MIGRATED_SENSOR, message, where, found=found)
-        self.notes.account(Fate.APPROXIMATED, rules.MIGRATED_SENSOR, message, where.at("@type"))
+        self.sink.report(rules.MIGRATED_SENSOR, message, where, found=found)
+        self.sink.account(Fate.APPROXIMATED, rules.MIGRATED_SENSOR, message, where.at("@type"))
 
     def _split(self, sensor: Sensor, site: Site, found: list[tuple[Plugin, Migration]]) -> Iterator[Sensor]:
         """One sensor for each camera of several."""
@@ -118,7 +118,7 @@ class SensorMigration:
         shared = tuple(child for child in whole.children if child.name != "camera")
         gone = {id(plugin) for plugin, _ in found}
         rest = tuple(plugin for plugin in sensor.plugins if id(plugin) not in gone)
-        quiet = SensorMigration(self.release, Notes())
+        quiet = SensorMigration(self.release, DiagnosticSink())
         for number, camera in enumerate(cameras):
             name = f"{sensor.name}_{camera.get('name') or number}"
             element = _one_camera(whole, name, camera, shared)
@@ -132,10 +132,10 @@ class SensorMigration:
         message = f"sensor {sensor.name!r} on {site.holder!r} was {_MANY} and is {len(cameras)} cameras"
         self._account_type(message, sensor.location, sensor.type)
         where = sensor.location
-        self.notes.account(Fate.APPROXIMATED, rules.MIGRATED_SENSOR, message, where.at("@name"))
+        self.sink.account(Fate.APPROXIMATED, rules.MIGRATED_SENSOR, message, where.at("@name"))
         for part in sensor.opaque:
             if part.element is not None and part.element.name == "camera" and not part.at:
-                self.notes.account(Fate.APPROXIMATED, rules.MIGRATED_SENSOR, message, part.location.at("@name"))
+                self.sink.account(Fate.APPROXIMATED, rules.MIGRATED_SENSOR, message, part.location.at("@name"))
 
 
 def with_frame(element: Element, release: Release) -> Element:

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 
-from twinform.diagnostics import Fate, Location, Notes
+from twinform.diagnostics import DiagnosticSink, Fate, Location
 from twinform.diagnostics.rules import classic as rules
 from twinform.diagnostics.rules import plugins as plugin_rules
 from twinform.ir import Document, Format, Include, World, rewrite
@@ -23,7 +23,7 @@ from twinform.passes.plugins.worlds import (
 )
 
 
-def ship_models(document: Document, notes: Notes) -> Document:
+def ship_models(document: Document, sink: DiagnosticSink) -> Document:
     """The document with models that came with Gazebo Classic included from Fuel."""
     models = unread_parts()["models"]
 
@@ -33,20 +33,20 @@ def ship_models(document: Document, notes: Notes) -> Document:
         if new is None:
             return include
         message = f"{old} came with Gazebo Classic; it is {new} now"
-        notes.report(rules.SHIPPED_MODEL, message, include.location, found=old)
-        notes.account(Fate.APPROXIMATED, rules.SHIPPED_MODEL, message, include.location)
+        sink.report(rules.SHIPPED_MODEL, message, include.location, found=old)
+        sink.account(Fate.APPROXIMATED, rules.SHIPPED_MODEL, message, include.location)
         return include.model_copy(update={"uri": new})
 
     return rewrite(document, Include, change)
 
 
-def complete_worlds(document: Document, release: Release, notes: Notes) -> Document:
+def complete_worlds(document: Document, release: Release, sink: DiagnosticSink) -> Document:
     """The document with the systems that its worlds need: those of sensors, and all defaults once one is written."""
-    worlds = tuple(_complete(world, release, notes) for world in document.worlds)
+    worlds = tuple(_complete(world, release, sink) for world in document.worlds)
     return document if worlds == document.worlds else document.model_copy(update={"worlds": worlds})
 
 
-def report_needs(document: Document, release: Release, notes: Notes) -> None:
+def report_needs(document: Document, release: Release, sink: DiagnosticSink) -> None:
     """Say which systems the world needs that the models of a document without one will stand in."""
     sensors, noted = sensors_of(document), set[str]()
     for sensor, site in sensors:
@@ -59,20 +59,20 @@ def report_needs(document: Document, release: Release, notes: Notes) -> None:
                 where = sensor.location if sensor.source or site.model is None else site.model.location
                 message = f"sensor {sensor.name!r} needs {needed.class_name} in the world"
                 help_ = f"the world needs {as_xml(needed)}"
-                notes.report(plugin_rules.WORLD_SYSTEM_NEEDED, message, where, help=help_)
+                sink.report(plugin_rules.WORLD_SYSTEM_NEEDED, message, where, help=help_)
 
 
-def report_unread(document: Document, notes: Notes) -> None:
+def report_unread(document: Document, sink: DiagnosticSink) -> None:
     """Say which parts of worlds gz-sim does not read."""
     parts = unread_parts()
     for world in document.worlds:
         for part in world.opaque:
             if part.element is not None and not part.at:
                 for element, reason in _unread(part.element, parts["world"], parts["world-inside"]):
-                    _say_unread(world, part, element, reason, notes)
+                    _say_unread(world, part, element, reason, sink)
 
 
-def _complete(world: World, release: Release, notes: Notes) -> World:
+def _complete(world: World, release: Release, sink: DiagnosticSink) -> World:
     kinds = _kinds(world, release)
     needed = [kind for each in kinds for kind in needed_for(each).systems]
     needed += needed_by_plugins(Document(format=Format.SDF, worlds=(world,)), world, release.name)
@@ -83,10 +83,10 @@ def _complete(world: World, release: Release, notes: Notes) -> World:
     if missing:
         listed = ", ".join(kind.class_name for kind in missing)
         message = f"world {world.name!r} got the systems that it needs: {listed}"
-        notes.report(plugin_rules.ADDED_WORLD_SYSTEM, message, world.location)
+        sink.report(plugin_rules.ADDED_WORLD_SYSTEM, message, world.location)
     for name in sorted({name for kind in kinds for name in needed_for(kind).elements if not has_element(world, name)}):
         message = f"world {world.name!r} has no <{name}>, without which a sensor in it measures nothing"
-        notes.report(rules.INCOMPLETE_MIGRATION, message, world.location, expected=f"<{name}>")
+        sink.report(rules.INCOMPLETE_MIGRATION, message, world.location, expected=f"<{name}>")
     return world
 
 
@@ -109,7 +109,7 @@ def _unread(element: Element, whole: Mapping[str, str], inside: Mapping[str, str
         stack += [(child, f"{path}/{child.name}") for child in reversed(here.children)]
 
 
-def _say_unread(world: World, part: Opaque, element: Element, reason: str, notes: Notes) -> None:
+def _say_unread(world: World, part: Opaque, element: Element, reason: str, sink: DiagnosticSink) -> None:
     where: Location = element.location if element.source else part.location if part.source else world.location
     message = f"<{element.name}> of world {world.name!r} is not read by gz-sim: {reason}"
-    notes.report(rules.UNREAD_WORLD_PART, message, where, found=element.name)
+    sink.report(rules.UNREAD_WORLD_PART, message, where, found=element.name)

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 
 from twinform.diagnostics import Location
 from twinform.ir import Document, Element, Format, Model, Opaque
-from twinform.passes.legalise.carrier import NAMESPACE, PREFIX, is_carrier, pack, unpack
+from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, is_carrier, pack, unpack
 
 
 def element_of(part: Opaque, format_: Format) -> Element | None:

@@ -6,14 +6,14 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from twinform.diagnostics import Fate, Location, Notes
+from twinform.diagnostics import DiagnosticSink, Fate, Location
 from twinform.diagnostics.rules import control as rules
 from twinform.ir import Document, Element, Format, Joint, Model, Opaque, rewrite
-from twinform.passes.base import Pass
 from twinform.passes.control.carried_elements import as_parts, declare_carriers, elements, place_of, replace
 from twinform.passes.control.interfaces import PLUGINS, STATES, commands_of
 from twinform.passes.control.transmission import Transmission, new_transmission, read_transmission
-from twinform.passes.legalise.nodes import unique_name
+from twinform.passes.framework.base import Pass
+from twinform.passes.transforms.nodes import unique_name
 
 _UNMOVABLE = frozenset({"fixed", "floating", "planar"})
 
@@ -51,15 +51,15 @@ class Ros2ControlFromTransmissions(Pass):
     )
     keep: bool = Field(default=False, description="Whether the transmissions stay as well, for programs of ROS 1.")
 
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document with systems in place of transmissions."""
-        changed = rewrite(document, Model, lambda model: self.convert(model, document.format, notes))
+        changed = rewrite(document, Model, lambda model: self.convert(model, document.format, sink))
         return document if changed is document else declare_carriers(changed)
 
-    def convert(self, model: Model, format_: Format, notes: Notes) -> Model:
+    def convert(self, model: Model, format_: Format, sink: DiagnosticSink) -> Model:
         """One model with a system in place of its transmissions."""
         found = [(part, read_transmission(element)) for part, element in elements(model, format_, "transmission")]
-        work = _Work(model, format_, notes)
+        work = _Work(model, format_, sink)
         taken = [(part, each) for part, each in found if work.takes(part, each)]
         if not taken:
             return model
@@ -88,7 +88,7 @@ class _Work:
 
     model: Model
     format: Format
-    notes: Notes
+    sink: DiagnosticSink
     known: dict[str, Joint] = field(init=False)
     controlled: dict[str, str] = field(init=False)
 
@@ -107,7 +107,7 @@ class _Work:
         reason = self._obstacle(transmission)
         if reason:
             message = f"transmission {transmission.name!r} stays as it is: {reason}"
-            self.notes.report(rules.UNCONVERTED_TRANSMISSION, message, self._place(part), found=transmission.name)
+            self.sink.report(rules.UNCONVERTED_TRANSMISSION, message, self._place(part), found=transmission.name)
         return not reason
 
     def joints(self, taken: Iterable[tuple[Opaque, Transmission]]) -> list[Element]:
@@ -124,19 +124,19 @@ class _Work:
         """Say what became of one transmission."""
         where, name = self._place(part), transmission.name
         message = f"transmission {name!r} became a part of a ros2_control system"
-        self.notes.report(rules.CONVERTED_TRANSMISSION, message, where, found=name)
+        self.sink.report(rules.CONVERTED_TRANSMISSION, message, where, found=name)
         if transmission.type not in PLUGINS:
             kind = f"{transmission.type!r}" if transmission.type else "no type"
             message = f"transmission {name!r} is of {kind}, which ros2_control does not bring; its name stays"
-            self.notes.report(rules.FOREIGN_TRANSMISSION, message, where, found=transmission.type or None)
+            self.sink.report(rules.FOREIGN_TRANSMISSION, message, where, found=transmission.type or None)
         if transmission.foreign:
             names = ", ".join(dict.fromkeys(_bare(each) for each in transmission.foreign))
             message = f"transmission {name!r} stays beside the system: other programs read its {names}"
-            self.notes.report(rules.UNCONVERTED_TRANSMISSION, message, where, found=names)
+            self.sink.report(rules.UNCONVERTED_TRANSMISSION, message, where, found=names)
         if not stays:
             weight = part.weight if self.format is Format.URDF else part.weight - 1  # the carrier is not of the source
             message = f"transmission {name!r} is said in the words of ros2_control"
-            self.notes.account(Fate.APPROXIMATED, rules.CONVERTED_TRANSMISSION, message, where, weight)
+            self.sink.account(Fate.APPROXIMATED, rules.CONVERTED_TRANSMISSION, message, where, weight)
 
     def _obstacle(self, transmission: Transmission) -> str:
         if not transmission.joints:
@@ -155,11 +155,11 @@ class _Work:
         commands = commands_of(interface)
         if commands is None:
             message = f"joint {joint!r} has the interface {interface!r}, which ros2_control has no word for"
-            self.notes.report(rules.FOREIGN_HARDWARE_INTERFACE, message, self._place(part), found=interface)
+            self.sink.report(rules.FOREIGN_HARDWARE_INTERFACE, message, self._place(part), found=interface)
             return ()
         if commands and self._mimics(joint):
             message = f"joint {joint!r} mimics another, so ros2_control takes no commands for it"
-            self.notes.report(rules.FOREIGN_HARDWARE_INTERFACE, message, self._place(part), found=interface)
+            self.sink.report(rules.FOREIGN_HARDWARE_INTERFACE, message, self._place(part), found=interface)
             return ()
         return commands
 

@@ -6,14 +6,14 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from twinform.diagnostics import Fate, Notes
+from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import control as rules
 from twinform.ir import Document, Element, Format, Model, Opaque, rewrite
-from twinform.passes.base import Pass
 from twinform.passes.control.carried_elements import as_parts, declare_carriers, elements, place_of, replace
 from twinform.passes.control.interfaces import CLASSES, PLUGINS, SIMPLE, STATE_CLASS
 from twinform.passes.control.transmission import End, Transmission, old_transmission, read_transmission
-from twinform.passes.legalise.nodes import unique_name
+from twinform.passes.framework.base import Pass
+from twinform.passes.transforms.nodes import unique_name
 
 _SAID = frozenset({"hardware", "joint", "transmission"})
 
@@ -42,12 +42,12 @@ class TransmissionsFromRos2Control(Pass):
 
     keep: bool = Field(default=False, description="Whether `<ros2_control>` stays as well, for programs of ROS 2.")
 
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document with transmissions in place of systems."""
-        made = rewrite(document, Model, lambda model: self.convert(model, document.format, notes))
+        made = rewrite(document, Model, lambda model: self.convert(model, document.format, sink))
         return document if made is document else declare_carriers(made)
 
-    def convert(self, model: Model, format_: Format, notes: Notes) -> Model:
+    def convert(self, model: Model, format_: Format, sink: DiagnosticSink) -> Model:
         """One model with transmissions in place of its systems."""
         there = [element for _, element in elements(model, format_, "transmission")]
         names = {element.get("name") or "" for element in there}
@@ -55,13 +55,13 @@ class TransmissionsFromRos2Control(Pass):
         result = model
         for part, system in list(elements(model, format_, "ros2_control")):
             if not any(child.name == "joint" for child in system.children):
-                _report_unsayable(model, part, system, notes, stays=True)
+                _report_unsayable(model, part, system, sink, stays=True)
                 continue
             missing = [
                 each for each in _transmissions(system) if not driven.issuperset(end.name for end in each.joints)
             ]
             made = list(_named(missing, names))
-            _report(model, part, system, made, notes, stays=self.keep)
+            _report(model, part, system, made, sink, stays=self.keep)
             rest = () if self.keep else _rest(system)
             new = as_parts([*map(old_transmission, made), *rest], format_)
             result = replace(result, () if self.keep else (part,), new, after=part)
@@ -103,30 +103,30 @@ def _rest(system: Element) -> tuple[Element, ...]:
 
 
 def _report(
-    model: Model, part: Opaque, system: Element, made: list[Transmission], notes: Notes, *, stays: bool
+    model: Model, part: Opaque, system: Element, made: list[Transmission], sink: DiagnosticSink, *, stays: bool
 ) -> None:
     where, name = place_of(part, model), system.get("name")
     message = f"the joints of ros2_control {name!r} are in {len(made)} transmissions"
-    notes.report(rules.CONVERTED_ROS2_CONTROL, message, where, found=name)
+    sink.report(rules.CONVERTED_ROS2_CONTROL, message, where, found=name)
     for each in made:
         if each.type not in PLUGINS:
             message = (
                 f"transmission {each.name!r} is of {each.type!r}, which ros_control does not bring; its name stays"
             )
-            notes.report(rules.FOREIGN_TRANSMISSION, message, where, found=each.type)
+            sink.report(rules.FOREIGN_TRANSMISSION, message, where, found=each.type)
     if not stays:
-        notes.account(Fate.APPROXIMATED, rules.CONVERTED_ROS2_CONTROL, message, where, system.weight)
-    _report_unsayable(model, part, system, notes, stays=stays)
+        sink.account(Fate.APPROXIMATED, rules.CONVERTED_ROS2_CONTROL, message, where, system.weight)
+    _report_unsayable(model, part, system, sink, stays=stays)
 
 
-def _report_unsayable(model: Model, part: Opaque, system: Element, notes: Notes, *, stays: bool) -> None:
+def _report_unsayable(model: Model, part: Opaque, system: Element, sink: DiagnosticSink, *, stays: bool) -> None:
     where = place_of(part, model)
     for what, lost in _unsayable(system):
         end = " and is left out" if lost and not stays else ", so it stays as it is" if not lost else ""
         message = f"{what} of ros2_control {system.get('name')!r} has no word in ROS 1{end}"
-        notes.report(rules.UNSAYABLE_IN_TRANSMISSIONS, message, where, found=what)
+        sink.report(rules.UNSAYABLE_IN_TRANSMISSIONS, message, where, found=what)
         if lost and not stays:
-            notes.account(Fate.DROPPED, rules.UNSAYABLE_IN_TRANSMISSIONS, message, where, 0)
+            sink.account(Fate.DROPPED, rules.UNSAYABLE_IN_TRANSMISSIONS, message, where, 0)
 
 
 def _unsayable(system: Element) -> Iterator[tuple[str, bool]]:

@@ -7,14 +7,14 @@ from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Frame, Joint, Pose, World, rewrite
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
 
 _INSIDE = "::"
 
 
-def detach(world: World, bases: Mapping[str, str], notes: Notes) -> World:
+def detach(world: World, bases: Mapping[str, str], sink: DiagnosticSink) -> World:
     """The world with poses, frames and joints that name none of these models' frames but the one that each keeps.
 
     `bases` has it by the name of the model: the model itself, or, where its own frame is elsewhere in the other format,
@@ -23,7 +23,7 @@ def detach(world: World, bases: Mapping[str, str], notes: Notes) -> World:
     try:
         return _Detached(FrameGraph(world), bases).world(world)
     except FrameError as error:
-        error.report(notes)
+        error.report(sink)
         return world
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from itertools import chain
 from typing import TypeVar
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import includes as rules
 from twinform.ir import Document, Include, Model, World, replace_fields
 from twinform.ir.namespaces import joined
@@ -50,7 +50,7 @@ def _model_has_includes(model: Model) -> bool:
     return bool(model.includes) or any(map(_model_has_includes, model.models))
 
 
-def expand_includes(document: Document, resolve: Resolver, notes: Notes, *, carriers: bool = True) -> Document:
+def expand_includes(document: Document, resolve: Resolver, sink: DiagnosticSink, *, carriers: bool = True) -> Document:
     """The document with what its includes name in their place.
 
     Files of different versions come together in the newest of them: older ones are said in its words, and what it lacks
@@ -58,9 +58,9 @@ def expand_includes(document: Document, resolve: Resolver, notes: Notes, *, carr
     """
     found = [resolve(include) for include in _includes(document)]
     version = newest(document.version, *(each.document.version for each in found if each), *_needs(document))
-    document = upgrade_document(document, version, notes, carriers=carriers)
+    document = upgrade_document(document, version, sink, carriers=carriers)
     by_identity = {id(include): each for include, each in zip(_includes(document), found, strict=True)}
-    document = _Expansion(by_identity, version, notes, carriers).document(document)
+    document = _Expansion(by_identity, version, sink, carriers).document(document)
     namespaces = joined(document.namespaces, (each.document.namespaces for each in found if each))
     return document.model_copy(update={"namespaces": namespaces})
 
@@ -98,7 +98,7 @@ class _Expansion:
 
     found: dict[int, Included | None]
     version: str | None
-    notes: Notes
+    sink: DiagnosticSink
     carriers: bool
     ready: dict[int, Document] = field(default_factory=dict[int, Document])
 
@@ -118,7 +118,7 @@ class _Expansion:
         for include, source in self._split(world.includes):
             if include.merge:
                 model = self._model(include, source)
-                world = merge_into_world(world, include, model, self.notes, source.frame) if model else world
+                world = merge_into_world(world, include, model, self.sink, source.frame) if model else world
                 continue
             world = self._beside(world, include, source)
         return world.model_copy(update={"includes": self._kept(world.includes)})
@@ -130,9 +130,9 @@ class _Expansion:
         for include, source in self._split(model.includes):
             included = self._model(include, source)
             if included is not None and include.merge:
-                model = merge_into_model(model, include, included, self.notes, source.frame)
+                model = merge_into_model(model, include, included, self.sink, source.frame)
             elif included is not None:
-                nested = placed_model(include, included, self.notes, source.frame)
+                nested = placed_model(include, included, self.sink, source.frame)
                 model = model.model_copy(update={"models": (*model.models, nested)})
         return model.model_copy(update={"includes": self._kept(model.includes)})
 
@@ -140,7 +140,7 @@ class _Expansion:
         for include in includes:
             source = self.found.get(id(include))
             if source is not None:
-                account_replaced(include, self.notes)
+                account_replaced(include, self.sink)
                 yield include, source
 
     def _kept(self, includes: Iterable[Include]) -> tuple[Include, ...]:
@@ -150,7 +150,7 @@ class _Expansion:
         """The document of an include in the words and with the paths of this one."""
         done = self.ready.get(id(source))
         if done is None:
-            done = upgrade_document(source.document, self.version, self.notes, carriers=self.carriers)
+            done = upgrade_document(source.document, self.version, self.sink, carriers=self.carriers)
             done = relocate(done, source.folder)
             self.ready[id(source)] = done
         return done
@@ -161,30 +161,30 @@ class _Expansion:
         lights = document.lights if not document.models else ()
         if lights:
             light = placed_light(include, lights[0])
-            report_leftovers(include, self.notes)
+            report_leftovers(include, self.sink)
             return holder.model_copy(update={"lights": (*holder.lights, light)})
         actor = None if document.models else placed_actor(include, document)
         if actor is not None:
-            report_leftovers(include, self.notes)
+            report_leftovers(include, self.sink)
             return holder.model_copy(update={"opaque": (*holder.opaque, actor)})
         model = self._model(include, source)
         if model is None:
             return holder
-        placed = placed_model(include, model, self.notes, source.frame)
+        placed = placed_model(include, model, self.sink, source.frame)
         return holder.model_copy(update={"models": (*holder.models, placed)})
 
     def _model(self, include: Include, source: Included) -> Model | None:
         models = self._ready(source).models
         if not models:
             message = f"{include.uri!r} has no model that could be included here"
-            self.notes.report(rules.INCLUDE_WITHOUT_MODEL, message, include.location, found=include.uri)
+            self.sink.report(rules.INCLUDE_WITHOUT_MODEL, message, include.location, found=include.uri)
             return None
         count = len(source.document.models)  # newer versions have one at most
         if count > 1:
             message = f"{include.uri!r} has {count} models; {models[0].name!r} is taken"
-            self.notes.report(rules.INCLUDE_TAKES_FIRST, message, include.location, found=include.uri)
+            self.sink.report(rules.INCLUDE_TAKES_FIRST, message, include.location, found=include.uri)
         return models[0]
 
     def _refuse_merge(self, include: Include, why: str) -> None:
         message = f"{include.uri!r} cannot be merged: {why}"
-        self.notes.report(rules.UNMERGEABLE_INCLUDE, message, include.location, found=include.uri)
+        self.sink.report(rules.UNMERGEABLE_INCLUDE, message, include.location, found=include.uri)

@@ -3,13 +3,13 @@
 from dataclasses import dataclass
 from typing import TypeVar
 
-from twinform.diagnostics import Fate, Notes
+from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import includes as rules
 from twinform.ir import IN_MODELS, Frame, Include, Link, Model, Node, Pose, ReferenceKind, World
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.includes.place import placed_model
-from twinform.passes.legalise.element_poses import map_frames
+from twinform.passes.transforms.element_poses import map_frames
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 Posed = TypeVar("Posed", Link, Model, Include)
@@ -18,27 +18,27 @@ Holder = TypeVar("Holder", Model, World)
 _SETTINGS = ("static", "self_collide", "allow_auto_disable", "enable_wind")
 
 
-def merge_into_model(holder: Model, include: Include, model: Model, notes: Notes, frame: Transform) -> Model:
+def merge_into_model(holder: Model, include: Include, model: Model, sink: DiagnosticSink, frame: Transform) -> Model:
     """The model with the contents of another; a frame stands for the other's own frame."""
-    return _merged(holder, include, placed_model(include, model, notes, frame), MODEL, notes)
+    return _merged(holder, include, placed_model(include, model, sink, frame), MODEL, sink)
 
 
-def merge_into_world(holder: World, include: Include, model: Model, notes: Notes, frame: Transform) -> World:
+def merge_into_world(holder: World, include: Include, model: Model, sink: DiagnosticSink, frame: Transform) -> World:
     """The world with the models, frames and joints of an included model, which must have no links of its own."""
     if model.links:
         message = f"{include.uri!r} cannot be merged into a world: it has links"
-        notes.report(rules.UNMERGEABLE_INCLUDE, message, include.location, found=include.uri)
+        sink.report(rules.UNMERGEABLE_INCLUDE, message, include.location, found=include.uri)
         return holder
-    return _merged(holder, include, placed_model(include, model, notes, frame), WORLD, notes)
+    return _merged(holder, include, placed_model(include, model, sink, frame), WORLD, sink)
 
 
-def _merged(holder: Holder, include: Include, model: Model, around: str, notes: Notes) -> Holder:
+def _merged(holder: Holder, include: Include, model: Model, around: str, sink: DiagnosticSink) -> Holder:
     """The holder with the contents of a model in its place; `around` is what its own frame is called."""
-    proxy = _proxy(model, around, notes)
+    proxy = _proxy(model, around, sink)
     if proxy is None:
         return holder
     into = _Contents(proxy.name)
-    _account_settings(model, notes)
+    _account_settings(model, sink)
     contents: dict[str, tuple[object, ...]] = {
         "links": tuple(map(into.posed, model.links)),
         "joints": tuple(map(into.inside, model.joints)),
@@ -53,7 +53,7 @@ def _merged(holder: Holder, include: Include, model: Model, around: str, notes: 
     )
 
 
-def _proxy(model: Model, around: str, notes: Notes) -> Frame | None:
+def _proxy(model: Model, around: str, sink: DiagnosticSink) -> Frame | None:
     """The frame that stands for the merged model's own: it moves with its canonical link and is where it was placed."""
     try:
         graph = FrameGraph(model)
@@ -62,7 +62,7 @@ def _proxy(model: Model, around: str, notes: Notes) -> Frame | None:
         if model.placement_frame:
             placed = placed.compose(graph.pose(model.placement_frame, MODEL, kind="frame", base="model").inverse())
     except FrameError as error:
-        error.report(notes)
+        error.report(sink)
         return None
     base = model.pose.relative_to if model.pose and model.pose.relative_to else around
     attached = None if body == MODEL else body
@@ -95,10 +95,10 @@ class _Contents:
         return self.proxy if name == MODEL and kind in IN_MODELS else name
 
 
-def _account_settings(model: Model, notes: Notes) -> None:
+def _account_settings(model: Model, sink: DiagnosticSink) -> None:
     """What the merged model says of itself as a whole counts no more."""
     said = [name for name in _SETTINGS if getattr(model, name) is not None]
     attributes = [part for part in model.opaque if part.element is None]
     for name in (*said, *(part.name for part in attributes)):
         message = f"{name} of the merged model {model.name!r} is left out; that of the model around it counts"
-        notes.account(Fate.DROPPED, rules.MERGED_AWAY, message, model.location.at(name))
+        sink.account(Fate.DROPPED, rules.MERGED_AWAY, message, model.location.at(name))

@@ -3,20 +3,20 @@
 from collections.abc import Iterator
 from contextlib import suppress
 
-from twinform.diagnostics import Fate, Notes
+from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import includes as rules
 from twinform.ir import Document, Element, Format, Include, Light, Model, Opaque, Pose
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.carrier import to_element
-from twinform.passes.legalise.marks import find_mark
-from twinform.passes.legalise.notation import OFFSET, read_offset
-from twinform.passes.legalise.provenance import came_from
+from twinform.passes.carriers.annotations import find_annotation
+from twinform.passes.carriers.carriers import to_element
+from twinform.passes.carriers.provenance import came_from
+from twinform.passes.transforms.notation import OFFSET, read_offset
 
 _PARAMETERS = "params"
 """The local name of `<experimental:params>`."""
 
 
-def placed_model(include: Include, model: Model, notes: Notes, frame: Transform) -> Model:
+def placed_model(include: Include, model: Model, sink: DiagnosticSink, frame: Transform) -> Model:
     """The included model where and as the include says; what the include does not say stays.
 
     `frame` is the frame of the model in the one that the include places.
@@ -24,14 +24,14 @@ def placed_model(include: Include, model: Model, notes: Notes, frame: Transform)
     placement = include.placement_frame or model.placement_frame
     if include.placement_frame is not None and include.pose is None:
         message = f"the include of {include.uri!r} has a placement_frame and no pose"
-        notes.report(rules.PLACEMENT_WITHOUT_POSE, message, include.location, found=include.placement_frame)
+        sink.report(rules.PLACEMENT_WITHOUT_POSE, message, include.location, found=include.placement_frame)
     update = {
         "name": include.name if include.name is not None else model.name,
         "pose": _pose(include, frame) if include.pose is not None else model.pose,
         "static": include.static if include.static is not None else model.static,
         "placement_frame": placement,
         "plugins": (*model.plugins, *include.plugins),
-        "opaque": (*model.opaque, *_additions(include, model, notes)),
+        "opaque": (*model.opaque, *_additions(include, model, sink)),
         "source": include.source,
     }
     return model.model_copy(update=update)
@@ -39,7 +39,7 @@ def placed_model(include: Include, model: Model, notes: Notes, frame: Transform)
 
 def frame_of_sdf(robot: Model) -> Transform:
     """The frame that a robot of URDF had in the SDF that it was converted from, in that of its root link."""
-    found = find_mark(robot, OFFSET) if came_from(robot, Format.SDF) else None
+    found = find_annotation(robot, OFFSET) if came_from(robot, Format.SDF) else None
     with suppress(ValueError):  # the conversion says what is wrong with it
         return read_offset(found) if found else Transform()
     return Transform()
@@ -79,7 +79,7 @@ def placed_actor(include: Include, document: Document) -> Opaque | None:
     return part.model_copy(update={"element": actor, "source": include.source})
 
 
-def _additions(include: Include, model: Model, notes: Notes) -> Iterator[Opaque]:
+def _additions(include: Include, model: Model, sink: DiagnosticSink) -> Iterator[Opaque]:
     """Parts of an include that are parts of a model too."""
     for part in include.opaque:
         name = part.element.name if part.element else ""
@@ -88,34 +88,34 @@ def _additions(include: Include, model: Model, notes: Notes) -> Iterator[Opaque]
         elif name == "model_state":
             yield part
         else:
-            _report_leftover(include, part, notes)
+            _report_leftover(include, part, sink)
 
 
 def _has_namespace(model: Model) -> bool:
     return any(part.attribute and part.attribute[0] == "namespace" for part in model.opaque)
 
 
-def account_replaced(include: Include, notes: Notes) -> None:
+def account_replaced(include: Include, sink: DiagnosticSink) -> None:
     """Say that the URI of an include went: what it names stands there now."""
     message = f"the include of {include.uri!r} is replaced by what it names"
-    notes.account(Fate.DROPPED, rules.INCLUDE_LEFTOVER, message, include.location.at("uri"))
+    sink.account(Fate.DROPPED, rules.INCLUDE_LEFTOVER, message, include.location.at("uri"))
 
 
-def report_leftovers(include: Include, notes: Notes) -> None:
+def report_leftovers(include: Include, sink: DiagnosticSink) -> None:
     """Say of all untyped parts of an include that they come to nothing."""
     for part in include.opaque:
-        _report_leftover(include, part, notes)
+        _report_leftover(include, part, sink)
 
 
-def _report_leftover(include: Include, part: Opaque, notes: Notes) -> None:
+def _report_leftover(include: Include, part: Opaque, sink: DiagnosticSink) -> None:
     where = include.location.at(_local_name(part.element)) if part.element else include.location
     if part.element is not None and _local_name(part.element) == _PARAMETERS:
         message = f"the parameters of the include of {include.uri!r} cannot be applied"
-        notes.report(rules.INCLUDE_PARAMETERS, message, where, found=_PARAMETERS)
+        sink.report(rules.INCLUDE_PARAMETERS, message, where, found=_PARAMETERS)
         return
     message = f"{part.name} of the include of {include.uri!r} is left out"
-    notes.report(rules.INCLUDE_LEFTOVER, message, where)
-    notes.account(Fate.DROPPED, rules.INCLUDE_LEFTOVER, message, where, part.weight)
+    sink.report(rules.INCLUDE_LEFTOVER, message, where)
+    sink.account(Fate.DROPPED, rules.INCLUDE_LEFTOVER, message, where, part.weight)
 
 
 def _local_name(element: Element) -> str:

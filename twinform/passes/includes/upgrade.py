@@ -1,6 +1,6 @@
 """Files of different versions of SDF become one file in the newest of them."""
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.schemas import parse_version, table
 
@@ -11,16 +11,16 @@ def newest(*versions: str | None) -> str | None:
     return max(known, key=parse_version, default=versions[0])
 
 
-def upgrade_document(document: Document, version: str | None, notes: Notes, *, carriers: bool) -> Document:
+def upgrade_document(document: Document, version: str | None, sink: DiagnosticSink, *, carriers: bool) -> Document:
     """The document in the words of a version that is not older than its own."""
     known = table("sdf").versions
     if document.version == version or document.version not in known or version not in known:
         return document
-    from twinform.passes.legalise.sdf_versions import raise_for_merging  # noqa: PLC0415 - few files need all the steps
+    from twinform.passes.sdf_versions import raise_for_merging  # noqa: PLC0415 - few files need all the steps
 
-    own = Notes(document.location.file or notes.file, notes.strict, origins=notes.origins)
+    own = DiagnosticSink(document.location.file or sink.file, sink.strict, origins=sink.origins)
     for step in raise_for_merging(document.version, version, carriers=carriers):
         document = step.run(document, own)
-    notes.extend_new(own.diagnostics)
-    notes.entries.extend(own.entries)
+    sink.extend_new(own.diagnostics)
+    sink.entries.extend(own.entries)
     return document

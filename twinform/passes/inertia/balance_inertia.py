@@ -5,7 +5,7 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from twinform.diagnostics import Notes, Severity
+from twinform.diagnostics import DiagnosticSink, Severity
 from twinform.diagnostics.rules.inertia import BALANCED_INERTIA, UNBALANCED_INERTIA
 from twinform.ir import Document, Format, Inertial, Link, rewrite
 from twinform.ir.defaults import MOMENT
@@ -13,10 +13,10 @@ from twinform.ir.principal_moments import Symmetric, principal_moments, relative
 from twinform.ir.scaling import common_exponent, times_power
 from twinform.ir.solids import with_tensor
 from twinform.ir.verify.inertia import inertia_matrix
-from twinform.passes.base import Pass
+from twinform.passes.framework.base import Pass
+from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
 from twinform.passes.inertia.nearest import distance, nearest_possible, second_moments
 from twinform.passes.inertia.possible import has_mass
-from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 _NOTHING_MUCH = 1e-3
 """A change of so small a part of an inertia is that of digits which were cut off, and no news."""
@@ -59,7 +59,7 @@ class BalanceInertia(Pass):
         description="The least second moment of mass along an axis, as a part of the trace: digits are cut off again.",
     )
 
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document with inertias that bodies can have."""
 
         def balance(link: Link) -> Link:
@@ -69,26 +69,26 @@ class BalanceInertia(Pass):
             matrix = inertia_matrix(inertial.inertia, MOMENT[document.format])
             if inertial.inertia is None and document.format is Format.URDF and has_mass(inertial):
                 matrix = _NOTHING
-            return link if matrix is None else self._balance(link, inertial, matrix, notes)
+            return link if matrix is None else self._balance(link, inertial, matrix, sink)
 
         return rewrite(document, Link, balance)
 
-    def _balance(self, link: Link, inertial: Inertial, matrix: Symmetric, notes: Notes) -> Link:
+    def _balance(self, link: Link, inertial: Inertial, matrix: Symmetric, sink: DiagnosticSink) -> Link:
         finite = all(map(math.isfinite, matrix))
         if finite and _is_possible(matrix):
             return link
         if not finite or not has_mass(inertial):
             what = "has no positive mass" if finite else "is not finite"
             message = f"the inertia of link {link.name!r} {what}, so no possible one is nearest to it"
-            notes.report(UNBALANCED_INERTIA, message, inertial.location, help="fill-inertia{replace=impossible}")
+            sink.report(UNBALANCED_INERTIA, message, inertial.location, help="fill-inertia{replace=impossible}")
             return link
         floor = self._floor(inertial.mass or 0.0, matrix)
         found = nearest_possible(matrix, floor) if floor < math.inf else None
         if found is None or not all(map(math.isfinite, found)):
             message = f"the inertia that is nearest to that of link {link.name!r} is too large for a double"
-            notes.report(UNBALANCED_INERTIA, message, inertial.location)
+            sink.report(UNBALANCED_INERTIA, message, inertial.location)
             return link
-        _report(link, inertial, matrix, found, notes)
+        _report(link, inertial, matrix, found, sink)
         inertia = with_tensor(inertial.inertia, found)
         return link.model_copy(update={"inertial": inertial.model_copy(update={"inertia": inertia})})
 
@@ -114,10 +114,10 @@ def _part(old: Symmetric, new: Symmetric) -> float:
     return distance(before, after) / size if size else math.inf
 
 
-def _report(link: Link, inertial: Inertial, old: Symmetric, new: Symmetric, notes: Notes) -> None:
+def _report(link: Link, inertial: Inertial, old: Symmetric, new: Symmetric, sink: DiagnosticSink) -> None:
     was, now = (", ".join(f"{moment:.6g}" for moment in principal_moments(each)) for each in (old, new))
     part = _part(old, new)
     change = f"by {part:.2g} of its size" if any(old) else "from nothing"
     message = f"the inertia of link {link.name!r} is changed {change}: its principal moments were {was} and are {now}"
     severity = Severity.INFO if part < _NOTHING_MUCH else None
-    notes.report(BALANCED_INERTIA, message, inertial.location, found=was, expected=now, severity=severity)
+    sink.report(BALANCED_INERTIA, message, inertial.location, found=was, expected=now, severity=severity)

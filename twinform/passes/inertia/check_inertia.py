@@ -5,17 +5,17 @@ from typing import ClassVar, Self
 
 from pydantic import Field, model_validator
 
-from twinform.diagnostics import Notes, Severity
+from twinform.diagnostics import DiagnosticSink, Severity
 from twinform.diagnostics.rules.inertia import MASS_RATIO, MISSING_INERTIAL, NON_POSITIVE_MASS
 from twinform.ir import Document, Format, Inertial, Link
 from twinform.ir.defaults import MOMENT
 from twinform.ir.verify.inertia import inertia_matrix, report_moments
-from twinform.passes.assets import AssetPass
+from twinform.passes.analyses.meshes import Meshes
+from twinform.passes.analyses.moving_bodies import Body, Neighbours, movable_models, moving_bodies, neighbours
+from twinform.passes.analyses.shapes import Places
+from twinform.passes.framework.assets import AssetPass
 from twinform.passes.inertia.plausible import Plausible
 from twinform.passes.inertia.possible import DIGITS, ROUNDING
-from twinform.passes.inertia.shapes import Places
-from twinform.passes.meshes import Meshes
-from twinform.passes.moving_bodies import Body, Neighbours, movable_models, moving_bodies, neighbours
 
 
 class CheckInertia(AssetPass):
@@ -69,54 +69,54 @@ class CheckInertia(AssetPass):
             raise ValueError("least-density is above greatest-density")
         return self
 
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The same document."""
         bodies = moving_bodies(document)
         for body in bodies:
-            _check_presence(body, document.format, notes)
+            _check_presence(body, document.format, sink)
             for link in body:
                 if link.inertial and not link.inertial.auto:
-                    _check_inertial(link, link.inertial, document.format, self.eps, notes)
-        self._check_shapes(document, {id(link) for body in bodies for link in body}, notes)
+                    _check_inertial(link, link.inertial, document.format, self.eps, sink)
+        self._check_shapes(document, {id(link) for body in bodies for link in body}, sink)
         masses = {id(body[0]): _mass(body) for body in bodies}
         for each in neighbours(document):
-            _check_ratio(each, masses, self.ratio, notes)
+            _check_ratio(each, masses, self.ratio, sink)
         return document
 
-    def _check_shapes(self, document: Document, moving: set[int], notes: Notes) -> None:
+    def _check_shapes(self, document: Document, moving: set[int], sink: DiagnosticSink) -> None:
         meshes = Meshes(self._assets) if self.meshes else None
         densities = (self.least_density, self.greatest_density)
         for model in movable_models(document):
-            check = Plausible(Places(model), meshes, densities, MOMENT[document.format], notes)
+            check = Plausible(Places(model), meshes, densities, MOMENT[document.format], sink)
             for link in model.links:
                 if id(link) in moving and link.inertial and not link.inertial.auto:
                     check.link(link, link.inertial)
 
 
-def _check_presence(body: Body, format_: Format, notes: Notes) -> None:
+def _check_presence(body: Body, format_: Format, sink: DiagnosticSink) -> None:
     if format_ is Format.SDF:
         for link in body:
             if link.inertial is None:
                 message = f"link {link.name!r} moves but has no <inertial>; simulators take 1 kg and 1 kg m^2"
-                notes.report(MISSING_INERTIAL, message, link.location, expected="<inertial>")
+                sink.report(MISSING_INERTIAL, message, link.location, expected="<inertial>")
     elif not any(link.inertial for link in body):
         first, *others = body
         joined = f", nor has any of the {len(others)} fixed to it" if others else ""
         message = f"link {first.name!r} moves but has no <inertial>{joined}"
         related = tuple(link.location for link in others)
-        notes.report(MISSING_INERTIAL, message, first.location, expected="<inertial>", related=related)
+        sink.report(MISSING_INERTIAL, message, first.location, expected="<inertial>", related=related)
 
 
-def _check_inertial(link: Link, inertial: Inertial, format_: Format, eps: float, notes: Notes) -> None:
+def _check_inertial(link: Link, inertial: Inertial, format_: Format, eps: float, sink: DiagnosticSink) -> None:
     mass, matrix = inertial.mass, inertia_matrix(inertial.inertia, MOMENT[format_])
-    if mass is not None and not mass > 0 and not notes.has(NON_POSITIVE_MASS, inertial.location, Severity.WARNING):
+    if mass is not None and not mass > 0 and not sink.has(NON_POSITIVE_MASS, inertial.location, Severity.WARNING):
         message = f"the mass of link {link.name!r}, which moves, is {mass:g}; it has to be positive"
-        notes.report(NON_POSITIVE_MASS, message, inertial.location, found=f"{mass:g}", expected="more than 0")
+        sink.report(NON_POSITIVE_MASS, message, inertial.location, found=f"{mass:g}", expected="more than 0")
     if matrix is not None and (mass != 0 or any(matrix)):
-        report_moments(link, inertial, matrix, eps, notes, least=ROUNDING)
+        report_moments(link, inertial, matrix, eps, sink, least=ROUNDING)
 
 
-def _check_ratio(each: Neighbours, masses: Mapping[int, float], limit: float, notes: Notes) -> None:
+def _check_ratio(each: Neighbours, masses: Mapping[int, float], limit: float, sink: DiagnosticSink) -> None:
     """Compare two bodies by their masses, which are known by the identity of their first links."""
     weights = [masses.get(id(body[0]), 0.0) if body else 0.0 for body in (each.parent, each.child)]
     light, heavy = sorted(weights)
@@ -126,7 +126,7 @@ def _check_ratio(each: Neighbours, masses: Mapping[int, float], limit: float, no
     words = " and ".join(f"{body[0].name!r} with {mass:.4g} kg" for body, mass in ends)
     message = f"joint {each.joint.name!r} connects {words}"
     found, expected = f"{heavy / light:.4g}", f"at most {limit:g}"
-    notes.report(MASS_RATIO, message, each.joint.location, found=found, expected=expected)
+    sink.report(MASS_RATIO, message, each.joint.location, found=found, expected=expected)
 
 
 def _mass(body: Body) -> float:

@@ -6,18 +6,18 @@ from typing import ClassVar, Literal, NamedTuple, Self
 
 from pydantic import Field, model_validator
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules.inertia import FILLED_INERTIA, UNFILLED_INERTIA
 from twinform.ir import Document, Format, Inertial, Link, rewrite
 from twinform.ir.frames import FrameError
 from twinform.ir.scaling import common_exponent, times_power
 from twinform.ir.solids import Solid, combined, with_mass
-from twinform.passes.assets import AssetPass
+from twinform.passes.analyses.meshes import Meshes
+from twinform.passes.analyses.moving_bodies import movable_models, moving_bodies
+from twinform.passes.analyses.shapes import Kind, NoSolidError, PlacedShape, Places, inertial_of, solid_of
+from twinform.passes.framework.assets import AssetPass
+from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
 from twinform.passes.inertia.possible import has_mass, is_possible
-from twinform.passes.inertia.shapes import Kind, NoSolidError, PlacedShape, Places, inertial_of, solid_of
-from twinform.passes.meshes import Meshes
-from twinform.passes.moving_bodies import movable_models, moving_bodies
-from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 _AMOUNTS = ("density", "mass", "total_mass")
 
@@ -80,9 +80,9 @@ class FillInertia(AssetPass):
             raise ValueError(f"{' and '.join(given)} are given; one says all")
         return self
 
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document with inertias."""
-        fillings = self._fillings(document, notes)
+        fillings = self._fillings(document, sink)
         amounts = [one.solid.mass for one in fillings.values() if not one.keeps_mass]
         exponent = common_exponent(amounts)
         units = math.fsum(times_power(amount, -exponent) for amount in amounts)
@@ -94,13 +94,13 @@ class FillInertia(AssetPass):
             if self.total_mass is not None and not filling.keeps_mass:
                 part = times_power(filling.solid.mass, -exponent) * (self.total_mass / units)
                 filling = filling._replace(solid=with_mass(filling.solid, part))
-            return _filled(link, filling, notes) if _is_solid(link, filling.solid, filling.shapes, notes) else link
+            return _filled(link, filling, sink) if _is_solid(link, filling.solid, filling.shapes, sink) else link
 
         filled = rewrite(document, Link, fill)
-        _report_empty(filled, self.links, notes)
+        _report_empty(filled, self.links, sink)
         return filled
 
-    def _fillings(self, document: Document, notes: Notes) -> dict[int, _Filling]:
+    def _fillings(self, document: Document, sink: DiagnosticSink) -> dict[int, _Filling]:
         """What each link is to get, by its identity: equal links are still two."""
         meshes, found = Meshes(self._assets, self.open_meshes == "hull"), dict[int, _Filling]()
         for model in movable_models(document):
@@ -108,7 +108,7 @@ class FillInertia(AssetPass):
             for link in model.links:
                 if not matches(link.name, self.links) or not self._is_wanted(link.inertial, document.format):
                     continue
-                filling = self._filling(link, places, meshes, notes)
+                filling = self._filling(link, places, meshes, sink)
                 if filling:
                     found[id(link)] = filling
         return found
@@ -122,19 +122,19 @@ class FillInertia(AssetPass):
             return True
         return self.replace == "impossible" and not is_possible(inertial, format_)
 
-    def _filling(self, link: Link, places: Places, meshes: Meshes, notes: Notes) -> _Filling | None:
+    def _filling(self, link: Link, places: Places, meshes: Meshes, sink: DiagnosticSink) -> _Filling | None:
         """The solid of a link; None where it has no shape, or one that cannot be used."""
         try:
             shapes = tuple(places.shapes(link, self.shapes))
             whole = combined([solid_of(one, self.density, meshes) for one in shapes])
         except NoSolidError as error:
             message = f"the inertia of link {link.name!r} is not computed: {error}"
-            notes.report(UNFILLED_INERTIA, message, error.location, help=error.help)
+            sink.report(UNFILLED_INERTIA, message, error.location, help=error.help)
             return None
         except FrameError as error:
-            error.report(notes)
+            error.report(sink)
             return None
-        if not shapes or not _is_solid(link, whole, shapes, notes):
+        if not shapes or not _is_solid(link, whole, shapes, sink):
             return None
         return self._weighed(link.inertial, whole, shapes)
 
@@ -146,32 +146,32 @@ class FillInertia(AssetPass):
         return _Filling(whole if self.mass is None else with_mass(whole, self.mass), keeps_mass=False, shapes=shapes)
 
 
-def _is_solid(link: Link, whole: Solid, shapes: tuple[PlacedShape, ...], notes: Notes) -> bool:
+def _is_solid(link: Link, whole: Solid, shapes: tuple[PlacedShape, ...], sink: DiagnosticSink) -> bool:
     """Whether the numbers are those of a body: sizes may be zero, or their powers larger or smaller than doubles."""
     numbers = (whole.mass, *whole.centre, *whole.inertia)
     if all(map(math.isfinite, numbers)) and min(whole.mass, *whole.inertia[:3]) >= sys.float_info.min:
         return True
     names = ", ".join(one.name for one in shapes)
     message = f"the inertia of link {link.name!r} is not computed: no usable volume in {names}"
-    notes.report(UNFILLED_INERTIA, message, shapes[0].holder.location, found=f"{whole.mass:g} kg")
+    sink.report(UNFILLED_INERTIA, message, shapes[0].holder.location, found=f"{whole.mass:g} kg")
     return False
 
 
-def _filled(link: Link, filling: _Filling, notes: Notes) -> Link:
+def _filled(link: Link, filling: _Filling, sink: DiagnosticSink) -> Link:
     found = filling.solid
     kept = ", which was written" if filling.keeps_mass else ""
     count = f"{len(filling.shapes)} shape{'' if len(filling.shapes) == 1 else 's'}"
     message = f"link {link.name!r} got the inertia of {count}, with {found.mass:.6g} kg{kept}"
     place = link.inertial.location if link.inertial and link.inertial.source else link.location
-    notes.report(FILLED_INERTIA, message, place, found=f"{found.mass:.6g} kg")
+    sink.report(FILLED_INERTIA, message, place, found=f"{found.mass:.6g} kg")
     return link.model_copy(update={"inertial": inertial_of(found, link.inertial)})
 
 
-def _report_empty(document: Document, patterns: tuple[str, ...], notes: Notes) -> None:
+def _report_empty(document: Document, patterns: tuple[str, ...], sink: DiagnosticSink) -> None:
     """Name the bodies that move and have nothing to compute a mass from."""
     for body in moving_bodies(document):
         if any(link.inertial for link in body) or any(link.collisions or link.visuals for link in body):
             continue
         if matches(body[0].name, patterns):
             message = f"link {body[0].name!r} moves and has no shape to compute a mass from"
-            notes.report(UNFILLED_INERTIA, message, body[0].location, help="split-massless gives it one")
+            sink.report(UNFILLED_INERTIA, message, body[0].location, help="split-massless gives it one")

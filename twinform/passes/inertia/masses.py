@@ -9,8 +9,8 @@ from twinform.ir.frames import FrameGraph
 from twinform.ir.principal_moments import Symmetric
 from twinform.ir.solids import NOTHING, ORIGIN, Solid, placed, with_mass, with_tensor
 from twinform.ir.verify.inertia import inertia_matrix
+from twinform.passes.analyses.shapes import inertial_of
 from twinform.passes.inertia.possible import is_possible
-from twinform.passes.inertia.shapes import inertial_of
 
 
 class _Home(NamedTuple):

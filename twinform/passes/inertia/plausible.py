@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import inertia as rules
 from twinform.diagnostics.rules.meshes import UNREADABLE_MESH
 from twinform.ir import Inertial, Link
@@ -13,10 +13,10 @@ from twinform.ir.frames import FrameError
 from twinform.ir.principal_moments import Symmetric
 from twinform.ir.solids import ORIGIN, Solid, combined, placed
 from twinform.ir.verify.inertia import inertia_matrix
-from twinform.passes.assets import NO_ASSETS
+from twinform.passes.analyses.meshes import Meshes
+from twinform.passes.analyses.shapes import NoSolidError, PlacedShape, Places, bounds_of, solid_of, united_bounds
+from twinform.passes.framework.assets import NO_ASSETS
 from twinform.passes.inertia.possible import has_mass
-from twinform.passes.inertia.shapes import NoSolidError, PlacedShape, Places, bounds_of, solid_of, united_bounds
-from twinform.passes.meshes import Meshes
 
 _SLACK = 0.01
 """How far a mass may reach out of its shapes, as a part of their size: shapes are drawn by eye."""
@@ -32,7 +32,7 @@ class Plausible:
     meshes: Meshes | None
     densities: tuple[float, float]
     default_moment: float | None
-    notes: Notes
+    sink: DiagnosticSink
 
     def link(self, link: Link, inertial: Inertial) -> None:
         """Report what does not go together."""
@@ -50,7 +50,7 @@ class Plausible:
         except FrameError:
             return  # its name is only known in an include that was not read
         except NoSolidError as error:
-            self.notes.report(UNREADABLE_MESH, str(error), error.location, help=error.help)
+            self.sink.report(UNREADABLE_MESH, str(error), error.location, help=error.help)
 
     def _check_reach(self, link: Link, inertial: Inertial, body: Solid, box: Bounds) -> None:
         size = box.size
@@ -59,7 +59,7 @@ class Plausible:
         if outside > slack:
             at = " ".join(f"{part:.4g}" for part in body.centre)
             message = f"the centre of mass of link {link.name!r}, {at}, is {outside:.4g} m outside of its shapes"
-            self.notes.report(rules.DISTANT_CENTRE_OF_MASS, message, inertial.location, found=at, expected=_words(box))
+            self.sink.report(rules.DISTANT_CENTRE_OF_MASS, message, inertial.location, found=at, expected=_words(box))
         reaches = ((length + 2 * slack) / 2 for length in size)
         most = (reach * reach * body.mass for reach in reaches)
         spread = zip(_spread(body.inertia), most, _AXES, strict=True)
@@ -70,7 +70,7 @@ class Plausible:
                 f"{factor:.3g} times as much as its shapes allow"
             )
             found, expected = f"{factor:.3g}", "at most 1"
-            self.notes.report(rules.OVERSIZED_INERTIA, message, inertial.location, found=found, expected=expected)
+            self.sink.report(rules.OVERSIZED_INERTIA, message, inertial.location, found=found, expected=expected)
 
     def _check_density(self, link: Link, inertial: Inertial, shapes: Iterable[PlacedShape]) -> None:
         try:
@@ -82,7 +82,7 @@ class Plausible:
         if not least <= density <= greatest:
             found, expected = f"{density:.3g}", f"{least:g} to {greatest:g}"
             message = f"link {link.name!r} weighs {inertial.mass:g} kg: {found} kg/m^3 in the volume of its shapes"
-            self.notes.report(rules.IMPLAUSIBLE_DENSITY, message, inertial.location, found=found, expected=expected)
+            self.sink.report(rules.IMPLAUSIBLE_DENSITY, message, inertial.location, found=found, expected=expected)
 
 
 def _spread(inertia: Symmetric) -> tuple[float, float, float]:

@@ -4,16 +4,16 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules.massless import SPLIT_MASS, TOKEN_MASS
 from twinform.ir import Document, Format, Joint, Link, Sphere, rewrite
 from twinform.ir.frames import FrameError
 from twinform.ir.solids import NOTHING, solid, with_mass
-from twinform.passes.base import Pass
+from twinform.passes.analyses.moving_bodies import Body, Neighbours, moving_bodies, neighbours
+from twinform.passes.framework.base import Pass
+from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
 from twinform.passes.inertia.masses import Masses
 from twinform.passes.inertia.possible import has_mass
-from twinform.passes.moving_bodies import Body, Neighbours, moving_bodies, neighbours
-from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 
 class SplitMassless(Pass):
@@ -44,7 +44,7 @@ class SplitMassless(Pass):
     mass: float = Field(default=0.001, ge=1e-50, le=1e50, description="The mass of the ball, in kg.")
     radius: float = Field(default=0.01, ge=1e-50, le=1e50, description="The radius of the ball, in m.")
 
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document without bodies that weigh nothing."""
         bodies = moving_bodies(document)
         light = [body for body in bodies if self._is_meant(body) and not _weighs(body, document.format)]
@@ -54,36 +54,36 @@ class SplitMassless(Pass):
         for body in light:
             donor = tree.nearest_carried(body, masses)
             taker = tree.carrier(body)
-            if donor is not None and self._split(donor, taker, masses, notes):
+            if donor is not None and self._split(donor, taker, masses, sink):
                 continue
             joints = tree.moving(body)
             if self.ends == "fix" and joints and not tree.leads(joints):
                 fixed.update(map(id, joints))
-                _report_fixed(taker, joints, notes)
+                _report_fixed(taker, joints, sink)
             else:
-                self._weigh(taker, masses, notes)
+                self._weigh(taker, masses, sink)
         document = rewrite(document, Joint, lambda joint: _fixed(joint) if id(joint) in fixed else joint)
         return rewrite(document, Link, masses.applied)
 
     def _is_meant(self, body: Body) -> bool:
         return any(matches(link.name, self.links) for link in body)
 
-    def _split(self, donor: Link, taker: Link, masses: Masses, notes: Notes) -> bool:
+    def _split(self, donor: Link, taker: Link, masses: Masses, sink: DiagnosticSink) -> bool:
         """Let one link take a share of another; false where it is not known where they are."""
         try:
             mass = masses.share(donor, taker, self.share)
         except FrameError:
             return False
         message = f"link {taker.name!r}, which weighs nothing, took {mass:.4g} kg of what {donor.name!r} weighs"
-        notes.report(SPLIT_MASS, message, taker.location, found="0 kg", related=(donor.location,))
+        sink.report(SPLIT_MASS, message, taker.location, found="0 kg", related=(donor.location,))
         return True
 
-    def _weigh(self, link: Link, masses: Masses, notes: Notes) -> None:
+    def _weigh(self, link: Link, masses: Masses, sink: DiagnosticSink) -> None:
         masses.give(link, with_mass(solid(Sphere(radius=self.radius), 1.0) or NOTHING, self.mass))
         message = (
             f"link {link.name!r}, which moves and weighs nothing, got a ball of {self.mass:g} kg and {self.radius:g} m"
         )
-        notes.report(TOKEN_MASS, message, link.location, found="0 kg")
+        sink.report(TOKEN_MASS, message, link.location, found="0 kg")
 
 
 class _Tree:
@@ -143,7 +143,7 @@ def _fixed(joint: Joint) -> Joint:
     return joint.model_copy(update={"type": "fixed", "axis": None, "axis2": None})
 
 
-def _report_fixed(link: Link, joints: list[Joint], notes: Notes) -> None:
+def _report_fixed(link: Link, joints: list[Joint], sink: DiagnosticSink) -> None:
     names = " and ".join(repr(joint.name) for joint in joints)
     message = f"joint {names} is fixed now: link {link.name!r} weighs nothing and carries nothing"
-    notes.report(TOKEN_MASS, message, joints[0].location, found="0 kg")
+    sink.report(TOKEN_MASS, message, joints[0].location, found="0 kg")

@@ -5,7 +5,7 @@ from functools import lru_cache
 from typing import Literal
 
 from twinform.ir import Format
-from twinform.passes.base import Pass
+from twinform.passes.framework.base import Pass
 
 __all__ = ["Target", "legalisation"]
 
@@ -35,7 +35,7 @@ def legalisation(source: Format, version: str | None, target: Target) -> tuple[P
     if source is target.format:
         if source is Format.URDF or version == target.sdf_version:
             return ()
-        from twinform.passes.legalise.sdf_versions import change_version  # noqa: PLC0415 - see above
+        from twinform.passes.sdf_versions import change_version  # noqa: PLC0415 - see above
 
         return change_version(version, target.sdf_version, carriers=target.carriers)
     if target.format is Format.SDF:

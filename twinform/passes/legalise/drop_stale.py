@@ -3,12 +3,12 @@
 from dataclasses import dataclass, field
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import Fate, Notes
+from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Document, Format, Model, Node, Opaque, holds_opaque, map_children
-from twinform.passes.legalise.carrier import NAMESPACE, PREFIX, SOURCE, has_ours, is_carrier, is_memory
+from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, SOURCE, has_ours, is_carrier, is_memory
+from twinform.passes.carriers.provenance import came_from, without_provenance
 from twinform.passes.legalise.model_pass import ModelPass
-from twinform.passes.legalise.provenance import came_from, without_provenance
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -41,22 +41,22 @@ class DropStale(ModelPass):
     name: ClassVar[str] = "drop-stale"
     to: Format
 
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document without stale carriers, and without the prefix of ours where there are none at all."""
-        document = super().run(document, notes)
+        document = super().run(document, sink)
         if (PREFIX, NAMESPACE) not in document.namespaces or any(map(has_ours, document.models)):
             return document
         others = tuple(pair for pair in document.namespaces if pair != (PREFIX, NAMESPACE))
         return document.model_copy(update={"namespaces": others})
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model without stale carriers."""
         if self.to is Format.URDF and came_from(model, self.to):  # for SDF the last pass needs it
             model = without_provenance(model)
         kinds = frozenset(f"{{{NAMESPACE}}}{kind}" for kind in (_IN_URDF if self.to is Format.SDF else _IN_SDF))
         dropping = _Dropping(kinds)
         model = dropping.without(model)
-        dropping.report(notes)
+        dropping.report(sink)
         return model
 
 
@@ -81,7 +81,7 @@ class _Dropping:
     def _is_stale(self, part: Opaque) -> bool:
         return (part.element is not None and part.element.name in self.kinds) or is_memory(part)
 
-    def report(self, notes: Notes) -> None:
+    def report(self, sink: DiagnosticSink) -> None:
         """A warning for each, or one for all that an older version wrote, at `<tf:source>` if there is one.
 
         The ledger has each of them.
@@ -90,9 +90,9 @@ class _Dropping:
         first = next((pair for pair in memory if is_carrier(pair[0], SOURCE)), memory[0]) if memory else None
         for part, node in self.dropped:
             message, where = _IGNORED if memory else _message(part, node), part.location_in(node)
-            notes.account(Fate.DROPPED, STALE_CARRIER, message, where, part.weight)
+            sink.account(Fate.DROPPED, STALE_CARRIER, message, where, part.weight)
             if first is None or part is first[0]:
-                notes.report(STALE_CARRIER, message, where, found=part.name)
+                sink.report(STALE_CARRIER, message, where, found=part.name)
 
 
 def _message(part: Opaque, node: Node) -> str:

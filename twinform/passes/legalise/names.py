@@ -10,15 +10,15 @@ A mark says which name it stands behind: where that was edited since, the edit c
 from collections.abc import Iterator
 from typing import ClassVar
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Element, Format, Frame, Joint, Link, Model
-from twinform.passes.legalise.marks import AnyNode, find_mark, with_mark, without_mark
+from twinform.passes.carriers.annotations import AnyNode, find_annotation, with_annotation, without_annotation
+from twinform.passes.carriers.provenance import came_from, wrote_scopes
 from twinform.passes.legalise.model_pass import ModelPass
-from twinform.passes.legalise.notation import NESTED
-from twinform.passes.legalise.provenance import came_from, wrote_scopes
 from twinform.passes.structure.renaming import renamed_model
 from twinform.passes.structure.scopes import Part, scope_of
+from twinform.passes.transforms.notation import NESTED
 
 NAME = "name"
 """The mark on a link, joint, frame or shape of SDF with the name that it has in URDF."""
@@ -32,7 +32,7 @@ _FIELDS: dict[Part, str] = {"link": "links", "joint": "joints", "frame": "frames
 def renamed(model: Model, names: Names, format_: Format) -> Model:
     """The model by new names, and all that names them by these."""
     scope = scope_of(model, lambda part, name: names.get((part, name), name), deep=False)
-    return renamed_model(model, scope, format_, Notes())
+    return renamed_model(model, scope, format_, DiagnosticSink())
 
 
 def with_old_names(model: Model, names: Names) -> Model:
@@ -41,7 +41,7 @@ def with_old_names(model: Model, names: Names) -> Model:
 
     def marked(part: Part, node: Link | Joint | Frame) -> Link | Joint | Frame:
         name = old.get((part, node.name))
-        return node if name is None else with_mark(node, SCOPED_NAME, name, {"instead_of": node.name})
+        return node if name is None else with_annotation(node, SCOPED_NAME, name, {"instead_of": node.name})
 
     update = {field: tuple(marked(part, node) for node in getattr(model, field)) for part, field in _FIELDS.items()}
     return model.model_copy(update=update)
@@ -63,7 +63,7 @@ class RestoreNames(ModelPass):
     unique: bool = False
     """Whether no two parts may share a name, also in URDF: one of them is called as in SDF."""
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model by its old names."""
         kind = SCOPED_NAME if self.to is Format.SDF and not self.apart else NAME
         if kind == NAME and self.to is Format.URDF:
@@ -91,12 +91,12 @@ class RestoreNames(ModelPass):
                 why = "is in a nested model of which nothing tells any more"
             if why:
                 message = f"{part} {node.name!r} was called {old!r}, and {why}"
-                notes.report(STALE_CARRIER, message, node.location, found=old)
+                sink.report(STALE_CARRIER, message, node.location, found=old)
                 continue
             taken.add(self._key(part, old))
             names[part, node.name] = old
         update = {
-            field: tuple(without_mark(node, kind) for node in getattr(model, field)) for field in _FIELDS.values()
+            field: tuple(without_annotation(node, kind) for node in getattr(model, field)) for field in _FIELDS.values()
         }
         return renamed(model.model_copy(update=update), names, self.to)
 
@@ -106,9 +106,9 @@ class RestoreNames(ModelPass):
 
 def _scopes(model: Model) -> set[str]:
     """The names of the models that were in this one, as far as frames still stand for them."""
-    own = [frame for frame in model.frames if find_mark(frame, NESTED) is not None]
-    marks = [(find_mark(frame, SCOPED_NAME), frame.name) for frame in own]
-    return {(mark.text or "") if mark else name for mark, name in marks}
+    own = [frame for frame in model.frames if find_annotation(frame, NESTED) is not None]
+    annotations = [(find_annotation(frame, SCOPED_NAME), frame.name) for frame in own]
+    return {(mark.text or "") if mark else name for mark, name in annotations}
 
 
 def _scopes_in(name: str) -> set[str]:
@@ -121,7 +121,7 @@ def _marked(model: Model, kind: str) -> Iterator[tuple[Part, Link | Joint | Fram
     """What has a mark: its kind, itself, the name that the mark stands behind and the one that it gives back."""
     for part, field in _FIELDS.items():
         for node in getattr(model, field):
-            found = find_mark(node, kind)
+            found = find_annotation(node, kind)
             old = _old_name(found) if found is not None else ""
             if found is not None and old:
                 yield part, node, found.get("instead_of") or "", old
@@ -136,15 +136,15 @@ def with_old_name(node: AnyNode, name: str) -> AnyNode:
     """The node with a mark on it that has its name, since it will be called otherwise; a text would lose blanks."""
     old: str = node.__dict__["name"]
     is_plain = old == old.strip()
-    return with_mark(
+    return with_annotation(
         node, NAME, old if old and is_plain else None, {"instead_of": name, "was": None if is_plain else old}
     )
 
 
 def _model_by_its_name(model: Model) -> Model:
     """The model by the name that it had, unless it has another one by now."""
-    found = find_mark(model, NAME)
+    found = find_annotation(model, NAME)
     if found is None:
         return model
-    model = without_mark(model, NAME)
+    model = without_annotation(model, NAME)
     return model.model_copy(update={"name": _old_name(found)}) if found.get("instead_of") == model.name else model

@@ -6,10 +6,10 @@ from typing import NamedTuple
 
 from twinform.diagnostics.committed import main
 from twinform.ir import Format
-from twinform.passes.base import Pass
+from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pages import summary
+from twinform.passes.framework.pipeline import Pipeline
 from twinform.passes.legalise import Target, legalisation
-from twinform.passes.pages import summary
-from twinform.passes.pipeline import Pipeline
 from twinform.schemas import table
 
 _INTRODUCTION = """\

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from twinform.ir import Element, Joint, Link, Model, Node, Opaque
-from twinform.passes.legalise.gazebo_tags import LINK_TAGS
+from twinform.passes.transforms.gazebo_tags import LINK_TAGS
 
 _ABOUT_JOINTS = frozenset({"transmission", "ros2_control"})
 OF_AN_AXIS = frozenset({"axis", "limit", "dynamics", "mimic"})

@@ -6,14 +6,14 @@ from typing import ClassVar, NamedTuple
 
 from pydantic import Field
 
-from twinform.diagnostics import Location, Notes, Rule
+from twinform.diagnostics import DiagnosticSink, Location, Rule
 from twinform.diagnostics.rules import limits as rules
 from twinform.diagnostics.rules.to_urdf import UNBOUNDED_LIMIT
 from twinform.ir import Axis, Document, Format, Joint, Limit, rewrite
 from twinform.ir.defaults import UNLIMITED, with_range
-from twinform.passes.base import Pass
+from twinform.passes.framework.base import Pass
+from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
 from twinform.passes.limits.soft_limits import soft_limits
-from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 _BOUNDED = frozenset({"revolute", "prismatic"})
 _TURNING = frozenset({"revolute", "universal", "revolute2"})
@@ -54,15 +54,15 @@ class CheckLimits(Pass):
     velocity: float = Field(default=1e3, gt=0, description="The greatest plausible speed, in rad/s or m/s.")
     joints: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only joints"))
 
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The same document."""
 
         def look(joint: Joint) -> Joint:
             if matches(joint.name, self.joints):
                 for each in self._findings(joint, document.format):
-                    if each.rule is rules.RANGE_IN_DEGREES and notes.has(each.rule, each.where):
+                    if each.rule is rules.RANGE_IN_DEGREES and sink.has(each.rule, each.where):
                         continue  # verifying has seen what cannot be but degrees
-                    notes.report(each.rule, each.message, each.where, found=each.found, expected=each.expected)
+                    sink.report(each.rule, each.message, each.where, found=each.found, expected=each.expected)
             return joint
 
         return rewrite(document, Joint, look)

@@ -4,11 +4,11 @@ from typing import ClassVar, Self
 
 from pydantic import Field, model_validator
 
-from twinform.diagnostics import Location, Notes
+from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules.limits import FILLED_LIMIT, UNFILLED_LIMIT
 from twinform.ir import Axis, Document, Dynamics, Format, Joint, Limit, Node, rewrite
-from twinform.passes.base import Pass
-from twinform.passes.patterns import EVERY, matches, with_such_a_name
+from twinform.passes.framework.base import Pass
+from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
 
 _BOUNDED = frozenset({"revolute", "prismatic"})
 _DRIVEN = _BOUNDED | {"continuous"}
@@ -59,11 +59,11 @@ class FillLimits(Pass):
             raise ValueError("lower is above upper")
         return self
 
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document with the limits filled."""
-        return rewrite(document, Joint, lambda joint: self._fill(joint, document.format, notes))
+        return rewrite(document, Joint, lambda joint: self._fill(joint, document.format, sink))
 
-    def _fill(self, joint: Joint, format_: Format, notes: Notes) -> Joint:
+    def _fill(self, joint: Joint, format_: Format, sink: DiagnosticSink) -> Joint:
         if joint.type not in _DRIVEN or not matches(joint.name, self.joints):
             return joint
         if joint.axis is None and format_ is Format.SDF:
@@ -72,13 +72,13 @@ class FillLimits(Pass):
         limit = axis.limit or Limit()
         values = self._missing(joint.type, limit)
         if _is_upside_down(limit, values):
-            _report_open_end(joint, limit, values, notes)
+            _report_open_end(joint, limit, values, sink)
             values = {name: value for name, value in values.items() if name not in {"lower", "upper"}}
         dynamics = axis.dynamics or Dynamics()
         forces = self._missing_forces(dynamics)
         if not values and not forces:
             return joint
-        _report_filled(joint, limit, values | forces, notes)
+        _report_filled(joint, limit, values | forces, sink)
         update: dict[str, Node] = {"limit": limit.model_copy(update=values)} if values else {}
         if forces:
             update["dynamics"] = dynamics.model_copy(update=forces)
@@ -105,19 +105,19 @@ def _is_upside_down(limit: Limit, values: dict[str, float]) -> bool:
     return lower is not None and upper is not None and lower > upper
 
 
-def _report_open_end(joint: Joint, limit: Limit, values: dict[str, float], notes: Notes) -> None:
+def _report_open_end(joint: Joint, limit: Limit, values: dict[str, float], sink: DiagnosticSink) -> None:
     open_end, written = ("upper", limit.lower) if limit.upper is None else ("lower", limit.upper)
     side = "below" if open_end == "upper" else "above"
     message = (
         f"the {open_end} limit of joint {joint.name!r} was not filled: "
         f"{values[open_end]:g} is {side} its other limit, {written:g}"
     )
-    notes.report(UNFILLED_LIMIT, message, _place(joint, limit), found=f"{written:g}")
+    sink.report(UNFILLED_LIMIT, message, _place(joint, limit), found=f"{written:g}")
 
 
-def _report_filled(joint: Joint, limit: Limit, values: dict[str, float], notes: Notes) -> None:
+def _report_filled(joint: Joint, limit: Limit, values: dict[str, float], sink: DiagnosticSink) -> None:
     listed = ", ".join(f"{name} {value:g}" for name, value in values.items())
-    notes.report(FILLED_LIMIT, f"limits of joint {joint.name!r} filled: {listed}", _place(joint, limit))
+    sink.report(FILLED_LIMIT, f"limits of joint {joint.name!r} filled: {listed}", _place(joint, limit))
 
 
 def _place(joint: Joint, limit: Limit) -> Location:

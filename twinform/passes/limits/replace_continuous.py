@@ -2,10 +2,10 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules.joints import REPLACED_CONTINUOUS
 from twinform.ir import Axis, Document, Format, Joint, Limit, rewrite
-from twinform.passes.base import Pass
+from twinform.passes.framework.base import Pass
 
 
 class ReplaceContinuous(Pass):
@@ -23,18 +23,18 @@ class ReplaceContinuous(Pass):
     name = "replace-continuous"
     example: ClassVar[str] = "replace-continuous"
 
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document without continuous joints."""
         if document.format is not Format.SDF:
             return document
-        return rewrite(document, Joint, lambda joint: _revolute(joint, notes))
+        return rewrite(document, Joint, lambda joint: _revolute(joint, sink))
 
 
-def _revolute(joint: Joint, notes: Notes) -> Joint:
+def _revolute(joint: Joint, sink: DiagnosticSink) -> Joint:
     if joint.type != "continuous":
         return joint
     message = f"joint {joint.name!r} was continuous and is revolute, without limits"
-    notes.report(REPLACED_CONTINUOUS, message, joint.location.at("@type"), found=joint.name)
+    sink.report(REPLACED_CONTINUOUS, message, joint.location.at("@type"), found=joint.name)
     return joint.model_copy(update={"type": "revolute", "axis": _endless(joint.axis)})
 
 

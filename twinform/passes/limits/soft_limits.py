@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from twinform.ir import Element, Joint, Opaque
-from twinform.passes.legalise.carrier import is_carrier, unpack
+from twinform.passes.carriers.carriers import is_carrier, unpack
 
 _ELEMENT = "safety_controller"
 

@@ -5,12 +5,12 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules.limits import TIGHTENED_LIMIT, UNTIGHTENED_LIMIT
 from twinform.ir import Document, Joint, Limit, rewrite
-from twinform.passes.base import Pass
+from twinform.passes.framework.base import Pass
+from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
 from twinform.passes.limits.soft_limits import SoftLimits, soft_limits
-from twinform.passes.patterns import EVERY, matches, with_such_a_name
 
 _BOUNDED = frozenset({"revolute", "prismatic"})
 
@@ -37,11 +37,11 @@ class TightenLimits(Pass):
     margin: float = Field(default=0.0, ge=0, allow_inf_nan=False, description="How far inward, in rad or m.")
     joints: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only joints"))
 
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document with tighter limits."""
-        return rewrite(document, Joint, lambda joint: self._tighten(joint, notes))
+        return rewrite(document, Joint, lambda joint: self._tighten(joint, sink))
 
-    def _tighten(self, joint: Joint, notes: Notes) -> Joint:
+    def _tighten(self, joint: Joint, sink: DiagnosticSink) -> Joint:
         if joint.type not in _BOUNDED or joint.axis is None or not matches(joint.name, self.joints):
             return joint
         limit = joint.axis.limit or Limit()
@@ -52,10 +52,10 @@ class TightenLimits(Pass):
         was, now = (_words(*ends) for ends in ((limit.lower, limit.upper), (lower, upper)))
         if lower is not None and upper is not None and lower >= upper:
             message = f"the limits of joint {joint.name!r} stay {was}: {now} is no range"
-            notes.report(UNTIGHTENED_LIMIT, message, where, found=was)
+            sink.report(UNTIGHTENED_LIMIT, message, where, found=was)
             return joint
         message = f"the limits of joint {joint.name!r} were {was} and are {now}"
-        notes.report(TIGHTENED_LIMIT, message, where, found=was, expected=now)
+        sink.report(TIGHTENED_LIMIT, message, where, found=was, expected=now)
         tight = limit.model_copy(update={"lower": lower, "upper": upper})
         return joint.model_copy(update={"axis": joint.axis.model_copy(update={"limit": tight})})
 

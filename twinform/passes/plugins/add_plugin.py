@@ -5,7 +5,7 @@ from typing import ClassVar, Self, cast
 
 from pydantic import Field, model_validator
 
-from twinform.diagnostics import Notes, Severity
+from twinform.diagnostics import DiagnosticSink, Severity
 from twinform.diagnostics.rules import plugins as rules
 from twinform.ir import Document, Model, Plugin, Sensor, World, replace_node
 from twinform.passes.plugins.base_link import base_link
@@ -83,26 +83,26 @@ class AddPlugin(SelectingPass):
             raise ValueError(f"{kind.name} needs the option {error}") from error
         return self
 
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document with the plugin."""
         kind = self._kind()
         if "model" in kind.scopes and self.on is None:
-            return self._in_model(document, notes)
+            return self._in_model(document, sink)
         if "world" in kind.scopes:
-            return self._in_world(document, notes)
-        return self._on_sensor(document, notes) if "sensor" in kind.scopes else self._on_visual(document, notes)
+            return self._in_world(document, sink)
+        return self._on_sensor(document, sink) if "sensor" in kind.scopes else self._on_visual(document, sink)
 
-    def _in_model(self, document: Document, notes: Notes) -> Document:
-        model = find_model(document, self.model, notes)
-        if model is None or not self._names_are_there(model, notes):
+    def _in_model(self, document: Document, sink: DiagnosticSink) -> Document:
+        model = find_model(document, self.model, sink)
+        if model is None or not self._names_are_there(model, sink):
             return document
-        plugin = self._plugin({**self._measured(model, document, notes), **self._frames(model, document)})
-        if notes.has_errors:
+        plugin = self._plugin({**self._measured(model, document, sink), **self._frames(model, document)})
+        if sink.has_errors:
             return document
         made = replace_node(document, model, add_plugin(model, plugin, document.format))
-        return self._with_needs(made, model, world_of(document, model), notes)
+        return self._with_needs(made, model, world_of(document, model), sink)
 
-    def _with_needs(self, document: Document, model: Model, world: World | None, notes: Notes) -> Document:
+    def _with_needs(self, document: Document, model: Model, world: World | None, sink: DiagnosticSink) -> Document:
         """The document with the system of the world without which this one does not do what is meant."""
         needed = lacking_for(self._kind(), world)
         if needed is None:
@@ -110,21 +110,21 @@ class AddPlugin(SelectingPass):
         if world is None:
             message = f"{self._kind().class_name} needs {needed.class_name} in the world"
             help_ = f"the world needs {as_xml(needed)}"
-            notes.report(rules.WORLD_SYSTEM_NEEDED, message, model.location, help=help_)
+            sink.report(rules.WORLD_SYSTEM_NEEDED, message, model.location, help=help_)
             return document
         message = f"world {world.name!r} gets {needed.class_name}"
-        notes.report(rules.ADDED_WORLD_SYSTEM, message, world.location)
+        sink.report(rules.ADDED_WORLD_SYSTEM, message, world.location)
         now = next(each for each in document.worlds if each.name == world.name)
         return replace_node(document, now, with_systems(now, [needed]))
 
-    def _in_world(self, document: Document, notes: Notes) -> Document:
-        world = find_world(document, self.world, notes)
+    def _in_world(self, document: Document, sink: DiagnosticSink) -> Document:
+        world = find_world(document, self.world, sink)
         if world is None:
             return document
         made = add_world_plugin(with_defaults(world, self._kind()), self._plugin({}))
         return document if made is world else replace_node(document, world, made)
 
-    def _on_sensor(self, document: Document, notes: Notes) -> Document:
+    def _on_sensor(self, document: Document, sink: DiagnosticSink) -> Document:
         plugin, seen = self._plugin({}), list[str]()
 
         def change(sensor: Sensor, _: Site) -> Iterable[Sensor]:
@@ -135,17 +135,17 @@ class AddPlugin(SelectingPass):
 
         made = map_sensors(document, change)
         if self.on not in seen:
-            missing(document, "sensor", self.on, seen, notes)
+            missing(document, "sensor", self.on, seen, sink)
         return made
 
-    def _on_visual(self, document: Document, notes: Notes) -> Document:
-        model = find_model(document, self.model, notes)
+    def _on_visual(self, document: Document, sink: DiagnosticSink) -> Document:
+        model = find_model(document, self.model, sink)
         if model is None:
             return document
         made = add_visual_plugin(model, self.on or "", self._plugin({}), document.format)
         if made is None:
             names = [link.name for link in model.links]
-            missing(document, "visual or link", self.on, names, notes)
+            missing(document, "visual or link", self.on, names, sink)
             return document
         return replace_node(document, model, made)
 
@@ -163,7 +163,7 @@ class AddPlugin(SelectingPass):
         plugin = system_plugin(kind)
         return plugin.model_copy(update={"content": content}) if content else plugin
 
-    def _names_are_there(self, model: Model, notes: Notes) -> bool:
+    def _names_are_there(self, model: Model, sink: DiagnosticSink) -> bool:
         """Whether the joints and links that are named exist; what does not is reported."""
         good = True
         for option, value in self._values().items():
@@ -176,7 +176,7 @@ class AddPlugin(SelectingPass):
                 near = nearest(name, sorted(known))
                 message = f"{option}: model {model.name!r} has no {row.type} {name!r}"
                 help_ = f"did you mean {near}?" if near else None
-                notes.report(
+                sink.report(
                     rules.PLUGIN_REFERENCE, message, model.location, found=name, help=help_, severity=Severity.ERROR
                 )
                 good = False
@@ -192,7 +192,7 @@ class AddPlugin(SelectingPass):
                 }
         return {}
 
-    def _measured(self, model: Model, document: Document, notes: Notes) -> dict[str, object]:
+    def _measured(self, model: Model, document: Document, sink: DiagnosticSink) -> dict[str, object]:
         """What is not given and the model says."""
         kind, found = self._kind(), dict[str, object]()
 
@@ -208,8 +208,8 @@ class AddPlugin(SelectingPass):
                 found[option] = measure(measured)
             except NotMeasuredError as error:
                 message = f"{option} is not given, and cannot be read off model {model.name!r}: {error}"
-                notes.report(rules.WHEELS_NOT_MEASURED, message, model.location)
+                sink.report(rules.WHEELS_NOT_MEASURED, message, model.location)
         if found:
             listed = ", ".join(f"{option} {value:g} m" for option, value in found.items())
-            notes.report(rules.MEASURED_WHEELS, f"read off model {model.name!r}: {listed}", model.location)
+            sink.report(rules.MEASURED_WHEELS, f"read off model {model.name!r}: {listed}", model.location)
         return found

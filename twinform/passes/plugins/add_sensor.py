@@ -6,11 +6,10 @@ from typing import Annotated, ClassVar, Self
 
 from pydantic import Field, model_validator
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import plugins as rules
 from twinform.ir import Document, Element, Format, Joint, Link, Model, Opaque, Pose, Sensor, replace_node
 from twinform.ir.frames import WORLD
-from twinform.passes.legalise.nodes import unique_name
 from twinform.passes.plugins.catalogue import release, releases, sensor
 from twinform.passes.plugins.editing import add_sensor
 from twinform.passes.plugins.parts import ReleaseName, SensorKind
@@ -20,6 +19,7 @@ from twinform.passes.plugins.sites import sensors_of
 from twinform.passes.plugins.targets import find_model, missing, world_of
 from twinform.passes.plugins.values import is_topic
 from twinform.passes.plugins.worlds import as_xml, has_element, has_system, needed_for, with_systems
+from twinform.passes.transforms.nodes import unique_name
 
 _Number = Annotated[float, Field(allow_inf_nan=False)]
 Finite = tuple[_Number, _Number, _Number]
@@ -91,14 +91,14 @@ class AddSensor(SelectingPass):
             raise ValueError("only contact sensors look at a collision")
         return self
 
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document with the sensor."""
-        model = find_model(document, self.model, notes)
-        holder = self._holder(model, document, notes) if model else None
+        model = find_model(document, self.model, sink)
+        holder = self._holder(model, document, sink) if model else None
         if model is None or holder is None:
             return document
-        content = self._content(model, holder, document.format, notes)
-        if notes.has_errors:
+        content = self._content(model, holder, document.format, sink)
+        if sink.has_errors:
             return document
         made, is_new = self._named(document, model, holder, content)
         world = world_of(document, model)
@@ -107,9 +107,9 @@ class AddSensor(SelectingPass):
             new = add_sensor(model, holder.name, made, document.format, kept=kept)
             document = replace_node(document, model, new)
         if world is None:
-            self._say_what_is_needed(made, holder, notes)
+            self._say_what_is_needed(made, holder, sink)
             return document
-        return self._in_world(document, world.name, made, notes)
+        return self._in_world(document, world.name, made, sink)
 
     def _named(
         self, document: Document, model: Model, holder: Link | Joint, content: tuple[Opaque, ...]
@@ -125,15 +125,15 @@ class AddSensor(SelectingPass):
                 return made, same is None
         raise AssertionError  # there are more numbers than sensors
 
-    def _holder(self, model: Model, document: Document, notes: Notes) -> Link | Joint | None:
+    def _holder(self, model: Model, document: Document, sink: DiagnosticSink) -> Link | Joint | None:
         word, name = ("joint", self.joint) if self.joint is not None else ("link", self.link)
         nodes: tuple[Link | Joint, ...] = model.joints if word == "joint" else model.links
         found = next((each for each in nodes if each.name == name), None)
         if found is None:
-            missing(model, word, name, [each.name for each in nodes], notes)
+            missing(model, word, name, [each.name for each in nodes], sink)
         elif word == "link" and name == WORLD and document.format is Format.URDF:
             message = "the link 'world' of URDF is what never moves; Gazebo has no such link to put a sensor on"
-            notes.report(rules.NOTHING_TO_ADD_TO, message, found.location, found=name)
+            sink.report(rules.NOTHING_TO_ADD_TO, message, found.location, found=name)
             return None
         return found
 
@@ -142,11 +142,11 @@ class AddSensor(SelectingPass):
         """The frame of its messages: that of the link, unless the sensor has a place of its own on it."""
         return self.frame_id or (None if self.xyz or self.rpy else self.link)
 
-    def _content(self, model: Model, holder: Link | Joint, format_: Format, notes: Notes) -> tuple[Opaque, ...]:
+    def _content(self, model: Model, holder: Link | Joint, format_: Format, sink: DiagnosticSink) -> tuple[Opaque, ...]:
         """The elements in the sensor that have no typed form."""
         values = {option: getattr(self, option.replace("-", "_"), None) for option in self.fields_for(self.type)}
         is_contact = sensor(self.type).type == "contact"
-        element = self._contact(model, holder, format_, notes) if is_contact else element_of(self.type, values)
+        element = self._contact(model, holder, format_, sink) if is_contact else element_of(self.type, values)
         frame = release(self.release).frame_element
         own = self._frame is not None and frame is not None and frame != "frame_id"
         said = (Element(name=frame, text=self._frame),) if own and frame else ()
@@ -168,31 +168,31 @@ class AddSensor(SelectingPass):
             opaque=tuple(map(_named_inside(topic), content)) if is_contact else content,
         )
 
-    def _contact(self, model: Model, holder: Link | Joint, format_: Format, notes: Notes) -> Element | None:
+    def _contact(self, model: Model, holder: Link | Joint, format_: Format, sink: DiagnosticSink) -> Element | None:
         names = list(_collisions(holder, format_))
         if not names or (self.collision is not None and self.collision not in names):
-            missing(model, "collision", self.collision, names, notes)
+            missing(model, "collision", self.collision, names, sink)
             return None
         chosen = [self.collision] if self.collision else names
         return Element(name="contact", children=tuple(Element(name="collision", text=each) for each in chosen))
 
-    def _say_what_is_needed(self, made: Sensor, holder: Link | Joint, notes: Notes) -> None:
+    def _say_what_is_needed(self, made: Sensor, holder: Link | Joint, sink: DiagnosticSink) -> None:
         for system in needed_for(sensor(self.type)).systems:
             message = f"sensor {made.name!r} needs {system.class_name} in the world"
-            notes.report(rules.WORLD_SYSTEM_NEEDED, message, holder.location, help=f"the world needs {as_xml(system)}")
+            sink.report(rules.WORLD_SYSTEM_NEEDED, message, holder.location, help=f"the world needs {as_xml(system)}")
 
-    def _in_world(self, document: Document, name: str, made: Sensor, notes: Notes) -> Document:
+    def _in_world(self, document: Document, name: str, made: Sensor, sink: DiagnosticSink) -> Document:
         world = next(each for each in document.worlds if each.name == name)
         needed = needed_for(sensor(self.type))
         for element in needed.elements:
             if not has_element(world, element):
                 message = f"sensor {made.name!r} needs <{element}>, and world {world.name!r} has none"
-                notes.report(rules.MISSING_WORLD_SYSTEM, message, world.location, expected=element)
+                sink.report(rules.MISSING_WORLD_SYSTEM, message, world.location, expected=element)
         lacks = [each for each in needed.systems if not has_system(world, each)]
         if not lacks:
             return document
         listed = ", ".join(each.class_name for each in lacks)
-        notes.report(rules.ADDED_WORLD_SYSTEM, f"world {world.name!r} gets {listed}", world.location)
+        sink.report(rules.ADDED_WORLD_SYSTEM, f"world {world.name!r} gets {listed}", world.location)
         return replace_node(document, world, with_systems(world, lacks))
 
 

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from twinform.diagnostics import Notes, Severity
+from twinform.diagnostics import DiagnosticSink, Severity
 from twinform.diagnostics.rules import plugins as rules
 from twinform.ir import Document, Format
 from twinform.passes.plugins.catalogue import ros_message
@@ -43,9 +43,9 @@ CLOCK = Topic("/clock", "/clock", "gz.msgs.Clock", "<", "", Document(format=Form
 """The time of the simulation, which every node with `use_sim_time` waits for."""
 
 
-def bridges(document: Document, release: str, notes: Notes, world: str | None = None) -> list[Bridge]:
+def bridges(document: Document, release: str, sink: DiagnosticSink, world: str | None = None) -> list[Bridge]:
     """An entry for the clock and for each topic that ROS knows the message of; what is left out is reported."""
-    wanted = [CLOCK, *(topic for topic in topics_of(document, release, world) if _can_be_bridged(topic, notes))]
+    wanted = [CLOCK, *(topic for topic in topics_of(document, release, world) if _can_be_bridged(topic, sink))]
     wanted = list({(topic.name, topic.direction): topic for topic in wanted}.values())
     names = list(_ros_names(wanted))
     return [_bridge(topic, name, release) for topic, name in zip(wanted, names, strict=True)]
@@ -63,16 +63,16 @@ def _entry(bridge: Bridge) -> str:
     return "- " + "\n  ".join(lines) + "\n"
 
 
-def _can_be_bridged(topic: Topic, notes: Notes) -> bool:
+def _can_be_bridged(topic: Topic, sink: DiagnosticSink) -> bool:
     where = topic.source.location
     if topic.needs_world:
         message = f"the topic {topic.name!r} contains the name of the world, which is not known here"
         help_ = "say it with `world=NAME`, or give the sensor or plugin a topic of its own"
-        notes.report(rules.UNBRIDGED_TOPIC, message, where, found=topic.name, help=help_, severity=Severity.WARNING)
+        sink.report(rules.UNBRIDGED_TOPIC, message, where, found=topic.name, help=help_, severity=Severity.WARNING)
         return False
     if ros_message(topic.message) is None:
         message = f"the bridge knows no message of ROS for {topic.message} on {topic.name!r}"
-        notes.report(rules.UNBRIDGED_TOPIC, message, where, found=topic.message)
+        sink.report(rules.UNBRIDGED_TOPIC, message, where, found=topic.message)
         return False
     return True
 

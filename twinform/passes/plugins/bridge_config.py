@@ -4,9 +4,9 @@ from typing import Annotated, ClassVar
 
 from pydantic import AfterValidator, Field
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
-from twinform.passes.companions import CompanionPass, CompanionPath
+from twinform.passes.framework.side_files import CompanionPath, SideFilePass
 from twinform.passes.plugins.bridge import bridge_yaml, bridges
 from twinform.passes.plugins.parts import ReleaseName
 
@@ -17,7 +17,7 @@ def _yaml(path: str) -> str:
     return path
 
 
-class BridgeConfig(CompanionPass):
+class BridgeConfig(SideFilePass):
     """Write the YAML file that ros_gz_bridge needs to carry the topics of sensors and plugins to ROS and back.
 
     For the clock, each topic that a sensor or a system of the catalogue writes, and each that a system reads, it has
@@ -40,6 +40,6 @@ class BridgeConfig(CompanionPass):
     release: ReleaseName = Field(default="harmonic", description="The release of Gazebo that runs the model.")
     world: str | None = Field(default=None, description="The world that a model is put into; topics may contain it.")
 
-    def text(self, document: Document, notes: Notes) -> str:
+    def text(self, document: Document, sink: DiagnosticSink) -> str:
         """The text of the file."""
-        return bridge_yaml(bridges(document, self.release, notes, self.world))
+        return bridge_yaml(bridges(document, self.release, sink, self.world))

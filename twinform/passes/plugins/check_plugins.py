@@ -4,10 +4,10 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import plugins as rules
 from twinform.ir import Document, Plugin, Sensor, World
-from twinform.passes.base import Pass
+from twinform.passes.framework.base import Pass
 from twinform.passes.plugins.catalogue import (
     classic_plugins_of_file,
     is_ignition_name,
@@ -59,47 +59,47 @@ class CheckPlugins(Pass):
 
     release: ReleaseName = Field(default="harmonic", description="The release of Gazebo that the model is for.")
 
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The same document."""
         names = Names()
         for plugin, site in plugins_of(document):
             if site.scope != "gui":
-                _check_plugin(plugin, site, self.release, names, notes)
+                _check_plugin(plugin, site, self.release, names, sink)
         for world in document.worlds:
-            _check_defaults(world, notes)
+            _check_defaults(world, sink)
         noted: set[str] = set()
         for sensor, site in sensors_of(document):
-            _check_sensor(sensor, site, self.release, noted, notes)
+            _check_sensor(sensor, site, self.release, noted, sink)
         return document
 
 
-def _check_plugin(plugin: Plugin, site: Site, release: str, names: Names, notes: Notes) -> None:
+def _check_plugin(plugin: Plugin, site: Site, release: str, names: Names, sink: DiagnosticSink) -> None:
     kinds = systems_of_file(plugin.filename or "")
     if not kinds:
-        _check_stranger(plugin, notes)
+        _check_stranger(plugin, sink)
         return
-    kind = _class_of(plugin, kinds, notes)
+    kind = _class_of(plugin, kinds, sink)
     if release != _NATIVE_IGNITION and is_ignition_name(f"{plugin.filename} {plugin.name}"):
         found = kind or kinds[0]
         message = f"plugin {plugin.name!r} has a name of Ignition"
-        notes.report(rules.IGNITION_PLUGIN_NAME, message, plugin.location, help=f"write {as_xml(found)}")
+        sink.report(rules.IGNITION_PLUGIN_NAME, message, plugin.location, help=f"write {as_xml(found)}")
     if kind is None:
         return
     if release not in kind.releases:
         have = ", ".join(each for each in releases() if each in kind.releases) or "none yet"
         message = f"{kind.class_name} is not in {release}; releases that have it: {have}"
-        notes.report(rules.PLUGIN_NOT_IN_RELEASE, message, plugin.location, found=plugin.filename)
+        sink.report(rules.PLUGIN_NOT_IN_RELEASE, message, plugin.location, found=plugin.filename)
         return
     if site.scope not in kind.scopes and not (site.included and "actor" in kind.scopes):
         scopes = " or ".join(f"<{scope}>" for scope in kind.scopes)
         message = f"{kind.class_name} stands in <{site.scope}> and belongs into {scopes}"
-        notes.report(rules.WRONG_PLUGIN_SCOPE, message, plugin.location, found=site.scope, expected=scopes)
-    _check_needs(plugin, kind, site, notes)
+        sink.report(rules.WRONG_PLUGIN_SCOPE, message, plugin.location, found=site.scope, expected=scopes)
+    _check_needs(plugin, kind, site, sink)
     model = site.model if "world" not in kind.scopes else None
-    check_parameters(plugin, Asked(kind, release, model, names, notes))
+    check_parameters(plugin, Asked(kind, release, model, names, sink))
 
 
-def _check_needs(plugin: Plugin, kind: PluginKind, site: Site, notes: Notes) -> None:
+def _check_needs(plugin: Plugin, kind: PluginKind, site: Site, sink: DiagnosticSink) -> None:
     """Whether the world has one of the systems without which this one does nothing, or not what is meant."""
     choice = [system(name) for name in kind.needs]
     if not choice or (site.world is not None and any(has_system(site.world, each) for each in choice)):
@@ -108,13 +108,13 @@ def _check_needs(plugin: Plugin, kind: PluginKind, site: Site, notes: Notes) -> 
     help_ = f"add {as_xml(choice[0])} to the world"
     if site.world is None:
         message = f"{kind.class_name} needs {listed} in the world"
-        notes.report(rules.WORLD_SYSTEM_NEEDED, message, plugin.location, help=help_)
+        sink.report(rules.WORLD_SYSTEM_NEEDED, message, plugin.location, help=help_)
     else:
         message = f"{kind.class_name} needs {listed}, and world {site.world.name!r} has none"
-        notes.report(rules.MISSING_WORLD_SYSTEM, message, plugin.location, help=help_, related=(site.world.location,))
+        sink.report(rules.MISSING_WORLD_SYSTEM, message, plugin.location, help=help_, related=(site.world.location,))
 
 
-def _class_of(plugin: Plugin, kinds: tuple[PluginKind, ...], notes: Notes) -> PluginKind | None:
+def _class_of(plugin: Plugin, kinds: tuple[PluginKind, ...], sink: DiagnosticSink) -> PluginKind | None:
     """The system that is meant: the one of the name, or the only one of the file."""
     if not plugin.name:
         return kinds[0] if len(kinds) == 1 else None
@@ -123,25 +123,25 @@ def _class_of(plugin: Plugin, kinds: tuple[PluginKind, ...], notes: Notes) -> Pl
     if found is None:
         classes = " or ".join(kind.class_name for kind in kinds)
         message = f"{plugin.filename} has no class {plugin.name}; the name has to be {classes}"
-        notes.report(rules.WRONG_PLUGIN_CLASS, message, plugin.location, found=plugin.name, expected=classes)
+        sink.report(rules.WRONG_PLUGIN_CLASS, message, plugin.location, found=plugin.name, expected=classes)
     return found or (kinds[0] if len(kinds) == 1 else None)
 
 
-def _check_stranger(plugin: Plugin, notes: Notes) -> None:
+def _check_stranger(plugin: Plugin, sink: DiagnosticSink) -> None:
     """A file that is no system's: it may be somebody's own, or meant to be one."""
     file = plugin.filename or ""
     kind = system_of_class(plugin.name or "")
     if kind is not None:
         message = f"{kind.class_name} is in {kind.file}, not in {file}"
-        notes.report(rules.WRONG_PLUGIN_CLASS, message, plugin.location, found=file, expected=kind.file)
+        sink.report(rules.WRONG_PLUGIN_CLASS, message, plugin.location, found=file, expected=kind.file)
     elif is_classic(file):
         message = f"{file} is a plugin of Gazebo Classic"
-        notes.report(rules.PLUGIN_NOT_IN_RELEASE, message, plugin.location, found=file)
+        sink.report(rules.PLUGIN_NOT_IN_RELEASE, message, plugin.location, found=file)
     elif modern_file(file).startswith("gz-sim-"):
         near = nearest(modern_file(file), [each.file for each in systems().values()])
         message = f"gz-sim has no {file}"
         help_ = f"did you mean {near}?" if near else None
-        notes.report(rules.PLUGIN_NOT_IN_RELEASE, message, plugin.location, found=file, help=help_)
+        sink.report(rules.PLUGIN_NOT_IN_RELEASE, message, plugin.location, found=file, help=help_)
 
 
 def is_classic(file: str) -> bool:
@@ -149,39 +149,39 @@ def is_classic(file: str) -> bool:
     return modern_file(file).startswith(("gazebo_ros_", "gazebo_ros2_")) or bool(classic_plugins_of_file(file))
 
 
-def _check_defaults(world: World, notes: Notes) -> None:
+def _check_defaults(world: World, sink: DiagnosticSink) -> None:
     ours = [plugin for plugin in world.plugins if not is_classic(plugin.filename or "")]
     missing = missing_defaults(ours) if ours else ()
     if missing:
         listed = ", ".join(kind.class_name.rsplit("::", 1)[-1] for kind in missing)
         message = f"the plugins of world {world.name!r} switch off the default systems, and it has no {listed}"
         help_ = f"add {' '.join(map(as_xml, missing))}"
-        notes.report(rules.DEFAULT_SYSTEMS_OFF, message, ours[0].location, help=help_)
+        sink.report(rules.DEFAULT_SYSTEMS_OFF, message, ours[0].location, help=help_)
 
 
-def _check_sensor(sensor: Sensor, site: Site, release: str, noted: set[str], notes: Notes) -> None:
+def _check_sensor(sensor: Sensor, site: Site, release: str, noted: set[str], sink: DiagnosticSink) -> None:
     kind = kind_of_sensor(sensor, release)
     if kind is None:
         if sensor.type not in {None, "custom"}:
             message = f"sensor {sensor.name!r} is a {sensor.type}, which {release} does not simulate"
-            notes.report(rules.UNSUPPORTED_SENSOR, message, sensor.location, found=sensor.type)
+            sink.report(rules.UNSUPPORTED_SENSOR, message, sensor.location, found=sensor.type)
         return
     if site.world is not None:
-        _check_world_of(sensor, kind, site.world, notes)
+        _check_world_of(sensor, kind, site.world, sink)
         return
     for needed in needed_for(kind).systems:
         if needed.name not in noted:
             noted.add(needed.name)
             message = f"sensor {sensor.name!r} needs {needed.class_name} in the world"
-            notes.report(rules.WORLD_SYSTEM_NEEDED, message, sensor.location, help=f"the world needs {as_xml(needed)}")
+            sink.report(rules.WORLD_SYSTEM_NEEDED, message, sensor.location, help=f"the world needs {as_xml(needed)}")
 
 
-def _check_world_of(sensor: Sensor, kind: SensorKind, world: World, notes: Notes) -> None:
+def _check_world_of(sensor: Sensor, kind: SensorKind, world: World, sink: DiagnosticSink) -> None:
     needed = needed_for(kind)
     for lacking in needed.systems:
         if not has_system(world, lacking):
             message = f"sensor {sensor.name!r} needs {lacking.class_name}, and world {world.name!r} has none"
-            notes.report(
+            sink.report(
                 rules.MISSING_WORLD_SYSTEM,
                 message,
                 sensor.location,
@@ -191,4 +191,4 @@ def _check_world_of(sensor: Sensor, kind: SensorKind, world: World, notes: Notes
     for name in needed.elements:
         if not has_element(world, name):
             message = f"sensor {sensor.name!r} needs <{name}>, and world {world.name!r} has none"
-            notes.report(rules.MISSING_WORLD_SYSTEM, message, sensor.location, related=(world.location,))
+            sink.report(rules.MISSING_WORLD_SYSTEM, message, sensor.location, related=(world.location,))

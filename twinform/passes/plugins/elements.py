@@ -4,9 +4,9 @@ from typing import Any
 
 from lxml import etree
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Element, Opaque, Plugin, Sensor
-from twinform.passes.legalise.carrier import to_element
+from twinform.passes.carriers.carriers import to_element
 from twinform.schemas import Context, element_xml, reader, table
 
 _NAMES = frozenset({"name", "filename"})
@@ -43,7 +43,7 @@ def plugin_element(plugin: Plugin) -> Element:
 
 def sensor_of(element: Element) -> Sensor | None:
     """The sensor that an element stands for; None where it has an error, which the check of the file reports."""
-    found = Notes(file=element.source.file if element.source else "")
+    found = DiagnosticSink(file=element.source.file if element.source else "")
     context = Context(found, found.file, "sdf", table("sdf").newest, declared=False)
     xml = element_xml(element, etree.Element("link", {"name": ""}))
     data: dict[str, Any] = reader("sdf", context.version).read(xml, context, "sensor", element.source)

@@ -15,7 +15,7 @@ from pydantic import AfterValidator, BeforeValidator, Field
 from pydantic.fields import FieldInfo
 
 from twinform.ir import Element
-from twinform.passes.legalise.carrier import from_xml
+from twinform.passes.carriers.carriers import from_xml
 from twinform.passes.plugins.parts import Parameter, ParameterType, PluginKind
 from twinform.passes.plugins.values import problem_of
 from twinform.schemas import format_value

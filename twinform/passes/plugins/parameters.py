@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from twinform.diagnostics import Location, Notes
+from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import plugins as rules
 from twinform.ir import Element, Model, Plugin
 from twinform.passes.plugins.catalogue import nearest
@@ -33,7 +33,7 @@ class Asked(NamedTuple):
     release: str
     model: Model | None
     names: Names
-    notes: Notes
+    sink: DiagnosticSink
 
 
 def check_parameters(plugin: Plugin, asked: Asked) -> None:
@@ -71,7 +71,7 @@ def _check_inside(elements: Sequence[Element], rows: tuple[Parameter, ...], aske
         counts[element.name] += 1
         if counts[element.name] > 1 and not row.is_many:
             message = f"<{element.name}> stands twice; {_called(asked.kind)} reads the first"
-            asked.notes.report(rules.PLUGIN_PARAMETER_COUNT, message, at, found=element.name)
+            asked.sink.report(rules.PLUGIN_PARAMETER_COUNT, message, at, found=element.name)
         _check_element(element, row, asked, at)
     present = {*counts}
     for row in rows:
@@ -81,7 +81,7 @@ def _check_inside(elements: Sequence[Element], rows: tuple[Parameter, ...], aske
             and not any(row.matches(name) for name in present)
         ):
             message = f"{_called(asked.kind)} needs <{row.name}>"
-            asked.notes.report(rules.PLUGIN_PARAMETER_COUNT, message, where, expected=row.name)
+            asked.sink.report(rules.PLUGIN_PARAMETER_COUNT, message, where, expected=row.name)
 
 
 def _is_foreign(name: str) -> bool:
@@ -112,14 +112,14 @@ def _check_attributes(element: Element, row: Parameter, asked: Asked, at: Locati
     for name, each in rows.items():
         if each.is_required and element.get(name) is None:
             message = f"{_called(asked.kind)} needs {name!r} of <{element.name}>"
-            asked.notes.report(rules.PLUGIN_PARAMETER_COUNT, message, at, expected=name)
+            asked.sink.report(rules.PLUGIN_PARAMETER_COUNT, message, at, expected=name)
 
 
 def _check_value(row: Parameter, text: str, what: str, asked: Asked, at: Location) -> None:
     problem = problem_of(row, text)
     if problem:
         message = f"{what} of {_called(asked.kind)} is {text!r}, and has to be {problem}"
-        asked.notes.report(rules.PLUGIN_PARAMETER_VALUE, message, at, found=text, expected=problem)
+        asked.sink.report(rules.PLUGIN_PARAMETER_VALUE, message, at, found=text, expected=problem)
         return
     if row.type in {"joint", "link"} and asked.model is not None:
         _check_reference(row.type, text.strip(), what, asked, at)
@@ -131,7 +131,7 @@ def _check_reference(kind: str, name: str, what: str, asked: Asked, at: Location
         return
     near = nearest(name, sorted(known))
     message = f"{what} of {_called(asked.kind)} names {name!r}, and the model has no such {kind}"
-    asked.notes.report(rules.PLUGIN_REFERENCE, message, at, found=name, help=_meant(near))
+    asked.sink.report(rules.PLUGIN_REFERENCE, message, at, found=name, help=_meant(near))
 
 
 def _unknown(name: str, row: Parameter | None, rows: Sequence[Parameter], asked: Asked, at: Location) -> None:
@@ -141,7 +141,7 @@ def _unknown(name: str, row: Parameter | None, rows: Sequence[Parameter], asked:
     else:
         message = f"{_called(asked.kind)} does not read {called}"
     near = nearest(name, list(_readable(rows, asked.release)))
-    asked.notes.report(rules.UNKNOWN_PLUGIN_PARAMETER, message, at, found=name.lstrip("@"), help=_meant(near))
+    asked.sink.report(rules.UNKNOWN_PLUGIN_PARAMETER, message, at, found=name.lstrip("@"), help=_meant(near))
 
 
 def _readable(rows: Sequence[Parameter], release: str) -> Iterator[str]:

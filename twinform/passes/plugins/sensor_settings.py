@@ -11,7 +11,7 @@ from lxml import etree
 from pydantic import Field
 
 from twinform.ir import Element
-from twinform.passes.legalise.carrier import from_xml
+from twinform.passes.carriers.carriers import from_xml
 from twinform.passes.plugins.catalogue import sensor, sensors
 from twinform.schemas import XmlElement, format_value, table
 

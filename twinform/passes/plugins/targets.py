@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import plugins as rules
 from twinform.ir import Document, Model, World
 from twinform.passes.plugins.catalogue import nearest
@@ -25,7 +25,7 @@ def _named(scope: str, model: Model) -> Iterator[tuple[str, Model]]:
         stack.extend((f"{scope}{each.name}::", inner) for inner in reversed(each.models))
 
 
-def find_model(document: Document, name: str | None, notes: Notes) -> Model | None:
+def find_model(document: Document, name: str | None, sink: DiagnosticSink) -> Model | None:
     """The model of this name, or the only one; None, with a finding, where there is none or the name is needed."""
     models = list(models_of(document))
     outer = [model for called, model in models if "::" not in called]
@@ -33,17 +33,17 @@ def find_model(document: Document, name: str | None, notes: Notes) -> Model | No
         return outer[0]
     found = next((model for called, model in models if called == name), None)
     if found is None:
-        missing(document, "model", name, [called for called, _ in models], notes)
+        missing(document, "model", name, [called for called, _ in models], sink)
     return found
 
 
-def find_world(document: Document, name: str | None, notes: Notes) -> World | None:
+def find_world(document: Document, name: str | None, sink: DiagnosticSink) -> World | None:
     """The world of this name, or the only one; None, with a finding, where there is none or the name is needed."""
     if name is None and len(document.worlds) == 1:
         return document.worlds[0]
     found = next((world for world in document.worlds if world.name == name), None)
     if found is None:
-        missing(document, "world", name, [world.name for world in document.worlds], notes)
+        missing(document, "world", name, [world.name for world in document.worlds], sink)
     return found
 
 
@@ -55,13 +55,13 @@ def world_of(document: Document, model: Model) -> World | None:
     return None
 
 
-def missing(document: Document | Model, what: str, name: str | None, known: list[str], notes: Notes) -> None:
+def missing(document: Document | Model, what: str, name: str | None, known: list[str], sink: DiagnosticSink) -> None:
     """Report that there is nothing to add to."""
     if name is None:
         message = f"there are several: {', '.join(known)}" if known else "there is none"
-        notes.report(rules.NOTHING_TO_ADD_TO, f"which {what} to add to? {message}", document.location)
+        sink.report(rules.NOTHING_TO_ADD_TO, f"which {what} to add to? {message}", document.location)
         return
     near = nearest(name, known)
     help_ = f"did you mean {near}?" if near else f"there are {', '.join(known)}" if known else None
     message = f"there is no {what} {name!r} to add to"
-    notes.report(rules.NOTHING_TO_ADD_TO, message, document.location, found=name, help=help_)
+    sink.report(rules.NOTHING_TO_ADD_TO, message, document.location, found=name, help=help_)

@@ -5,12 +5,12 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import edits as rules
 from twinform.ir import Document, Format, Model, replace_node
 from twinform.ir.namespaces import joined
 from twinform.ir.node import Vector3
-from twinform.passes.other_documents import DocumentPass, DocumentReader
+from twinform.passes.framework.other_documents import DocumentPass, DocumentReader
 from twinform.passes.structure.join_models import Mount, join_sdf, join_urdf, root_of
 from twinform.passes.structure.model_edit import in_new_words
 from twinform.passes.structure.renaming import renamed_model
@@ -45,40 +45,40 @@ class Attach(DocumentPass):
     rpy: Vector3 = Field(default=(0.0, 0.0, 0.0), description="How it is turned: roll, pitch and yaw in rad.")
     model: str | None = Field(default=None, description="The model with the link `to`, where several have one.")
 
-    def run_with(self, document: Document, notes: Notes, read: DocumentReader) -> Document:
+    def run_with(self, document: Document, sink: DiagnosticSink, read: DocumentReader) -> Document:
         """The document with the other model in one of its own."""
-        return in_new_words(document, notes, lambda modern: self._attached(modern, notes, read))
+        return in_new_words(document, sink, lambda modern: self._attached(modern, sink, read))
 
-    def _attached(self, document: Document, notes: Notes, read: DocumentReader) -> Document:
-        target = self._target(document, notes)
-        other = read(self.file, document, notes) if target is not None else None
-        guest = self._guest(other, document, notes) if other is not None else None
+    def _attached(self, document: Document, sink: DiagnosticSink, read: DocumentReader) -> Document:
+        target = self._target(document, sink)
+        other = read(self.file, document, sink) if target is not None else None
+        guest = self._guest(other, document, sink) if other is not None else None
         if target is None or other is None or guest is None:
             return document
-        made = self._joined(target, guest, document.format, notes)
+        made = self._joined(target, guest, document.format, sink)
         if made is target:
             return document
         namespaces = joined(document.namespaces, [other.namespaces])
         return replace_node(document, target, made).model_copy(update={"namespaces": namespaces})
 
-    def _joined(self, target: Model, guest: Model, format_: Format, notes: Notes) -> Model:
+    def _joined(self, target: Model, guest: Model, format_: Format, sink: DiagnosticSink) -> Model:
         scope = scope_of(guest, self._choose, deep=False)
         held = self.link or root_of(guest)
         if held is None or all(link.name != held for link in guest.links):
             message = f"{self.file!r} has no {'link ' + repr(held) if held else 'root link that could be held'}"
-            notes.report(rules.UNKNOWN_NAME, message, guest.location, found=held)
+            sink.report(rules.UNKNOWN_NAME, message, guest.location, found=held)
             return target
-        renamed = renamed_model(guest, scope, format_, notes)
+        renamed = renamed_model(guest, scope, format_, sink)
         held = self.prefix + held
         mount = Mount(self.to, held, self.joint or f"{held}_mount", self.xyz, self.rpy, self.prefix or f"{guest.name}_")
         join = join_urdf if format_ is Format.URDF else join_sdf
-        return join(target, renamed, mount, notes)
+        return join(target, renamed, mount, sink)
 
     def _choose(self, part: Part, name: str) -> str:
         del part
         return self.prefix + name
 
-    def _target(self, document: Document, notes: Notes) -> Model | None:
+    def _target(self, document: Document, sink: DiagnosticSink) -> Model | None:
         """The one model that has the link."""
         models = [each for each in _models(document) if self.model in (None, each.name)]
         fit = [each for each in models if any(part.name == self.to for part in (*each.links, *each.frames))]
@@ -87,15 +87,15 @@ class Attach(DocumentPass):
         names = ", ".join(repr(each.name) for each in fit)
         why = f"several models have a link {self.to!r}: {names}" if fit else f"no link is called {self.to!r}"
         help_ = "name one of them with the option model" if fit else None
-        notes.report(rules.UNKNOWN_NAME, why, document.location, found=self.to, help=help_)
+        sink.report(rules.UNKNOWN_NAME, why, document.location, found=self.to, help=help_)
         return None
 
-    def _guest(self, other: Document, document: Document, notes: Notes) -> Model | None:
+    def _guest(self, other: Document, document: Document, sink: DiagnosticSink) -> Model | None:
         models = list(_models(other))
         if len(models) == 1:
             return models[0]
         message = f"{self.file!r} has {len(models)} models, and one is attached"
-        notes.report(rules.UNREAD_DOCUMENT, message, document.location, found=self.file)
+        sink.report(rules.UNREAD_DOCUMENT, message, document.location, found=self.file)
         return None
 
 

@@ -3,15 +3,15 @@
 import math
 from collections.abc import Sequence
 
-from twinform.diagnostics import Notes, Severity
+from twinform.diagnostics import DiagnosticSink, Severity
 from twinform.diagnostics.rules.inertia import INDEFINITE_INERTIA
 from twinform.ir import Format, Inertial, Link, Pose
 from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import Solid, combined, placed, turned, with_tensor, written_solid
 from twinform.ir.transform import Transform
-from twinform.passes.assets import NO_ASSETS
-from twinform.passes.legalise.automatic_inertias import automatic
-from twinform.passes.meshes import Meshes
+from twinform.passes.analyses.automatic_inertias import automatic
+from twinform.passes.analyses.meshes import Meshes
+from twinform.passes.framework.assets import NO_ASSETS
 
 _NO_MESHES = Meshes(NO_ASSETS)
 """An inertia that is left to a mesh is not computed here: `fill-inertia` does it."""
@@ -34,7 +34,7 @@ def body_of(link: Link, graph: FrameGraph, format_: Format, meshes: Meshes = _NO
     return placed(written_solid(inertial, format_), graph.resolve(inertial.pose, link.name, link.name))
 
 
-def with_guests(link: Link, own: Solid, guests: Sequence[Solid], notes: Notes) -> Link:
+def with_guests(link: Link, own: Solid, guests: Sequence[Solid], sink: DiagnosticSink) -> Link:
     """The link with the mass of others, which are in its frame. The axes of its inertia stay as they are written.
 
     It is an error where no double holds the result.
@@ -47,7 +47,7 @@ def with_guests(link: Link, own: Solid, guests: Sequence[Solid], notes: Notes) -
         message = (
             f"the mass and inertia of link {link.name!r} with all that is lumped into it are too large for a double"
         )
-        notes.report(INDEFINITE_INERTIA, message, link.location, severity=Severity.ERROR)
+        sink.report(INDEFINITE_INERTIA, message, link.location, severity=Severity.ERROR)
         return link
     inertial = link.inertial or Inertial()
     written = None if inertial.auto else inertial.pose

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from twinform.diagnostics import Location, Notes
-from twinform.diagnostics.rules.looks import DROPPED_REFERENCE
+from twinform.diagnostics import DiagnosticSink, Location
+from twinform.diagnostics.rules.appearance import DROPPED_REFERENCE
 from twinform.ir import Document, Element, GazeboExtension, Node, Plugin, walk
 from twinform.ir.verify import verify
 
@@ -16,7 +16,7 @@ class Gone:
     names: dict[str, set[str]] = field(default_factory=dict[str, set[str]])
 
 
-def report_dangling(before: Document, after: Document, gone: Gone, notes: Notes) -> None:
+def report_dangling(before: Document, after: Document, gone: Gone, sink: DiagnosticSink) -> None:
     """Say which plugins name what is gone, and what is wrong now that was not before."""
     names = {name for each in gone.names.values() for name in each if name} - set(_names(after))
     for element, where in _parameters(after):
@@ -24,12 +24,12 @@ def report_dangling(before: Document, after: Document, gone: Gone, notes: Notes)
             name = (word or "").strip().rpartition("::")[2]
             if name in names:
                 message = f"<{element.name}> of a plugin names {name!r}, which is gone"
-                notes.report(DROPPED_REFERENCE, message, where, found=name)
-    old, new = Notes(notes.file, notes.strict), Notes(notes.file, notes.strict)
+                sink.report(DROPPED_REFERENCE, message, where, found=name)
+    old, new = DiagnosticSink(sink.file, sink.strict), DiagnosticSink(sink.file, sink.strict)
     verify(before, old)
     verify(after, new)
     known = {(each.rule.name, each.location) for each in old.diagnostics}
-    notes.extend_new(each for each in new.diagnostics if (each.rule.name, each.location) not in known)
+    sink.extend_new(each for each in new.diagnostics if (each.rule.name, each.location) not in known)
 
 
 def _names(document: Document) -> Iterator[str]:

@@ -4,8 +4,8 @@ from typing import ClassVar, Self, TypeVar
 
 from pydantic import Field, model_validator
 
-from twinform.diagnostics import Notes
-from twinform.diagnostics.rules.looks import NOTHING_MATCHED
+from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.rules.appearance import NOTHING_MATCHED
 from twinform.ir import (
     Collision,
     Document,
@@ -23,9 +23,9 @@ from twinform.ir import (
     node_fields,
     replace_fields,
 )
-from twinform.passes.base import Pass
-from twinform.passes.legalise.carrier import is_ours
-from twinform.passes.patterns import EVERY, matches, with_such_a_name
+from twinform.passes.carriers.carriers import is_ours
+from twinform.passes.framework.base import Pass
+from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
 from twinform.passes.structure.dangling import Gone, report_dangling
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -75,7 +75,7 @@ class Drop(Pass):
             raise ValueError(f"nothing is to go; say one of {', '.join(_OPTIONS)}")
         return self
 
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document without what is to go."""
         gone = Gone()
         everywhere = "*" in self.links
@@ -85,9 +85,9 @@ class Drop(Pass):
             patterns = ", ".join(getattr(self, option))
             if patterns and option not in gone.names:
                 message = f"none of the {option} is called {patterns}"
-                notes.report(NOTHING_MATCHED, message, document.location, found=patterns)
+                sink.report(NOTHING_MATCHED, message, document.location, found=patterns)
         if made is not document:
-            report_dangling(document, made, gone, notes)
+            report_dangling(document, made, gone, sink)
         return made
 
     def _node(self, node: Node, gone: Gone, *, meant: bool) -> Node:

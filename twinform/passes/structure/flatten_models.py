@@ -5,17 +5,17 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import edits as rules
 from twinform.diagnostics.rules.to_urdf import INCLUDE_NOT_EXPANDED
 from twinform.ir import Document, Format, Frame, Link, Model, World
 from twinform.ir.frames import MODEL, FrameGraph
-from twinform.passes.legalise.flattening import flatten
-from twinform.passes.legalise.joint_ends import report_self_joint, resolve_ends
-from twinform.passes.legalise.marks import without_made
-from twinform.passes.structure.model_edit import ModelEdit, Place
+from twinform.passes.carriers.annotations import without_synthesized
+from twinform.passes.structure.model_edit import EditContext, ModelEdit
 from twinform.passes.structure.renaming import renamed_model, with_followed
 from twinform.passes.structure.scopes import Part, Scope, report_clashes, scope_of
+from twinform.passes.transforms.flattening import flatten
+from twinform.passes.transforms.joint_ends import report_self_joint, resolve_ends
 
 _SCOPE = "::"
 _LAST_WITH_COLONS = "1.7"
@@ -43,30 +43,30 @@ class FlattenModels(ModelEdit):
 
     separator: str = Field(default="_", min_length=1, description="What is put between the names.")
 
-    def edit(self, document: Document, notes: Notes) -> Document:
+    def edit(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document without models in models."""
-        made = super().edit(document, notes)
-        if made is document or self.separator != _SCOPE or notes.has_errors:
+        made = super().edit(document, sink)
+        if made is document or self.separator != _SCOPE or sink.has_errors:
             return made
-        from twinform.passes.legalise.sdf_versions import change_version  # noqa: PLC0415 - this case alone needs it
+        from twinform.passes.sdf_versions import change_version  # noqa: PLC0415 - this case alone needs it
 
         for step in change_version(made.version, _LAST_WITH_COLONS):
-            made = step.run(made, notes)
+            made = step.run(made, sink)
         return made
 
-    def edit_model(self, model: Model, place: Place) -> Model:
+    def edit_model(self, model: Model, place: EditContext) -> Model:
         """The model without models in it."""
-        if place.format is Format.URDF or not model.models or _has_includes(model, place.notes):
+        if place.format is Format.URDF or not model.models or _has_includes(model, place.sink):
             return model
         _report_settings(model, place)
-        flat = without_made(flatten(_prepared(model), _plain))
+        flat = without_synthesized(flatten(_prepared(model), _plain))
         flat = _with_rest(flat, model, place)
-        if _has_self_joint(flat, place.notes):
+        if _has_self_joint(flat, place.sink):
             return model
         scope = self._scope(flat, model)
-        if self.separator != _SCOPE and report_clashes(flat, scope, place.format, place.notes):
+        if self.separator != _SCOPE and report_clashes(flat, scope, place.format, place.sink):
             return model
-        return renamed_model(flat, scope, place.format, place.notes)
+        return renamed_model(flat, scope, place.format, place.sink)
 
     def _scope(self, flat: Model, model: Model) -> Scope:
         """The names of a flat model after the pass; it was made of this one."""
@@ -101,30 +101,30 @@ def _nested_names(model: Model, prefix: str) -> Iterator[str]:
         yield from _nested_names(nested, f"{prefix}{nested.name}{_SCOPE}")
 
 
-def _has_includes(model: Model, notes: Notes) -> bool:
+def _has_includes(model: Model, sink: DiagnosticSink) -> bool:
     found = False
     for include in model.includes:
         message = f"model {model.name!r} includes {include.uri!r}, which was not read"
         help_ = "convert with --expand-includes"
-        notes.report(INCLUDE_NOT_EXPANDED, message, include.location, found=include.uri, help=help_)
+        sink.report(INCLUDE_NOT_EXPANDED, message, include.location, found=include.uri, help=help_)
         found = True
-    inner = [_has_includes(nested, notes) for nested in model.models]  # every one has its say
+    inner = [_has_includes(nested, sink) for nested in model.models]  # every one has its say
     return found or any(inner)
 
 
-def _has_self_joint(model: Model, notes: Notes) -> bool:
+def _has_self_joint(model: Model, sink: DiagnosticSink) -> bool:
     """Report joints of a link with itself, which libsdformat lets pass in nested models alone."""
     graph, found = FrameGraph(model), False
     links = {link.name for link in model.links}
     for joint in model.joints:
         resolved, _ = resolve_ends(joint, links, graph)
         if resolved.parent == resolved.child:
-            report_self_joint(joint, resolved, notes)
+            report_self_joint(joint, resolved, sink)
             found = True
     return found
 
 
-def _report_settings(model: Model, place: Place) -> None:
+def _report_settings(model: Model, place: EditContext) -> None:
     for nested in model.models:
         for field in _OF_THE_WHOLE:
             mine, theirs = getattr(model, field), getattr(nested, field)
@@ -132,7 +132,7 @@ def _report_settings(model: Model, place: Place) -> None:
                 message = (
                     f"nested model {nested.name!r} says {field} {str(theirs).lower()}, and {model.name!r} does not"
                 )
-                place.notes.report(rules.NESTED_SETTING, message, nested.location.at(field), found=str(theirs).lower())
+                place.sink.report(rules.NESTED_SETTING, message, nested.location.at(field), found=str(theirs).lower())
         _report_settings(nested.model_copy(update={field: getattr(model, field) for field in _OF_THE_WHOLE}), place)
 
 
@@ -156,7 +156,7 @@ def _with_settings(link: Link, said: dict[str, bool]) -> Link:
     return link.model_copy(update=update) if update else link
 
 
-def _with_rest(flat: Model, model: Model, place: Place) -> Model:
+def _with_rest(flat: Model, model: Model, place: EditContext) -> Model:
     """The flat model with plugins and untyped parts of the models that were in it, which name their parts anew."""
     plugins, opaque = list(model.plugins), list(model.opaque)
     stack = [(nested, "") for nested in reversed(model.models)]
@@ -165,7 +165,7 @@ def _with_rest(flat: Model, model: Model, place: Place) -> Model:
         prefix = f"{around}{nested.name}{_SCOPE}"
         scope = _prefixed(nested, prefix)
         rest = Model(name=nested.name, plugins=nested.plugins, opaque=nested.opaque, source=nested.source)
-        contents = with_followed(rest, scope, place.format, place.notes)
+        contents = with_followed(rest, scope, place.format, place.sink)
         plugins += contents.plugins
         opaque += [part for part in contents.opaque if part.element is not None]
         stack.extend((each, prefix) for each in reversed(nested.models))

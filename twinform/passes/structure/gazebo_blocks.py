@@ -5,10 +5,10 @@ from collections.abc import Iterable, Mapping
 from twinform.ir import Element, GazeboExtension
 from twinform.ir.defaults import BODY
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.carrier import to_element
-from twinform.passes.legalise.element_poses import link_elements, read_pose
-from twinform.passes.legalise.gazebo_tags import JOINT_TAGS, LINK_TAGS, TRUE, value_text
-from twinform.passes.legalise.nodes import unique_name
+from twinform.passes.carriers.carriers import to_element
+from twinform.passes.transforms.element_poses import link_elements, read_pose
+from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, TRUE, value_text
+from twinform.passes.transforms.nodes import unique_name
 
 Blocks = Mapping[str, list[GazeboExtension]]
 

@@ -3,17 +3,17 @@
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import edits as rules
 from twinform.ir import Element, Include, Joint, Model, Node, Opaque, Pose, map_references
 from twinform.ir.frames import WORLD
 from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform
+from twinform.passes.carriers.annotations import without_annotation
+from twinform.passes.carriers.provenance import FROM
 from twinform.passes.includes.merge import merge_into_model
-from twinform.passes.legalise.marks import without_mark
-from twinform.passes.legalise.notation import OFFSET, POSE
-from twinform.passes.legalise.provenance import FROM
 from twinform.passes.structure.root_links import without_world
+from twinform.passes.transforms.notation import OFFSET, POSE
 
 
 class Mount(NamedTuple):
@@ -43,14 +43,14 @@ def root_of(model: Model) -> str | None:
     return roots[0] if len(roots) == 1 else None
 
 
-def join_urdf(model: Model, guest: Model, mount: Mount, notes: Notes) -> Model:
+def join_urdf(model: Model, guest: Model, mount: Mount, sink: DiagnosticSink) -> Model:
     """A robot with another one attached; the same robot after an error, which the notes have."""
     guest = _without_place(without_world(guest))
     if any(joint.child == mount.held for joint in guest.joints):
         message = f"link {mount.held!r} of the attached robot hangs from another one; `reroot` makes it the root"
-        notes.report(rules.UNKNOWN_NAME, message, guest.location, found=mount.held)
+        sink.report(rules.UNKNOWN_NAME, message, guest.location, found=mount.held)
         return model
-    if _clash(model, guest, mount, notes, (("link", "links"), ("joint", "joints"))):
+    if _clash(model, guest, mount, sink, (("link", "links"), ("joint", "joints"))):
         return model
     guest = _own_materials(model, guest, mount.prefix)
     joint = Joint(
@@ -75,14 +75,14 @@ def join_urdf(model: Model, guest: Model, mount: Mount, notes: Notes) -> Model:
     )
 
 
-def join_sdf(model: Model, guest: Model, mount: Mount, notes: Notes) -> Model:
+def join_sdf(model: Model, guest: Model, mount: Mount, sink: DiagnosticSink) -> Model:
     """A model with another one's parts in it; the same model after an error, which the notes have."""
     guest = without_world(guest)
-    if _clash(model, guest, mount, notes, (("", "links"), ("", "joints"), ("", "frames"), ("", "models"))):
+    if _clash(model, guest, mount, sink, (("", "links"), ("", "joints"), ("", "frames"), ("", "models"))):
         return model
     placed = Include(uri=guest.name, pose=mount.pose(mount.to), placement_frame=mount.held, source=guest.source)
     unnamed = guest.model_copy(update={"name": mount.prefix.rstrip("_") or guest.name})
-    merged = merge_into_model(model, placed, unnamed, notes, Transform())
+    merged = merge_into_model(model, placed, unnamed, sink, Transform())
     if merged is model:
         return model
     joint = Joint(name=mount.joint, type="fixed", parent=mount.to, child=mount.held, source=guest.source)
@@ -96,14 +96,14 @@ def _without_place(guest: Model) -> Model:
         for each in guest.extensions
     )
     kept = tuple(each for each in extensions if each.reference or each.content or each.opaque)
-    return without_mark(guest.model_copy(update={"extensions": kept}), FROM, OFFSET, POSE)
+    return without_annotation(guest.model_copy(update={"extensions": kept}), FROM, OFFSET, POSE)
 
 
 def _other_than_pose(content: tuple[Element, ...]) -> tuple[Element, ...]:
     return tuple(each for each in content if each.name != "pose")
 
 
-def _clash(model: Model, guest: Model, mount: Mount, notes: Notes, kinds: Iterable[tuple[str, str]]) -> bool:
+def _clash(model: Model, guest: Model, mount: Mount, sink: DiagnosticSink, kinds: Iterable[tuple[str, str]]) -> bool:
     """Report names that both have; links and joints of URDF may share one."""
     taken: dict[tuple[str, str], Node] = {}
     for kind, field in kinds:
@@ -116,7 +116,7 @@ def _clash(model: Model, guest: Model, mount: Mount, notes: Notes, kinds: Iterab
             other = taken.get((kind, node.name))
             if other is not None:
                 message = f"both models have {node.name!r}"
-                notes.report(
+                sink.report(
                     rules.NAME_CLASH, message, other.location, found=node.name, related=(node.location,),
                     help="give the attached model a prefix",
                 )  # fmt: skip

@@ -26,7 +26,6 @@ from twinform.ir.defaults import AXIS, UNLIMITED
 from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import placed
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.notation import in_radians
 from twinform.passes.structure.bodies import body_of, with_guests
 from twinform.passes.structure.gazebo_blocks import (
     OF_SHAPES,
@@ -43,15 +42,16 @@ from twinform.passes.structure.gazebo_blocks import (
 )
 from twinform.passes.structure.lumping_plan import Plan, plan
 from twinform.passes.structure.mentions import mentions
-from twinform.passes.structure.model_edit import Place
+from twinform.passes.structure.model_edit import EditContext
 from twinform.passes.structure.moved_plugins import moved_plugin
+from twinform.passes.transforms.notation import in_radians
 
 Shape = TypeVar("Shape", Visual, Collision)
 _LUMP = "_fixed_joint_lump__"
 _FIELDS = {"visuals": "visual", "collisions": "collision"}
 
 
-def lump_as_libsdformat(model: Model, keep: tuple[str, ...], place: Place) -> Model:
+def lump_as_libsdformat(model: Model, keep: tuple[str, ...], place: EditContext) -> Model:
     """The model as libsdformat sees it; the same one where it would change nothing."""
     there = blocks(model.extensions)
     graph = FrameGraph(model)
@@ -104,7 +104,7 @@ def shape_name(link: str, name: str | None, kind: str, number: int) -> str:
 class _Lumping:
     """One run over one model."""
 
-    def __init__(self, model: Model, graph: FrameGraph, there: Blocks, planned: Plan, place: Place) -> None:
+    def __init__(self, model: Model, graph: FrameGraph, there: Blocks, planned: Plan, place: EditContext) -> None:
         self.model, self.graph, self.there, self.planned, self.place = model, graph, there, planned, place
         self.links = {link.name: link for link in model.links}
         self.guests = planned.guests()
@@ -135,7 +135,7 @@ class _Lumping:
         own = body_of(link, self.graph, Format.URDF)
         at = {name: self.graph.pose(name, host) for name in names}
         guests = [placed(body_of(self.links[name], self.graph, Format.URDF), at[name]) for name in names]
-        link = with_guests(link, own, guests, self.place.notes)
+        link = with_guests(link, own, guests, self.place.sink)
         for field in _FIELDS:
             self._note_mixed(host, names, field)
             moved = [shape for name in names for shape in _moved(getattr(self.links[name], field), name, at[name])]
@@ -160,8 +160,8 @@ class _Lumping:
             self._lose(message, link, part.weight)
 
     def _lose(self, message: str, node: Link | Joint | GazeboExtension, weight: int) -> None:
-        self.place.notes.report(rules.LUMPED_AWAY, message, node.location)
-        self.place.notes.account(Fate.DROPPED, rules.LUMPED_AWAY, message, node.location, weight)
+        self.place.sink.report(rules.LUMPED_AWAY, message, node.location)
+        self.place.sink.account(Fate.DROPPED, rules.LUMPED_AWAY, message, node.location, weight)
 
     def _joint(self, joint: Joint) -> Joint:
         """A joint of a link that goes hangs from the one that it goes into."""
@@ -221,11 +221,11 @@ class _Lumping:
             if name in self.planned.hosts:
                 message = f"{holder} names link {name!r}, which is a part of {self.planned.hosts[name]!r} now"
                 where = self.links[name].location
-                self.place.notes.report(rules.LUMPED_AWAY, message, where, found=name)
+                self.place.sink.report(rules.LUMPED_AWAY, message, where, found=name)
         for joint in self.planned.joints.values():
             if joint.name in named.joints:
                 message = f"{named.joints[joint.name]} names joint {joint.name!r}, which is gone"
-                self.place.notes.report(rules.LUMPED_AWAY, message, joint.location, found=joint.name)
+                self.place.sink.report(rules.LUMPED_AWAY, message, joint.location, found=joint.name)
 
 
 def _moved(shapes: tuple[Shape, ...], link: str, at: Transform) -> Iterable[Shape]:

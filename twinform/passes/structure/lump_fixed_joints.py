@@ -6,10 +6,10 @@ from pydantic import Field
 
 from twinform.diagnostics.rules import edits as rules
 from twinform.ir import Format, Model
-from twinform.passes.assets import AssetPass
-from twinform.passes.meshes import Meshes
-from twinform.passes.patterns import with_such_a_name
-from twinform.passes.structure.model_edit import ModelEdit, Place
+from twinform.passes.analyses.meshes import Meshes
+from twinform.passes.framework.assets import AssetPass
+from twinform.passes.framework.patterns import with_such_a_name
+from twinform.passes.structure.model_edit import EditContext, ModelEdit
 
 
 class LumpFixedJoints(ModelEdit, AssetPass):
@@ -37,13 +37,13 @@ class LumpFixedJoints(ModelEdit, AssetPass):
     keep: tuple[str, ...] = Field(default=(), description=with_such_a_name("Links and joints that stay,"))
     compat: Literal["libsdformat"] | None = Field(default=None, description="Whose way of lumping to follow.")
 
-    def edit_model(self, model: Model, place: Place) -> Model:
+    def edit_model(self, model: Model, place: EditContext) -> Model:
         """The model with one body for what cannot move apart."""
         # imported here: a document needs one way only
         if self.compat is not None:
             if place.format is Format.SDF:
                 message = f"libsdformat does not lump joints of SDF; model {model.name!r} stays as it is"
-                place.notes.report(rules.NOT_FOR_FORMAT, message, model.location, found=self.compat)
+                place.sink.report(rules.NOT_FOR_FORMAT, message, model.location, found=self.compat)
                 return model
             from twinform.passes.structure.lump_as_libsdformat import lump_as_libsdformat  # noqa: PLC0415 - see above
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from typing import TypeVar
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import (
     Collision,
     Element,
@@ -22,15 +22,15 @@ from twinform.ir import (
 from twinform.ir.defaults import BODY
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.solids import placed
-from twinform.passes.legalise.automatic_inertias import NoInertiaError
-from twinform.passes.legalise.carrier import is_ours
-from twinform.passes.legalise.element_poses import link_elements
-from twinform.passes.legalise.nodes import unique_name
-from twinform.passes.meshes import Meshes
+from twinform.passes.analyses.automatic_inertias import NoInertiaError
+from twinform.passes.analyses.meshes import Meshes
+from twinform.passes.carriers.carriers import is_ours
 from twinform.passes.structure.bodies import body_of, with_guests
 from twinform.passes.structure.lumping_plan import Plan, plan
 from twinform.passes.structure.mentions import Mentions, mentions
-from twinform.passes.structure.model_edit import Place
+from twinform.passes.structure.model_edit import EditContext
+from twinform.passes.transforms.element_poses import link_elements
+from twinform.passes.transforms.nodes import unique_name
 
 Posed = TypeVar("Posed", Visual, Collision, Sensor, Light)
 _SETTINGS = {name: BODY.get(name) for name in ("gravity", "enable_wind", "self_collide", "kinematic")}
@@ -38,7 +38,9 @@ _SETTINGS = {name: BODY.get(name) for name in ("gravity", "enable_wind", "self_c
 _OF_BODY = frozenset({"velocity_decay"})
 
 
-def lump_sdf(model: Model, keep: tuple[str, ...], place: Place, meshes: Meshes, named: Mentions | None = None) -> Model:
+def lump_sdf(
+    model: Model, keep: tuple[str, ...], place: EditContext, meshes: Meshes, named: Mentions | None = None
+) -> Model:
     """The model, and the models in it, with one link for each rigid body; the same one where nothing changes."""
     named = named or mentions(model)
     inner = (lump_sdf(nested, keep, place, meshes, named) for nested in model.models)
@@ -47,7 +49,7 @@ def lump_sdf(model: Model, keep: tuple[str, ...], place: Place, meshes: Meshes, 
         return model
     graph = FrameGraph(model)
     planned = plan(model, graph, keep, _Obstacles(graph, named, meshes).why, place)
-    return _lumped(model, graph, planned, meshes, place.notes) if planned.joints else model
+    return _lumped(model, graph, planned, meshes, place.sink) if planned.joints else model
 
 
 class _Obstacles:
@@ -103,7 +105,7 @@ def _name(part: Opaque) -> str:
     return part.element.name if part.element else part.name
 
 
-def _lumped(model: Model, graph: FrameGraph, planned: Plan, meshes: Meshes, notes: Notes) -> Model:
+def _lumped(model: Model, graph: FrameGraph, planned: Plan, meshes: Meshes, sink: DiagnosticSink) -> Model:
     links = {link.name: link for link in model.links}
     guests = planned.guests()
     gone = {joint.name for joint in planned.joints.values()}
@@ -111,7 +113,7 @@ def _lumped(model: Model, graph: FrameGraph, planned: Plan, meshes: Meshes, note
     made = model.model_copy(
         update={
             "links": tuple(
-                _host(link, [links[name] for name in guests.get(link.name, [])], graph, meshes, notes)
+                _host(link, [links[name] for name in guests.get(link.name, [])], graph, meshes, sink)
                 for link in model.links
                 if link.name not in planned.joints
             ),
@@ -148,11 +150,11 @@ def _based(pose: Pose | None, base: str) -> Pose:
     return pose if pose.relative_to else pose.model_copy(update={"relative_to": base})
 
 
-def _host(link: Link, guests: list[Link], graph: FrameGraph, meshes: Meshes, notes: Notes) -> Link:
+def _host(link: Link, guests: list[Link], graph: FrameGraph, meshes: Meshes, sink: DiagnosticSink) -> Link:
     if not guests:
         return link
     solids = [placed(body_of(guest, graph, Format.SDF, meshes), graph.pose(guest.name, link.name)) for guest in guests]
-    heavy = with_guests(link, body_of(link, graph, Format.SDF, meshes), solids, notes)
+    heavy = with_guests(link, body_of(link, graph, Format.SDF, meshes), solids, sink)
     into = heavy
     for guest in guests:
         collisions = _moved(guest, guest.collisions, into.collisions)

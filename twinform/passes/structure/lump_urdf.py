@@ -7,9 +7,7 @@ from twinform.ir import Collision, Element, Format, GazeboExtension, Joint, Link
 from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import Solid, placed
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.carrier import is_ours
-from twinform.passes.legalise.nodes import unique_name
-from twinform.passes.legalise.notation import in_radians
+from twinform.passes.carriers.carriers import is_ours
 from twinform.passes.structure.bodies import body_of, with_guests
 from twinform.passes.structure.gazebo_blocks import (
     Blocks,
@@ -24,13 +22,15 @@ from twinform.passes.structure.gazebo_blocks import (
 )
 from twinform.passes.structure.lumping_plan import Plan, plan
 from twinform.passes.structure.mentions import Mentions, mentions
-from twinform.passes.structure.model_edit import Place
+from twinform.passes.structure.model_edit import EditContext
+from twinform.passes.transforms.nodes import unique_name
+from twinform.passes.transforms.notation import in_radians
 
 Shape = TypeVar("Shape", Visual, Collision)
 _KINDS = {"visuals": "visual", "collisions": "collision"}
 
 
-def lump_urdf(model: Model, keep: tuple[str, ...], place: Place) -> Model:
+def lump_urdf(model: Model, keep: tuple[str, ...], place: EditContext) -> Model:
     """The model in which only one link of each rigid body has mass; the same one where nothing changes."""
     if not any(joint.type == "fixed" for joint in model.joints):
         return model
@@ -69,7 +69,7 @@ def _mass(link: Link) -> float:
 class _Lumping:
     """One run over one model."""
 
-    def __init__(self, model: Model, graph: FrameGraph, there: Blocks, planned: Plan, place: Place) -> None:
+    def __init__(self, model: Model, graph: FrameGraph, there: Blocks, planned: Plan, place: EditContext) -> None:
         self.model, self.graph, self.there, self.place = model, graph, there, place
         self.planned, self.guests = planned, planned.guests()
         self.links = {link.name: link for link in model.links}
@@ -97,7 +97,7 @@ class _Lumping:
                 self.links[name] = guest.model_copy(update={"inertial": None})
             for field in _KINDS:
                 self._shapes(host, name, field, at)
-        self.links[host] = with_guests(self.links[host], own, solids, self.place.notes)
+        self.links[host] = with_guests(self.links[host], own, solids, self.place.sink)
 
     def _shapes(self, host: str, name: str, field: str, at: Transform) -> None:
         """Move the shapes of a kind, unless `<gazebo>` or another tool says something else of the two links' shapes."""
@@ -107,7 +107,7 @@ class _Lumping:
             return
         if self._about(into, field) != self._about(guest, field):
             message = f"the {field} of link {name!r} stay in it: <gazebo> says other things of those of {host!r}"
-            self.place.notes.report(rules.SHAPES_NOT_MOVED, message, guest.location, found=name)
+            self.place.sink.report(rules.SHAPES_NOT_MOVED, message, guest.location, found=name)
             return
         self.spent.setdefault(name, set()).add(field)
         moved = placed_shapes(shapes, getattr(into, field), name, _KINDS[field], at)

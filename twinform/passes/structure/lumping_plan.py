@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from twinform.diagnostics.rules import edits as rules
 from twinform.ir import Joint, Link, Model
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
-from twinform.passes.patterns import matches
-from twinform.passes.structure.model_edit import Place
+from twinform.passes.framework.patterns import matches
+from twinform.passes.structure.model_edit import EditContext
 
 Obstacle = Callable[[Joint, Link, Link], str | None]
 """Why a link (the last) that a joint fixes to another has to stay; None where nothing speaks against it."""
@@ -46,7 +46,7 @@ class Candidate:
     child: str
 
 
-def plan(model: Model, graph: FrameGraph, keep: tuple[str, ...], obstacle: Obstacle, place: Place) -> Plan:
+def plan(model: Model, graph: FrameGraph, keep: tuple[str, ...], obstacle: Obstacle, place: EditContext) -> Plan:
     """What can go, with a diagnostic for each link that cannot."""
     links = {link.name: link for link in model.links}
     ends = [
@@ -109,7 +109,7 @@ def _circles(going: Mapping[str, Candidate]) -> list[str]:
     return list(dict.fromkeys(bad))
 
 
-def _leave_what_others_hold(going: dict[str, Candidate], ends: list[Candidate], place: Place) -> None:
+def _leave_what_others_hold(going: dict[str, Candidate], ends: list[Candidate], place: EditContext) -> None:
     """A joint must not end up with both of its ends in one link."""
     while True:
         same = next((each for each in ends if _joins_itself(each, going)), None)
@@ -141,6 +141,6 @@ def _host(name: str, going: Mapping[str, Candidate]) -> str:
     return name
 
 
-def _report(each: Candidate, why: str, place: Place) -> None:
+def _report(each: Candidate, why: str, place: EditContext) -> None:
     message = f"link {each.child!r} is not lumped into {each.parent!r}: {why}"
-    place.notes.report(rules.LINK_NOT_LUMPED, message, each.joint.location, found=each.child)
+    place.sink.report(rules.LINK_NOT_LUMPED, message, each.joint.location, found=each.child)

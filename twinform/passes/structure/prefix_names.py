@@ -5,7 +5,7 @@ from typing import ClassVar
 from pydantic import Field
 
 from twinform.ir import Model, World
-from twinform.passes.structure.model_edit import ModelEdit, Place
+from twinform.passes.structure.model_edit import EditContext, ModelEdit
 from twinform.passes.structure.renaming import renamed_model
 from twinform.passes.structure.scopes import Part, report_clashes, scope_of
 
@@ -27,12 +27,12 @@ class PrefixNames(ModelEdit):
     prefix: str = Field(min_length=1, description="What to put before the names.")
     again: bool = Field(default=False, description="Also before names that begin with it already.")
 
-    def edit_model(self, model: Model, place: Place) -> Model:
+    def edit_model(self, model: Model, place: EditContext) -> Model:
         """The model with longer names."""
         scope = scope_of(model, self._choose, deep=False)
-        if not scope.changes or report_clashes(model, scope, place.format, place.notes):
+        if not scope.changes or report_clashes(model, scope, place.format, place.sink):
             return model
-        return renamed_model(model, scope, place.format, place.notes)
+        return renamed_model(model, scope, place.format, place.sink)
 
     def in_world(self, before: World, after: World) -> World:
         """The world, whose joints and frames follow."""

@@ -5,10 +5,10 @@ from typing import ClassVar, Literal, NamedTuple
 
 from pydantic import Field, field_validator
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import edits as rules
 from twinform.ir import Document, Model, World
-from twinform.passes.structure.model_edit import ModelEdit, Place
+from twinform.passes.structure.model_edit import EditContext, ModelEdit
 from twinform.passes.structure.renaming import renamed_model
 from twinform.passes.structure.scopes import Part, every_name, report_clashes, scope_of
 
@@ -81,21 +81,21 @@ class Rename(ModelEdit):
             made.append(_Rule(head, tail if star else None, new_head, new_tail))
         return tuple(made)
 
-    def edit(self, document: Document, notes: Notes) -> Document:
+    def edit(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document by its new names."""
         known = [name for part, name in every_name(document) if part in self.kinds]
         for text, rule in zip(self.names, self._rules, strict=True):
             if not any(rule.apply(name) is not None for name in known):
                 message = f"nothing is called {_pair(text)[0]!r}"
-                notes.report(rules.UNKNOWN_NAME, message, document.location, found=text)
-        return document if notes.has_errors else super().edit(document, notes)
+                sink.report(rules.UNKNOWN_NAME, message, document.location, found=text)
+        return document if sink.has_errors else super().edit(document, sink)
 
-    def edit_model(self, model: Model, place: Place) -> Model:
+    def edit_model(self, model: Model, place: EditContext) -> Model:
         """The model by its new names."""
         scope = scope_of(model, self._choose)
-        if not scope.changes or report_clashes(model, scope, place.format, place.notes):
+        if not scope.changes or report_clashes(model, scope, place.format, place.sink):
             return model
-        return renamed_model(model, scope, place.format, place.notes)
+        return renamed_model(model, scope, place.format, place.sink)
 
     def in_world(self, before: World, after: World) -> World:
         """The world, whose joints and frames follow."""

@@ -4,13 +4,13 @@ import re
 from dataclasses import dataclass
 from typing import TypeVar
 
-from twinform.diagnostics import Location, Notes
+from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import edits as rules
 from twinform.ir import Element, Format, GazeboExtension, Model, Node, Plugin, World, map_children, map_references
 from twinform.ir.sourced import Sourced
-from twinform.passes.legalise.nodes import map_elements
 from twinform.passes.structure.reference_words import kind_of_attribute, kind_of_text
 from twinform.passes.structure.scopes import PARTS, Part, Scope
+from twinform.passes.transforms.nodes import map_elements
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 Holder = TypeVar("Holder", Model, World)
@@ -21,14 +21,14 @@ _DEFAULT_SHAPE = ("_collision", "_visual", "_fixed_joint_lump__")
 """What readers of URDF put behind a link's name to call its shapes."""
 
 
-def renamed_model(model: Model, scope: Scope, format_: Format, notes: Notes) -> Model:
+def renamed_model(model: Model, scope: Scope, format_: Format, sink: DiagnosticSink) -> Model:
     """The model with the names of the scope, wherever they stand in it."""
-    return _Renamer(scope, format_, notes).model(model)
+    return _Renamer(scope, format_, sink).model(model)
 
 
-def with_followed(holder: Holder, scope: Scope, format_: Format, notes: Notes) -> Holder:
+def with_followed(holder: Holder, scope: Scope, format_: Format, sink: DiagnosticSink) -> Holder:
     """The model or world with the names of the scope in its references, but not those of its parts."""
-    return _Renamer(scope, format_, notes).followed(holder)
+    return _Renamer(scope, format_, sink).followed(holder)
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +37,7 @@ class _Renamer:
 
     scope: Scope
     format: Format
-    notes: Notes
+    sink: DiagnosticSink
 
     def followed(self, holder: Holder) -> Holder:
         return self.untyped(map_references(holder, self.scope.follow, self.format))
@@ -55,7 +55,7 @@ class _Renamer:
         """A part of the model by its new name; a nested model has a scope of its own."""
         old = node.__dict__["name"]
         if isinstance(node, Model):
-            node = _Renamer(self.scope.inner[old], self.format, self.notes).model(node)
+            node = _Renamer(self.scope.inner[old], self.format, self.sink).model(node)
         return _changed(node, {"name": self.scope.own[part].get(old, old)})
 
     def report_shared(self, extension: GazeboExtension) -> None:
@@ -63,7 +63,7 @@ class _Renamer:
         name, own = extension.reference, self.scope.own
         if name and name in own["link"] and name in own["joint"] and own["link"][name] != own["joint"][name]:
             message = f"<gazebo> for {name!r}, a link and a joint, follows the link to {own['link'][name]!r}"
-            self.notes.report(rules.UNFOLLOWED_NAME, message, extension.location.at("@reference"), found=name)
+            self.sink.report(rules.UNFOLLOWED_NAME, message, extension.location.at("@reference"), found=name)
 
     def untyped(self, node: AnyNode) -> AnyNode:
         """The node with its opaque parts and plugins, and those of all inside it but nested models."""
@@ -96,7 +96,7 @@ class _Renamer:
         attributes = tuple(
             (key, new.get(value, value) if key == "name" else value) for key, value in element.attributes
         )
-        inside = _Renamer(scope, self.format, self.notes)
+        inside = _Renamer(scope, self.format, self.sink)
         children = tuple(inside.element(child, element.name, where) for child in element.children)
         return _changed(element, {"attributes": attributes, "children": children})
 
@@ -137,7 +137,7 @@ class _Renamer:
         new = self.scope.find("any", value)
         if new is not None and new != value:
             message = f"{place} is {value!r}, which is called {new!r} now; nobody knows whether it means that"
-            self.notes.report(rules.UNFOLLOWED_NAME, message, where, found=value)
+            self.sink.report(rules.UNFOLLOWED_NAME, message, where, found=value)
 
 
 Changed = TypeVar("Changed", bound=Sourced)

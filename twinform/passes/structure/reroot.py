@@ -5,12 +5,12 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import edits as rules
 from twinform.ir import Document, Format, Joint, Model
 from twinform.ir.frames import WORLD, FrameGraph
 from twinform.passes.structure.gazebo_blocks import blocks, content
-from twinform.passes.structure.model_edit import ModelEdit, Place
+from twinform.passes.structure.model_edit import EditContext, ModelEdit
 from twinform.passes.structure.reversal import REVERSIBLE, block_measures_in_sensor, measures_in_sensor
 
 
@@ -33,16 +33,16 @@ class Reroot(ModelEdit):
 
     link: str = Field(min_length=1, description="The link that becomes the root.")
 
-    def edit(self, document: Document, notes: Notes) -> Document:
+    def edit(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document with another root."""
         models = chain(document.models, *(world.models for world in document.worlds))
         links = {link.name for model in models if self.model in (None, model.name) for link in model.links}
         if self.link not in links:
-            notes.report(rules.UNKNOWN_NAME, f"no link is called {self.link!r}", document.location, found=self.link)
+            sink.report(rules.UNKNOWN_NAME, f"no link is called {self.link!r}", document.location, found=self.link)
             return document
-        return super().edit(document, notes)
+        return super().edit(document, sink)
 
-    def edit_model(self, model: Model, place: Place) -> Model:
+    def edit_model(self, model: Model, place: EditContext) -> Model:
         """The model with another root."""
         if all(link.name != self.link for link in model.links):
             return model
@@ -58,7 +58,7 @@ class Reroot(ModelEdit):
 
         return reroot_sdf(model, way)
 
-    def _refuses(self, model: Model, way: list[Joint], place: Place) -> bool:
+    def _refuses(self, model: Model, way: list[Joint], place: EditContext) -> bool:
         there = blocks(model.extensions)
         found = False
         for joint in way:
@@ -67,7 +67,7 @@ class Reroot(ModelEdit):
                 why = "a sensor on it measures in axes of its own"
             if why:
                 message = f"joint {joint.name!r} cannot be reversed to make {self.link!r} the root: {why}"
-                place.notes.report(rules.IRREVERSIBLE_JOINT, message, joint.location, found=joint.type)
+                place.sink.report(rules.IRREVERSIBLE_JOINT, message, joint.location, found=joint.type)
                 found = True
         return found
 

@@ -7,9 +7,9 @@ from twinform.ir import Format, Joint, Link, Model, Pose
 from twinform.ir.defaults import direction
 from twinform.ir.frames import FrameGraph
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.notation import in_radians
 from twinform.passes.structure.gazebo_blocks import blocks
 from twinform.passes.structure.reversal import ABOUT_A_POINT, TURNING, opposite, swapped_block, with_axis
+from twinform.passes.transforms.notation import in_radians
 
 _ON_AXIS = 1e-12
 """Metres by which a link's origin may be beside an axis that goes through it: what rounding makes of zero."""

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from twinform.diagnostics import Location, Notes
+from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import edits as rules
 from twinform.ir import Document, Format, Model, ReferenceKind
 from twinform.ir.frames import MODEL, WORLD
@@ -81,7 +81,7 @@ def _same(_: Part, name: str) -> str:
     return name
 
 
-def report_clashes(model: Model, scope: Scope, format_: Format, notes: Notes) -> bool:
+def report_clashes(model: Model, scope: Scope, format_: Format, sink: DiagnosticSink) -> bool:
     """Report parts that would share a name, in the model and the models in it; whether there are any."""
     seen: dict[tuple[str, str], tuple[str, Location]] = {}
     clash = False
@@ -94,13 +94,13 @@ def report_clashes(model: Model, scope: Scope, format_: Format, notes: Notes) ->
             other = seen.setdefault((kind, new), (node.name, node.location))
             if other[1] != node.location or other[0] != node.name:
                 message = f"{part} {node.name!r} and {other[0]!r} would both be called {new!r}"
-                notes.report(rules.NAME_CLASH, message, node.location, found=new, related=(other[1],))
+                sink.report(rules.NAME_CLASH, message, node.location, found=new, related=(other[1],))
                 clash = True
             elif format_ is Format.SDF and new != node.name and (new in _RESERVED or "::" in new):
                 message = f"{part} {node.name!r} cannot be called {new!r} in SDF"
-                notes.report(rules.NAME_CLASH, message, node.location, found=new)
+                sink.report(rules.NAME_CLASH, message, node.location, found=new)
                 clash = True
-    inner = [report_clashes(nested, scope.inner[nested.name], format_, notes) for nested in model.models]
+    inner = [report_clashes(nested, scope.inner[nested.name], format_, sink) for nested in model.models]
     return clash or any(inner)
 
 

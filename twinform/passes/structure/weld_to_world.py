@@ -9,7 +9,7 @@ from twinform.ir import Format, Joint, Link, Model, Pose
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform
-from twinform.passes.structure.model_edit import ModelEdit, Place
+from twinform.passes.structure.model_edit import EditContext, ModelEdit
 
 
 class WeldToWorld(ModelEdit):
@@ -29,27 +29,27 @@ class WeldToWorld(ModelEdit):
     rpy: Vector3 | None = Field(default=None, description="How it is turned: roll, pitch and yaw in rad.")
     joint: str = Field(default="world_joint", min_length=1, description="The name of the joint.")
 
-    def edit_model(self, model: Model, place: Place) -> Model:
+    def edit_model(self, model: Model, place: EditContext) -> Model:
         """The model with its base held."""
         if not model.links:
             return model
         base = _base(model)
         if model.static or base is None:
             message = f"model {model.name!r} is {'static' if model.static else 'fixed to the world'} already"
-            place.notes.report(rules.ALREADY_HELD, message, model.location, found=model.name)
+            place.sink.report(rules.ALREADY_HELD, message, model.location, found=model.name)
             return model
         if self._clashes(model, place):
             return model
         return self._urdf(model, base) if place.format is Format.URDF else self._sdf(model, base)
 
-    def _clashes(self, model: Model, place: Place) -> bool:
+    def _clashes(self, model: Model, place: EditContext) -> bool:
         siblings = (*model.joints, *((*model.links, *model.frames) if place.format is Format.SDF else ()))
         other = next((each for each in siblings if each.name == self.joint), None)
         world = next((link for link in model.links if link.name == WORLD), None)
         for node, name in ((other, self.joint), (world, WORLD)):
             if node is not None:
                 message = f"{name!r} is the name of another part of model {model.name!r}"
-                place.notes.report(rules.NAME_CLASH, message, node.location, found=name)
+                place.sink.report(rules.NAME_CLASH, message, node.location, found=name)
         return other is not None or world is not None
 
     def _urdf(self, model: Model, base: str) -> Model:

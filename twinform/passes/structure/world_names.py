@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Format, Model, World
 from twinform.passes.structure.renaming import with_followed
 from twinform.passes.structure.scopes import Scope
@@ -15,4 +15,4 @@ def followed(before: World, after: World, scope: Callable[[Model], Scope], only:
     """
     inner = {model.name: scope(model) for model in before.models if only in (None, model.name)}
     own: dict[str, dict[str, str]] = {part: {} for part in ("link", "joint", "frame", "model")}
-    return with_followed(after, Scope("", own, inner), Format.SDF, Notes())
+    return with_followed(after, Scope("", own, inner), Format.SDF, DiagnosticSink())

@@ -4,7 +4,7 @@ from random import Random
 
 from lxml import etree
 
-from twinform.passes.legalise.carrier import NAMESPACE
+from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.schemas import XmlElement
 from twinform.testing.edits.edit import Delete, Edit, SetAttribute, path_of
 from twinform.testing.edits.scene import MORE_PARTS, PARTS, Scene, ends, name_of
@@ -62,8 +62,8 @@ def delete_carriers(scene: Scene, random: Random) -> Edit | None:
         return None
     place = random.choice(found).getparent()
     chosen = found if random.random() < 0.5 else [each for each in found if each.getparent() is place]
-    marks = [each for each in scene.root.iter(etree.Element) if _marks(each)] if chosen is found else []
-    unmarked = tuple(SetAttribute(path_of(each), name, None) for each in marks for name in _marks(each))
+    annotations = [each for each in scene.root.iter(etree.Element) if _marks(each)] if chosen is found else []
+    unmarked = tuple(SetAttribute(path_of(each), name, None) for each in annotations for name in _marks(each))
     return Edit("carrier: delete all", (*unmarked, *(Delete(path_of(each)) for each in chosen)))
 
 

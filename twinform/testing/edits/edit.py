@@ -11,7 +11,7 @@ from typing import Any, cast
 
 from lxml import etree
 
-from twinform.passes.legalise.carrier import NAMESPACE, PREFIX
+from twinform.passes.carriers.carriers import NAMESPACE, PREFIX
 from twinform.schemas import XmlElement
 
 NAMING = frozenset(

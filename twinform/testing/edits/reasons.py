@@ -28,9 +28,9 @@ def _is_marked_frame(found: Difference, edited: EditedFile) -> bool:
         found.b.text is not None and not found.aspect
     ):
         return False
-    marks = (f"{OURS}offset",) if placed else (f"{OURS}frame", f"{OURS}made")
+    annotations = (f"{OURS}offset",) if placed else (f"{OURS}frame", f"{OURS}made")
     named = (each for each in edited.named.iter("link", "joint") if each.get("name") == found.name)
-    return any(child.tag in marks for each in named for child in each)
+    return any(child.tag in annotations for each in named for child in each)
 
 
 def _ends_at_marked_link(found: Difference, edited: EditedFile) -> bool:
@@ -105,10 +105,10 @@ def _is_named_otherwise(found: Difference, edited: EditedFile) -> bool:
     """Whether it is a joint whose name in the other format stands in a mark, by its name here or by that one."""
     if found.group != "joint" or found.aspect:
         return False
-    marks = [mark for joint in edited.marked("joint", "name") for mark in joint.iterfind(f"{OURS}name")]
+    annotations = [mark for joint in edited.marked("joint", "name") for mark in joint.iterfind(f"{OURS}name")]
     if found.b.text is None:
-        return any(mark.get("instead_of") == found.name for mark in marks)
-    return any(mark.text in {found.name, (found.name or "").removesuffix("_joint")} for mark in marks)
+        return any(mark.get("instead_of") == found.name for mark in annotations)
+    return any(mark.text in {found.name, (found.name or "").removesuffix("_joint")} for mark in annotations)
 
 
 def _moves_apart(found: Difference, edited: EditedFile) -> bool:

@@ -7,7 +7,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from twinform.passes.legalise.token_mass import CHAIN_MASS, TOKEN_MASS
+from twinform.passes.carriers.token_mass import CHAIN_MASS, TOKEN_MASS
 from twinform.testing.oracles.lumping import lumped as weighed_together
 from twinform.testing.oracles.robot import Matrix, Robot, Sample
 from twinform.testing.oracles.verdict import Alike, Verdict

@@ -5,8 +5,8 @@ from random import Random
 from hypothesis import strategies as st
 
 from twinform.compiler import convert
-from twinform.compiler.emitting import emit
-from twinform.diagnostics import Notes
+from twinform.compiler.output.emitting import emit
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format
 from twinform.testing.edits import Edit, draw_edits
 from twinform.testing.edits.drawing import MOST
@@ -37,7 +37,9 @@ def edited_files(
     def convert_(model: Document) -> bytes:
         to_sdf = model.format is Format.URDF
         made = convert(
-            emit(model, Notes()).encode(), to="sdf" if to_sdf else "urdf", sdf_version=sdf_version if to_sdf else None
+            emit(model, DiagnosticSink()).encode(),
+            to="sdf" if to_sdf else "urdf",
+            sdf_version=sdf_version if to_sdf else None,
         )
         return made.text.encode()
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Element, Plugin, Sensor
 from twinform.passes.classic.sensors import SensorMigration
 from twinform.passes.plugins.catalogue import release
@@ -25,9 +25,9 @@ def eyes(*names: str | None, plugins: tuple[Plugin, ...] = (MINE, DRIVER)) -> Se
     return made.model_copy(update={"plugins": plugins})
 
 
-def split(sensor: Sensor) -> tuple[list[Sensor], Notes]:
-    notes = Notes()
-    return list(SensorMigration(release("harmonic"), notes)(sensor, SITE)), notes
+def split(sensor: Sensor) -> tuple[list[Sensor], DiagnosticSink]:
+    sink = DiagnosticSink()
+    return list(SensorMigration(release("harmonic"), sink)(sensor, SITE)), sink
 
 
 @pytest.mark.parametrize("count", [1, 2, 3])
@@ -47,23 +47,23 @@ def test_each_camera_has_the_parameters_and_topics_of_its_own_name() -> None:
 
 
 def test_what_is_lost_is_lost_once_and_the_sensor_is_said_to_be_several() -> None:
-    _, notes = split(eyes("l", "r"))
+    _, sink = split(eyes("l", "r"))
     message = "sensor 'eyes' on 'head' was multicamera and is 2 cameras"
-    assert [(each.rule.name, each.found) for each in notes.diagnostics] == [
+    assert [(each.rule.name, each.found) for each in sink.diagnostics] == [
         ("migrated-plugin", "libgazebo_ros_multicamera.so"),
         ("parameter-without-counterpart", "1"),
         ("migrated-sensor", "multicamera"),
     ]
-    assert notes.diagnostics[-1].message == message
-    split_ = [each for each in notes.entries if each.rule.name == "migrated-sensor"]
+    assert sink.diagnostics[-1].message == message
+    split_ = [each for each in sink.entries if each.rule.name == "migrated-sensor"]
     assert {each.message for each in split_} == {message}
     assert [each.location.path.rpartition("@")[2] for each in split_] == ["type", "name", "name", "name"]
 
 
 def test_without_a_plugin_of_gazebo_classic_it_is_split_as_well() -> None:
-    made, notes = split(eyes("l", "r", plugins=(MINE,)))
+    made, sink = split(eyes("l", "r", plugins=(MINE,)))
     assert [(each.name, each.topic, each.plugins) for each in made] == [
         ("eyes_l", None, (MINE,)),
         ("eyes_r", None, ()),
     ]
-    assert [each.rule.name for each in notes.diagnostics] == ["migrated-sensor"]
+    assert [each.rule.name for each in sink.diagnostics] == ["migrated-sensor"]

@@ -7,7 +7,7 @@ from click.testing import CliRunner
 
 import twinform
 from twinform.cli import main
-from twinform.diagnostics import Notes, Severity
+from twinform.diagnostics import DiagnosticSink, Severity
 from twinform.passes import parse_pipeline
 from twinform.passes.plugins.bridge import bridges
 from twinform.passes.plugins.check_plugins import CheckPlugins
@@ -23,9 +23,9 @@ def test_the_migrated_robot_has_its_world_and_the_topics_that_it_had_in_ros(tmp_
     done = CliRunner().invoke(main, ["convert", str(ROVER), "--to", "sdf", *options], catch_exceptions=False)
     assert done.exit_code == 0
     assert set(re.findall(r'ros_topic_name: "(.*)"', bridge.read_text())) == TOPICS
-    notes = Notes()
-    CheckPlugins().run(twinform.load(world), notes)
-    assert not [each for each in notes.diagnostics if each.severity >= Severity.WARNING]
+    sink = DiagnosticSink()
+    CheckPlugins().run(twinform.load(world), sink)
+    assert not [each for each in sink.diagnostics if each.severity >= Severity.WARNING]
 
 
 def test_the_migrated_robot_is_the_same_robot() -> None:
@@ -44,8 +44,8 @@ CLOUDS = """<robot name="r"><link name="base"><inertial><mass value="1"/>
 
 def test_clouds_keep_the_names_that_they_had_in_ros() -> None:
     document = twinform.loads(CLOUDS)
-    migrated = parse_pipeline("migrate-gazebo-classic").run(document, Notes())
-    found = {each.ros_topic_name: each.ros_type_name for each in bridges(migrated, "harmonic", Notes())}
+    migrated = parse_pipeline("migrate-gazebo-classic").run(document, DiagnosticSink())
+    found = {each.ros_topic_name: each.ros_type_name for each in bridges(migrated, "harmonic", DiagnosticSink())}
     cloud, scan = "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/LaserScan"
     assert {name: type_ for name, type_ in found.items() if name != "/clock"} == {
         "velodyne_points": cloud,
@@ -58,8 +58,8 @@ def test_clouds_keep_the_names_that_they_had_in_ros() -> None:
 def test_a_world_gets_what_its_plugins_need() -> None:
     text = """<sdf version="1.6"><world name="sea"><model name="boat"><link name="hull"/><plugin name="h"
     filename="gz-sim-hydrodynamics-system"><link_name>hull</link_name></plugin></model></world></sdf>"""
-    notes = Notes()
-    made = parse_pipeline("migrate-gazebo-classic").run(twinform.loads(text), notes)
+    sink = DiagnosticSink()
+    made = parse_pipeline("migrate-gazebo-classic").run(twinform.loads(text), sink)
     names = [(each.name or "").rpartition("::")[2] for each in made.worlds[0].plugins]
     assert names == ["Physics", "UserCommands", "SceneBroadcaster", "Buoyancy"]
-    assert "added-world-system" in {each.rule.name for each in notes.diagnostics}
+    assert "added-world-system" in {each.rule.name for each in sink.diagnostics}

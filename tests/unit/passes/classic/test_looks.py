@@ -4,7 +4,7 @@ from typing import ClassVar
 
 import pytest
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format
 from twinform.passes import Pass
 from twinform.passes.classic import looks
@@ -13,8 +13,8 @@ from twinform.passes.classic import looks
 class Recoloured(Pass):
     name: ClassVar[str] = "materials"
 
-    def run(self, document: Document, notes: Notes) -> Document:
-        del notes
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
+        del sink
         return document.model_copy(update={"version": "recoloured"})
 
 
@@ -24,9 +24,9 @@ DOCUMENT = Document(format=Format.URDF)
 def test_the_pass_materials_runs_where_it_is_installed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(looks, "registered_passes", lambda: {"materials": None})
     monkeypatch.setattr(looks, "find_pass", {"materials": Recoloured}.__getitem__)
-    assert looks.in_colours(DOCUMENT, Notes()).version == "recoloured"
+    assert looks.in_colours(DOCUMENT, DiagnosticSink()).version == "recoloured"
 
 
 def test_without_it_looks_stay(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(looks, "registered_passes", dict)
-    assert looks.in_colours(DOCUMENT, Notes()) is DOCUMENT
+    assert looks.in_colours(DOCUMENT, DiagnosticSink()) is DOCUMENT

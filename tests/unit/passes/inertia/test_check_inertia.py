@@ -3,7 +3,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from twinform.diagnostics import Notes, Source
+from twinform.diagnostics import DiagnosticSink, Source
 from twinform.ir import Document, Format, Frame, Inertia, Inertial, Joint, Link, Model, World
 from twinform.passes.inertia.check_inertia import CheckInertia
 
@@ -38,9 +38,9 @@ def sdf(*models: Model, worlds: tuple[World, ...] = ()) -> Document:
 
 
 def found(document: Document, eps: float = 1e-6) -> list[tuple[str, int]]:
-    notes = Notes()
-    assert CheckInertia(eps=eps).run(document, notes) is document
-    return [(each.rule.name, each.location.line) for each in notes.diagnostics]
+    sink = DiagnosticSink()
+    assert CheckInertia(eps=eps).run(document, sink) is document
+    return [(each.rule.name, each.location.line) for each in sink.diagnostics]
 
 
 CASES: dict[str, tuple[Inertial, list[str]]] = {

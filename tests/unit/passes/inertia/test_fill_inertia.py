@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import twinform
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import (
     Box,
     Capsule,
@@ -129,7 +129,7 @@ def link(*parts: tuple[Any, Pose], inertial: Inertial | None = None, name: str =
 
 def filled(options: FillInertia, *links: Link, format_: Format = Format.URDF) -> tuple[Link, ...]:
     document = Document(format=format_, models=(Model(name="robot", links=links),))
-    return options.run(document, Notes()).models[0].links
+    return options.run(document, DiagnosticSink()).models[0].links
 
 
 def numbers(one: Link) -> tuple[float, Any, Any]:
@@ -226,9 +226,9 @@ FLAT = (Box(size=(1.0, 1.0, 0.0)), Pose())
 
 @pytest.mark.parametrize("part", [HUGE, FLAT, (None, Pose())], ids=["huge", "flat", "no shape"])
 def test_a_shape_without_a_volume_fills_nothing(part: tuple[Any, Pose]) -> None:
-    notes, before = Notes(), Document(format=Format.URDF, models=(Model(name="r", links=(link(part),)),))
-    assert FillInertia().run(before, notes) is before
-    assert [each.rule.name for each in notes.diagnostics] == ["unfilled-inertia"]
+    sink, before = DiagnosticSink(), Document(format=Format.URDF, models=(Model(name="r", links=(link(part),)),))
+    assert FillInertia().run(before, sink) is before
+    assert [each.rule.name for each in sink.diagnostics] == ["unfilled-inertia"]
 
 
 @pytest.mark.parametrize("options", ["density=0", "mass=-1", "total-mass=inf", "density=1 mass=1", "replace=some"])

@@ -2,7 +2,7 @@
 
 import pytest
 
-from twinform.diagnostics import Notes, Source
+from twinform.diagnostics import DiagnosticSink, Source
 from twinform.ir import Axis, Document, Dynamics, Element, Format, Joint, JointType, Limit, Model, Opaque
 from twinform.passes.limits.check_limits import CheckLimits
 
@@ -17,10 +17,10 @@ def at(line: int) -> Source:
 
 
 def found(joint: Joint, format_: Format = Format.URDF, options: CheckLimits | None = None) -> list[Found]:
-    notes = Notes()
+    sink = DiagnosticSink()
     document = Document(format=format_, models=(Model(name="r", joints=(joint,)),))
-    assert (options or CheckLimits()).run(document, notes) is document
-    return [(each.rule.name, each.location.line, each.message, each.found, each.expected) for each in notes.diagnostics]
+    assert (options or CheckLimits()).run(document, sink) is document
+    return [(each.rule.name, each.location.line, each.message, each.found, each.expected) for each in sink.diagnostics]
 
 
 def joint(
@@ -167,9 +167,9 @@ def test_soft_limits_are_inside_of_the_hard_ones(one: Joint, message: str | None
 
 
 def test_soft_limits_are_reported_at_their_element() -> None:
-    notes, one = Notes(), soft("-2", "2")
-    CheckLimits().run(Document(format=Format.URDF, models=(Model(name="r", joints=(one,)),)), notes)
-    assert [each.location for each in notes.diagnostics] == [one.location.at("safety_controller")]
+    sink, one = DiagnosticSink(), soft("-2", "2")
+    CheckLimits().run(Document(format=Format.URDF, models=(Model(name="r", joints=(one,)),)), sink)
+    assert [each.location for each in sink.diagnostics] == [one.location.at("safety_controller")]
 
 
 def test_options_move_what_is_too_much_and_choose_joints() -> None:

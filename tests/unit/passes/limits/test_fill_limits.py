@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Axis, Document, Format, Joint, JointType, Limit, Model, World
 from twinform.passes import parse_pipeline
 from twinform.passes.limits.fill_limits import FillLimits
@@ -19,8 +19,8 @@ def robot(*joints: Joint, format_: Format = Format.URDF) -> Document:
 
 
 def fill(options: FillLimits, document: Document) -> tuple[Document, list[str]]:
-    notes = Notes()
-    return options.run(document, notes), [each.rule.name for each in notes.diagnostics]
+    sink = DiagnosticSink()
+    return options.run(document, sink), [each.rule.name for each in sink.diagnostics]
 
 
 def filled(options: FillLimits, one: Joint) -> tuple[Limit | None, list[str]]:

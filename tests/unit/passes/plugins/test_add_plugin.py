@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import twinform
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.passes import PipelineError, parse_pipeline
 from twinform.passes.plugins.add_plugin import AddPlugin
@@ -25,9 +25,9 @@ WORLD = """<sdf version="1.11"><world name="w"><plugin name="p" filename="mine"/
 
 
 def run(text: str, document: Document) -> tuple[Document, list[tuple[str, str]]]:
-    notes = Notes()
-    made = parse_pipeline(text).run(document, notes)
-    return made, [(each.rule.name, each.help or "") for each in notes.diagnostics]
+    sink = DiagnosticSink()
+    made = parse_pipeline(text).run(document, sink)
+    return made, [(each.rule.name, each.help or "") for each in sink.diagnostics]
 
 
 def rover() -> Document:
@@ -117,9 +117,9 @@ def test_adding_twice_is_adding_once() -> None:
 
 def test_what_is_added_passes_check_plugins() -> None:
     made, _ = run(f"add-plugin{{system=diff-drive {WHEELS}}},add-plugin{{system=joint-state-publisher}}", rover())
-    notes = Notes()
-    CheckPlugins().run(made, notes)
-    assert not notes.diagnostics
+    sink = DiagnosticSink()
+    CheckPlugins().run(made, sink)
+    assert not sink.diagnostics
 
 
 def test_the_first_plugin_of_a_world_brings_those_that_it_switches_off() -> None:
@@ -178,12 +178,12 @@ def test_a_system_goes_where_it_belongs(text: str, scope: str, holder: str) -> N
     ],
 )
 def test_what_cannot_be_added_is_an_error_and_changes_nothing(text: str, model: str, rule: str, help_: str) -> None:
-    document, notes = twinform.loads(model), Notes()
-    assert parse_pipeline(text).run(document, notes) is document
-    assert [(each.rule.name, each.is_error) for each in notes.diagnostics] == [(rule, True)]
+    document, sink = twinform.loads(model), DiagnosticSink()
+    assert parse_pipeline(text).run(document, sink) is document
+    assert [(each.rule.name, each.is_error) for each in sink.diagnostics] == [(rule, True)]
     if rule == "plugin-reference":
-        assert (notes.diagnostics[0].found, notes.diagnostics[0].help) == ("bas", help_)
-    assert help_ in (notes.diagnostics[0].help or "") or help_ in {"did you mean base?", "did you mean a::inner?"}
+        assert (sink.diagnostics[0].found, sink.diagnostics[0].help) == ("bas", help_)
+    assert help_ in (sink.diagnostics[0].help or "") or help_ in {"did you mean base?", "did you mean a::inner?"}
 
 
 def test_wheels_that_say_no_radius_are_an_error() -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import twinform
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Sensor
 from twinform.passes import PipelineError, parse_pipeline
 from twinform.passes.plugins.add_sensor import AddSensor
@@ -29,9 +29,9 @@ URDF = """<robot name="r">
 
 
 def run(text: str, document: Document) -> tuple[Document, list[str]]:
-    notes = Notes()
-    made = parse_pipeline(text).run(document, notes)
-    return made, [each.rule.name for each in notes.diagnostics]
+    sink = DiagnosticSink()
+    made = parse_pipeline(text).run(document, sink)
+    return made, [each.rule.name for each in sink.diagnostics]
 
 
 def pipeline(type_: str, more: str = "") -> str:
@@ -56,9 +56,9 @@ def test_every_kind_of_sensor_is_added_and_passes_the_check_of_files(type_: str,
     [(node, site)] = sensors_of(made)
     assert (node.type, site.holder) == (type_, "wrist" if type_ == "force_torque" else "base")
     assert set(found) <= {"world-system-needed", "added-world-system", "missing-world-system"}
-    notes = Notes()
-    CheckPlugins().run(made, notes)
-    assert {each.rule.name for each in notes.diagnostics} <= {"world-system-needed", "missing-world-system"}
+    sink = DiagnosticSink()
+    CheckPlugins().run(made, sink)
+    assert {each.rule.name for each in sink.diagnostics} <= {"world-system-needed", "missing-world-system"}
     text = twinform.convert(model.encode(), to="sdf", sdf_version="1.11", passes=pipeline(type_, noise)).text
     assert not [each for each in twinform.check(text.encode()).diagnostics if each.severity > 1]
 
@@ -87,9 +87,9 @@ def test_two_sensors_never_share_a_topic() -> None:
 
 def test_the_world_of_urdf_carries_no_sensor() -> None:
     text = '<robot name="r"><link name="world"/><link name="a"/><joint name="j" type="fixed"><parent link="world"/>'
-    document, notes = twinform.loads(f'{text}<child link="a"/></joint></robot>'), Notes()
-    assert parse_pipeline("add-sensor{type=imu link=world}").run(document, notes) is document
-    assert [each.rule.name for each in notes.diagnostics] == ["nothing-to-add-to"]
+    document, sink = twinform.loads(f'{text}<child link="a"/></joint></robot>'), DiagnosticSink()
+    assert parse_pipeline("add-sensor{type=imu link=world}").run(document, sink) is document
+    assert [each.rule.name for each in sink.diagnostics] == ["nothing-to-add-to"]
 
 
 def test_a_world_gets_what_the_sensor_needs_and_what_a_plugin_switches_off() -> None:
@@ -117,9 +117,9 @@ def test_a_place_on_earth_is_asked_for_where_a_receiver_needs_one() -> None:
 
 
 def test_a_file_without_a_world_is_told_what_the_world_needs() -> None:
-    notes = Notes()
-    parse_pipeline(pipeline("imu")).run(twinform.loads(URDF), notes)
-    [found] = notes.diagnostics
+    sink = DiagnosticSink()
+    parse_pipeline(pipeline("imu")).run(twinform.loads(URDF), sink)
+    [found] = sink.diagnostics
     assert found.rule.name == "world-system-needed"
     assert '<plugin filename="gz-sim-imu-system" name="gz::sim::systems::Imu"/>' in (found.help or "")
 
@@ -203,9 +203,9 @@ def test_a_fixed_joint_that_is_measured_stays_one() -> None:
 def test_where_there_is_nothing_to_add_to_is_an_error(
     text: str, message: str, found: str | None, help_: str | None
 ) -> None:
-    document, notes = twinform.loads(URDF), Notes()
-    assert parse_pipeline(f"add-sensor{text}").run(document, notes) is document
-    [said] = notes.diagnostics
+    document, sink = twinform.loads(URDF), DiagnosticSink()
+    assert parse_pipeline(f"add-sensor{text}").run(document, sink) is document
+    [said] = sink.diagnostics
     assert (said.rule.name, said.is_error, said.location.line) == ("nothing-to-add-to", True, 1)
     assert (said.message, said.found, said.help) == (message, found, help_)
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import twinform
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.passes.plugins.bridge import Bridge, bridge_yaml, bridges
 from twinform.passes.plugins.bridge_config import BridgeConfig
@@ -36,7 +36,7 @@ def plugin(name: str, content: str = "") -> str:
 
 
 def rows(document: Document, release: str = "harmonic", world: str | None = None) -> list[tuple[str, ...]]:
-    made = bridges(document, release, Notes(), world)
+    made = bridges(document, release, DiagnosticSink(), world)
     return [(each.ros_topic_name, each.gz_topic_name, each.gz_type_name, each.direction) for each in made][1:]
 
 
@@ -227,9 +227,9 @@ def test_a_topic_that_contains_the_world_is_known_where_the_world_is() -> None:
     name = "/world/w/model/r/link/base/sensor/s/imu"
     assert [row[:2] for row in rows(in_world(model(sensor)))] == [("s/imu", name)]
     assert [row[:2] for row in rows(alone(sensor), world="w")] == [("s/imu", name)]
-    notes = Notes()
-    assert len(bridges(alone(sensor), "harmonic", notes)) == 1
-    assert [(each.rule.name, str(each.severity)) for each in notes.diagnostics] == [("unbridged-topic", "warning")]
+    sink = DiagnosticSink()
+    assert len(bridges(alone(sensor), "harmonic", sink)) == 1
+    assert [(each.rule.name, str(each.severity)) for each in sink.diagnostics] == [("unbridged-topic", "warning")]
 
 
 def test_a_nested_model_publishes_below_all_its_parents() -> None:
@@ -252,9 +252,9 @@ def test_a_release_has_the_topics_that_it_knows() -> None:
 
 
 def test_a_message_that_ros_does_not_know_is_reported() -> None:
-    notes = Notes()
-    bridges(alone('<sensor name="s" type="air_speed"><topic>a</topic></sensor>'), "harmonic", notes)
-    assert [(each.rule.name, str(each.severity)) for each in notes.diagnostics] == [("unbridged-topic", "info")]
+    sink = DiagnosticSink()
+    bridges(alone('<sensor name="s" type="air_speed"><topic>a</topic></sensor>'), "harmonic", sink)
+    assert [(each.rule.name, str(each.severity)) for each in sink.diagnostics] == [("unbridged-topic", "info")]
 
 
 def test_several_models_have_topics_of_their_own() -> None:
@@ -276,7 +276,7 @@ def test_fortress_calls_messages_by_the_name_of_ignition() -> None:
 
 
 def test_the_clock_comes_first() -> None:
-    assert bridges(alone(), "harmonic", Notes())[0].ros_type_name == "rosgraph_msgs/msg/Clock"
+    assert bridges(alone(), "harmonic", DiagnosticSink())[0].ros_type_name == "rosgraph_msgs/msg/Clock"
 
 
 def test_names_are_what_ros_takes() -> None:
@@ -297,17 +297,17 @@ def test_the_pass_makes_the_text_and_writes_and_changes_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    document, notes = alone(plugins=plugin("diff-drive")), Notes()
-    assert BridgeConfig(file="config/bridge.yaml").run(document, notes) is document
-    assert [each.path for each in notes.companions] == ["config/bridge.yaml"]
-    assert notes.companions[0].text.count("ros_topic_name") == 5
+    document, sink = alone(plugins=plugin("diff-drive")), DiagnosticSink()
+    assert BridgeConfig(file="config/bridge.yaml").run(document, sink) is document
+    assert [each.path for each in sink.companions] == ["config/bridge.yaml"]
+    assert sink.companions[0].text.count("ros_topic_name") == 5
     assert not any(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("release", ["fortress", "harmonic", "jetty"])
 def test_the_topics_of_all_systems_can_be_written(release: str) -> None:
     for kind in systems().values():
-        for each in bridges(alone(plugins=plugin(kind.name)), release, Notes(), "w"):
+        for each in bridges(alone(plugins=plugin(kind.name)), release, DiagnosticSink(), "w"):
             assert "{" not in each.gz_topic_name
             assert "//" not in each.gz_topic_name
 

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import pytest
 
 import twinform
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Model, World
 from twinform.passes.plugins.targets import find_model, find_world, world_of
 
@@ -21,11 +21,11 @@ Said = tuple[str, str | None, str | None]
 """The message, what was found, the help."""
 
 
-def said(notes: Notes) -> list[Said]:
-    assert {(each.rule.name, each.location.line, each.location.path) for each in notes.diagnostics} <= {
+def said(sink: DiagnosticSink) -> list[Said]:
+    assert {(each.rule.name, each.location.line, each.location.path) for each in sink.diagnostics} <= {
         ("nothing-to-add-to", 1, "/sdf")
     }
-    return [(each.message, each.found, each.help) for each in notes.diagnostics]
+    return [(each.message, each.found, each.help) for each in sink.diagnostics]
 
 
 @pytest.mark.parametrize(
@@ -50,16 +50,16 @@ def said(notes: Notes) -> list[Said]:
     ],
 )
 def test_a_model_or_world_is_found_or_why_not_is_said(
-    find: Callable[[Document, str | None, Notes], Model | World | None],
+    find: Callable[[Document, str | None, DiagnosticSink], Model | World | None],
     text: str,
     name: str | None,
     found: str | None,
     expected: Said | None,
 ) -> None:
-    notes = Notes()
-    part = find(twinform.loads(text), name, notes)
+    sink = DiagnosticSink()
+    part = find(twinform.loads(text), name, sink)
     assert (part.name if part else None) == found
-    assert said(notes) == ([expected] if expected else [])
+    assert said(sink) == ([expected] if expected else [])
 
 
 def test_a_model_is_in_the_world_around_it_however_deep() -> None:

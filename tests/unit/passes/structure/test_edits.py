@@ -6,7 +6,7 @@ import pytest
 
 import twinform
 from tests.unit.passes.told import findings
-from twinform.diagnostics import Location, Notes, Origins
+from twinform.diagnostics import DiagnosticSink, Location, Origins
 from twinform.passes import parse_pipeline
 from twinform.passes.structure.model_edit import in_new_words
 
@@ -139,12 +139,12 @@ def test_what_is_held_already_is_not_welded(text: str, words: str) -> None:
 def test_a_weld_takes_no_name_twice() -> None:
     document = twinform.loads(sdf("a b", held("j", "a", "b")))
     for name, line, path in (("j", 4, "joint[@name='j']"), ("b", 3, "link[@name='b']")):
-        notes = Notes()
-        made = parse_pipeline(f"weld-to-world{{joint={name}}}").run(document, notes)
+        sink = DiagnosticSink()
+        made = parse_pipeline(f"weld-to-world{{joint={name}}}").run(document, sink)
         assert made is document
         assert [
             (each.rule.name, each.location.line, each.location.path, each.message, each.found)
-            for each in notes.diagnostics
+            for each in sink.diagnostics
         ] == [
             (
                 "name-clash",
@@ -258,12 +258,12 @@ def test_what_raising_the_version_says_is_said_where_an_expanded_text_was_writte
         ),
     )
     document = twinform.loads(text.replace("1.9", "1.6"), "x (expanded)")
-    notes = Notes("x", origins={"x (expanded)": Origins.of([(1, Location("x.xacro", 30))])})
-    made = in_new_words(document, notes, lambda modern: modern.model_copy(update={"models": modern.models * 1}))
+    sink = DiagnosticSink("x", origins={"x (expanded)": Origins.of([(1, Location("x.xacro", 30))])})
+    made = in_new_words(document, sink, lambda modern: modern.model_copy(update={"models": modern.models * 1}))
     assert made.version == "1.8"
-    said = [(each.rule.name, each.location.file, each.location.line, each.found) for each in notes.diagnostics]
+    said = [(each.rule.name, each.location.file, each.location.line, each.found) for each in sink.diagnostics]
     assert said == [("raised-version", "x.xacro", 30, "1.6")]
-    assert {(each.location.file, each.location.line) for each in notes.entries} == {("x.xacro", 30)}
+    assert {(each.location.file, each.location.line) for each in sink.entries} == {("x.xacro", 30)}
 
 
 WORLD = """<sdf version="1.9"><world name="w"><gui><plugin name="a" filename="A"/><camera name="c"/>{}</gui>

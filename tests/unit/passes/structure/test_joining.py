@@ -3,7 +3,7 @@
 import pytest
 
 import twinform
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.passes.structure.attach import Attach
 
@@ -22,14 +22,14 @@ AXIS = '<axis xyz="1 0 0"/><limit effort="1" velocity="1"/>'
 
 
 def attached(text: str, other: str, **options: object) -> tuple[Document, list[tuple[str, int, str, str, str | None]]]:
-    def read(path: str, around: Document, notes: Notes) -> Document:
-        del path, around, notes
+    def read(path: str, around: Document, sink: DiagnosticSink) -> Document:
+        del path, around, sink
         return twinform.loads(other)
 
-    notes = Notes()
-    made = Attach.model_validate({"file": "hand", "to": "tool", **options}).run_with(twinform.loads(text), notes, read)
+    sink = DiagnosticSink()
+    made = Attach.model_validate({"file": "hand", "to": "tool", **options}).run_with(twinform.loads(text), sink, read)
     return made, [
-        (each.rule.name, each.location.line, each.location.path, each.message, each.found) for each in notes.diagnostics
+        (each.rule.name, each.location.line, each.location.path, each.message, each.found) for each in sink.diagnostics
     ]
 
 

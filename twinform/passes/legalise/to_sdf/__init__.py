@@ -1,10 +1,9 @@
 """From the terms of URDF to those of SDF: the passes, in order."""
 
 from twinform.ir import Format
-from twinform.passes.base import Pass
+from twinform.passes.framework.base import Pass
 from twinform.passes.legalise.drop_stale import DropStale
 from twinform.passes.legalise.names import RestoreNames
-from twinform.passes.legalise.sdf_versions import lower_meaning, lower_version, raise_unversioned
 from twinform.passes.legalise.to_sdf.bodies import UrdfBodies
 from twinform.passes.legalise.to_sdf.carry_urdf import CarryUrdf
 from twinform.passes.legalise.to_sdf.declare_quaternions import DeclareQuaternions
@@ -25,6 +24,7 @@ from twinform.passes.legalise.to_sdf.shared_materials import SharedMaterials
 from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
 from twinform.passes.legalise.to_sdf.unpack_sdf import UnpackSdf
 from twinform.passes.legalise.to_sdf.world_link import WorldLink
+from twinform.passes.sdf_versions import lower_meaning, lower_version, raise_unversioned
 from twinform.schemas import parse_version
 
 __all__ = ["to_sdf"]

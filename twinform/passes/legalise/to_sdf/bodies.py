@@ -3,14 +3,14 @@
 from collections import defaultdict
 from typing import ClassVar
 
-from twinform.diagnostics import Fate, Notes
+from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import to_sdf
 from twinform.ir import Format, Inertia, Inertial, Link, Model
-from twinform.passes.legalise.marks import with_mark
+from twinform.passes.carriers.annotations import with_annotation
+from twinform.passes.carriers.provenance import came_from
+from twinform.passes.carriers.token_mass import MOMENTS, TOKEN, TOKEN_MASS, TOKEN_MOMENT
 from twinform.passes.legalise.model_pass import ModelPass
-from twinform.passes.legalise.provenance import came_from
 from twinform.passes.legalise.to_sdf.frame_links import is_massless
-from twinform.passes.legalise.token_mass import MOMENTS, TOKEN, TOKEN_MASS, TOKEN_MOMENT
 
 _NO_INERTIA = Inertia(ixx=0.0, ixy=0.0, ixz=0.0, iyy=0.0, iyz=0.0, izz=0.0)
 _NONE = Inertial(mass=0.0, inertia=_NO_INERTIA)
@@ -38,10 +38,10 @@ class UrdfBodies(ModelPass):
     name: ClassVar[str] = "urdf-bodies"
     carriers: bool = True
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with a mass for every link."""
-        self._report_massless(model, notes)
-        links = tuple(self._body(link, model, notes) for link in model.links)
+        self._report_massless(model, sink)
+        links = tuple(self._body(link, model, sink) for link in model.links)
         children = {joint.child for joint in model.joints}
         root = next((link.name for link in links if link.name not in children), None)
         update: dict[str, object] = {"links": links}
@@ -50,7 +50,7 @@ class UrdfBodies(ModelPass):
             update["canonical_link"] = root
         return model.model_copy(update=update)
 
-    def _body(self, link: Link, model: Model, notes: Notes) -> Link:
+    def _body(self, link: Link, model: Model, sink: DiagnosticSink) -> Link:
         if model.static:
             return _with_inertial(link, carriers=self.carriers)
         lacks = [*(_MASS if _has_no_mass(link) else ()), *(_INERTIA if _has_no_inertia(link) else ())]
@@ -59,10 +59,10 @@ class UrdfBodies(ModelPass):
         # what the source says of it is nothing, or is said by a mark
         message = f"link {link.name!r} has no {' or '.join(lacks[::2])}, and gets {' and '.join(lacks[1::2])}"
         where = link.inertial.location if link.inertial else link.location.at("inertial")
-        notes.account(Fate.APPROXIMATED, to_sdf.TOKEN_MASS, message, where, weight=0)
+        sink.account(Fate.APPROXIMATED, to_sdf.TOKEN_MASS, message, where, weight=0)
         return _with_token(link, carriers=self.carriers)
 
-    def _report_massless(self, model: Model, notes: Notes) -> None:
+    def _report_massless(self, model: Model, sink: DiagnosticSink) -> None:
         """A link that moves, and to which only massless links are fixed."""
         if model.static:
             return
@@ -75,7 +75,7 @@ class UrdfBodies(ModelPass):
         for link in model.links:
             if link.name in moved and not _reaches(link.name, fixed, massive):
                 message = f"link {link.name!r} moves but has no mass, nor has anything fixed to it"
-                notes.report(to_sdf.MASSLESS_LINK, message, link.location)
+                sink.report(to_sdf.MASSLESS_LINK, message, link.location)
 
 
 def _has_no_mass(link: Link) -> bool:
@@ -93,7 +93,7 @@ def _with_token(link: Link, *, carriers: bool) -> Link:
     """A link with a token of the mass and the inertia that it does not have."""
     said = link.inertial
     if said is None:
-        return link.model_copy(update={"inertial": with_mark(TOKEN, UNSAID, "inertial") if carriers else TOKEN})
+        return link.model_copy(update={"inertial": with_annotation(TOKEN, UNSAID, "inertial") if carriers else TOKEN})
     update: dict[str, object] = {}
     words: list[str] = []
     if _has_no_mass(link):
@@ -103,7 +103,7 @@ def _with_token(link: Link, *, carriers: bool) -> Link:
         update["inertia"] = TOKEN.inertia
         words.append("inertia" if said.inertia is None else "zero-inertia")
     made = said.model_copy(update=update)
-    return link.model_copy(update={"inertial": with_mark(made, UNSAID, " ".join(words)) if carriers else made})
+    return link.model_copy(update={"inertial": with_annotation(made, UNSAID, " ".join(words)) if carriers else made})
 
 
 def _with_inertial(link: Link, *, carriers: bool) -> Link:
@@ -120,7 +120,7 @@ def _with_inertial(link: Link, *, carriers: bool) -> Link:
     if not missing:
         return link
     made = inertial.model_copy(update=missing)
-    return link.model_copy(update={"inertial": with_mark(made, UNSAID, " ".join(missing)) if carriers else made})
+    return link.model_copy(update={"inertial": with_annotation(made, UNSAID, " ".join(missing)) if carriers else made})
 
 
 def _reaches(start: str, edges: dict[str, list[str]], goal: set[str]) -> bool:

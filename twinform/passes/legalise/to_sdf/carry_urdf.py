@@ -4,7 +4,7 @@ from collections.abc import Container, Iterator
 from functools import cache
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import Fate, Notes
+from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import to_sdf
 from twinform.ir import (
     Collision,
@@ -21,9 +21,9 @@ from twinform.ir import (
     holds_opaque,
     rewrite,
 )
-from twinform.passes.legalise.carrier import DANGLING, carry, is_carrier, is_ours, unpack
+from twinform.passes.carriers.carriers import DANGLING, carry, is_carrier, is_ours, unpack
+from twinform.passes.carriers.provenance import came_from
 from twinform.passes.legalise.model_pass import ModelPass
-from twinform.passes.legalise.provenance import came_from
 from twinform.passes.legalise.urdf_pieces import BALLS, OF_AN_AXIS, joints_of
 from twinform.schemas import Fact, table
 
@@ -48,22 +48,22 @@ class CarryUrdf(ModelPass):
     name: ClassVar[str] = "carry-urdf"
     carriers: bool = True
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model without opaque parts of URDF."""
         joints = frozenset(joint.name for joint in model.joints)
         back = came_from(model, Format.SDF)
-        swept = rewrite(model, Node, lambda node: self._sweep(node, notes, back), enter=_may_be_swept)
+        swept = rewrite(model, Node, lambda node: self._sweep(node, sink, back), enter=_may_be_swept)
         return swept.model_copy(update={"opaque": tuple(_with_doubt(part, joints) for part in swept.opaque)})
 
-    def _sweep(self, node: Node, notes: Notes, back: bool) -> Node:
+    def _sweep(self, node: Node, sink: DiagnosticSink, back: bool) -> Node:
         if isinstance(node, Joint) and node.type in BALLS:
             message = f"{node.type} joint {node.name!r} is one of a dialect of URDF"
             kept = [Opaque(attribute=("type", node.type))]
-            ball = self._swept(node.model_copy(update={"type": "ball"}), notes, back)
-            return self._carry(ball, kept, notes, message)
-        return self._swept(node, notes, back)
+            ball = self._swept(node.model_copy(update={"type": "ball"}), sink, back)
+            return self._carry(ball, kept, sink, message)
+        return self._swept(node, sink, back)
 
-    def _swept(self, node: AnyNode, notes: Notes, back: bool) -> AnyNode:
+    def _swept(self, node: AnyNode, sink: DiagnosticSink, back: bool) -> AnyNode:
         """The node with its own parts in carriers, or out of them."""
         pose: Pose | None = node.__dict__.get("pose")
         if not node.opaque and not (pose and pose.opaque):
@@ -79,14 +79,14 @@ class CarryUrdf(ModelPass):
         if pose and pose.opaque:
             pieces += [_inside("origin", part) for part in pose.opaque]
             update["pose"] = pose.model_copy(update={"opaque": ()})
-        return self._carry(node.model_copy(update=update), pieces, notes) if not isinstance(node, Pose) else node
+        return self._carry(node.model_copy(update=update), pieces, sink) if not isinstance(node, Pose) else node
 
-    def _carry(self, node: AnyNode, pieces: list[Opaque], notes: Notes, message: str = "") -> AnyNode:
+    def _carry(self, node: AnyNode, pieces: list[Opaque], sink: DiagnosticSink, message: str = "") -> AnyNode:
         fate = Fate.CARRIED if self.carriers else Fate.DROPPED
         for piece in pieces:
             why = message or f"{piece.name} is not a part of SDF"
             where = piece.location if piece.source else node.location
-            notes.account(fate, to_sdf.URDF_ONLY, why, where, max(1, piece.weight))
+            sink.account(fate, to_sdf.URDF_ONLY, why, where, max(1, piece.weight))
         if not self.carriers:
             return node
         once = OF_AN_AXIS if isinstance(node, Joint) else ()  # a second one means nothing, and no edit has made it so

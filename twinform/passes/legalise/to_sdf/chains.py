@@ -7,9 +7,11 @@ from typing import NamedTuple
 from twinform.ir import Axis, Dynamics, Format, Joint, JointType, Limit, Link, Model, Opaque
 from twinform.ir.defaults import direction, multiplier, with_range
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.carrier import is_carrier, is_ours, unpack
-from twinform.passes.legalise.chain_carriers import Parts, is_of_axis, join_axes
-from twinform.passes.legalise.joint_chains import (
+from twinform.passes.carriers.absorb import CarrierError, absorb
+from twinform.passes.carriers.annotations import without_annotation
+from twinform.passes.carriers.carriers import is_carrier, is_ours, unpack
+from twinform.passes.carriers.chain_carriers import Parts, is_of_axis, join_axes
+from twinform.passes.carriers.joint_chains import (
     BALL_AXES,
     CHAIN,
     CHAINS,
@@ -18,11 +20,9 @@ from twinform.passes.legalise.joint_chains import (
     metres_per_radian,
     part_of,
 )
-from twinform.passes.legalise.marks import without_mark
-from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb
-from twinform.passes.legalise.sdf_versions.carriers import Terms
+from twinform.passes.carriers.sdf_versions import Terms
+from twinform.passes.carriers.token_mass import is_chain_token, is_token
 from twinform.passes.legalise.to_sdf.mimic_references import with_reference
-from twinform.passes.legalise.token_mass import is_chain_token, is_token
 from twinform.schemas import parse_version, table
 
 _KINDS: dict[str, JointType] = {str(kind): kind for kind in CHAINS}
@@ -167,7 +167,7 @@ def folded(chain: Chain) -> Joint:
     first, last = chain.above[0], chain.last
     if chain.kind in TWO_AXES:
         first, last = _referred(first), _referred(last)
-    own = without_mark(last, CHAIN).opaque
+    own = without_annotation(last, CHAIN).opaque
     opaque = join_axes(first.opaque, own) if chain.kind in TWO_AXES else own
     update: dict[str, object] = {"type": chain.kind, "parent": first.parent, "pose": first.pose, "opaque": opaque}
     joint = last.model_copy(update=update)

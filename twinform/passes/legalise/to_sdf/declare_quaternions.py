@@ -2,7 +2,7 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Model, Pose, rewrite
 from twinform.passes.legalise.model_pass import ModelPass
 
@@ -19,7 +19,7 @@ class DeclareQuaternions(ModelPass):
 
     name: ClassVar[str] = "declare-quaternions"
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with quaternions that say what they are."""
         return rewrite(model, Pose, _declared)
 

@@ -5,15 +5,14 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from typing import Any, ClassVar, TypeVar
 
-from twinform.diagnostics import Fate, Location, Notes, Rule, Severity
+from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule, Severity
 from twinform.diagnostics.rules import structure, to_sdf
 from twinform.ir import Element, Format, GazeboExtension, Joint, Link, Model, Node, Opaque
-from twinform.passes.legalise.carrier import DANGLING, OVERRULED, Attributes, pack
-from twinform.passes.legalise.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
-from twinform.passes.legalise.marks import EXTENSION, with_mark
-from twinform.passes.legalise.material_marks import with_look
+from twinform.passes.carriers.annotations import EXTENSION, with_annotation
+from twinform.passes.carriers.carriers import DANGLING, OVERRULED, Attributes, pack
+from twinform.passes.carriers.material_annotations import with_look
+from twinform.passes.carriers.provenance import came_from
 from twinform.passes.legalise.model_pass import ModelPass
-from twinform.passes.legalise.provenance import came_from
 from twinform.passes.legalise.to_sdf.gazebo_content import read_content
 from twinform.passes.legalise.to_sdf.gazebo_fields import (
     set_collision,
@@ -25,6 +24,7 @@ from twinform.passes.legalise.to_sdf.gazebo_fields import (
 from twinform.passes.legalise.to_sdf.gazebo_merging import merge, written
 from twinform.passes.legalise.to_sdf.gazebo_parts import with_axis, with_mass
 from twinform.passes.legalise.to_sdf.gazebo_sorting import Blob, Sorter, is_part_of_axis, lacks_shapes, place_of
+from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -45,25 +45,25 @@ class FoldGazebo(ModelPass):
     name: ClassVar[str] = "fold-gazebo"
     carriers: bool = True
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model without extensions."""
         if not model.extensions:
             return model
-        found = Notes(file=notes.file, strict=notes.strict)
+        found = DiagnosticSink(file=sink.file, strict=sink.strict)
         changed = _Fold(model, found, carriers=self.carriers).run()
-        notes.extend_new(found.diagnostics)  # `check` has folded before, to see what is wrong
-        notes.entries.extend(found.entries)
+        sink.extend_new(found.diagnostics)  # `check` has folded before, to see what is wrong
+        sink.entries.extend(found.entries)
         return changed
 
 
 class _Fold:
     """One run over one model."""
 
-    def __init__(self, model: Model, notes: Notes, *, carriers: bool) -> None:
+    def __init__(self, model: Model, sink: DiagnosticSink, *, carriers: bool) -> None:
         self.robot = model
-        self.notes = notes
+        self.sink = sink
         self.carriers = carriers
-        self.marks = carriers and not came_from(model, Format.SDF)  # how URDF says it does not matter at home
+        self.annotations = carriers and not came_from(model, Format.SDF)  # how URDF says it does not matter at home
         self.links = {link.name for link in model.links}
         self.joints = {joint.name for joint in model.joints}
         self.kept: list[Opaque] = []
@@ -99,7 +99,7 @@ class _Fold:
         for part in extension.opaque:
             rule = structure.UNKNOWN_ATTRIBUTE if part.attribute else structure.STRAY_TEXT
             if not (part.attribute and part.attribute[0].startswith("{")):
-                self.notes.report(rule, f"{part.name} of <gazebo> means nothing", part.location, found=part.name)
+                self.sink.report(rule, f"{part.name} of <gazebo> means nothing", part.location, found=part.name)
         if extension.opaque or not extension.content:
             self._keep(extension, (), to_sdf.URDF_ONLY, "this <gazebo> says nothing about the model")
 
@@ -140,7 +140,7 @@ class _Fold:
         )
 
     def _extension(self, joint: Joint) -> Joint:
-        return with_mark(with_axis(joint), EXTENSION) if self.marks else with_axis(joint)
+        return with_annotation(with_axis(joint), EXTENSION) if self.annotations else with_axis(joint)
 
     def _sort(
         self,
@@ -153,7 +153,7 @@ class _Fold:
         idle: Callable[[Element], bool] | None = None,
     ) -> Sorter:
         """The content of extensions by what it means; what means nothing here is reported and kept."""
-        sorter = Sorter(tags, elsewhere, self.notes, shapes=shapes, unfit=unfit, idle=idle)
+        sorter = Sorter(tags, elsewhere, self.sink, shapes=shapes, unfit=unfit, idle=idle)
         for extension in extensions:
             sorter.sort(extension)
         for extension, elements in sorter.misplaced:
@@ -169,7 +169,7 @@ class _Fold:
             names = ", ".join(f"<{element.name}>" for element in elements)
             message = f"{names} is about shapes, and link {extension.reference!r} has none of the kind"
             where, rule = place_of(elements[0], extension), to_sdf.GAZEBO_TAG_WITHOUT_TARGET
-            self.notes.report(rule, message, where, found=elements[0].name, severity=Severity.INFO)
+            self.sink.report(rule, message, where, found=elements[0].name, severity=Severity.INFO)
             self._keep(extension, elements, rule, message)
         return sorter
 
@@ -177,7 +177,7 @@ class _Fold:
         for element in elements:
             message = f"<{element.name}> in a <gazebo> for {target} means nothing"
             where = place_of(element, extension)
-            self.notes.report(to_sdf.GAZEBO_TAG_WITHOUT_TARGET, message, where, found=element.name)
+            self.sink.report(to_sdf.GAZEBO_TAG_WITHOUT_TARGET, message, where, found=element.name)
         if elements:
             names = ", ".join(f"<{element.name}>" for element in elements)
             message = f"{names} means nothing for {target}"
@@ -195,20 +195,20 @@ class _Fold:
         element = Element(name="gazebo", attributes=tuple(attributes), text=text or None, children=content)
         fate = Fate.CARRIED if self.carriers else Fate.DROPPED
         if content == extension.content:
-            self.notes.account(fate, rule, message, extension.location, element.weight)
+            self.sink.account(fate, rule, message, extension.location, element.weight)
         else:
             for part in content or (element,):
-                self.notes.account(fate, rule, message, place_of(part, extension), part.weight)
+                self.sink.account(fate, rule, message, place_of(part, extension), part.weight)
         self.kept += pack([Opaque(element=element)], "urdf", about)
 
     def _into_shapes(self, link: Link, blob: Blob) -> Link:
         """Each child of the blob goes into every shape of its kind, in place of what is there."""
         field = "visuals" if blob.kind == "visual" else "collisions"
         inside = blob.extension.model_copy(update={"content": blob.content})
-        extra = read_content(blob.kind, link.name, self.robot.name, [inside], self.notes)
+        extra = read_content(blob.kind, link.name, self.robot.name, [inside], self.sink)
         replaced: list[str] = []
         shapes = getattr(link, field)
-        if self.marks and blob.kind == "visual" and extra.get("material"):
+        if self.annotations and blob.kind == "visual" and extra.get("material"):
             link = with_look(link, written(extra["material"]))
         changed = tuple(merge(shape, extra, replaced, replace=True) for shape in shapes)
         for name in dict.fromkeys(replaced):
@@ -222,7 +222,7 @@ class _Fold:
             return node
         name = str(node.__dict__["name"]) if kind != "model" else self.robot.name
         conflicts: list[str] = []
-        merged = merge(node, read_content(kind, name, self.robot.name, content, self.notes), conflicts)
+        merged = merge(node, read_content(kind, name, self.robot.name, content, self.sink), conflicts)
         again = [part for part in merged.opaque if _is_second(part) and part not in node.opaque]
         if again:  # a reader takes the first
             merged = merged.model_copy(update={"opaque": tuple(part for part in merged.opaque if part not in again)})
@@ -244,9 +244,9 @@ class _Fold:
 
     def _conflict(self, node: Node, field: str, winner: str, where: Location, *, accounted: bool = True) -> str:
         message = f"<gazebo> says {field!r} of {node.__dict__['name']!r} again; {winner} stays"
-        self.notes.report(to_sdf.GAZEBO_CONFLICT, message, where, found=field)
+        self.sink.report(to_sdf.GAZEBO_CONFLICT, message, where, found=field)
         if accounted:
-            self.notes.account(Fate.DROPPED, to_sdf.GAZEBO_CONFLICT, message, where)
+            self.sink.account(Fate.DROPPED, to_sdf.GAZEBO_CONFLICT, message, where)
         return message
 
 

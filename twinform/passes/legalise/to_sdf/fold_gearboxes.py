@@ -3,13 +3,13 @@
 import math
 from typing import ClassVar
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Joint, Mimic, Model
 from twinform.ir.defaults import multiplier
 from twinform.ir.frames import FrameError, FrameGraph
-from twinform.passes.legalise.gearboxes import GEARED, UngearedError, relation
-from twinform.passes.legalise.marks import find_mark, without_mark
+from twinform.passes.analyses.gearboxes import GEARED, UngearedError, relation
+from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.legalise.model_pass import ModelPass
 
 _CLOSE = 1e-9
@@ -26,9 +26,9 @@ class FoldGearboxes(ModelPass):
 
     name: ClassVar[str] = "fold-gearboxes"
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with each coupling said once."""
-        marked = [joint for joint in model.joints if find_mark(joint, GEARED) and joint.axis and joint.axis.mimic]
+        marked = [joint for joint in model.joints if find_annotation(joint, GEARED) and joint.axis and joint.axis.mimic]
         if not marked:
             return model
         graph = FrameGraph(model)
@@ -42,23 +42,23 @@ class FoldGearboxes(ModelPass):
             except (UngearedError, FrameError):
                 continue
             coupled[found.follower] = Mimic(joint=found.leader, multiplier=found.multiplier)
-        kept = {joint.name: _kept(joint, bare[joint.name], coupled.get(joint.name), notes) for joint in marked}
+        kept = {joint.name: _kept(joint, bare[joint.name], coupled.get(joint.name), sink) for joint in marked}
         return model.model_copy(update={"joints": tuple(kept.get(joint.name, joint) for joint in model.joints)})
 
 
 def _without_mimic(joint: Joint) -> Joint:
     axis = joint.axis and joint.axis.model_copy(update={"mimic": None})
-    return without_mark(joint.model_copy(update={"axis": axis}), GEARED)
+    return without_annotation(joint.model_copy(update={"axis": axis}), GEARED)
 
 
-def _kept(joint: Joint, bare: Joint, coupled: Mimic | None, notes: Notes) -> Joint:
+def _kept(joint: Joint, bare: Joint, coupled: Mimic | None, sink: DiagnosticSink) -> Joint:
     """The joint without its mimic, if a gearbox says the same; else with it, as if it had always been there."""
     mimic = joint.axis.mimic if joint.axis else None
     if coupled and mimic and _is_the_same(mimic, coupled):
         return bare
     message = f"joint {joint.name!r} mimics {mimic.joint if mimic else None!r}, and no gearbox couples them so any more"
-    notes.report(rules.STALE_CARRIER, message, joint.location, found=joint.name)
-    return without_mark(joint, GEARED)
+    sink.report(rules.STALE_CARRIER, message, joint.location, found=joint.name)
+    return without_annotation(joint, GEARED)
 
 
 def _is_the_same(mimic: Mimic, coupled: Mimic) -> bool:

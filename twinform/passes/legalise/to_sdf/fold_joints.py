@@ -3,11 +3,11 @@
 from collections.abc import Iterator
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Axis, Joint, Link, Model
-from twinform.passes.legalise.joint_chains import CHAIN, PART, TWO_AXES, chain_type
-from twinform.passes.legalise.marks import find_mark, without_mark
+from twinform.passes.carriers.annotations import find_annotation, without_annotation
+from twinform.passes.carriers.joint_chains import CHAIN, PART, TWO_AXES, chain_type
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.to_sdf.chains import Chain, Neighbors, StaleChainError, find_chain, folded
 
@@ -26,15 +26,15 @@ class FoldJoints(ModelPass):
 
     name: ClassVar[str] = "fold-joints"
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model without chains."""
-        marks = [node for node in (*model.joints, *model.links) if _is_marked(node)]
-        if not marks:
+        annotations = [node for node in (*model.joints, *model.links) if _is_marked(node)]
+        if not annotations:
             return model
         made: dict[str, Joint] = {}
         first: dict[str, str] = {}
         gone: set[str] = set()
-        for chain, joint in _chains(model, notes):
+        for chain, joint in _chains(model, sink):
             made[joint.name] = joint
             gone |= {part.name for part in (*chain.above, *chain.between)}
             if joint.type in TWO_AXES:
@@ -46,7 +46,7 @@ class FoldJoints(ModelPass):
         return model.model_copy(update={"joints": followed, "links": tuple(links)})
 
 
-def _chains(model: Model, notes: Notes) -> Iterator[tuple[Chain, Joint]]:
+def _chains(model: Model, sink: DiagnosticSink) -> Iterator[tuple[Chain, Joint]]:
     """The chains that still are what they were made, with the joints that they are; the others are reported."""
     around = Neighbors.of(model)
     for joint in model.joints:
@@ -58,27 +58,27 @@ def _chains(model: Model, notes: Notes) -> Iterator[tuple[Chain, Joint]]:
             made = folded(chain)
         except StaleChainError as error:
             message = f"joint {joint.name!r} was {kind}, and the chain that it became has changed: {error}"
-            notes.report(rules.STALE_CARRIER, message, joint.location, found=joint.name)
+            sink.report(rules.STALE_CARRIER, message, joint.location, found=joint.name)
         else:
-            _report_names(chain, notes)
+            _report_names(chain, sink)
             yield chain, made
 
 
-def _report_names(chain: Chain, notes: Notes) -> None:
+def _report_names(chain: Chain, sink: DiagnosticSink) -> None:
     """Report the parts that somebody has given a name: made ones begin with that of their joint."""
     for part in (*chain.above, *chain.between):
         if not part.name.startswith(chain.last.name):
             message = f"{part.name!r} is a part of the {chain.kind} joint {chain.last.name!r}, and has no name in SDF"
-            notes.report(rules.STALE_CARRIER, message, part.location, found=part.name)
+            sink.report(rules.STALE_CARRIER, message, part.location, found=part.name)
 
 
 def _is_marked(node: Joint | Link) -> bool:
-    return find_mark(node, CHAIN) is not None or find_mark(node, PART) is not None
+    return find_annotation(node, CHAIN) is not None or find_annotation(node, PART) is not None
 
 
 def _unmarked(node: AnyPart) -> AnyPart:
     """A part of a chain that stays: it was made, and stands for itself now."""
-    return without_mark(node, CHAIN, PART)
+    return without_annotation(node, CHAIN, PART)
 
 
 def _follow(joint: Joint, first: dict[str, str], second: frozenset[str]) -> Joint:

@@ -2,13 +2,13 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics import Fate, Notes, Source
+from twinform.diagnostics import DiagnosticSink, Fate, Source
 from twinform.diagnostics.rules import to_sdf as rules
 from twinform.ir import Collision, Format, GazeboExtension, Model
-from twinform.passes.legalise.lumped_names import Followed, followed, mentions_collisions
+from twinform.passes.carriers.lumped_names import Followed, followed, mentions_collisions
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.to_sdf.name_shapes import name_all
-from twinform.passes.structure.model_edit import Place
+from twinform.passes.structure.model_edit import EditContext
 
 
 class FollowLumpedNames(ModelPass):
@@ -24,16 +24,16 @@ class FollowLumpedNames(ModelPass):
     name: ClassVar[str] = "follow-lumped-names"
     carriers: bool = True
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with names of collisions that are there."""
         if not mentions_collisions(model):
             return model
         names = names_of_libsdformat(model)
-        extensions = tuple(self._extension(each, model, names, notes) for each in model.extensions)
+        extensions = tuple(self._extension(each, model, names, sink) for each in model.extensions)
         return model.model_copy(update={"extensions": extensions})
 
     def _extension(
-        self, extension: GazeboExtension, model: Model, names: dict[str, Followed], notes: Notes
+        self, extension: GazeboExtension, model: Model, names: dict[str, Followed], sink: DiagnosticSink
     ) -> GazeboExtension:
         for element in (one for part in extension.content for one in part.walk()):
             found = names.get((element.text or "").strip())
@@ -41,13 +41,13 @@ class FollowLumpedNames(ModelPass):
                 continue
             message = f"{(element.text or '').strip()!r} is called {found.name!r} where nothing is lumped"
             fate = Fate.CARRIED if self.carriers else Fate.APPROXIMATED
-            notes.account(fate, rules.LUMPED_NAME, message, element.location.at("text()"), weight=0)
+            sink.account(fate, rules.LUMPED_NAME, message, element.location.at("text()"), weight=0)
             if extension.reference and not _is_one_body(model, extension.reference, found.link):
                 message = (
                     f"{found.name!r} is on link {found.link!r}, and what is on {extension.reference!r} cannot see it"
                 )
                 hint = "convert with --passes 'lump-fixed-joints{compat=libsdformat}'"
-                notes.report(rules.UNSEEN_COLLISION, message, element.location, found=found.name, help=hint)
+                sink.report(rules.UNSEEN_COLLISION, message, element.location, found=found.name, help=hint)
         content = tuple(followed(part, names, carriers=self.carriers) for part in extension.content)
         return extension.model_copy(update={"content": content})
 
@@ -68,14 +68,14 @@ def names_of_libsdformat(model: Model) -> dict[str, Followed]:
 
     own = own_collisions(model)
     known = {each.name for each in own.values()}
-    lumped = lump_as_libsdformat(model, (), Place(Format.URDF, Notes()))
+    lumped = lump_as_libsdformat(model, (), EditContext(Format.URDF, DiagnosticSink()))
     shapes = (shape for link in lumped.links for shape in link.collisions)
     named = ((shape.name, own.get(shape.source)) for shape in shapes if shape.name and shape.source)
     return {name: meant for name, meant in named if meant and name not in known}
 
 
 def _named(link: str, shapes: tuple[Collision, ...]) -> tuple[Collision, ...]:
-    return name_all(shapes, f"{link}_collision", Notes(), carriers=False)
+    return name_all(shapes, f"{link}_collision", DiagnosticSink(), carriers=False)
 
 
 def _is_one_body(model: Model, reference: str, link: str) -> bool:

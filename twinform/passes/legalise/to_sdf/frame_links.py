@@ -2,17 +2,23 @@
 
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import Fate, Notes
+from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import to_sdf
 from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Collision, Element, Format, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
-from twinform.passes.legalise.carrier import carry, is_ours, to_element
-from twinform.passes.legalise.marks import EXTENSION, find_mark, is_made, with_mark, without_mark
+from twinform.passes.carriers.annotations import (
+    EXTENSION,
+    find_annotation,
+    is_synthesized,
+    with_annotation,
+    without_annotation,
+)
+from twinform.passes.carriers.carriers import carry, is_ours, to_element
+from twinform.passes.carriers.provenance import came_from
 from twinform.passes.legalise.model_pass import ModelPass
-from twinform.passes.legalise.notation import FRAME, LINK, OFFSET, read_offset
-from twinform.passes.legalise.provenance import came_from
 from twinform.passes.legalise.to_sdf.name_shapes import name_all
+from twinform.passes.transforms.notation import FRAME, LINK, OFFSET, read_offset
 
 Placed = TypeVar("Placed", Visual, Collision, Sensor, Light)
 
@@ -34,7 +40,7 @@ class FrameLinks(ModelPass):
     name: ClassVar[str] = "frame-links"
     carriers: bool = True
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model without massless links on fixed joints."""
         links = {link.name: link for link in model.links}
         stays = came_from(model, Format.SDF)  # where frames are marked
@@ -45,9 +51,9 @@ class FrameLinks(ModelPass):
             and joint.parent in links
             and joint.child in links
             and not joint.sensors
-            and find_mark(joint, EXTENSION) is None
+            and find_annotation(joint, EXTENSION) is None
             and is_massless(links[joint.child])
-            and not (stays and (find_mark(links[joint.child], FRAME) is None or links[joint.child].inertial))
+            and not (stays and (find_annotation(links[joint.child], FRAME) is None or links[joint.child].inertial))
         }
         if not moved:
             return model
@@ -55,13 +61,13 @@ class FrameLinks(ModelPass):
         anchors: dict[str, str] = {}
         for name in moved:
             guests.setdefault(_anchor(name, moved, anchors), []).append(links[name])
-        frames = [frame for joint in moved.values() for frame in self._frames(joint, links[joint.child or ""], notes)]
-        model = self._keep_physics(model, list(moved.values()), notes)
-        model = self._keep_flags(model, [links[name] for name in moved if name], notes)
+        frames = [frame for joint in moved.values() for frame in self._frames(joint, links[joint.child or ""], sink)]
+        model = self._keep_physics(model, list(moved.values()), sink)
+        model = self._keep_flags(model, [links[name] for name in moved if name], sink)
         made = model.model_copy(
             update={
                 "links": tuple(
-                    _host(link, guests.get(link.name, []), notes, carriers=self.carriers)
+                    _host(link, guests.get(link.name, []), sink, carriers=self.carriers)
                     for link in model.links
                     if link.name not in moved
                 ),
@@ -71,16 +77,18 @@ class FrameLinks(ModelPass):
         )
         if not stays:
             made = made.model_copy(update={"canonical_link": model.canonical_link or _root(model)})
-        parents = {name: joint.parent or "" for name, joint in moved.items() if find_mark(links[name or ""], FRAME)}
-        placed = _attached(made, parents, notes) if parents else made
+        parents = {
+            name: joint.parent or "" for name, joint in moved.items() if find_annotation(links[name or ""], FRAME)
+        }
+        placed = _attached(made, parents, sink) if parents else made
         return placed.model_copy(update={"canonical_link": model.canonical_link})
 
-    def _frames(self, joint: Joint, link: Link, notes: Notes) -> tuple[Frame, ...]:
+    def _frames(self, joint: Joint, link: Link, sink: DiagnosticSink) -> tuple[Frame, ...]:
         pose = joint.pose.model_copy(update={"relative_to": None}) if joint.pose else None
         if pose == Pose():
             pose = None
-        mark = find_mark(link, FRAME)
-        if mark is not None and is_made(joint):
+        mark = find_annotation(link, FRAME)
+        if mark is not None and is_synthesized(joint):
             return (_as_before(joint, link, mark, pose),)
         mount = Frame(
             name=joint.name, attached_to=joint.parent, pose=pose, opaque=_carriers(joint), source=joint.source
@@ -89,17 +97,17 @@ class FrameLinks(ModelPass):
         opaque = _carriers(bare)
         body = Frame(name=link.name, attached_to=joint.name, pose=offset, source=link.source, opaque=opaque)
         if self.carriers:
-            body = with_mark(body, LINK)
-        return self._rest_of_joint(mount, joint, notes), self._rest_of_link(body, link, notes)
+            body = with_annotation(body, LINK)
+        return self._rest_of_joint(mount, joint, sink), self._rest_of_link(body, link, sink)
 
-    def _rest_of_joint(self, frame: Frame, joint: Joint, notes: Notes) -> Frame:
+    def _rest_of_joint(self, frame: Frame, joint: Joint, sink: DiagnosticSink) -> Frame:
         if joint.axis is None:
             return frame
         whole = to_element(joint.model_copy(update={"opaque": ()}), "joint", "urdf")
         rest = [Opaque(element=child) for child in whole.children if child.name not in {"origin", "parent", "child"}]
-        return self._keep(frame, rest, f"the axis of the fixed joint {joint.name!r} has no use", notes)
+        return self._keep(frame, rest, f"the axis of the fixed joint {joint.name!r} has no use", sink)
 
-    def _keep_physics(self, model: Model, joints: list[Joint], notes: Notes) -> Model:
+    def _keep_physics(self, model: Model, joints: list[Joint], sink: DiagnosticSink) -> Model:
         """What `<gazebo>` says of the physics of a joint that becomes a frame: it is carried in such an element."""
         kept: list[Opaque] = []
         for joint in joints:
@@ -109,11 +117,11 @@ class FrameLinks(ModelPass):
             element = Element(name="gazebo", attributes=(("reference", joint.name),), children=tuple(parts))
             message = f"joint {joint.name!r} becomes a frame, which has no <{parts[0].name}>"
             fate = Fate.CARRIED if self.carriers else Fate.DROPPED
-            notes.account(fate, to_sdf.FRAME_LINK, message, joint.location, element.weight)
+            sink.account(fate, to_sdf.FRAME_LINK, message, joint.location, element.weight)
             kept.append(Opaque(element=element))
         return carry(model, kept, "urdf") if self.carriers else model
 
-    def _keep_flags(self, model: Model, links: list[Link], notes: Notes) -> Model:
+    def _keep_flags(self, model: Model, links: list[Link], sink: DiagnosticSink) -> Model:
         """What `<gazebo>` says of a link that becomes a frame, and that has no body to act on."""
         kept: list[Opaque] = []
         for link in links:
@@ -125,26 +133,26 @@ class FrameLinks(ModelPass):
             names = ", ".join(field for field, value in said.items() if value is not None)
             message = f"{names} of {link.name!r} have no body to act on"
             fate = Fate.CARRIED if self.carriers else Fate.DROPPED
-            notes.account(fate, to_sdf.FRAME_LINK, message, link.location, len(bare.children))
+            sink.account(fate, to_sdf.FRAME_LINK, message, link.location, len(bare.children))
             kept.append(Opaque(element=element))
         return carry(model, kept, "urdf") if self.carriers else model
 
-    def _rest_of_link(self, frame: Frame, link: Link, notes: Notes) -> Frame:
+    def _rest_of_link(self, frame: Frame, link: Link, sink: DiagnosticSink) -> Frame:
         if link.inertial is None:
             return frame
         bare = Link(name=link.name, inertial=link.inertial)
         rest = [Opaque(element=child) for child in to_element(bare, "link", "urdf").children]
-        return self._keep(frame, rest, f"the frame {link.name!r} has no inertia", notes)
+        return self._keep(frame, rest, f"the frame {link.name!r} has no inertia", sink)
 
-    def _keep(self, frame: Frame, rest: list[Opaque], message: str, notes: Notes) -> Frame:
+    def _keep(self, frame: Frame, rest: list[Opaque], message: str, sink: DiagnosticSink) -> Frame:
         for part in rest:
-            notes.account(
+            sink.account(
                 Fate.CARRIED if self.carriers else Fate.DROPPED, to_sdf.FRAME_LINK, message, frame.location, part.weight
             )
         return carry(frame, rest, "urdf") if self.carriers else frame
 
 
-def _attached(model: Model, parents: dict[str, str], notes: Notes) -> Model:
+def _attached(model: Model, parents: dict[str, str], sink: DiagnosticSink) -> Model:
     """The model with every frame attached to the link that its joint had as the parent, if that is another one."""
     graph = FrameGraph(model)
     frames: list[Frame] = []
@@ -152,7 +160,7 @@ def _attached(model: Model, parents: dict[str, str], notes: Notes) -> Model:
         parent, holder = parents.get(frame.name, ""), frame.attached_to or MODEL
         if parent and holder != parent and not (graph.knows(holder) and _moves_with(graph, holder, parent)):
             message = f"frame {frame.name!r} was attached to {holder!r}, which does not move with {parent!r}"
-            notes.report(STALE_CARRIER, message, frame.location, found=holder)
+            sink.report(STALE_CARRIER, message, frame.location, found=holder)
             frame = frame.model_copy(update={"attached_to": parent})  # noqa: PLW2901 - the same frame, elsewhere
         frames.append(frame)
     return model.model_copy(update={"frames": tuple(frames)})
@@ -176,18 +184,18 @@ def _as_before(joint: Joint, link: Link, mark: Element, pose: Pose | None) -> Fr
     holder = mark.get("attached_to")
     if holder is not None:
         pose = (pose or Pose()).model_copy(update={"relative_to": joint.parent})
-    opaque = without_mark(link, FRAME).opaque
+    opaque = without_annotation(link, FRAME).opaque
     attached = None if holder == MODEL else holder or joint.parent
     return Frame(name=link.name, attached_to=attached, pose=pose, opaque=opaque, source=link.source)
 
 
 def _offset(link: Link) -> tuple[Link, Pose | None]:
     """The link without the mark on its frame in SDF, and where that is in its joint."""
-    found = find_mark(link, OFFSET)
+    found = find_annotation(link, OFFSET)
     try:
-        return without_mark(link, OFFSET), read_offset(found).to_pose() if found else None
+        return without_annotation(link, OFFSET), read_offset(found).to_pose() if found else None
     except ValueError:  # which `restore-frames` would have reported
-        return without_mark(link, OFFSET), None
+        return without_annotation(link, OFFSET), None
 
 
 def is_massless(link: Link) -> bool:
@@ -216,7 +224,7 @@ def _is_native(part: Opaque) -> bool:
     return not is_ours(part) and not (part.element is not None and part.element.name.startswith("{"))
 
 
-def _host(link: Link, guests: list[Link], notes: Notes, *, carriers: bool) -> Link:
+def _host(link: Link, guests: list[Link], sink: DiagnosticSink, *, carriers: bool) -> Link:
     if not guests:
         return link
     visuals = (*link.visuals, *(_placed(visual, guest.name) for guest in guests for visual in guest.visuals))
@@ -224,8 +232,8 @@ def _host(link: Link, guests: list[Link], notes: Notes, *, carriers: bool) -> Li
     plain = tuple(_placed_element(part, guest.name) for guest in guests for part in guest.opaque if _is_native(part))
     return link.model_copy(
         update={
-            "visuals": name_all(visuals, f"{link.name}_visual", notes, carriers=carriers),
-            "collisions": name_all(collisions, f"{link.name}_collision", notes, carriers=carriers),
+            "visuals": name_all(visuals, f"{link.name}_visual", sink, carriers=carriers),
+            "collisions": name_all(collisions, f"{link.name}_collision", sink, carriers=carriers),
             "sensors": (*link.sensors, *(_placed(one, guest.name) for guest in guests for one in guest.sensors)),
             "lights": (*link.lights, *(_placed(one, guest.name) for guest in guests for one in guest.lights)),
             "opaque": (*link.opaque, *plain),

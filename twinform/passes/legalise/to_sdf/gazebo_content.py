@@ -6,7 +6,7 @@ from typing import Any
 
 from lxml import etree
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Collision, GazeboExtension, Joint, Link, Model, Node, Visual
 from twinform.schemas import Context, element_xml, reader, table
 
@@ -18,7 +18,7 @@ _GIVEN = frozenset({"source", "name", "type", "parent", "child"})
 
 
 def read_content(
-    kind: str, name: str, robot: str, extensions: Iterable[GazeboExtension], notes: Notes
+    kind: str, name: str, robot: str, extensions: Iterable[GazeboExtension], sink: DiagnosticSink
 ) -> dict[str, Any]:
     """The fields that the content of extensions sets when it is read as the inside of an SDF element of a kind."""
     xml = etree.SubElement(etree.Element("robot", {"name": robot}), kind, {"name": name, **_REQUIRED.get(kind, {})})
@@ -29,22 +29,22 @@ def read_content(
         for element in extension.content:
             element_xml(element, xml)
     above = listed[0].source
-    found = Notes(file=above.file if above else notes.file, strict=notes.strict)
+    found = DiagnosticSink(file=above.file if above else sink.file, strict=sink.strict)
     context = Context(found, found.file, "sdf", table("sdf").newest, declared=False)
     data = reader("sdf", context.version).read(xml, context, kind, above)
-    _report(found, f"{kind}[@name='{name}']", name if kind != "model" else "", notes)
+    _report(found, f"{kind}[@name='{name}']", name if kind != "model" else "", sink)
     fields = [field for field in data if field not in _GIVEN]
-    if notes.has_errors or not fields:
+    if sink.has_errors or not fields:
         return {}
     base: dict[str, Any] = {"name": name, **_REQUIRED.get(kind, {})}
     node = _NODES[kind].model_validate({**base, **{field: data[field] for field in fields}})
     return {field: getattr(node, field) for field in fields}
 
 
-def _report(found: Notes, step: str, reference: str, notes: Notes) -> None:
+def _report(found: DiagnosticSink, step: str, reference: str, sink: DiagnosticSink) -> None:
     """Say what was found in terms of the file: what was read as the element of `step` stands in a `<gazebo>`."""
     own = f"gazebo[@reference='{reference}']" if reference else "gazebo"
     for each in found.diagnostics:
         path = each.location.path.replace(step, own, 1)
         where = each.location._replace(path=path)
-        notes.extend([replace(each, location=where)])
+        sink.extend([replace(each, location=where)])

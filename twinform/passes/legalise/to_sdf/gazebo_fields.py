@@ -19,9 +19,9 @@ from twinform.ir import (
     Surface,
     Visual,
 )
-from twinform.passes.legalise.carrier import from_xml
-from twinform.passes.legalise.gazebo_tags import SCRIPT_URI, Tag
+from twinform.passes.carriers.carriers import from_xml
 from twinform.passes.legalise.to_sdf.gazebo_merging import merge
+from twinform.passes.transforms.gazebo_tags import SCRIPT_URI, Tag
 from twinform.schemas import format_value
 
 Values = Iterable[tuple[Tag, Any]]

@@ -3,10 +3,10 @@
 from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 
-from twinform.diagnostics import Fate, Location, Notes, Severity, Source
+from twinform.diagnostics import DiagnosticSink, Fate, Location, Severity, Source
 from twinform.diagnostics.rules import structure, to_sdf
 from twinform.ir import Element, GazeboExtension, Link
-from twinform.passes.legalise.gazebo_tags import FALSE, LINK_TAGS, TRUE, TRUTHS, Tag, value_text
+from twinform.passes.transforms.gazebo_tags import FALSE, LINK_TAGS, TRUE, TRUTHS, Tag, value_text
 
 _TOUCHED = frozenset({"surface", "collision"})
 _OF_AXES = frozenset({"axis", "axis2", "springReference", "springStiffness"})
@@ -71,7 +71,7 @@ class Sorter:
         self,
         tags: dict[str, Tag],
         elsewhere: Iterable[str],
-        notes: Notes,
+        sink: DiagnosticSink,
         *,
         shapes: bool = False,
         unfit: Callable[[Element], bool] | None = None,
@@ -79,7 +79,7 @@ class Sorter:
     ) -> None:
         self._tags = tags
         self._elsewhere = frozenset(elsewhere)
-        self._notes = notes
+        self._notes = sink
         self._shapes = shapes
         self._unfit = unfit
         self._idle = idle

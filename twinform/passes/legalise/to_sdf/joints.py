@@ -2,13 +2,13 @@
 
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import Fate, Notes, Rule
+from twinform.diagnostics import DiagnosticSink, Fate, Rule
 from twinform.diagnostics.rules import to_sdf
 from twinform.ir import Axis, Element, Format, Joint, Limit, Link, Model, Opaque, count_parts
 from twinform.ir.defaults import AXIS, with_range
 from twinform.ir.frames import WORLD
-from twinform.passes.legalise.carrier import NAMESPACE, carry, to_element
-from twinform.passes.legalise.marks import is_made, mark_made
+from twinform.passes.carriers.annotations import is_synthesized, mark_synthesized
+from twinform.passes.carriers.carriers import NAMESPACE, carry, to_element
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.to_sdf.planar import planar_chain
 from twinform.passes.legalise.to_sdf.unique_names import free_name
@@ -38,17 +38,17 @@ class UrdfJoints(ModelPass):
     name: ClassVar[str] = "urdf-joints"
     carriers: bool = True
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with joints of SDF."""
         free = {joint.child: joint for joint in model.joints if _is_free(joint, model)}
-        joints = tuple(self._joint(joint, notes) for joint in model.joints if not _is_free(joint, model))
+        joints = tuple(self._joint(joint, sink) for joint in model.joints if not _is_free(joint, model))
         links = model.links
         if free:
-            links = tuple(self._free(link, free[link.name], notes) if link.name in free else link for link in links)
+            links = tuple(self._free(link, free[link.name], sink) if link.name in free else link for link in links)
         model = model.model_copy(update={"joints": joints, "links": links})
-        return self._unfold(model, notes) if any(joint.type == "planar" for joint in joints) else model
+        return self._unfold(model, sink) if any(joint.type == "planar" for joint in joints) else model
 
-    def _unfold(self, model: Model, notes: Notes) -> Model:
+    def _unfold(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with a chain in the place of each planar joint."""
         taken = {node.name for node in (*model.links, *model.joints, *model.frames)}
         links: dict[str | None, tuple[Link, ...]] = {}
@@ -62,27 +62,27 @@ class UrdfJoints(ModelPass):
             chain = planar_chain(joint, (first, first_link, second, second_link))
             links[joint.child] = tuple(self._made(link) for link in chain.links)
             slide, shift, turn = chain.joints
-            joints += [self._made(slide), self._made(shift), self._was_planar(turn, joint, notes)]
+            joints += [self._made(slide), self._made(shift), self._was_planar(turn, joint, sink)]
         every = tuple(one for link in model.links for one in (*links.get(link.name, ()), link))
         return model.model_copy(update={"links": every, "joints": tuple(joints)})
 
     def _made(self, node: Made) -> Made:
-        return mark_made(node) if self.carriers else node
+        return mark_synthesized(node) if self.carriers else node
 
-    def _was_planar(self, turn: Joint, joint: Joint, notes: Notes) -> Joint:
+    def _was_planar(self, turn: Joint, joint: Joint, sink: DiagnosticSink) -> Joint:
         message = f"planar joint {joint.name!r} is two sliding joints and a turning one in SDF, with links without mass"
-        notes.report(to_sdf.JOINT_CHAIN, message, joint.location.at("@type"), found="planar")
+        sink.report(to_sdf.JOINT_CHAIN, message, joint.location.at("@type"), found="planar")
         rest = [child for child in to_element(joint, "joint", "urdf").children if child.name in _BESIDE_AXIS]
         pieces = [Opaque(attribute=("type", "planar")), *(Opaque(element=child) for child in rest)]
-        return self._keep(turn, pieces, f"planar joint {joint.name!r} is a chain of joints", notes, to_sdf.JOINT_CHAIN)
+        return self._keep(turn, pieces, f"planar joint {joint.name!r} is a chain of joints", sink, to_sdf.JOINT_CHAIN)
 
-    def _free(self, link: Link, joint: Joint, notes: Notes) -> Link:
+    def _free(self, link: Link, joint: Joint, sink: DiagnosticSink) -> Link:
         freed = link.model_copy(update={"pose": joint.pose})
-        if is_made(joint):
+        if is_synthesized(joint):
             return freed
         message = f"joint {joint.name!r} leaves link {link.name!r} free, which needs no joint in SDF"
         element = to_element(joint.model_copy(update={"pose": None}), "joint", "urdf")
-        notes.account(self._fate(), to_sdf.NO_JOINT, message, joint.location, count_parts(joint))
+        sink.account(self._fate(), to_sdf.NO_JOINT, message, joint.location, count_parts(joint))
         if not self.carriers:
             return freed
         rest = tuple(child for child in element.children if child.name not in {"parent", "child"})
@@ -90,39 +90,39 @@ class UrdfJoints(ModelPass):
         mark = Element(name=f"{{{NAMESPACE}}}{FLOATING}", attributes=attributes, children=rest)
         return freed.model_copy(update={"opaque": (*freed.opaque, Opaque(element=mark))})
 
-    def _joint(self, joint: Joint, notes: Notes) -> Joint:
+    def _joint(self, joint: Joint, sink: DiagnosticSink) -> Joint:
         match joint.type:
             case "fixed":
-                return self._without_axis(joint, notes)
+                return self._without_axis(joint, sink)
             case "revolute" | "prismatic" | "continuous":
-                return self._moving(joint, notes)
+                return self._moving(joint, sink)
             case "ball":
-                return self._ball(joint, notes)
+                return self._ball(joint, sink)
             case "planar" | "universal" | "revolute2" | "screw" | "gearbox":
                 return joint  # SDF's own, from a <gazebo> element
             case _:
                 message = f"joint {joint.name!r} is {joint.type!r}, which SDF has no joint for"
-                notes.report(to_sdf.JOINT_TYPE_UNSUPPORTED, message, joint.location.at("@type"), found=joint.type)
+                sink.report(to_sdf.JOINT_TYPE_UNSUPPORTED, message, joint.location.at("@type"), found=joint.type)
                 return joint
 
-    def _ball(self, joint: Joint, notes: Notes) -> Joint:
+    def _ball(self, joint: Joint, sink: DiagnosticSink) -> Joint:
         """Any axis of a ball joint stays: its damping is that of the joint."""
         limit = joint.axis.limit if joint.axis else None
         if joint.axis is None or limit is None:
             return joint
         limit, rest = _without(limit, _HIGHER)
         joint = joint.model_copy(update={"axis": joint.axis.model_copy(update={"limit": limit})})
-        return self._keep(joint, rest, f"SDF has no place for these limits of joint {joint.name!r}", notes)
+        return self._keep(joint, rest, f"SDF has no place for these limits of joint {joint.name!r}", sink)
 
-    def _without_axis(self, joint: Joint, notes: Notes) -> Joint:
+    def _without_axis(self, joint: Joint, sink: DiagnosticSink) -> Joint:
         if joint.axis is None:
             return joint
         rest = [child for child in to_element(joint, "joint", "urdf").children if child.name in OF_AN_AXIS]
         kept = joint.model_copy(update={"axis": None})
         message = f"the {joint.type} joint {joint.name!r} has no axis"
-        return self._keep(kept, [Opaque(element=child) for child in rest], message, notes)
+        return self._keep(kept, [Opaque(element=child) for child in rest], message, sink)
 
-    def _moving(self, joint: Joint, notes: Notes) -> Joint:
+    def _moving(self, joint: Joint, sink: DiagnosticSink) -> Joint:
         axis = joint.axis or Axis()
         limit, rest = _limit(joint, axis.limit)
         update: dict[str, object] = {}
@@ -135,13 +135,13 @@ class UrdfJoints(ModelPass):
         if not update:
             return joint
         joint = joint.model_copy(update={"axis": axis.model_copy(update=update)})
-        return self._keep(joint, rest, f"SDF has no place for these limits of joint {joint.name!r}", notes)
+        return self._keep(joint, rest, f"SDF has no place for these limits of joint {joint.name!r}", sink)
 
     def _keep(
-        self, joint: Joint, rest: list[Opaque], message: str, notes: Notes, rule: Rule = to_sdf.URDF_ONLY
+        self, joint: Joint, rest: list[Opaque], message: str, sink: DiagnosticSink, rule: Rule = to_sdf.URDF_ONLY
     ) -> Joint:
         for part in rest:
-            notes.account(self._fate(), rule, f"{message}: {part.name}", joint.location, part.weight)
+            sink.account(self._fate(), rule, f"{message}: {part.name}", joint.location, part.weight)
         return carry(joint, rest, "urdf") if self.carriers else joint
 
     def _fate(self) -> Fate:
@@ -164,7 +164,7 @@ def _is_free(joint: Joint, model: Model) -> bool:
     """Whether SDF needs no joint here: a static model is where it is, fixed to the world or not."""
     if joint.type == "floating":
         return True
-    return joint.type == "fixed" and joint.parent == WORLD and bool(model.static) and is_made(joint)
+    return joint.type == "fixed" and joint.parent == WORLD and bool(model.static) and is_synthesized(joint)
 
 
 def _without(limit: Limit, names: tuple[str, ...]) -> tuple[Limit, list[Opaque]]:

@@ -4,20 +4,20 @@ import math
 from collections.abc import Iterable
 from typing import ClassVar
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Format, Inertial, Link, Model, Opaque
 from twinform.ir.frames import FrameError, FrameGraph
 from twinform.ir.solids import Solid, placed, written_solid
 from twinform.ir.transform import Transform
-from twinform.passes.assets import AssetPass
-from twinform.passes.legalise.automatic_inertias import COMPUTED_MASS, NoInertiaError, automatic
-from twinform.passes.legalise.carrier import is_carrier, unpack
-from twinform.passes.legalise.marks import find_mark, without_mark
+from twinform.passes.analyses.automatic_inertias import COMPUTED_MASS, NoInertiaError, automatic
+from twinform.passes.analyses.meshes import Meshes
+from twinform.passes.carriers.absorb import CarrierError, absorb
+from twinform.passes.carriers.annotations import find_annotation, without_annotation
+from twinform.passes.carriers.carriers import is_carrier, unpack
+from twinform.passes.carriers.sdf_versions import Terms
+from twinform.passes.framework.assets import AssetPass
 from twinform.passes.legalise.model_pass import ModelPass
-from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb
-from twinform.passes.legalise.sdf_versions.carriers import Terms
-from twinform.passes.meshes import Meshes
 from twinform.schemas import parse_version, table
 
 _SINCE = (1, 11)
@@ -39,13 +39,13 @@ class LeaveInertias(ModelPass, AssetPass):
     name: ClassVar[str] = "leave-inertias"
     version: str
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with its automatic inertias."""
         if parse_version(self.version) < _SINCE or not any(map(_was_automatic, model.links)):
             return model
         graph = FrameGraph(model)
         meshes = Meshes(self._assets)
-        links = tuple(_leave(link, graph, meshes, notes) if _was_automatic(link) else link for link in model.links)
+        links = tuple(_leave(link, graph, meshes, sink) if _was_automatic(link) else link for link in model.links)
         return model.model_copy(update={"links": links})
 
 
@@ -58,17 +58,17 @@ def _is_auto(part: Opaque) -> bool:
     return any(piece.attribute and piece.attribute[0] == "auto" and not piece.at for piece in pieces)
 
 
-def _leave(link: Link, graph: FrameGraph, meshes: Meshes, notes: Notes) -> Link:
+def _leave(link: Link, graph: FrameGraph, meshes: Meshes, sink: DiagnosticSink) -> Link:
     inertial = link.inertial or Inertial()
-    computed = _FIELDS if find_mark(inertial, COMPUTED_MASS) else _FIELDS[1:]
-    left = without_mark(inertial.model_copy(update=dict.fromkeys(computed)), COMPUTED_MASS)
+    computed = _FIELDS if find_annotation(inertial, COMPUTED_MASS) else _FIELDS[1:]
+    left = without_annotation(inertial.model_copy(update=dict.fromkeys(computed)), COMPUTED_MASS)
     try:
         left = _unpacked(left)
         found = automatic(link, left, link.collisions, graph, meshes)
     except (CarrierError, NoInertiaError, FrameError) as error:
-        return _stale(link, inertial, str(error), notes)
+        return _stale(link, inertial, str(error), sink)
     if not _is_the_same(found, inertial):
-        return _stale(link, inertial, "its numbers or its collisions were edited", notes)
+        return _stale(link, inertial, "its numbers or its collisions were edited", sink)
     return link.model_copy(update={"inertial": left})
 
 
@@ -96,9 +96,9 @@ def _are_close(some: Iterable[float], others: Iterable[float], scale: float) -> 
     return all(abs(one - other) <= _CLOSE * scale for one, other in zip(some, others, strict=True))
 
 
-def _stale(link: Link, inertial: Inertial, why: str, notes: Notes) -> Link:
+def _stale(link: Link, inertial: Inertial, why: str, sink: DiagnosticSink) -> Link:
     message = f"the inertia of link {link.name!r} was computed, and is not any more: {why}"
-    notes.report(rules.STALE_CARRIER, message, inertial.location, found=link.name)
+    sink.report(rules.STALE_CARRIER, message, inertial.location, found=link.name)
     kept = tuple(part for part in inertial.opaque if not _is_auto(part))
-    bare = without_mark(inertial.model_copy(update={"opaque": kept}), COMPUTED_MASS)
+    bare = without_annotation(inertial.model_copy(update={"opaque": kept}), COMPUTED_MASS)
     return link.model_copy(update={"inertial": bare})

@@ -3,12 +3,12 @@
 from dataclasses import dataclass
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Collision, Format, Link, Mesh, Model, Visual, replace_fields
-from twinform.passes.legalise.marks import find_mark, with_mark, without_mark
+from twinform.passes.carriers.annotations import find_annotation, with_annotation, without_annotation
+from twinform.passes.carriers.provenance import came_from
 from twinform.passes.legalise.model_pass import ModelPass
-from twinform.passes.legalise.provenance import came_from
-from twinform.passes.legalise.uri_schemes import GAZEBO, MESH_SCHEME, ROS, TEXTURE_SCHEME, model_uri, scheme_of
+from twinform.passes.transforms.uri_schemes import GAZEBO, MESH_SCHEME, ROS, TEXTURE_SCHEME, model_uri, scheme_of
 
 Shape = TypeVar("Shape", Visual, Collision)
 
@@ -25,18 +25,18 @@ class MeshUris(ModelPass):
     name: ClassVar[str] = "mesh-uris"
     carriers: bool = True
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with URIs that Gazebo resolves."""
-        marks = self.carriers and not came_from(model, Format.SDF)
-        return model.model_copy(update={"links": tuple([_Links(notes, marks).link(link) for link in model.links])})
+        annotations = self.carriers and not came_from(model, Format.SDF)
+        return model.model_copy(update={"links": tuple([_Links(sink, annotations).link(link) for link in model.links])})
 
 
 @dataclass(frozen=True, slots=True)
 class _Links:
     """One run over the links; `marks` says whether the scheme of a URI is to be marked."""
 
-    notes: Notes
-    marks: bool
+    sink: DiagnosticSink
+    annotations: bool
 
     def link(self, link: Link) -> Link:
         visuals, collisions = tuple(map(self._visual, link.visuals)), tuple(map(self._shape, link.collisions))
@@ -67,12 +67,12 @@ class _Links:
     def _uri(self, shape: Shape, kind: str, written: str) -> tuple[Shape, str]:
         """The URI for Gazebo, and the shape with what has to be known for the reverse conversion."""
         if scheme_of(written) not in {ROS, GAZEBO}:
-            return without_mark(shape, kind), written
-        mark = find_mark(shape, kind)
+            return without_annotation(shape, kind), written
+        mark = find_annotation(shape, kind)
         if mark is not None:
-            bare = without_mark(shape, kind)
+            bare = without_annotation(shape, kind)
             return bare, written if mark.get("scheme") == scheme_of(written) == ROS else model_uri(written)[0]
         uri, lost = model_uri(written)
         if not lost:
             return shape, uri
-        return (with_mark(shape, kind, attributes={"scheme": GAZEBO}) if self.marks else shape), uri
+        return (with_annotation(shape, kind, attributes={"scheme": GAZEBO}) if self.annotations else shape), uri

@@ -4,7 +4,7 @@ import math
 
 from twinform.ir import Axis, Joint
 from twinform.ir.defaults import multiplier
-from twinform.passes.legalise.marks import find_mark, without_mark
+from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.legalise.to_urdf.map_joints import MIMIC
 
 
@@ -13,7 +13,7 @@ def with_reference(joint: Joint) -> Joint | None:
 
     multiplier (leader - reference) + offset is what URDF says as multiplier leader + offset.
     """
-    found = find_mark(joint, MIMIC)
+    found = find_annotation(joint, MIMIC)
     if found is None:
         return joint
     axis: Axis | None = joint.axis
@@ -24,7 +24,7 @@ def with_reference(joint: Joint) -> Joint | None:
     offset = (axis.mimic.offset or 0.0) + factor * reference if reference else axis.mimic.offset
     mimic = axis.mimic.model_copy(update={"reference": reference, "offset": offset or None})
     made: Axis = axis.model_copy(update={"mimic": mimic})
-    return without_mark(joint, MIMIC).model_copy(update={"axis": made})
+    return without_annotation(joint, MIMIC).model_copy(update={"axis": made})
 
 
 def _number(text: str | None) -> float | None:

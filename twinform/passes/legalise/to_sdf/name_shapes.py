@@ -5,10 +5,10 @@ from collections.abc import Iterator, Mapping
 from itertools import count
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import Fate, Notes
+from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import to_sdf
 from twinform.ir import Collision, Link, Model, Visual, replace_fields
-from twinform.passes.legalise.marks import with_mark
+from twinform.passes.carriers.annotations import with_annotation
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.names import NAME
 
@@ -30,17 +30,17 @@ class NameShapes(ModelPass):
     name: ClassVar[str] = "name-shapes"
     carriers: bool = True
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with named shapes."""
-        links = tuple(_name_link(link, notes, carriers=self.carriers) for link in model.links)
+        links = tuple(_name_link(link, sink, carriers=self.carriers) for link in model.links)
         made = [new for old, link in zip(model.links, links, strict=True) for new in _made_names(old, link)]
         model = model.model_copy(update={"links": links})
-        return with_mark(model, UNNAMED, "\n".join(made)) if made and self.carriers else model
+        return with_annotation(model, UNNAMED, "\n".join(made)) if made and self.carriers else model
 
 
-def _name_link(link: Link, notes: Notes, *, carriers: bool) -> Link:
-    visuals = name_all(link.visuals, f"{link.name}_visual", notes, carriers=carriers)
-    collisions = name_all(link.collisions, f"{link.name}_collision", notes, carriers=carriers)
+def _name_link(link: Link, sink: DiagnosticSink, *, carriers: bool) -> Link:
+    visuals = name_all(link.visuals, f"{link.name}_visual", sink, carriers=carriers)
+    collisions = name_all(link.collisions, f"{link.name}_collision", sink, carriers=carriers)
     return replace_fields(link, visuals=visuals, collisions=collisions)
 
 
@@ -51,7 +51,7 @@ def _made_names(old: Link, new: Link) -> Iterator[str]:
         yield from (str(after.name) for before, after in pairs if before.name is None)
 
 
-def name_all(shapes: tuple[Shape, ...], base: str, notes: Notes, *, carriers: bool) -> tuple[Shape, ...]:
+def name_all(shapes: tuple[Shape, ...], base: str, sink: DiagnosticSink, *, carriers: bool) -> tuple[Shape, ...]:
     """The shapes with one name each; `base` names those that have none."""
     taken = {name for name in map(_own_name, shapes) if name}
     if len(taken) == len(shapes):
@@ -65,9 +65,9 @@ def name_all(shapes: tuple[Shape, ...], base: str, notes: Notes, *, carriers: bo
             name = _free(name or base, taken, seen, numbers)
             if shape.name:
                 message = f"{shape.name!r} {_why(shape)} is called {name!r} in SDF"
-                notes.account(Fate.CARRIED if carriers else Fate.DROPPED, to_sdf.SHAPE_NAME, message, shape.location)
+                sink.account(Fate.CARRIED if carriers else Fate.DROPPED, to_sdf.SHAPE_NAME, message, shape.location)
                 if carriers:
-                    shape = with_mark(shape, NAME, shape.name, {"instead_of": name})  # noqa: PLW2901 - the same shape
+                    shape = with_annotation(shape, NAME, shape.name, {"instead_of": name})  # noqa: PLW2901 - the same shape
         seen.add(name)
         named.append(shape if shape.name == name else shape.model_copy(update={"name": name}))
     return tuple(named)

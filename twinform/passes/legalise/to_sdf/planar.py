@@ -6,7 +6,7 @@ from typing import NamedTuple
 from twinform.ir import Axis, Format, Joint, Link, Pose
 from twinform.ir.defaults import direction
 from twinform.ir.node import Vector3
-from twinform.passes.legalise.token_mass import TOKEN
+from twinform.passes.carriers.token_mass import TOKEN
 
 
 class Chain(NamedTuple):

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import (
     Axis,
@@ -22,15 +22,15 @@ from twinform.ir import (
 from twinform.ir.defaults import direction
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph, Kind
 from twinform.ir.transform import Transform, rounded
-from twinform.passes.legalise.element_poses import ElementPoses
-from twinform.passes.legalise.joint_ends import ENDS
-from twinform.passes.legalise.marks import MADE, find_mark, is_made, without_mark
+from twinform.passes.carriers.annotations import SYNTHESIZED, find_annotation, is_synthesized, without_annotation
+from twinform.passes.carriers.provenance import came_from
+from twinform.passes.carriers.token_mass import has_token_mass
 from twinform.passes.legalise.model_pass import ModelPass
-from twinform.passes.legalise.notation import NESTED, OFFSET, POSE, as_marked, read_offset
-from twinform.passes.legalise.provenance import came_from
-from twinform.passes.legalise.rebasing import AnyPosed, Base, Posed, Rebasing
 from twinform.passes.legalise.to_urdf.express_axes import OLD_WORD
-from twinform.passes.legalise.token_mass import has_token_mass
+from twinform.passes.transforms.element_poses import ElementPoses
+from twinform.passes.transforms.joint_ends import ENDS
+from twinform.passes.transforms.notation import NESTED, OFFSET, POSE, as_marked, read_offset
+from twinform.passes.transforms.rebasing import AnyPosed, Base, Posed, Rebasing
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -55,30 +55,30 @@ class RestoreFrames(ModelPass):
     old_words: bool = False
     """Whether the model's frame is called by the word before 1.7 where a mark says so."""
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model in the terms of its SDF file."""
         if not came_from(model, Format.SDF):
-            return self._with_offsets(model, notes)
+            return self._with_offsets(model, sink)
         model = _without_made_root(model)
         try:
-            made = _Restoring(model, notes, old_words=self.old_words).run()
+            made = _Restoring(model, sink, old_words=self.old_words).run()
             if next(FrameGraph(made).problems(), None) is None:
                 return made
             message = f"the frames in which poses of {model.name!r} were written go round in a circle by now"
-            notes.report(rules.STALE_CARRIER, message, model.location, found=model.name)
-            return _Restoring(_without_frames(model), notes, old_words=self.old_words).run()
+            sink.report(rules.STALE_CARRIER, message, model.location, found=model.name)
+            return _Restoring(_without_frames(model), sink, old_words=self.old_words).run()
         except FrameError as error:
-            error.report(notes)
+            error.report(sink)
             return model
 
-    def _with_offsets(self, model: Model, notes: Notes) -> Model:
+    def _with_offsets(self, model: Model, sink: DiagnosticSink) -> Model:
         """A model of URDF whose links have other frames in the SDF file that it came back from."""
-        if all(find_mark(link, OFFSET) is None for link in model.links):
+        if all(find_annotation(link, OFFSET) is None for link in model.links):
             return model
         try:
-            return _Restoring(model, notes, as_urdf=True).run()
+            return _Restoring(model, sink, as_urdf=True).run()
         except FrameError as error:
-            error.report(notes)
+            error.report(sink)
             return model
 
 
@@ -90,7 +90,7 @@ class _Restoring:
     """
 
     model: Model
-    notes: Notes
+    sink: DiagnosticSink
     as_urdf: bool = False
     old_words: bool = False
     frames: dict[str, Base] = field(default_factory=dict[str, Base])
@@ -110,9 +110,9 @@ class _Restoring:
         placement = self._placement(graph)
         name, kind = self._in_frame(placement) if placement else self._base(MODEL, "model")
         placed = graph.pose(name, WORLD, kind=kind, base="world")
-        pose = as_marked(placed, find_mark(model, POSE), None)
+        pose = as_marked(placed, find_annotation(model, POSE), None)
         model = model.model_copy(update={"pose": pose, "placement_frame": placement})
-        return without_mark(model, OFFSET, POSE)
+        return without_annotation(model, OFFSET, POSE)
 
     def _placement(self, graph: FrameGraph) -> str | None:
         """The frame of the model that its pose is for, if it names one that is there."""
@@ -133,7 +133,7 @@ class _Restoring:
                 yield Frame(name=link.name + _BASE, attached_to=link.name, pose=offset.to_pose())
 
     def _offset(self, node: Link | Model) -> Transform | None:
-        found = find_mark(node, OFFSET)
+        found = find_annotation(node, OFFSET)
         if found is None:
             return None
         try:
@@ -143,7 +143,7 @@ class _Restoring:
             return None
 
     def _stale(self, message: str, node: Node) -> None:
-        self.notes.report(rules.STALE_CARRIER, message, node.location)
+        self.sink.report(rules.STALE_CARRIER, message, node.location)
 
     def _base(self, name: str, kind: Kind) -> Base:
         return self.frames.get(name, (name, kind))
@@ -153,7 +153,7 @@ class _Restoring:
 
     def _written_in(self, node: Node, graph: FrameGraph, usual: str) -> str | None:
         """The frame that a mark on a node names; None for the usual one."""
-        found = find_mark(node, POSE)
+        found = find_annotation(node, POSE)
         name = found.get("relative_to") if found else None
         if not name:
             return None
@@ -167,7 +167,7 @@ class _Restoring:
         written_in = self._written_in(node, graph, usual)
         (name, own), (base, held) = self._base(node.name, kind), self._in_frame(written_in or usual)
         placed = graph.pose(name, base, kind=own, base=held if base != WORLD else "world")
-        return as_marked(placed, find_mark(node, POSE), written_in)
+        return as_marked(placed, find_annotation(node, POSE), written_in)
 
     def _link(self, link: Link, graph: FrameGraph) -> Link:
         base = self._base(link.name, "link")
@@ -179,7 +179,7 @@ class _Restoring:
         if usual != MODEL and not (pose and pose.relative_to):  # until it stands in that model, if it is in one
             pose = (pose or Pose()).model_copy(update={"relative_to": usual})
         inertial = link.inertial if link.inertial and link.inertial.auto else inside.inertial
-        return without_mark(inside.model_copy(update={"pose": pose, "inertial": inertial}), OFFSET, POSE)
+        return without_annotation(inside.model_copy(update={"pose": pose, "inertial": inertial}), OFFSET, POSE)
 
     def _rebasing(self, graph: FrameGraph, name: str, kind: Kind, base: Base) -> Rebasing:
         def write(holder: AnyPosed, _tag: str, transform: Transform) -> AnyPosed:
@@ -193,8 +193,8 @@ class _Restoring:
         if written_in is not None:
             name, kind = self._in_frame(written_in)
             transform = graph.pose(base[0], name, kind=base[1], base=kind).compose(transform)
-        pose = as_marked(transform, find_mark(holder, POSE), written_in)
-        return without_mark(holder.model_copy(update={"pose": pose}), POSE)
+        pose = as_marked(transform, find_annotation(holder, POSE), written_in)
+        return without_annotation(holder.model_copy(update={"pose": pose}), POSE)
 
     def _joint(self, joint: Joint, graph: FrameGraph) -> Joint:
         base: Base = (joint.name, "joint")
@@ -209,11 +209,11 @@ class _Restoring:
         update: dict[str, object] = {**ends, "pose": pose}
         for name in _AXES:
             update[name] = self._axis(joint, name, graph)
-        return without_mark(inside.model_copy(update=update), POSE, ENDS, *_AXES)
+        return without_annotation(inside.model_copy(update=update), POSE, ENDS, *_AXES)
 
     def _ends(self, joint: Joint, graph: FrameGraph) -> dict[str, object]:
         """The frames at the ends of a joint, as far as they still move with its links."""
-        found = find_mark(joint, ENDS)
+        found = find_annotation(joint, ENDS)
         ends: dict[str, object] = {}
         for end in ("parent", "child"):
             name, link = found.get(end) if found else None, getattr(joint, end)
@@ -227,7 +227,7 @@ class _Restoring:
 
     def _axis(self, joint: Joint, field: str, graph: FrameGraph) -> Axis | None:
         axis: Axis | None = getattr(joint, field)
-        found = find_mark(joint, field)
+        found = find_annotation(joint, field)
         old = found is not None and found.get(OLD_WORD) == "true"
         name = (found and found.get("expressed_in")) or (MODEL if old else None)
         if axis is None or not name:
@@ -241,13 +241,13 @@ class _Restoring:
         return axis.model_copy(update={"xyz": rounded(turn.rotate(direction(axis, Format.SDF))), **frame})
 
     def _frame(self, frame: Frame, graph: FrameGraph) -> Frame:
-        if find_mark(frame, NESTED) is None:
+        if find_annotation(frame, NESTED) is None:
             pose = self._own_pose(frame, "frame", frame.attached_to or around(frame.name, graph), graph)
         else:  # a model is posed in the one around it
             usual = around(frame.name.removesuffix(f"{SCOPE}{MODEL}"), graph)
             pose = self._own_pose(frame, "frame", usual, graph) or Pose()
             pose = pose.model_copy(update={"relative_to": pose.relative_to or usual})
-        return without_mark(frame.model_copy(update={"pose": pose}), POSE)
+        return without_annotation(frame.model_copy(update={"pose": pose}), POSE)
 
 
 def around(name: str, graph: FrameGraph) -> str:
@@ -263,18 +263,18 @@ def _nothing_beside(_message: str, _pose: Pose) -> tuple[Element, ...]:
 
 def _is_left(holder: Posed) -> bool:
     """Whether a pose may stay as it is where its frame does."""
-    return find_mark(holder, POSE) is None and not (holder.pose and holder.pose.relative_to)
+    return find_annotation(holder, POSE) is None and not (holder.pose and holder.pose.relative_to)
 
 
 def _without_made_root(model: Model) -> Model:
     """The model without the link that was made because URDF needs one, if that still holds nothing."""
     link = model.links[0] if len(model.links) == 1 else None
-    if link is None or not is_made(link):
+    if link is None or not is_synthesized(link):
         return model
     held = link.visuals or link.collisions or link.sensors or link.lights or len(link.opaque) > 1
     weighs = link.inertial and link.inertial.mass and not has_token_mass(link.inertial)
     if held or model.joints or weighs:  # it is a link like others by now
-        return model.model_copy(update={"links": (without_mark(link, MADE),)})
+        return model.model_copy(update={"links": (without_annotation(link, SYNTHESIZED),)})
     frames = (_off_root(frame, link.name) for frame in model.frames)
     return model.model_copy(update={"links": (), "frames": tuple(frames), "canonical_link": None})
 
@@ -291,4 +291,4 @@ def _off_root(frame: Frame, root: str) -> Frame:
 
 def _without_frames(node: AnyNode) -> AnyNode:
     """The node without what marks say of the frames in which it was written, on it and in it."""
-    return rewrite(node, Node, lambda each: without_mark(each, POSE, ENDS, *_AXES), enter=holds_opaque)
+    return rewrite(node, Node, lambda each: without_annotation(each, POSE, ENDS, *_AXES), enter=holds_opaque)

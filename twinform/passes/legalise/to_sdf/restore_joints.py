@@ -2,13 +2,13 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Axis, Format, Joint, Limit, Model
 from twinform.ir.defaults import UNLIMITED
-from twinform.passes.legalise.marks import MADE, find_mark, without_mark
+from twinform.passes.carriers.annotations import SYNTHESIZED, find_annotation, without_annotation
+from twinform.passes.carriers.provenance import came_from
 from twinform.passes.legalise.model_pass import ModelPass
-from twinform.passes.legalise.provenance import came_from
 from twinform.passes.legalise.to_sdf.mimic_references import with_reference
 from twinform.passes.legalise.to_urdf.map_joints import CONTINUOUS, MIMIC
 
@@ -27,19 +27,19 @@ class RestoreJoints(ModelPass):
 
     name: ClassVar[str] = "restore-joints"
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with joints of its SDF file."""
         if not came_from(model, Format.SDF):
             return model
-        return model.model_copy(update={"joints": tuple(_restored(joint, notes) for joint in model.joints)})
+        return model.model_copy(update={"joints": tuple(_restored(joint, sink) for joint in model.joints)})
 
 
-def _restored(joint: Joint, notes: Notes) -> Joint:
-    joint = _with_reference(without_mark(joint, MADE), notes)
+def _restored(joint: Joint, sink: DiagnosticSink) -> Joint:
+    joint = _with_reference(without_annotation(joint, SYNTHESIZED), sink)
     axes = {name: axis for name in _AXES if (axis := getattr(joint, name)) is not None and axis.limit is not None}
     if axes:
         joint = joint.model_copy(update={name: _without_infinities(axis) for name, axis in axes.items()})
-    return _continuous(joint, notes)
+    return _continuous(joint, sink)
 
 
 def _without_infinities(axis: Axis) -> Axis:
@@ -54,23 +54,23 @@ def _sign(name: str) -> int:
     return -1 if name == "lower" else 1
 
 
-def _continuous(joint: Joint, notes: Notes) -> Joint:
-    if find_mark(joint, CONTINUOUS) is None:
+def _continuous(joint: Joint, sink: DiagnosticSink) -> Joint:
+    if find_annotation(joint, CONTINUOUS) is None:
         return joint
-    joint = without_mark(joint, CONTINUOUS)
+    joint = without_annotation(joint, CONTINUOUS)
     limit = joint.axis.limit if joint.axis and joint.axis.limit else Limit()
     if joint.type == "revolute" and limit.lower is None and limit.upper is None:
         return joint.model_copy(update={"type": "continuous"})
     message = f"joint {joint.name!r} was continuous, and has another type or limits now"
-    notes.report(STALE_CARRIER, message, joint.location, found=joint.type)
+    sink.report(STALE_CARRIER, message, joint.location, found=joint.type)
     return joint
 
 
-def _with_reference(joint: Joint, notes: Notes) -> Joint:
+def _with_reference(joint: Joint, sink: DiagnosticSink) -> Joint:
     made = with_reference(joint)
     if made is not None:
         return made
-    found = find_mark(joint, MIMIC)
+    found = find_annotation(joint, MIMIC)
     message = f"joint {joint.name!r} does not mimic any more, or its reference is no number"
-    notes.report(STALE_CARRIER, message, joint.location, found=(found and found.get("reference")) or "")
-    return without_mark(joint, MIMIC)
+    sink.report(STALE_CARRIER, message, joint.location, found=(found and found.get("reference")) or "")
+    return without_annotation(joint, MIMIC)

@@ -3,20 +3,20 @@
 from collections.abc import Iterable, Iterator
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import Notes, Severity
+from twinform.diagnostics import DiagnosticSink, Severity
 from twinform.diagnostics.rules.to_urdf import NESTED_MODEL, STALE_CARRIER
 from twinform.ir import IN_MODELS, Element, Format, Frame, Link, Model, Node, Opaque, Pose, map_references
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.marks import find_mark, without_mark
+from twinform.passes.carriers.absorb import CarrierError, absorb
+from twinform.passes.carriers.annotations import find_annotation, without_annotation
+from twinform.passes.carriers.provenance import wrote_scopes
+from twinform.passes.carriers.sdf_versions import Terms
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.names import renamed
-from twinform.passes.legalise.notation import NESTED
-from twinform.passes.legalise.provenance import wrote_scopes
-from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb
-from twinform.passes.legalise.sdf_versions.carriers import Terms
-from twinform.passes.legalise.sdf_versions.nest_models import nest
 from twinform.passes.legalise.to_sdf.restore_frames import SCOPE
+from twinform.passes.sdf_versions.nest_models import nest
+from twinform.passes.transforms.notation import NESTED
 from twinform.schemas import parse_version, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -36,41 +36,41 @@ class NameScopes(ModelPass):
 
     name: ClassVar[str] = "name-scopes"
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with the frames of nested models by their scoped names."""
-        model = _without_hollow(model, notes)
-        own = [frame for frame in model.frames if find_mark(frame, NESTED) is not None]
+        model = _without_hollow(model, sink)
+        own = [frame for frame in model.frames if find_annotation(frame, NESTED) is not None]
         if not own:
             return model
         for frame in own:
-            _report_outside(frame, model, notes)
+            _report_outside(frame, model, sink)
         return renamed(model, {("frame", frame.name): f"{frame.name}{_OWN}" for frame in own}, Format.SDF)
 
 
-def _without_hollow(model: Model, notes: Notes) -> Model:
+def _without_hollow(model: Model, sink: DiagnosticSink) -> Model:
     """The model without marks of nested models that nothing is in."""
     named = [node.name for node in (*model.links, *model.frames)]  # a joint goes where its links are
     frames: list[Frame] = []
     for frame in model.frames:
-        found = find_mark(frame, NESTED)
+        found = find_annotation(frame, NESTED)
         prefix = frame.name + SCOPE
         if found is None or any(name.startswith(prefix) for name in named):
             frames.append(frame)
             continue
         message = f"nothing is called {prefix!r} and more, so that {frame.name!r} is a frame and no model"
-        notes.report(STALE_CARRIER, message, frame.location, found=frame.name)
-        frames.append(without_mark(frame, NESTED))
+        sink.report(STALE_CARRIER, message, frame.location, found=frame.name)
+        frames.append(without_annotation(frame, NESTED))
     return model.model_copy(update={"frames": tuple(frames)})
 
 
-def _report_outside(frame: Frame, model: Model, notes: Notes) -> None:
+def _report_outside(frame: Frame, model: Model, sink: DiagnosticSink) -> None:
     """The frame of a nested model moves with a link of that model, if it has any."""
     links = {link.name for link in model.links}
     holder = frame.attached_to or ""
     own = [name for name in links if name.startswith(frame.name + SCOPE)]
     if own and holder in links and holder not in own:
         message = f"link {frame.name!r} is the frame of a nested model in SDF, and is fixed to {holder!r} outside of it"
-        notes.report(NESTED_MODEL, message, frame.location, found=holder, severity=Severity.ERROR)
+        sink.report(NESTED_MODEL, message, frame.location, found=holder, severity=Severity.ERROR)
 
 
 class RestoreNested(ModelPass):
@@ -86,23 +86,25 @@ class RestoreNested(ModelPass):
     name: ClassVar[str] = "restore-nested"
     scopes: bool = False
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with the models in it."""
-        said = {frame.name.removesuffix(_OWN): found for frame in model.frames if (found := find_mark(frame, NESTED))}
+        said = {
+            frame.name.removesuffix(_OWN): found for frame in model.frames if (found := find_annotation(frame, NESTED))
+        }
         free = self.scopes and wrote_scopes(model)
         if not said and not free:
             return model
         try:
-            _report_frames_outside(model, said, notes)
-            nested = nest(model, Notes(), None if free else frozenset(said))
-            models = tuple(_with_rest(inner, inner.name, said, notes) for inner in nested.models)
+            _report_frames_outside(model, said, sink)
+            nested = nest(model, DiagnosticSink(), None if free else frozenset(said))
+            models = tuple(_with_rest(inner, inner.name, said, sink) for inner in nested.models)
             return _tidy(nested.model_copy(update={"models": models}))
         except FrameError as error:
-            error.report(notes)
+            error.report(sink)
             return model
 
 
-def _report_frames_outside(model: Model, said: Iterable[str], notes: Notes) -> None:
+def _report_frames_outside(model: Model, said: Iterable[str], sink: DiagnosticSink) -> None:
     """A frame in a nested model moves with a link of that model."""
     graph = FrameGraph(model)
     links = {link.name for link in model.links}
@@ -113,12 +115,12 @@ def _report_frames_outside(model: Model, said: Iterable[str], notes: Notes) -> N
         body = graph.body(frame.name, kind="frame")
         if body in links and not body.startswith(scope):
             message = f"frame {frame.name!r} is in a nested model, and is fixed to {body!r} outside of it"
-            notes.report(NESTED_MODEL, message, frame.location, found=body, severity=Severity.ERROR)
+            sink.report(NESTED_MODEL, message, frame.location, found=body, severity=Severity.ERROR)
 
 
-def _with_rest(model: Model, path: str, said: dict[str, Element], notes: Notes) -> Model:
+def _with_rest(model: Model, path: str, said: dict[str, Element], sink: DiagnosticSink) -> Model:
     """A nested model with what it said besides its links, joints, frames and pose; and so those in it."""
-    models = tuple(_with_rest(inner, f"{path}{SCOPE}{inner.name}", said, notes) for inner in model.models)
+    models = tuple(_with_rest(inner, f"{path}{SCOPE}{inner.name}", said, sink) for inner in model.models)
     model = model.model_copy(update={"models": models})
     found = said.get(path)
     if found is None:
@@ -132,7 +134,7 @@ def _with_rest(model: Model, path: str, said: dict[str, Element], notes: Notes) 
         return _placed(_with_known_links(whole))
     except CarrierError as error:
         message = f"what nested model {path!r} said does not fit it any more: {error}"
-        notes.report(STALE_CARRIER, message, model.location, found=path)
+        sink.report(STALE_CARRIER, message, model.location, found=path)
         return model
 
 

@@ -2,19 +2,19 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format, Model
-from twinform.passes.base import Pass
-from twinform.passes.legalise.carrier import NAMESPACE, PREFIX, has_ours
-from twinform.passes.legalise.marks import without_mark
-from twinform.passes.legalise.notation import BODY
-from twinform.passes.legalise.provenance import (
+from twinform.passes.carriers.annotations import without_annotation
+from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, has_ours
+from twinform.passes.carriers.provenance import (
     came_from,
     source_version,
     with_mixed_words,
     with_provenance,
     without_provenance,
 )
+from twinform.passes.framework.base import Pass
+from twinform.passes.transforms.notation import BODY
 from twinform.schemas import table
 
 
@@ -31,7 +31,7 @@ class RetargetSdf(Pass):
     carriers: bool = True
     mixed: bool = False
 
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document in terms of SDF."""
         kept = tuple((prefix, uri) for prefix, uri in document.namespaces if prefix not in {"", PREFIX})
         models = tuple(self._from_urdf(model, document) for model in document.models)
@@ -48,7 +48,7 @@ class RetargetSdf(Pass):
     def _from_urdf(self, model: Model, document: Document) -> Model:
         """The model, marked as one that came from URDF, unless it is one of SDF that is back."""
         if came_from(model, Format.SDF):
-            links = tuple(without_mark(link, BODY) for link in model.links)
+            links = tuple(without_annotation(link, BODY) for link in model.links)
             return without_provenance(model.model_copy(update={"links": links}))
         if not self.carriers:
             return model

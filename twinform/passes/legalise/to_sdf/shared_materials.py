@@ -3,12 +3,12 @@
 from functools import lru_cache
 from typing import ClassVar
 
-from twinform.diagnostics import Fate, Notes
+from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import to_sdf
 from twinform.ir import Link, Material, Model, Opaque, Visual, count_parts
-from twinform.passes.legalise.carrier import pack, to_element
-from twinform.passes.legalise.marks import mark
-from twinform.passes.legalise.material_marks import MATERIAL, SHARED_MATERIAL, material_name
+from twinform.passes.carriers.annotations import annotation
+from twinform.passes.carriers.carriers import pack, to_element
+from twinform.passes.carriers.material_annotations import MATERIAL, SHARED_MATERIAL, material_name
 from twinform.passes.legalise.model_pass import ModelPass
 
 
@@ -26,7 +26,7 @@ class SharedMaterials(ModelPass):
     name: ClassVar[str] = "shared-materials"
     carriers: bool = True
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model without shared materials."""
         materials = [visual.material for link in model.links for visual in link.visuals if visual.material]
         shared = {material.name: material for material in model.materials}
@@ -35,16 +35,18 @@ class SharedMaterials(ModelPass):
             if material.name and (material.color or material.texture):
                 defined.setdefault(material.name, material)
         for material in model.materials:
-            self._account(material, count_parts(material), notes)
-        links = tuple(self._link(link, shared, defined, notes) for link in model.links)
+            self._account(material, count_parts(material), sink)
+        links = tuple(self._link(link, shared, defined, sink) for link in model.links)
         named = {each.name for each in materials if not (each.color or each.texture)}
-        marks = tuple(_definition(material, named) for material in model.materials) if self.carriers else ()
-        return model.model_copy(update={"links": links, "materials": (), "opaque": (*model.opaque, *marks)})
+        annotations = tuple(_definition(material, named) for material in model.materials) if self.carriers else ()
+        return model.model_copy(update={"links": links, "materials": (), "opaque": (*model.opaque, *annotations)})
 
-    def _link(self, link: Link, shared: dict[str | None, Material], defined: dict[str, Material], notes: Notes) -> Link:
+    def _link(
+        self, link: Link, shared: dict[str | None, Material], defined: dict[str, Material], sink: DiagnosticSink
+    ) -> Link:
         if not any(visual.material for visual in link.visuals):
             return link
-        visuals = tuple(self._visual(one, link, shared, defined, notes) for one in link.visuals)
+        visuals = tuple(self._visual(one, link, shared, defined, sink) for one in link.visuals)
         return link.model_copy(update={"visuals": visuals})
 
     def _visual(
@@ -53,7 +55,7 @@ class SharedMaterials(ModelPass):
         link: Link,
         shared: dict[str | None, Material],
         defined: dict[str, Material],
-        notes: Notes,
+        sink: DiagnosticSink,
     ) -> Visual:
         material = visual.material
         if material is None or not (material.name is not None or material.color or material.texture):
@@ -66,18 +68,18 @@ class SharedMaterials(ModelPass):
         if own and material.name == material_name(link, visual):
             return visual
         if material.name is None:
-            unnamed = mark(MATERIAL, attributes={"unnamed": "true"})
+            unnamed = annotation(MATERIAL, attributes={"unnamed": "true"})
             return visual.model_copy(update={"opaque": (*visual.opaque, unnamed)}) if self.carriers else visual
-        self._account(material, 1, notes)
+        self._account(material, 1, sink)
         return (
             visual.model_copy(update={"opaque": (*visual.opaque, _name(material, shared))}) if self.carriers else visual
         )
 
-    def _account(self, material: Material, weight: int, notes: Notes) -> None:
+    def _account(self, material: Material, weight: int, sink: DiagnosticSink) -> None:
         fate = Fate.CARRIED if self.carriers else Fate.DROPPED
         named = f"SDF has no name for the material {material.name!r}"
         message = named if material.name else "SDF has no shared materials"
-        notes.account(fate, to_sdf.MATERIAL_NAME, message, material.location, weight)
+        sink.account(fate, to_sdf.MATERIAL_NAME, message, material.location, weight)
 
 
 def _name(material: Material, shared: dict[str | None, Material]) -> Opaque:
@@ -91,14 +93,14 @@ def _name(material: Material, shared: dict[str | None, Material]) -> Opaque:
 @lru_cache(maxsize=256)
 def _name_mark(name: str, defined: str | None) -> Opaque:
     """Most robots say the same few names again and again."""
-    return mark(MATERIAL, name, {"defined": defined})
+    return annotation(MATERIAL, name, {"defined": defined})
 
 
 def _definition(material: Material, named: set[str | None]) -> Opaque:
     """The mark of a material that the robot defines; with all that it says, where no visual has that by its name."""
     plain = not material.opaque and (material.color or material.texture)
     if plain and material.name in named:
-        return mark(SHARED_MATERIAL, material.name)
+        return annotation(SHARED_MATERIAL, material.name)
     (whole,) = pack([Opaque(element=to_element(material, "material", "urdf"))], "urdf")
     return whole
 

@@ -3,7 +3,7 @@
 from collections.abc import Collection
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import Fate, Notes
+from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import to_sdf
 from twinform.ir import Format, Joint, Link, Model, ReferenceKind, map_references
 from twinform.passes.legalise.model_pass import ModelPass
@@ -28,10 +28,10 @@ class UniqueNames(ModelPass):
     name: ClassVar[str] = "unique-names"
     carriers: bool = True
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with one name for each thing."""
         if not model.name.strip():
-            model = self._rename(model, _NO_NAME, notes)
+            model = self._rename(model, _NO_NAME, sink)
         names = {link.name for link in model.links}
         taken = names | {joint.name for joint in model.joints}
         links = {name: free_name(_new(name, "link"), taken) for name in sorted(names) if _reserved(name)}
@@ -42,19 +42,19 @@ class UniqueNames(ModelPass):
         new: dict[ReferenceKind, dict[str, str]] = {"link": links, "joint": joints}
         followed = map_references(model, lambda kind, name: new.get(kind, {}).get(name, name), Format.URDF)
         update = {
-            "links": tuple(self._renamed(link, links, notes) for link in followed.links),
-            "joints": tuple(self._renamed(joint, joints, notes) for joint in followed.joints),
+            "links": tuple(self._renamed(link, links, sink) for link in followed.links),
+            "joints": tuple(self._renamed(joint, joints, sink) for joint in followed.joints),
         }
         return followed.model_copy(update=update)
 
-    def _renamed(self, node: Named, names: dict[str, str], notes: Notes) -> Named:
-        return self._rename(node, names[node.name], notes) if node.name in names else node
+    def _renamed(self, node: Named, names: dict[str, str], sink: DiagnosticSink) -> Named:
+        return self._rename(node, names[node.name], sink) if node.name in names else node
 
-    def _rename(self, node: Named, name: str, notes: Notes) -> Named:
+    def _rename(self, node: Named, name: str, sink: DiagnosticSink) -> Named:
         kind = type(node).__name__.lower()
         message = f"{kind} {node.name!r} is called {name!r} in SDF"
-        notes.report(to_sdf.RENAMED, message, node.location, found=node.name)
-        notes.account(Fate.CARRIED if self.carriers else Fate.DROPPED, to_sdf.RENAMED, message, node.location)
+        sink.report(to_sdf.RENAMED, message, node.location, found=node.name)
+        sink.account(Fate.CARRIED if self.carriers else Fate.DROPPED, to_sdf.RENAMED, message, node.location)
         if self.carriers:
             node = with_old_name(node, name)
         return node.model_copy(update={"name": name})

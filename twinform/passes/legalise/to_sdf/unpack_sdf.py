@@ -3,16 +3,16 @@
 from collections.abc import Iterable
 from typing import ClassVar, Literal, TypeVar, cast
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Color, Element, Joint, Link, Material, Model, Node, Opaque, Visual, map_children
-from twinform.passes.legalise.carrier import is_carrier, is_memory, unpack
-from twinform.passes.legalise.marks import find_mark, without_mark
-from twinform.passes.legalise.material_marks import COLORS, SCRIPTS
+from twinform.passes.carriers.absorb import CarrierError, absorb
+from twinform.passes.carriers.annotations import find_annotation, without_annotation
+from twinform.passes.carriers.carriers import is_carrier, is_memory, unpack
+from twinform.passes.carriers.material_annotations import COLORS, SCRIPTS
+from twinform.passes.carriers.sdf_versions import Terms
 from twinform.passes.legalise.model_pass import ModelPass
-from twinform.passes.legalise.sdf_versions.absorb import CarrierError, absorb
-from twinform.passes.legalise.sdf_versions.carriers import Terms
-from twinform.passes.legalise.urdf_color import urdf_color
+from twinform.passes.transforms.urdf_color import urdf_color
 from twinform.schemas import parse_version, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -35,18 +35,18 @@ class UnpackSdf(ModelPass):
     name: ClassVar[str] = "unpack-sdf"
     of: Literal["bodies", "parts"] = "parts"
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model without carriers of what is left open."""
         if self.of == "parts":
-            return map_children(model, lambda node: self._parts(node, notes))
+            return map_children(model, lambda node: self._parts(node, sink))
         model = _without_carriers(model)
         return model.model_copy(update={"links": tuple(_without_carriers(link) for link in model.links)})
 
-    def _parts(self, node: Node, notes: Notes) -> Node:
+    def _parts(self, node: Node, sink: DiagnosticSink) -> Node:
         if isinstance(node, Link):
-            return map_children(node, lambda child: self._parts(child, notes))
+            return map_children(node, lambda child: self._parts(child, sink))
         if isinstance(node, Visual):
-            node = _with_scripts(_with_colors(node, notes), notes)
+            node = _with_scripts(_with_colors(node, sink), sink)
         return _without_carriers(node)
 
 
@@ -88,36 +88,36 @@ def _has_look(material: Material | None) -> bool:
     return any(each is not None for each in said)
 
 
-def _with_colors(visual: Visual, notes: Notes) -> Visual:
+def _with_colors(visual: Visual, sink: DiagnosticSink) -> Visual:
     """The visual with the two colors that URDF has one for, unless that one was changed since."""
-    found = find_mark(visual, COLORS)
+    found = find_annotation(visual, COLORS)
     material = visual.material
     if found is None:
         return visual
-    visual = without_mark(visual, COLORS)
+    visual = without_annotation(visual, COLORS)
     try:
         of, ambient, diffuse = (_color(found.get(name)) for name in ("of", "ambient", "diffuse"))
     except ValueError as error:
         of = ambient = diffuse = None
-        notes.report(STALE_CARRIER, f"the colors of visual {visual.name!r} say nothing: {error}", visual.location)
+        sink.report(STALE_CARRIER, f"the colors of visual {visual.name!r} say nothing: {error}", visual.location)
     if material is None or material.diffuse is None or of is None or urdf_color(material.diffuse) != of:
         message = f"visual {visual.name!r} had two colors in SDF, and has another one now"
-        notes.report(STALE_CARRIER, message, visual.location, found=found.get("of") or "")
+        sink.report(STALE_CARRIER, message, visual.location, found=found.get("of") or "")
         return visual
     said = {name: color for name, color in (("ambient", ambient), ("diffuse", diffuse)) if color is not None}
     return visual.model_copy(update={"material": material.model_copy(update={n: c or None for n, c in said.items()})})
 
 
-def _with_scripts(visual: Visual, notes: Notes) -> Visual:
+def _with_scripts(visual: Visual, sink: DiagnosticSink) -> Visual:
     """The visual whose material of Gazebo Classic is in files of its own, unless it has none any more."""
-    found = find_mark(visual, SCRIPTS)
+    found = find_annotation(visual, SCRIPTS)
     if found is None:
         return visual
-    visual = without_mark(visual, SCRIPTS)
+    visual = without_annotation(visual, SCRIPTS)
     script = visual.material.script if visual.material else None
     if visual.material is None or script is None:
         message = f"visual {visual.name!r} had a material of Gazebo Classic in SDF, and has none now"
-        notes.report(STALE_CARRIER, message, visual.location, found=found.text or "")
+        sink.report(STALE_CARRIER, message, visual.location, found=found.text or "")
         return visual
     uris = tuple(line.strip() for line in (found.text or "").splitlines() if line.strip())
     script = script.model_copy(update={"uris": uris})

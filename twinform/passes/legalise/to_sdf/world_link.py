@@ -2,13 +2,13 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics import Fate, Notes
+from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import to_sdf
 from twinform.ir import Joint, Link, Model, Opaque, count_parts
-from twinform.passes.legalise.carrier import carry, is_carrier, to_element, unpack
-from twinform.passes.legalise.marks import find_mark
+from twinform.passes.carriers.annotations import find_annotation
+from twinform.passes.carriers.carriers import carry, is_carrier, to_element, unpack
 from twinform.passes.legalise.model_pass import ModelPass
-from twinform.passes.legalise.notation import BODY
+from twinform.passes.transforms.notation import BODY
 
 
 class WorldLink(ModelPass):
@@ -23,12 +23,12 @@ class WorldLink(ModelPass):
     name: ClassVar[str] = "world-link"
     carriers: bool = True
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with `world` as a parent only."""
         world = next((link for link in model.links if link.name == "world"), None)
         if (
             world is None
-            or find_mark(world, BODY) is not None
+            or find_annotation(world, BODY) is not None
             or any(joint.child == "world" for joint in model.joints)
             or len(model.links) == 1
         ):
@@ -39,16 +39,16 @@ class WorldLink(ModelPass):
         if not any(joint.parent == "world" and joint.type != "floating" for joint in joints):
             fate = Fate.CARRIED if self.carriers else Fate.DROPPED
             message = "nothing is fixed to the link 'world', and SDF has a world without saying so"
-            notes.account(fate, to_sdf.URDF_ONLY, message, world.location, count_parts(world))
+            sink.account(fate, to_sdf.URDF_ONLY, message, world.location, count_parts(world))
         own = tuple(piece for part in world.opaque for piece in (unpack(part) if is_carrier(part, "urdf") else (part,)))
         body = world.model_copy(update={"opaque": own})
-        return self._keep_body(model, body, notes) if count_parts(body) > 2 else model
+        return self._keep_body(model, body, sink) if count_parts(body) > 2 else model
 
-    def _keep_body(self, model: Model, world: Link, notes: Notes) -> Model:
+    def _keep_body(self, model: Model, world: Link, sink: DiagnosticSink) -> Model:
         message = "the link 'world' has a body, which SDF's world cannot have"
-        notes.report(to_sdf.WORLD_LINK, message, world.location)
+        sink.report(to_sdf.WORLD_LINK, message, world.location)
         fate = Fate.CARRIED if self.carriers else Fate.DROPPED
-        notes.account(fate, to_sdf.WORLD_LINK, message, world.location, count_parts(world))
+        sink.account(fate, to_sdf.WORLD_LINK, message, world.location, count_parts(world))
         if not self.carriers:
             return model
         return carry(model, [Opaque(element=to_element(world, "link", "urdf"))], "urdf")

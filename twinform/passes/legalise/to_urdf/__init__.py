@@ -1,10 +1,9 @@
 """From SDF's terms to URDF's, step by step."""
 
 from twinform.ir import Format
-from twinform.passes.base import Pass
+from twinform.passes.framework.base import Pass
 from twinform.passes.legalise.drop_stale import DropStale
 from twinform.passes.legalise.names import RestoreNames
-from twinform.passes.legalise.sdf_versions.spread_imu_noise import GatherImuNoise
 from twinform.passes.legalise.to_urdf.build_tree import BuildTree
 from twinform.passes.legalise.to_urdf.carry_the_rest import CarryTheRest
 from twinform.passes.legalise.to_urdf.compute_inertias import ComputeInertias
@@ -30,6 +29,7 @@ from twinform.passes.legalise.to_urdf.turn_frames_into_links import TurnFramesIn
 from twinform.passes.legalise.to_urdf.unfold_joints import UnfoldJoints
 from twinform.passes.legalise.to_urdf.unpack_urdf import UnpackUrdf
 from twinform.passes.legalise.to_urdf.upgrade_sdf import UpgradeSdf
+from twinform.passes.sdf_versions.spread_imu_noise import GatherImuNoise
 from twinform.schemas import table
 
 __all__ = ["UrdfVersion", "to_urdf"]

@@ -2,11 +2,11 @@
 
 from abc import abstractmethod
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format, Model, replace_fields
 from twinform.ir.frames import FrameError
-from twinform.passes.base import Pass
-from twinform.passes.legalise.provenance import came_from
+from twinform.passes.carriers.provenance import came_from
+from twinform.passes.framework.base import Pass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 
 
@@ -18,15 +18,15 @@ class ToUrdfPass(Pass):
 
     carriers: bool = True
 
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document with its model passed through."""
-        if notes.has_errors:
+        if sink.has_errors:
             return document
-        keeper = Keeper(notes, self.carriers, any(came_from(model, Format.URDF) for model in document.models))
+        keeper = Keeper(sink, self.carriers, any(came_from(model, Format.URDF) for model in document.models))
         try:
             return replace_fields(document, models=tuple(self.run_model(model, keeper) for model in document.models))
         except FrameError as error:
-            error.report(notes)
+            error.report(sink)
             return document
 
     @abstractmethod

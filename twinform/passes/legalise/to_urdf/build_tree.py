@@ -6,11 +6,11 @@ from twinform.diagnostics import Fate
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Joint, Link, Model, count_parts
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
-from twinform.passes.legalise.marks import EXTENSION, find_mark, mark_made, without_mark
-from twinform.passes.legalise.nodes import unique_name
+from twinform.passes.carriers.annotations import EXTENSION, find_annotation, mark_synthesized, without_annotation
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.cut_joints import cut_joints
 from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.transforms.nodes import unique_name
 
 
 class BuildTree(ToUrdfPass):
@@ -34,11 +34,11 @@ class BuildTree(ToUrdfPass):
         kept: list[Joint] = []
         cut: list[Joint] = []
         extensions: list[Joint] = []
-        marked = [joint for joint in model.joints if find_mark(joint, EXTENSION)]
+        marked = [joint for joint in model.joints if find_annotation(joint, EXTENSION)]
         for joint in model.joints:
-            if find_mark(joint, EXTENSION) is None:
+            if find_annotation(joint, EXTENSION) is None:
                 (kept if joint.type == "gearbox" or tree.add(joint) else cut).append(joint)
-        for joint in (without_mark(joint, EXTENSION) for joint in marked):  # what nothing else holds needs it
+        for joint in (without_annotation(joint, EXTENSION) for joint in marked):  # what nothing else holds needs it
             (kept if joint.parent != WORLD and tree.add(joint) else extensions).append(joint)
         for joint in cut:
             _report_cut(joint, tree.parent_joint.get(joint.child or ""), keeper)
@@ -87,8 +87,8 @@ def _first_root(model: Model, tree: Tree, keeper: Keeper) -> str:
 def _report_cut(joint: Joint, closed: Joint | None, keeper: Keeper) -> None:
     message = f"joint {joint.name!r} closes a loop at link {joint.child!r}"
     related = (closed.location,) if closed else ()
-    keeper.notes.report(rules.CUT_LOOP, message, joint.location, found=joint.child, related=related)
-    keeper.notes.account(Fate.CARRIED, rules.CUT_LOOP, message, joint.location, count_parts(joint))
+    keeper.sink.report(rules.CUT_LOOP, message, joint.location, found=joint.child, related=related)
+    keeper.sink.account(Fate.CARRIED, rules.CUT_LOOP, message, joint.location, count_parts(joint))
 
 
 def _hang(model: Model, roots: list[Link], first: str, keeper: Keeper) -> Model:
@@ -101,7 +101,7 @@ def _hang(model: Model, roots: list[Link], first: str, keeper: Keeper) -> Model:
         name = unique_name(f"{link.name}_{kind}_joint", taken)
         taken.add(name)
         made = Joint(name=name, type=kind, parent=first, child=link.name, source=link.source)
-        joints.append(mark_made(made))
+        joints.append(mark_synthesized(made))
         message = f"link {link.name!r} hangs by a {kind} joint from {first!r}"
-        keeper.notes.account(Fate.APPROXIMATED, rules.HUNG_ROOT, message, link.location, 0)
+        keeper.sink.account(Fate.APPROXIMATED, rules.HUNG_ROOT, message, link.location, 0)
     return model.model_copy(update={"joints": tuple(joints)})

@@ -2,18 +2,18 @@
 
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Document, Format, Joint, Link, Model, Node
 from twinform.ir.frames import WORLD
-from twinform.passes.base import Pass
-from twinform.passes.legalise.carrier import NAMESPACE, PREFIX, has_ours
-from twinform.passes.legalise.marks import without_made
-from twinform.passes.legalise.notation import BODY
-from twinform.passes.legalise.provenance import came_from, with_provenance, without_provenance
+from twinform.passes.carriers.annotations import without_synthesized
+from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, has_ours
+from twinform.passes.carriers.provenance import came_from, with_provenance, without_provenance
+from twinform.passes.framework.base import Pass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.passes.legalise.to_urdf.map_geometry import UrdfVersion
 from twinform.passes.legalise.to_urdf.remainder import Words, take_remainder, urdf_words
+from twinform.passes.transforms.notation import BODY
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -35,14 +35,14 @@ class CarryTheRest(Pass):
     carriers: bool = True
     urdf_version: UrdfVersion = "1.0"
 
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document in terms of URDF."""
-        if notes.has_errors:
+        if sink.has_errors:
             return document
-        keeper = Keeper(notes, self.carriers, any(came_from(model, Format.URDF) for model in document.models))
+        keeper = Keeper(sink, self.carriers, any(came_from(model, Format.URDF) for model in document.models))
         models = tuple(_finish(model, document, keeper) for model in document.models)
         if not self.carriers:
-            models = tuple(without_made(model) for model in models)
+            models = tuple(without_synthesized(model) for model in models)
         namespaces = tuple(pair for pair in document.namespaces if pair[0] not in ("", PREFIX))
         if any(map(has_ours, models)):
             namespaces = (*namespaces, (PREFIX, NAMESPACE))
@@ -119,5 +119,5 @@ class _Rest:
             kept = self.keeper.keep(kept, [piece], rules.SDF_ONLY, message, piece.location_in(node))
         for path, text in endless:
             message = f"{path} of {of} is {text}, and numbers in URDF are finite"
-            self.keeper.notes.report(rules.UNSAYABLE_NUMBER, message, node.location, found=text)
+            self.keeper.sink.report(rules.UNSAYABLE_NUMBER, message, node.location, found=text)
         return kept

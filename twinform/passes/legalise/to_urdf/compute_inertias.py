@@ -6,17 +6,17 @@ from typing import ClassVar
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Inertial, Link, Model
 from twinform.ir.frames import FrameGraph
-from twinform.passes.assets import AssetPass
-from twinform.passes.legalise.automatic_inertias import (
+from twinform.passes.analyses.automatic_inertias import (
     COMPUTED_MASS,
     NoInertiaError,
     automatic,
     map_automatic,
     written_out,
 )
+from twinform.passes.analyses.meshes import Meshes
+from twinform.passes.framework.assets import AssetPass
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
-from twinform.passes.meshes import Meshes
 
 
 class ComputeInertias(ToUrdfPass, AssetPass):
@@ -40,7 +40,7 @@ def _compute(keeper: Keeper, meshes: Meshes, link: Link, inertial: Inertial, gra
     try:
         found = automatic(link, inertial, link.collisions, graph, meshes)
     except NoInertiaError as error:
-        keeper.notes.report(rules.AUTOMATIC_INERTIA, str(error), error.location, help=error.help)
+        keeper.sink.report(rules.AUTOMATIC_INERTIA, str(error), error.location, help=error.help)
         return link
     written, pieces, computed = written_out(inertial, found)
     if "mass" in computed:

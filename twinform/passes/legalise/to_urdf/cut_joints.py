@@ -6,7 +6,7 @@ from functools import partial
 from twinform.ir import GazeboExtension, Joint, Model, Pose, rewrite
 from twinform.ir.frames import MODEL, FrameGraph
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.carrier import to_element
+from twinform.passes.carriers.carriers import to_element
 
 
 def cut_joints(model: Model, kept: Sequence[Joint], cut: Sequence[Joint], parent_joint: Mapping[str, Joint]) -> Model:

@@ -7,11 +7,11 @@ from typing import ClassVar
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Dynamics, Element, GazeboExtension, Joint, Link, Model, Opaque
 from twinform.ir.frames import WORLD
-from twinform.passes.legalise.carrier import SECOND, to_element
-from twinform.passes.legalise.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
-from twinform.passes.legalise.marks import is_made
+from twinform.passes.carriers.annotations import is_synthesized
+from twinform.passes.carriers.carriers import SECOND, to_element
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
 from twinform.schemas import format_value, table
 
 _LINK_FIELDS = ("enable_wind", "kinematic", "sensors", "lights")
@@ -121,7 +121,7 @@ def _truths(link: Link) -> Iterator[Element]:
 
 def _joint_content(joint: Joint, links: set[str], with_mass: set[str], keeper: Keeper) -> tuple[list[Element], Joint]:
     content: list[Element] = []
-    if joint.type == "fixed" and joint.parent != WORLD and joint.child in with_mass and not is_made(joint):
+    if joint.type == "fixed" and joint.parent != WORLD and joint.child in with_mass and not is_synthesized(joint):
         content.append(Element(name="preserveFixedJoint", text="true"))
     springs, joint = _springs(joint)
     physics, joint = _physics(joint, keeper)

@@ -5,14 +5,14 @@ from typing import ClassVar
 
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Format, Frame, Model, Opaque, count_parts
-from twinform.passes.legalise.carrier import NAMESPACE, to_element
-from twinform.passes.legalise.flattening import flatten
-from twinform.passes.legalise.marks import with_mark
+from twinform.passes.carriers.annotations import with_annotation
+from twinform.passes.carriers.carriers import NAMESPACE, to_element
 from twinform.passes.legalise.names import Names, renamed, with_old_names
-from twinform.passes.legalise.nodes import unique_name
-from twinform.passes.legalise.notation import NESTED, POSE, pose_attributes
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.transforms.flattening import flatten
+from twinform.passes.transforms.nodes import unique_name
+from twinform.passes.transforms.notation import NESTED, POSE, pose_attributes
 
 _SCOPE = "::"
 
@@ -32,7 +32,7 @@ class FlattenForUrdf(ToUrdfPass):
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model without models in it."""
         _refuse_includes(model, keeper)
-        if keeper.notes.has_errors:
+        if keeper.sink.has_errors:
             return model
         flat = flatten(model, partial(_keep, keeper)) if model.models else model
         names = _legal_names(flat)
@@ -55,7 +55,7 @@ def _keep(keeper: Keeper, frame: Frame, shell: Model) -> Frame:
     written = pose_attributes(shell.pose)
     if "relative_to" in written and frame.pose:
         written["relative_to"] = frame.pose.relative_to  # by its name in the outermost model
-    return with_mark(frame, POSE, attributes=written) if written else frame
+    return with_annotation(frame, POSE, attributes=written) if written else frame
 
 
 def _legal_names(model: Model) -> Names:
@@ -73,6 +73,6 @@ def _legal_names(model: Model) -> Names:
 def _refuse_includes(model: Model, keeper: Keeper) -> None:
     for include in model.includes:
         message = f"model {model.name!r} includes {include.uri!r}, which was not read"
-        keeper.notes.report(rules.INCLUDE_NOT_EXPANDED, message, include.location, found=include.uri)
+        keeper.sink.report(rules.INCLUDE_NOT_EXPANDED, message, include.location, found=include.uri)
     for nested in model.models:
         _refuse_includes(nested, keeper)

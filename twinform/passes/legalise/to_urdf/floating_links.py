@@ -5,8 +5,8 @@ from collections.abc import Iterator, Mapping
 from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Element, Joint, Link, Model, Opaque, Pose
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
-from twinform.passes.legalise.carrier import carry
-from twinform.passes.legalise.marks import find_mark, without_mark
+from twinform.passes.carriers.annotations import find_annotation, without_annotation
+from twinform.passes.carriers.carriers import carry
 from twinform.passes.legalise.to_sdf.joints import FLOATING
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 
@@ -20,12 +20,12 @@ def with_floating_joints(model: Model, keeper: Keeper) -> Model:
         name, parent = mark.get("joint") or "", mark.get("parent") or ""
         if not fits:
             message = f"link {link.name!r} hung from {parent!r} by the floating joint {name!r}, and cannot any more"
-            keeper.notes.report(STALE_CARRIER, message, link.location, found=name)
+            keeper.sink.report(STALE_CARRIER, message, link.location, found=name)
             continue
         joint = Joint(name=name, type="floating", parent=parent, child=link.name, pose=Pose(relative_to=link.name))
         rest = [Opaque(element=child) for child in mark.children]
         joints.append(carry(joint.model_copy(update={"source": link.source}), rest, "urdf"))
-    links = tuple(without_mark(link, FLOATING) for link in model.links)
+    links = tuple(without_annotation(link, FLOATING) for link in model.links)
     return model.model_copy(update={"links": links, "joints": tuple(joints)})
 
 
@@ -34,12 +34,12 @@ def without_loose_floating(model: Model) -> Model:
     if not _has_marks(model):
         return model
     loose = {link.name for link, _, fits in _marked(model) if not fits}
-    links = (without_mark(link, FLOATING) if link.name in loose else link for link in model.links)
+    links = (without_annotation(link, FLOATING) if link.name in loose else link for link in model.links)
     return model.model_copy(update={"links": tuple(links)})
 
 
 def _has_marks(model: Model) -> bool:
-    return any(find_mark(link, FLOATING) is not None for link in model.links)
+    return any(find_annotation(link, FLOATING) is not None for link in model.links)
 
 
 def _marked(model: Model) -> Iterator[tuple[Link, Element, bool]]:
@@ -48,7 +48,7 @@ def _marked(model: Model) -> Iterator[tuple[Link, Element, bool]]:
     holders = {joint.child: joint.parent or WORLD for joint in model.joints if joint.child}
     names = {joint.name for joint in model.joints}
     for link in model.links:
-        mark = find_mark(link, FLOATING)
+        mark = find_annotation(link, FLOATING)
         if mark is None:
             continue
         name, parent = mark.get("joint"), mark.get("parent")

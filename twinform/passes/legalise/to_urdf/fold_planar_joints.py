@@ -5,8 +5,8 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Joint, Limit, Link, Model, Opaque
-from twinform.passes.legalise.carrier import is_carrier, unpack
-from twinform.passes.legalise.marks import MADE, is_made, without_mark
+from twinform.passes.carriers.annotations import SYNTHESIZED, is_synthesized, without_annotation
+from twinform.passes.carriers.carriers import is_carrier, unpack
 from twinform.passes.legalise.to_sdf.planar import planar_chain
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
@@ -43,7 +43,7 @@ class FoldPlanarJoints(ToUrdfPass):
             chain = _chain(joint, above, links)
             if chain is None or not _is_as_made(joint, chain, links):
                 message = f"joint {joint.name!r} was planar, and the joints that it became have changed since"
-                keeper.notes.report(rules.STALE_CARRIER, message, joint.location, found=joint.name)
+                keeper.sink.report(rules.STALE_CARRIER, message, joint.location, found=joint.name)
                 folded[joint.name] = joint.model_copy(update={"opaque": _without_planar(joint)})
                 stale |= set(_upwards(joint, above))
             else:
@@ -71,7 +71,7 @@ def _upwards(joint: Joint, above: dict[str | None, Joint]) -> Iterator[str]:
 
 def _own(part: AnyPart, stale: set[str]) -> AnyPart:
     """A part of a chain that stays, which stands for itself now."""
-    return without_mark(part, MADE) if part.name in stale else part
+    return without_annotation(part, SYNTHESIZED) if part.name in stale else part
 
 
 def _is_mark(part: Opaque) -> bool:
@@ -85,7 +85,7 @@ def _chain(joint: Joint, above: dict[str | None, Joint], links: dict[str, Link])
     if first is None or second is None or joint.type not in {"continuous", "revolute"}:
         return None
     between = [links.get(first.child or ""), links.get(second.child or "")]
-    made = [part is not None and is_made(part) for part in (first, second, *between)]
+    made = [part is not None and is_synthesized(part) for part in (first, second, *between)]
     return (first, second) if all(made) and {first.type, second.type} == {"prismatic"} else None
 
 

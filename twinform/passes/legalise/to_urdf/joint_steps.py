@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from twinform.ir import Axis, Dynamics, Format, Joint, JointType, Limit, Mimic
 from twinform.ir.defaults import AXIS, UNLIMITED
-from twinform.passes.legalise.joint_chains import BALL_AXES, metres_per_radian
+from twinform.passes.carriers.joint_chains import BALL_AXES, metres_per_radian
 
 _Z = Axis(xyz=AXIS[Format.SDF])
 

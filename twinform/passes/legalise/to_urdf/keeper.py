@@ -4,10 +4,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TypeVar
 
-from twinform.diagnostics import Fate, Location, Notes, Rule
+from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule
 from twinform.ir import Node, Opaque
-from twinform.passes.legalise.carrier import Attributes, carry
-from twinform.passes.legalise.marks import with_mark
+from twinform.passes.carriers.annotations import with_annotation
+from twinform.passes.carriers.carriers import Attributes, carry
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -16,7 +16,7 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 class Keeper:
     """Where the parts go in one run. A model that came from URDF goes back there: how SDF wrote it need not travel."""
 
-    notes: Notes
+    sink: DiagnosticSink
     carriers: bool
     back: bool = False
 
@@ -43,7 +43,7 @@ class Keeper:
 
     def account(self, rule: Rule, message: str, location: Location, weight: int) -> None:
         """An entry in the ledger for what marks keep."""
-        self.notes.account(Fate.CARRIED if self.carriers else Fate.DROPPED, rule, message, location, weight)
+        self.sink.account(Fate.CARRIED if self.carriers else Fate.DROPPED, rule, message, location, weight)
 
     def mark(
         self,
@@ -55,4 +55,4 @@ class Keeper:
         always: bool = False,
     ) -> AnyNode:
         """The node with a mark on how SDF wrote it; if it came from URDF, only with what is more (`always`)."""
-        return with_mark(node, kind, text, attributes) if self.carriers and (always or not self.back) else node
+        return with_annotation(node, kind, text, attributes) if self.carriers and (always or not self.back) else node

@@ -18,11 +18,11 @@ from twinform.ir import (
     count_parts,
 )
 from twinform.ir.defaults import SIZES, filled
-from twinform.passes.legalise.nodes import piece
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.passes.legalise.to_urdf.urdf_uris import urdf_uri
-from twinform.passes.legalise.uri_schemes import MESH_SCHEME
+from twinform.passes.transforms.nodes import piece
+from twinform.passes.transforms.uri_schemes import MESH_SCHEME
 
 UrdfVersion = Literal["1.0", "1.1", "1.2"]
 Sayable = frozenset[type[Node]]
@@ -72,7 +72,7 @@ def _sort(link: Link, field: str, tag: str, shapes: tuple[AnyShaped, ...], sayab
         kind = one.geometry.shape.kind if one.geometry and one.geometry.shape else "no shape"
         what = _UNSAYABLE.get(kind, f"is a {kind}, which URDF does not have")
         message = f"{tag} {one.name!r} of link {link.name!r} {what}"
-        keeper.notes.report(rules.UNSAYABLE_SHAPE, message, one.location, found=kind)
+        keeper.sink.report(rules.UNSAYABLE_SHAPE, message, one.location, found=kind)
         weight = count_parts(one)
         place = len(kept) + taken
         taken += 1

@@ -9,11 +9,11 @@ from twinform.diagnostics.rules import to_sdf as shared_rules
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Axis, Joint, Limit, Mimic, Model, Node
 from twinform.ir.defaults import UNLIMITED, multiplier
-from twinform.passes.legalise.nodes import text_piece
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.passes.legalise.to_urdf.map_geometry import UrdfVersion
 from twinform.passes.legalise.urdf_pieces import BALLS
+from twinform.passes.transforms.nodes import text_piece
 from twinform.schemas import format_value
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -56,7 +56,7 @@ def _map(joint: Joint, strength: float | None, keeper: Keeper) -> Joint:
     if joint.type not in _TYPES:
         message = f"joint {joint.name!r} is {joint.type}, a type that URDF does not have"
         where = joint.location.at("@type")
-        keeper.notes.report(shared_rules.JOINT_TYPE_UNSUPPORTED, message, where, found=joint.type)
+        keeper.sink.report(shared_rules.JOINT_TYPE_UNSUPPORTED, message, where, found=joint.type)
         return joint
     if joint.type == "continuous":
         message = f"joint {joint.name!r} is called continuous, which is revolute without limits in most of SDF"
@@ -114,7 +114,7 @@ def _fill(joint: Joint, limit: Limit, numbers: Mapping[str, float | None], keepe
         if number is None:
             continue
         message = f"the {name} limit of {joint.type} joint {joint.name!r} is infinite; URDF gets {number:g}"
-        keeper.notes.account(Fate.APPROXIMATED, rules.UNBOUNDED_LIMIT, message, joint.location, 0)
+        keeper.sink.account(Fate.APPROXIMATED, rules.UNBOUNDED_LIMIT, message, joint.location, 0)
     return limit.model_copy(update=missing) if missing else limit
 
 

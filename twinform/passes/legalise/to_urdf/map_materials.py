@@ -4,14 +4,14 @@ from typing import ClassVar
 
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Element, GazeboExtension, Link, Material, Model, Visual
-from twinform.passes.legalise.gazebo_tags import SCRIPT_URI
-from twinform.passes.legalise.material_marks import COLORS, SCRIPTS, material_name
-from twinform.passes.legalise.nodes import unique_name
+from twinform.passes.carriers.material_annotations import COLORS, SCRIPTS, material_name
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.passes.legalise.to_urdf.urdf_uris import urdf_uri
-from twinform.passes.legalise.urdf_color import urdf_color, with_alpha
-from twinform.passes.legalise.uri_schemes import TEXTURE_SCHEME
+from twinform.passes.transforms.gazebo_tags import SCRIPT_URI
+from twinform.passes.transforms.nodes import unique_name
+from twinform.passes.transforms.urdf_color import urdf_color, with_alpha
+from twinform.passes.transforms.uri_schemes import TEXTURE_SCHEME
 from twinform.schemas import format_value
 
 

@@ -3,7 +3,7 @@
 from typing import ClassVar
 
 from twinform.ir import Collision, Element, GazeboExtension, Link, Model, Surface
-from twinform.passes.legalise.carrier import to_element
+from twinform.passes.carriers.carriers import to_element
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.schemas import format_value

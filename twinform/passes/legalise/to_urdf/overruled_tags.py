@@ -1,7 +1,7 @@
 """Tags of `<gazebo>` elements that a later one of the same field overrules, put back in front of that one."""
 
 from twinform.ir import Element, GazeboExtension, Model
-from twinform.passes.legalise.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS, Tag
+from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS, Tag
 
 _TAGS = MODEL_TAGS | JOINT_TAGS | LINK_TAGS
 _ELEMENTS = {"surface": "collision", "collision": "collision", "physics": "physics", "dynamics": "axis"}

@@ -8,15 +8,15 @@ from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Element, Joint, Light, Link, Model, Node, Pose, Sensor, count_parts
 from twinform.ir.frames import MODEL, WORLD, FrameGraph, Kind
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.element_poses import ElementPoses
-from twinform.passes.legalise.joint_chains import part_of
-from twinform.passes.legalise.joint_ends import ENDS
-from twinform.passes.legalise.marks import find_mark, is_made, mark
+from twinform.passes.carriers.annotations import annotation, find_annotation, is_synthesized
+from twinform.passes.carriers.joint_chains import part_of
 from twinform.passes.legalise.names import NAME, SCOPED_NAME
-from twinform.passes.legalise.notation import FRAME, OFFSET, POSE, in_radians, offset_attributes, pose_attributes
-from twinform.passes.legalise.rebasing import AnyPosed, Base, Posed, Rebasing
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.transforms.element_poses import ElementPoses
+from twinform.passes.transforms.joint_ends import ENDS
+from twinform.passes.transforms.notation import FRAME, OFFSET, POSE, in_radians, offset_attributes, pose_attributes
+from twinform.passes.transforms.rebasing import AnyPosed, Base, Posed, Rebasing
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -86,12 +86,12 @@ class _Rebase:
         name, kind = self.base
         written, made = link.pose, Pose(relative_to=name) if kind == "joint" else None
         moved = link.model_copy(update={"pose": made})
-        if is_made(link) or part_of(link) is not None:
+        if is_synthesized(link) or part_of(link) is not None:
             return moved
         offset = self.graph.pose(link.name, name, base=kind)
         if not offset.is_identity:
             moved = self.keeper.mark(moved, OFFSET, attributes=offset_attributes(offset), always=True)
-        if find_mark(link, FRAME) is None:
+        if find_annotation(link, FRAME) is None:
             moved = self._marked(moved, written)
         if written is not None and written != made and _is_written(written, link) and link.name not in self.framed:
             message = f"the frame of link {link.name!r} is that of its joint {name!r}"
@@ -127,7 +127,7 @@ class _Rebase:
     def _element(self, message: str, written: Pose) -> tuple[Element, ...]:
         self.keeper.account(rules.MOVED_FRAME, message, NOWHERE, count_parts(written))
         attributes = pose_attributes(written)
-        made = mark(POSE, attributes=attributes).element if attributes else None
+        made = annotation(POSE, attributes=attributes).element if attributes else None
         return (made,) if made and self.keeper.carriers and not self.keeper.back else ()
 
 
@@ -136,20 +136,20 @@ def _unmoved(model: Model, graph: FrameGraph, bases: dict[str, Base]) -> frozens
     return frozenset(
         link.name
         for link in model.links
-        if find_mark(link, NAME) is None
+        if find_annotation(link, NAME) is None
         and graph.pose(link.name, bases[link.name][0], base=bases[link.name][1]).is_identity
     )
 
 
 def _scope_of(node: Node) -> str:
     """The frame of the nested model that a link was in, which its pose is relative to without saying so."""
-    found = find_mark(node, SCOPED_NAME)
+    found = find_annotation(node, SCOPED_NAME)
     return (found.text or "").rpartition("::")[0].replace("::", "__") if found else ""
 
 
 def _is_of_frame(joint: Joint) -> bool:
     """Whether it was made to fix a frame, which is a link by now."""
-    return joint.type == "fixed" and joint.parent != WORLD and is_made(joint)
+    return joint.type == "fixed" and joint.parent != WORLD and is_synthesized(joint)
 
 
 def _is_written(pose: Pose, holder: Link | Joint) -> bool:
@@ -170,13 +170,13 @@ def _place_joint(joint: Joint, graph: FrameGraph, base: Base, keeper: Keeper) ->
     made = in_radians(graph.pose(joint.name, base[0], kind="joint", base=base[1]), joint.parent)
     rebase = _Rebase(graph, joint.name, (joint.name, "joint"), keeper, "joint")
     placed = rebase.poses.joint(joint).model_copy(update={"pose": made})
-    if written is None or is_made(joint):
+    if written is None or is_synthesized(joint):
         return placed
     if written != made and _is_written(written, joint):
         message = f"the pose of joint {joint.name!r} is relative to its parent link"
         keeper.account(rules.MOVED_FRAME, message, written.location, count_parts(written))
     attributes = pose_attributes(written)
-    ends = find_mark(joint, ENDS)
+    ends = find_annotation(joint, ENDS)
     if ends is not None and attributes.get("relative_to") == ends.get("child"):
         del attributes["relative_to"]  # which goes without saying
     return keeper.mark(placed, POSE, attributes=attributes) if attributes else placed

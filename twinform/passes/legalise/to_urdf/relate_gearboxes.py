@@ -6,8 +6,8 @@ from twinform.diagnostics import Fate, Severity
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Axis, Joint, Mimic, Model, count_parts
 from twinform.ir.frames import FrameGraph
-from twinform.passes.legalise.gearboxes import GEARED, Relation, UngearedError, relation
-from twinform.passes.legalise.marks import with_mark
+from twinform.passes.analyses.gearboxes import GEARED, Relation, UngearedError, relation
+from twinform.passes.carriers.annotations import with_annotation
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.cut_joints import cut_joints
 from twinform.passes.legalise.to_urdf.keeper import Keeper
@@ -47,7 +47,7 @@ class RelateGearboxes(ToUrdfPass):
 def _follower(joint: Joint, found: Relation) -> Joint:
     mimic = Mimic(joint=found.leader, multiplier=found.multiplier)
     axis = (joint.axis or Axis()).model_copy(update={"mimic": mimic})
-    return with_mark(joint.model_copy(update={"axis": axis}), GEARED)
+    return with_annotation(joint.model_copy(update={"axis": axis}), GEARED)
 
 
 def _report_uncoupled(gearbox: Joint, why: str, keeper: Keeper) -> None:
@@ -56,5 +56,5 @@ def _report_uncoupled(gearbox: Joint, why: str, keeper: Keeper) -> None:
 
 
 def _report(gearbox: Joint, message: str, severity: Severity, keeper: Keeper) -> None:
-    keeper.notes.report(rules.GEARBOX, message, gearbox.location, found=gearbox.name, severity=severity)
-    keeper.notes.account(Fate.CARRIED, rules.GEARBOX, message, gearbox.location, count_parts(gearbox))
+    keeper.sink.report(rules.GEARBOX, message, gearbox.location, found=gearbox.name, severity=severity)
+    keeper.sink.account(Fate.CARRIED, rules.GEARBOX, message, gearbox.location, count_parts(gearbox))

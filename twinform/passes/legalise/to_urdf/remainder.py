@@ -7,7 +7,7 @@ from functools import cache
 from typing import TypeVar, Union
 
 from twinform.ir import Element, Node, Opaque
-from twinform.passes.legalise.carrier import is_ours, to_element
+from twinform.passes.carriers.carriers import is_ours, to_element
 from twinform.schemas import Fact, format_value, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)

@@ -5,9 +5,9 @@ from typing import ClassVar
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Joint, Model
 from twinform.ir.frames import WORLD, FrameGraph
-from twinform.passes.legalise.joint_ends import ENDS, named_ends, report_self_joint, resolve_ends
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.transforms.joint_ends import ENDS, named_ends, report_self_joint, resolve_ends
 
 
 class ResolveJointEnds(ToUrdfPass):
@@ -36,7 +36,7 @@ def _resolve(joint: Joint, links: set[str], graph: FrameGraph, keeper: Keeper) -
     if not pieces:
         return joint
     if resolved.parent == resolved.child:
-        report_self_joint(joint, resolved, keeper.notes)
+        report_self_joint(joint, resolved, keeper.sink)
         return joint
     message = f"joint {joint.name!r} connects the links that {named_ends(pieces)} moves with"
     keeper.account(rules.JOINT_END, message, joint.location, sum(piece.weight for piece in pieces))

@@ -6,11 +6,11 @@ from typing import ClassVar, TypeVar
 from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Collision, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
-from twinform.passes.legalise.marks import find_mark, without_mark
-from twinform.passes.legalise.notation import LINK
+from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.floating_links import with_floating_joints
 from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.transforms.notation import LINK
 
 Placed = TypeVar("Placed", Visual, Collision, Sensor, Light)
 
@@ -31,7 +31,7 @@ class RestoreLinks(ToUrdfPass):
 
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model with links and joints in the place of frames."""
-        if any(find_mark(frame, LINK) is not None for frame in model.frames):
+        if any(find_annotation(frame, LINK) is not None for frame in model.frames):
             model = _with_links(model, keeper)
         return with_floating_joints(model, keeper)
 
@@ -56,11 +56,13 @@ def _with_links(model: Model, keeper: Keeper) -> Model:
             )
         )  # fmt: skip
         own = (frame.pose or Pose()).model_copy(update={"relative_to": mount.name})
-        bare = Link(name=name, pose=own, opaque=without_mark(frame, LINK).opaque)
+        bare = Link(name=name, pose=own, opaque=without_annotation(frame, LINK).opaque)
         holders = [link for link in model.links if link.name == held_by[name]]
         links.append(_filled(bare.model_copy(update={"source": frame.source}), holders))
     frames = tuple(
-        without_mark(frame, LINK) for frame in model.frames if frame.name not in pairs and frame.name not in mounts
+        without_annotation(frame, LINK)
+        for frame in model.frames
+        if frame.name not in pairs and frame.name not in mounts
     )
     joints += [_holding_a_link(joint, held_by) for joint in model.joints]  # after those that hold what was a frame
     return model.model_copy(update={"links": tuple(links), "joints": tuple(joints), "frames": frames})
@@ -81,17 +83,17 @@ def _pairs(model: Model, keeper: Keeper) -> Iterator[tuple[str, Frame]]:
     frames = {frame.name: frame for frame in model.frames}
     taken: set[str] = set()
     for frame in model.frames:
-        if find_mark(frame, LINK) is None:
+        if find_annotation(frame, LINK) is None:
             continue
         mount = frames.get(frame.attached_to or "")
         if (
             mount is None
             or mount.name in taken
-            or find_mark(mount, LINK) is not None
+            or find_annotation(mount, LINK) is not None
             or (frame.pose and frame.pose.relative_to not in {None, mount.name})
         ):
             message = f"frame {frame.name!r} was a link on a fixed joint, and is not attached to that joint any more"
-            keeper.notes.report(STALE_CARRIER, message, frame.location, found=frame.name)
+            keeper.sink.report(STALE_CARRIER, message, frame.location, found=frame.name)
             continue
         taken.add(mount.name)
         yield frame.name, mount

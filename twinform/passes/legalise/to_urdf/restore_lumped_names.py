@@ -2,10 +2,10 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Element, GazeboExtension, Model
-from twinform.passes.legalise.lumped_names import has_marks, restored
+from twinform.passes.carriers.lumped_names import has_marks, restored
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.to_sdf.follow_lumped_names import names_of_libsdformat
 
@@ -20,7 +20,7 @@ class RestoreLumpedNames(ModelPass):
 
     name: ClassVar[str] = "restore-lumped-names"
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with the names of the source."""
         if not has_marks(model):
             return model
@@ -33,5 +33,5 @@ class RestoreLumpedNames(ModelPass):
         model = model.model_copy(update={"extensions": tuple(map(restore, model.extensions))})
         for mark in stale:
             message = f"{mark.get('instead_of')!r} was called {mark.text!r}, which does not mean it any more"
-            notes.report(STALE_CARRIER, message, mark.location, found=mark.text)
+            sink.report(STALE_CARRIER, message, mark.location, found=mark.text)
         return model

@@ -4,12 +4,12 @@ from collections import Counter
 from collections.abc import Mapping
 from typing import ClassVar
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Color, Element, Link, Material, Model, Opaque, Visual
-from twinform.passes.legalise.carrier import is_carrier, unpack
-from twinform.passes.legalise.marks import find_mark, is_mark, without_mark
-from twinform.passes.legalise.material_marks import MATERIAL, SHARED_MATERIAL
+from twinform.passes.carriers.annotations import find_annotation, is_annotation, without_annotation
+from twinform.passes.carriers.carriers import is_carrier, unpack
+from twinform.passes.carriers.material_annotations import MATERIAL, SHARED_MATERIAL
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.schemas import Context, element_xml, reader, table
 
@@ -28,22 +28,24 @@ class RestoreMaterials(ModelPass):
 
     name: ClassVar[str] = "restore-materials"
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with materials of its URDF file."""
-        visuals = [visual for link in model.links for visual in link.visuals if find_mark(visual, MATERIAL)]
+        visuals = [visual for link in model.links for visual in link.visuals if find_annotation(visual, MATERIAL)]
         shared = _shared(model, visuals)
-        if notes.has_errors or not (visuals or shared):
+        if sink.has_errors or not (visuals or shared):
             return model
         defined = {**_own(visuals, shared), **{name: _look_of(material) for name, material in shared.items()}}
-        links = tuple(_link(link, defined, shared, notes) for link in model.links)
-        kept = tuple(part for part in model.opaque if not is_mark(part, SHARED_MATERIAL) and _carried(part) is None)
+        links = tuple(_link(link, defined, shared, sink) for link in model.links)
+        kept = tuple(
+            part for part in model.opaque if not is_annotation(part, SHARED_MATERIAL) and _carried(part) is None
+        )
         materials = (*model.materials, *shared.values())
         return model.model_copy(update={"links": links, "materials": materials, "opaque": kept})
 
 
 def _shared(model: Model, visuals: list[Visual]) -> dict[str, Material]:
     """What the robot defines: what most of its visuals look like, or what was carried whole."""
-    names = {part.element.text or "" for part in model.opaque if part.element and is_mark(part, SHARED_MATERIAL)}
+    names = {part.element.text or "" for part in model.opaque if part.element and is_annotation(part, SHARED_MATERIAL)}
     looks: dict[str, Counter[Look]] = {name: Counter() for name in names}
     for visual in visuals:
         name = _name(visual)
@@ -54,7 +56,7 @@ def _shared(model: Model, visuals: list[Visual]) -> dict[str, Material]:
         whole = _carried(part)
         if whole is not None:
             found[whole.name or ""] = whole
-        elif part.element is not None and is_mark(part, SHARED_MATERIAL) and looks[part.element.text or ""]:
+        elif part.element is not None and is_annotation(part, SHARED_MATERIAL) and looks[part.element.text or ""]:
             name = part.element.text or ""
             color, texture = looks[name].most_common(1)[0][0]
             if color or texture:
@@ -71,10 +73,10 @@ def _carried(part: Opaque) -> Material | None:
 
 def _material(element: Element) -> Material | None:
     """The material that an element says; None where it was edited into nonsense."""
-    notes = Notes()
-    context = Context(notes, "", "urdf", table("urdf").newest)
+    sink = DiagnosticSink()
+    context = Context(sink, "", "urdf", table("urdf").newest)
     data = reader("urdf", context.version).read(element_xml(element), context, "material")
-    return Material.model_validate(data) if element.get("name") and not notes.has_errors else None
+    return Material.model_validate(data) if element.get("name") and not sink.has_errors else None
 
 
 def _own(visuals: list[Visual], shared: Mapping[str, Material]) -> dict[str, Look]:
@@ -87,18 +89,18 @@ def _own(visuals: list[Visual], shared: Mapping[str, Material]) -> dict[str, Loo
 
 
 def _name(visual: Visual) -> str:
-    found = find_mark(visual, MATERIAL)
+    found = find_annotation(visual, MATERIAL)
     return (found.text or "") if found else ""
 
 
 def _says(visual: Visual) -> str | None:
     """Where a mark says that the material is defined, if that is not where its name makes one expect."""
-    found = find_mark(visual, MATERIAL)
+    found = find_annotation(visual, MATERIAL)
     return found.get("defined") if found else None
 
 
 def _is_unnamed(visual: Visual) -> bool:
-    found = find_mark(visual, MATERIAL)
+    found = find_annotation(visual, MATERIAL)
     return found is not None and found.get("unnamed") == "true"
 
 
@@ -119,18 +121,20 @@ def _look_of(material: Material) -> Look:
     return material.color, material.texture
 
 
-def _link(link: Link, defined: Mapping[str, Look], shared: Mapping[str, Material], notes: Notes) -> Link:
-    if not any(find_mark(visual, MATERIAL) for visual in link.visuals):
+def _link(link: Link, defined: Mapping[str, Look], shared: Mapping[str, Material], sink: DiagnosticSink) -> Link:
+    if not any(find_annotation(visual, MATERIAL) for visual in link.visuals):
         return link
-    visuals = tuple(_visual(visual, defined, shared, notes) for visual in link.visuals)
+    visuals = tuple(_visual(visual, defined, shared, sink) for visual in link.visuals)
     return link.model_copy(update={"visuals": visuals})
 
 
-def _visual(visual: Visual, defined: Mapping[str, Look], shared: Mapping[str, Material], notes: Notes) -> Visual:
-    if find_mark(visual, MATERIAL) is None:
+def _visual(
+    visual: Visual, defined: Mapping[str, Look], shared: Mapping[str, Material], sink: DiagnosticSink
+) -> Visual:
+    if find_annotation(visual, MATERIAL) is None:
         return visual
     name, own = _name(visual), _is_own(visual, shared)
-    bare = without_mark(visual, MATERIAL)
+    bare = without_annotation(visual, MATERIAL)
     material = visual.material
     if material is not None and _is_unnamed(visual):
         return bare.model_copy(update={"material": material.model_copy(update={"name": None})})
@@ -143,5 +147,5 @@ def _visual(visual: Visual, defined: Mapping[str, Look], shared: Mapping[str, Ma
         return bare.model_copy(update={"material": named})
     why = "has none" if material is None else "looks another way"
     message = f"visual {visual.name!r} had the material {name!r}, and {why} now"
-    notes.report(STALE_CARRIER, message, visual.location, found=name)
+    sink.report(STALE_CARRIER, message, visual.location, found=name)
     return bare

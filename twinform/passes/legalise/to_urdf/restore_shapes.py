@@ -2,15 +2,15 @@
 
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Collision, Format, Inertia, Inertial, Link, Model, Visual, replace_fields
-from twinform.passes.legalise.marks import find_mark, without_mark
+from twinform.passes.carriers.annotations import find_annotation, without_annotation
+from twinform.passes.carriers.provenance import came_from
+from twinform.passes.carriers.token_mass import MOMENTS, has_token_inertia, has_token_mass, is_token
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.names import NAME
-from twinform.passes.legalise.provenance import came_from
 from twinform.passes.legalise.to_sdf.bodies import UNSAID
 from twinform.passes.legalise.to_sdf.name_shapes import UNNAMED
-from twinform.passes.legalise.token_mass import MOMENTS, has_token_inertia, has_token_mass, is_token
 
 Shape = TypeVar("Shape", Visual, Collision)
 
@@ -28,14 +28,14 @@ class RestoreShapes(ModelPass):
 
     name: ClassVar[str] = "restore-shapes"
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model without what was made."""
         if not came_from(model, Format.URDF):
             return model
-        found = find_mark(model, UNNAMED)
+        found = find_annotation(model, UNNAMED)
         made = frozenset(line.strip() for line in (found.text or "").splitlines()) if found else frozenset[str]()
         links = tuple(_link(link, made) for link in model.links)
-        return without_mark(model.model_copy(update={"links": links}), UNNAMED)
+        return without_annotation(model.model_copy(update={"links": links}), UNNAMED)
 
 
 def _link(link: Link, made: frozenset[str]) -> Link:
@@ -53,20 +53,20 @@ def _link(link: Link, made: frozenset[str]) -> Link:
 def _unnamed(shape: Shape, made: frozenset[str], usual: str) -> Shape:
     if shape.name in made and shape.name.startswith(usual):  # it is not in another link by now
         return shape.model_copy(update={"name": None})
-    found = find_mark(shape, NAME)
+    found = find_annotation(shape, NAME)
     if found is None:
         return shape
-    shape = without_mark(shape, NAME)
+    shape = without_annotation(shape, NAME)
     return shape.model_copy(update={"name": found.text or ""}) if found.get("instead_of") == shape.name else shape
 
 
 def _as_said(inertial: Inertial) -> Inertial:
     """The inertial without a mass or moments of nothing that URDF left out."""
-    found = find_mark(inertial, UNSAID)
+    found = find_annotation(inertial, UNSAID)
     if found is None:
         return inertial
     names = (found.text or "").split()
-    inertial = without_mark(inertial, UNSAID)
+    inertial = without_annotation(inertial, UNSAID)
     if "inertial" in names:
         return _NOTHING if is_token(inertial) else inertial
     update: dict[str, object] = {}

@@ -4,12 +4,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
-from twinform.diagnostics import Fate, Location, Notes
+from twinform.diagnostics import DiagnosticSink, Fate, Location
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Document, Format, Include, Model, Node, Opaque, World, count_parts
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
-from twinform.passes.base import Pass
-from twinform.passes.legalise.candidates import Candidate, candidates
+from twinform.passes.analyses.candidates import Candidate, candidates
+from twinform.passes.framework.base import Pass
 
 
 class SelectModel(Pass):
@@ -24,20 +24,20 @@ class SelectModel(Pass):
 
     model: str | None = None
 
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document with one model."""
-        if notes.has_errors:
+        if sink.has_errors:
             return document
-        chosen = _choose(list(candidates(document)), self.model, document.location, notes)
-        if chosen is None or notes.has_errors:
+        chosen = _choose(list(candidates(document)), self.model, document.location, sink)
+        if chosen is None or sink.has_errors:
             return document
         if document.format is Format.URDF:
             return document  # which is that model, and nothing else
         model, world = chosen.model, chosen.world
         if world is not None:
-            model = _place(model, world, notes)
+            model = _place(model, world, sink)
         for part in _outside(document, chosen):
-            part.drop(notes)
+            part.drop(sink)
         return document.model_copy(
             update={"models": (model,), "worlds": (), "lights": (), "includes": (), "opaque": ()}
         )
@@ -55,25 +55,25 @@ class _Part:
     location: Location
     weight: int
 
-    def drop(self, notes: Notes) -> None:
+    def drop(self, sink: DiagnosticSink) -> None:
         message = f"{self.what} is not part of the robot"
-        notes.account(Fate.DROPPED, rules.OUTSIDE_MODEL, message, self.location, self.weight)
+        sink.account(Fate.DROPPED, rules.OUTSIDE_MODEL, message, self.location, self.weight)
 
 
-def _choose(among: list[Candidate], name: str | None, where: Location, notes: Notes) -> _Chosen | None:
+def _choose(among: list[Candidate], name: str | None, where: Location, sink: DiagnosticSink) -> _Chosen | None:
     found = [one for one in among if one.answers_to(name)]
     if len(found) != 1:
-        _say_which(among, name, len(found), where, notes)
+        _say_which(among, name, len(found), where, sink)
         return None
     model, world = found[0].model, found[0].world
     if isinstance(model, Include):
         message = f"the model is in {model.uri!r}, which was not read"
-        notes.report(rules.INCLUDE_NOT_EXPANDED, message, model.location, found=model.uri)
+        sink.report(rules.INCLUDE_NOT_EXPANDED, message, model.location, found=model.uri)
         return None
     return _Chosen(model, world)
 
 
-def _say_which(among: list[Candidate], name: str | None, count: int, where: Location, notes: Notes) -> None:
+def _say_which(among: list[Candidate], name: str | None, count: int, where: Location, sink: DiagnosticSink) -> None:
     names = ", ".join(one.full_name for one in among) or "none"
     if not among:
         message = "there is no model in the file"
@@ -82,10 +82,10 @@ def _say_which(among: list[Candidate], name: str | None, count: int, where: Loca
     else:
         message = f"{count or 'no'} models are called {name!r}; there are {names}"
     related = tuple(one.model.location for one in among[:5])
-    notes.report(rules.MODEL_NOT_CHOSEN, message, where, found=name, expected=names, related=related)
+    sink.report(rules.MODEL_NOT_CHOSEN, message, where, found=name, expected=names, related=related)
 
 
-def _place(model: Model, world: World, notes: Notes) -> Model:
+def _place(model: Model, world: World, sink: DiagnosticSink) -> Model:
     """The model with its pose in the world."""
     pose = model.pose
     if pose is None or not pose.relative_to:
@@ -93,10 +93,10 @@ def _place(model: Model, world: World, notes: Notes) -> Model:
     try:
         placed = FrameGraph(world).resolve(pose, WORLD, WORLD)
     except FrameError as error:
-        error.report(notes)
+        error.report(sink)
         return model
     message = f"the pose of model {model.name!r} is relative to {pose.relative_to!r}, which is not part of the robot"
-    notes.account(Fate.DROPPED, rules.OUTSIDE_MODEL, message, pose.location)
+    sink.account(Fate.DROPPED, rules.OUTSIDE_MODEL, message, pose.location)
     return model.model_copy(update={"pose": placed.to_pose()})
 
 

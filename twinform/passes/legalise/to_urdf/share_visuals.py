@@ -4,13 +4,13 @@ from collections.abc import Iterator
 from typing import ClassVar
 
 from twinform.ir import Element, GazeboExtension, Link, Material, Model, Visual, replace_fields
-from twinform.passes.legalise.carrier import to_element
-from twinform.passes.legalise.gazebo_tags import LINK_TAGS
-from twinform.passes.legalise.marks import without_mark
-from twinform.passes.legalise.material_marks import LOOK, look_of
+from twinform.passes.carriers.annotations import without_annotation
+from twinform.passes.carriers.carriers import to_element
+from twinform.passes.carriers.material_annotations import LOOK, look_of
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.passes.legalise.to_urdf.remainder import take_remainder, urdf_words
+from twinform.passes.transforms.gazebo_tags import LINK_TAGS
 
 _COLORS = ("ambient", "diffuse")
 _NOT_FIELDS = frozenset({"source", "spelling"})
@@ -45,7 +45,7 @@ class ShareVisuals(ToUrdfPass):
 def _shared(link: Link) -> tuple[Link, list[Element]]:
     """The link without what its visuals have alike, and that."""
     look = look_of(link)
-    link = without_mark(link, LOOK)
+    link = without_annotation(link, LOOK)
     if not link.visuals:
         return link, []
     content: list[Element] = []

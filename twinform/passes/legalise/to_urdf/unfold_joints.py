@@ -7,16 +7,16 @@ from twinform.diagnostics import Fate
 from twinform.diagnostics.rules import to_sdf as shared_rules
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Axis, Joint, Link, Model, Opaque, Pose, count_parts
-from twinform.passes.legalise.carrier import carry, is_carrier, to_element, unpack
-from twinform.passes.legalise.chain_carriers import split_axes
-from twinform.passes.legalise.joint_chains import CHAIN, CHAINS, PART, PITCHES, TWO_AXES, metres_per_radian
-from twinform.passes.legalise.marks import with_mark
-from twinform.passes.legalise.nodes import text_piece, unique_name
+from twinform.passes.carriers.annotations import with_annotation
+from twinform.passes.carriers.carriers import carry, is_carrier, to_element, unpack
+from twinform.passes.carriers.chain_carriers import split_axes
+from twinform.passes.carriers.joint_chains import CHAIN, CHAINS, PART, PITCHES, TWO_AXES, metres_per_radian
+from twinform.passes.carriers.token_mass import CHAIN_MASS, CHAIN_TOKEN
 from twinform.passes.legalise.to_urdf.base import ToUrdfPass
 from twinform.passes.legalise.to_urdf.joint_steps import Step, ball, screw, two_axes
 from twinform.passes.legalise.to_urdf.keeper import Keeper
-from twinform.passes.legalise.token_mass import CHAIN_MASS, CHAIN_TOKEN
 from twinform.passes.legalise.urdf_pieces import BALLS
+from twinform.passes.transforms.nodes import text_piece, unique_name
 from twinform.schemas import format_value
 
 _STEPS = {"universal": two_axes, "revolute2": two_axes, "ball": ball, "screw": screw}
@@ -89,20 +89,20 @@ def _free_name(name: str, taken: set[str]) -> str:
 
 
 def _part(made: Joint, joint: Joint, keeper: Keeper) -> Joint:
-    return with_mark(made, PART, attributes={"joint": joint.name}) if keeper.carriers else made
+    return with_annotation(made, PART, attributes={"joint": joint.name}) if keeper.carriers else made
 
 
 def _between(name: str, joint: Joint, keeper: Keeper) -> Link:
     """A link where the joint is, with a token of mass that Gazebo's reader of URDF and MuJoCo see."""
     link = Link(name=name, pose=Pose(relative_to=joint.name), inertial=CHAIN_TOKEN, source=joint.source)
-    return with_mark(link, PART, attributes={"joint": joint.name}) if keeper.carriers else link
+    return with_annotation(link, PART, attributes={"joint": joint.name}) if keeper.carriers else link
 
 
 def _last(joint: Joint, parent: str | None, step: Step, opaque: tuple[Opaque, ...], keeper: Keeper) -> Joint:
     """The joint that keeps the name, the child and the place."""
     update = {"type": step.type, "parent": parent, "axis": step.axis, "opaque": opaque}
     last = joint.model_copy(update={**dict.fromkeys(("axis2", *PITCHES)), **update})
-    return with_mark(last, CHAIN, attributes={"type": joint.type}) if keeper.carriers else last
+    return with_annotation(last, CHAIN, attributes={"type": joint.type}) if keeper.carriers else last
 
 
 def _account(joint: Joint, keeper: Keeper) -> Joint:
@@ -111,9 +111,9 @@ def _account(joint: Joint, keeper: Keeper) -> Joint:
     message = (
         f"{joint.type} joint {joint.name!r} is {_WORDS[joint.type]} in URDF, with links of next to no mass between"
     )
-    keeper.notes.report(rules.UNFOLDED_JOINT, message, joint.location.at("@type"), found=joint.type)
+    keeper.sink.report(rules.UNFOLDED_JOINT, message, joint.location.at("@type"), found=joint.type)
     fate = Fate.CARRIED if keeper.carriers else Fate.DROPPED
-    account = partial(keeper.notes.account, rule=rules.UNFOLDED_JOINT, location=joint.location)
+    account = partial(keeper.sink.account, rule=rules.UNFOLDED_JOINT, location=joint.location)
     account(fate, message=f"joint {joint.name!r} is {joint.type}", weight=1)
     links = f"{between} link{'' if between == 1 else 's'} between"
     account(Fate.APPROXIMATED, message=f"{links} the joints of {joint.name!r}, of {CHAIN_MASS:g} kg", weight=0)
@@ -155,7 +155,7 @@ def _lacks_pitch(joint: Joint, keeper: Keeper) -> bool:
     if joint.type != "screw" or metres_per_radian(joint) is not None:
         return False
     message = f"screw joint {joint.name!r} has a thread pitch of 0 rad/m, which moves infinitely far"
-    keeper.notes.report(shared_rules.JOINT_TYPE_UNSUPPORTED, message, joint.location, found="0")
+    keeper.sink.report(shared_rules.JOINT_TYPE_UNSUPPORTED, message, joint.location, found="0")
     return True
 
 

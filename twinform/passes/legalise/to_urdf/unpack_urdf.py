@@ -4,11 +4,11 @@ from collections.abc import Callable
 from functools import partial
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Link, Model, Node, Opaque, holds_opaque, map_children, rewrite
 from twinform.ir.frames import WORLD
-from twinform.passes.legalise.carrier import is_carrier, is_dangling, is_overruled, unpack
+from twinform.passes.carriers.carriers import is_carrier, is_dangling, is_overruled, unpack
 from twinform.passes.legalise.model_pass import ModelPass
 from twinform.passes.legalise.to_urdf.overruled_tags import with_overruled
 from twinform.passes.legalise.urdf_pieces import misfit
@@ -27,20 +27,20 @@ class UnpackUrdf(ModelPass):
 
     name: ClassVar[str] = "unpack-urdf"
 
-    def run_model(self, model: Model, notes: Notes) -> Model:
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model without carriers of what URDF can say."""
-        if notes.has_errors:
+        if sink.has_errors:
             return model
-        model = map_children(model, lambda child: rewrite(child, Node, partial(_unpack, notes), enter=holds_opaque))
-        model = _with_overruled(model, notes)
-        return _unpacked(_with_world(model), partial(misfit, node=model), notes)
+        model = map_children(model, lambda child: rewrite(child, Node, partial(_unpack, sink), enter=holds_opaque))
+        model = _with_overruled(model, sink)
+        return _unpacked(_with_world(model), partial(misfit, node=model), sink)
 
 
-def _unpack(notes: Notes, node: Node) -> Node:
-    return _unpacked(node, lambda piece: misfit(piece, node), notes)
+def _unpack(sink: DiagnosticSink, node: Node) -> Node:
+    return _unpacked(node, lambda piece: misfit(piece, node), sink)
 
 
-def _unpacked(node: AnyNode, misfit: Callable[[Opaque], str], notes: Notes) -> AnyNode:
+def _unpacked(node: AnyNode, misfit: Callable[[Opaque], str], sink: DiagnosticSink) -> AnyNode:
     """The node with its opaque parts, those of URDF out of their carriers; `misfit` says why one cannot come out."""
     if not any(is_carrier(part, "urdf") for part in node.opaque):
         return node
@@ -50,13 +50,13 @@ def _unpacked(node: AnyNode, misfit: Callable[[Opaque], str], notes: Notes) -> A
             why = misfit(piece) if piece is not part and not is_dangling(part) else ""
             if why:
                 message = f"{piece.name} of {_called(node)} does not come back: {why}"
-                notes.report(STALE_CARRIER, message, part.location_in(node), found=piece.name)
+                sink.report(STALE_CARRIER, message, part.location_in(node), found=piece.name)
             else:
                 opaque.append(piece)
     return node.model_copy(update={"opaque": tuple(opaque)})
 
 
-def _with_overruled(model: Model, notes: Notes) -> Model:
+def _with_overruled(model: Model, sink: DiagnosticSink) -> Model:
     """The model with tags of extensions in front of those that overrule them, if these are still there."""
     carriers = [part for part in model.opaque if is_carrier(part, "urdf") and is_overruled(part)]
     if not carriers:
@@ -67,7 +67,7 @@ def _with_overruled(model: Model, notes: Notes) -> Model:
             more = with_overruled(model, piece.element) if piece.element else None
             if more is None:
                 message = f"{piece.name} of {_called(model)} does not come back: nothing says otherwise any more"
-                notes.report(STALE_CARRIER, message, part.location_in(model), found=piece.name)
+                sink.report(STALE_CARRIER, message, part.location_in(model), found=piece.name)
             else:
                 model = more
     return model

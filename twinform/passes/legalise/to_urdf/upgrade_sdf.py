@@ -2,11 +2,11 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics import Notes
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
-from twinform.passes.base import Pass
-from twinform.passes.legalise.provenance import with_mixed_words
-from twinform.passes.legalise.sdf_versions import raise_words
+from twinform.passes.carriers.provenance import with_mixed_words
+from twinform.passes.framework.base import Pass
+from twinform.passes.sdf_versions import raise_words
 
 
 class UpgradeSdf(Pass):
@@ -22,10 +22,10 @@ class UpgradeSdf(Pass):
     carriers: bool = True
     mixed: bool = False
 
-    def run(self, document: Document, notes: Notes) -> Document:
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document in new words; it still declares its version, for the way back."""
         if self.carriers and self.mixed:
             document = document.model_copy(update={"models": tuple(map(with_mixed_words, document.models))})
         for step in raise_words(document.version, carriers=self.carriers, mixed=self.carriers and self.mixed):
-            document = step.run(document, notes)
+            document = step.run(document, sink)
         return document

@@ -4,9 +4,9 @@ from typing import TypeVar
 
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Collision, Visual
-from twinform.passes.legalise.marks import find_mark, without_mark
+from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.legalise.to_urdf.keeper import Keeper
-from twinform.passes.legalise.uri_schemes import GAZEBO, package_uri, scheme_of
+from twinform.passes.transforms.uri_schemes import GAZEBO, package_uri, scheme_of
 
 Shape = TypeVar("Shape", Visual, Collision)
 
@@ -16,8 +16,8 @@ def urdf_uri(shape: Shape, kind: str, written: str, keeper: Keeper) -> tuple[Sha
 
     `kind` is the mark's. One that came from URDF with the scheme of Gazebo keeps that.
     """
-    mark = find_mark(shape, kind)
-    shape = without_mark(shape, kind)
+    mark = find_annotation(shape, kind)
+    shape = without_annotation(shape, kind)
     if mark is not None and mark.get("scheme") == scheme_of(written) == GAZEBO:
         return shape, written
     uri, lost = package_uri(written)

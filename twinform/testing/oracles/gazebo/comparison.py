@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from twinform.passes.legalise.token_mass import CHAIN_MASS
+from twinform.passes.carriers.token_mass import CHAIN_MASS
 from twinform.testing.oracles.gazebo.differing import AT_REST, LEAST, Difference, Tolerances, pose_apart, short
 from twinform.testing.oracles.gazebo.joints import joint_differences
 from twinform.testing.oracles.gazebo.motion import motion_differences

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from lxml import etree
 
-from twinform.passes.legalise.carrier import NAMESPACE
+from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.testing.oracles.readers.library import Reader, Reading
 
 MENTIONS = {"drake": "Ignoring unsupported SDFormat element", "urdf_parser_py": "Unknown tag"}

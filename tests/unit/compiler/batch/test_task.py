@@ -1,0 +1,79 @@
+"""The work on one model of a batch, without the process around it."""
+
+import json
+from pathlib import Path
+from typing import ClassVar
+
+import pytest
+
+from twinform.compiler import ConversionRequest, LoadOptions
+from twinform.compiler.batch.record import Outcome
+from twinform.compiler.batch.task import Done, Task, work
+from twinform.diagnostics import DiagnosticSink, Policy
+from twinform.ir import Document
+from twinform.passes import Pass, Pipeline
+
+GOOD = '<robot name="r"><link name="a"/></robot>'
+WARNED = '<robot name="r">\n<link name="a"><colour/></link></robot>'
+WRONG = '<robot name="r">\n<link name="a"/><link name="a"/></robot>'
+
+
+class Broken(Pass):
+    """Raises."""
+
+    name: ClassVar[str] = "broken"
+
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
+        raise ZeroDivisionError("no parts")
+
+
+def _done(folder: Path, text: str, policy: Policy = Policy(), *passes: Pass) -> Done:  # noqa: B008 - it is frozen
+    path = folder / "r.urdf"
+    path.write_text(text)
+    return work(
+        Task(path, ConversionRequest(to="sdf", passes=Pipeline(passes)), LoadOptions(), policy, folder / "faults")
+    )
+
+
+def test_a_model_is_converted_with_its_ledger(tmp_path: Path) -> None:
+    done = _done(tmp_path, GOOD)
+    assert (done.outcome, done.message, done.diagnostics) == (Outcome.CONVERTED, "", [])
+    assert '<link name="a">' in done.text
+    assert done.ledger == {"expressed": 4, "carried": 0, "approximated": 0, "dropped": 0}
+    assert json.loads(done.entries)["expressed"] == 4
+
+
+def test_warnings_are_kept(tmp_path: Path) -> None:
+    (found,) = _done(tmp_path, WARNED).diagnostics
+    assert found["rule"] == "unknown-element"
+
+
+def test_what_is_denied_is_refused(tmp_path: Path) -> None:
+    done = _done(tmp_path, WARNED, Policy(deny=frozenset({"unknown-element"})))
+    assert (done.outcome, done.text) == (Outcome.REFUSED, "")
+    assert [each["rule"] for each in done.diagnostics] == ["unknown-element"]
+    assert done.message.endswith("r.urdf:2: <colour> is not an element of <link>")
+
+
+@pytest.mark.parametrize(("text", "outcome"), [(WRONG, Outcome.REFUSED), ("<robot", Outcome.UNREADABLE)])
+def test_a_model_with_errors_says_which(text: str, outcome: Outcome, tmp_path: Path) -> None:
+    done = _done(tmp_path, text)
+    assert (done.outcome, done.text) == (outcome, "")
+    assert [each["rule"] for each in done.diagnostics] in (["duplicate-name"], ["not-well-formed"])
+
+
+def test_a_pass_that_fails_leaves_what_makes_it_fail_again(tmp_path: Path) -> None:
+    done = _done(tmp_path, GOOD, Policy(), Broken())
+    assert done.outcome is Outcome.FAILED
+    words, _, path = done.message.partition("; to see it again: twinform reproduce ")
+    assert "broken" in words
+    assert Path(path).is_relative_to(tmp_path / "faults")
+
+
+def test_a_fault_of_our_own_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise KeyError("lost")
+
+    monkeypatch.setattr("twinform.compiler.batch.task.run_conversion", fail)
+    done = _done(tmp_path, GOOD)
+    assert (done.outcome, done.message) == (Outcome.FAILED, "a fault of twinform: KeyError: 'lost'")

@@ -1,0 +1,76 @@
+"""What `twinform convert` writes beside the model: a world around it, and the configuration of ros_gz_bridge."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeVar, get_args
+
+import click
+
+from twinform.cli.findings import show
+from twinform.cli.outputs import Output, Outputs
+from twinform.compiler import Conversion
+from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.reporters import Findings
+from twinform.passes.plugins.parts import ReleaseName
+from twinform.schemas import parse_version
+
+_WORLD = "default"
+"""The name of the world that is written."""
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+
+def companion_options(command: Command) -> Command:
+    """The options for files beside the model."""
+    path = click.Path(path_type=Path)
+    names = click.Choice(get_args(ReleaseName))
+    bridge = "Write the file of ros_gz_bridge for the topics of the result."
+    world = "Write a world with the model in it, ground, light, and the systems that its sensors need."
+    release = "The release of Gazebo that all is for: SDF is written in the newest version that it reads."
+    command = click.option("--bridge", type=path, metavar="FILE", help=bridge)(command)
+    command = click.option("--world", type=path, metavar="FILE", help=world)(command)
+    return click.option("--gazebo", type=names, default="harmonic", help=release)(command)
+
+
+def version_for(gazebo: str, asked: str | None) -> str:
+    """The version of SDF for a release of Gazebo: the newest that it reads, or the one that is asked for."""
+    from twinform.passes.plugins.catalogue import release  # noqa: PLC0415 - few conversions need it
+
+    newest = release(gazebo).sdf
+    if asked is not None and parse_version(asked) > parse_version(newest):
+        raise click.UsageError(f"Gazebo {gazebo} reads SDF up to {newest}, and --sdf-version is {asked}")
+    return asked or newest
+
+
+@dataclass(frozen=True, slots=True)
+class Companions:
+    """The files to write beside one model, and the release of Gazebo that they are for."""
+
+    bridge: Path | None = None
+    world: Path | None = None
+    gazebo: str = "harmonic"
+
+    def __bool__(self) -> bool:
+        return self.bridge is not None or self.world is not None
+
+    def places(self) -> Iterator[Output]:
+        """Where they are to be written."""
+        for by, path in (("--world", self.world), ("--bridge", self.bridge)):
+            if path is not None:
+                yield Output(by, path)
+
+    def make(self, conversion: Conversion, name: str, outputs: Outputs, *, notes: bool) -> bool:
+        """Add what was asked for to what is written; whether it could be made."""
+        if not self:
+            return True
+        from twinform.compiler.gazebo_files import bridge_text, world_text  # noqa: PLC0415 - few conversions need it
+
+        document, found = conversion.document, DiagnosticSink(file=name)
+        if self.world is not None:
+            outputs.add("--world", self.world, world_text(document, self.gazebo, found, _WORLD))
+        if self.bridge is not None:
+            world = _WORLD if self.world else None
+            outputs.add("--bridge", self.bridge, bridge_text(document, self.gazebo, found, world))
+        show(Findings(name, tuple(found.diagnostics)), notes=notes, on_stderr=True)
+        return not found.has_errors

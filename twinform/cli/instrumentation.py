@@ -1,0 +1,114 @@
+"""How a user looks over the shoulder of passes: the options, and what they print on stderr."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+
+from twinform.passes import CombinedInstrumentation, PassError, PassInstrumentation
+from twinform.passes.framework.hooks import Dumps, PrintChanges, Statistics, table
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+_OPTIONS = (
+    click.option(
+        "--dump-ir-after", "dumps", metavar="PASS", multiple=True, help="Print the IR after a pass on stderr."
+    ),
+    click.option("--print-changes", "changes", is_flag=True, help="Print on stderr what each pass changes in the IR."),
+    click.option(
+        "--time-passes", "times", is_flag=True, help="Print on stderr how long each pass takes, and what it does."
+    ),
+    click.option("--pass-statistics", "statistics", is_flag=True, help="The same without times."),
+    click.option(
+        "--reproducers",
+        type=click.Path(file_okay=False, path_type=Path),
+        metavar="DIR",
+        help="Where to write what makes the fault of a pass come again; else the current folder.",
+    ),
+)
+
+
+def watching_options(command: Command) -> Command:
+    """Give a command the options that watch passes."""
+    for option in reversed(_OPTIONS):
+        command = option(command)
+    return command
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InstrumentationOptions:
+    """What these options give a command."""
+
+    dumps: tuple[str, ...] = ()
+    changes: bool = False
+    times: bool = False
+    statistics: bool = False
+    reproducers: Path | None = None
+
+    def begin(self, name: str) -> "Watched":
+        """Watch the passes of one input, which messages call `name`."""
+        return Watched(self, name)
+
+
+@dataclass(slots=True)
+class Watched:
+    """The watches over the passes of one input."""
+
+    options: InstrumentationOptions
+    name: str
+    _dumps: Dumps = field(init=False)
+    _statistics: Statistics | None = field(init=False)
+
+    def __post_init__(self) -> None:
+        self._dumps = Dumps(self.options.dumps, self._dump)
+        self._statistics = Statistics() if self.options.times or self.options.statistics else None
+
+    @property
+    def instrumentation(self) -> PassInstrumentation:
+        """All that looks at the passes; the clock last, for it has to be nearest to them."""
+        changes = [PrintChanges(self._print)] if self.options.changes else []
+        return CombinedInstrumentation([self._dumps, *changes, *([self._statistics] if self._statistics else [])])
+
+    def end(self) -> None:
+        """Print what is known only now.
+
+        Raises:
+            click.UsageError: a pass that was named did not run.
+        """
+        self.report()
+        for each in self.options.dumps:
+            if each not in self._dumps.seen:
+                ran = ", ".join(self._dumps.seen) or "none"
+                raise click.UsageError(f"--dump-ir-after {each}: no such pass ran; there were {ran}")
+
+    def report(self) -> None:
+        """Print the table, if it is asked for."""
+        if self._statistics:
+            self._print(f"passes\n{table(self._statistics, times=self.options.times)}")
+
+    def fault(self, error: PassError) -> None:
+        """Print what a pass did wrong, and the file that makes it come again."""
+        self.report()
+        show_fault(error, self.name, self.options.reproducers)
+
+    def _dump(self, step: str, document: str) -> None:
+        click.echo(f"// {self.name} after {step}\n{document}", err=True)
+
+    def _print(self, text: str) -> None:
+        click.echo(f"{self.name}: {text}", err=True)
+
+
+def show_fault(error: PassError, name: str, folder: Path | None = None) -> None:
+    """Print what a pass did wrong to the input that messages call `name`, and write what makes it come again."""
+    from twinform.compiler.reproducers.files import write_reproducer  # noqa: PLC0415 - passes seldom fail
+
+    click.echo(f"{name}: {error}", err=True)
+    try:
+        path = write_reproducer(error, name, folder)
+    except (OSError, TypeError, ValueError) as problem:
+        reason = problem.strerror if isinstance(problem, OSError) else problem
+        click.echo(f"    nothing could be written that makes it come again: {reason}", err=True)
+    else:
+        click.echo(f"    to see it again: twinform reproduce {click.format_filename(path)}", err=True)

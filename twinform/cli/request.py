@@ -1,0 +1,87 @@
+"""What a file is to become: options that several commands share."""
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import click
+from click.core import ParameterSource
+
+from twinform.cli.config import ConfigError, settings_of
+from twinform.cli.failure import Unusable
+from twinform.cli.inputs import InputOptions
+from twinform.compiler import URDF_VERSIONS, ConversionRequest, Language, UrdfVersion
+from twinform.passes import Pipeline, PipelineError, RegistryError, parse_pipeline
+from twinform.schemas import table
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+
+def _known_version(_ctx: click.Context, _option: click.Parameter, value: str | None) -> str | None:
+    versions = table("sdf").versions
+    if value is not None and value not in versions:
+        raise click.BadParameter(f"SDF has no version {value!r}; it has {', '.join(versions)}")
+    return value
+
+
+def pipeline_option(key: str) -> Callable[[click.Context, click.Parameter, str | None], Pipeline]:
+    """The callback of an option that takes a pipeline, which is `key` in a configuration."""
+
+    def parse(ctx: click.Context, option: click.Parameter, value: str | None) -> Pipeline:
+        project = settings_of(ctx)
+        configured = ctx.get_parameter_source(option.name or "") is ParameterSource.DEFAULT_MAP
+        try:
+            pipeline = parse_pipeline(value or "", names=project.named)
+            return project.confined(pipeline, key) if configured else pipeline
+        except PipelineError as error:
+            if project.path and configured:
+                raise ConfigError(project.path, str(error), key=key) from error
+            raise click.BadParameter(str(error)) from error
+        except RegistryError as error:
+            raise Unusable(str(error)) from error
+
+    return parse
+
+
+_OPTIONS = (
+    click.option("--sdf-version", metavar="V", callback=_known_version, help="The version of SDF to write."),
+    click.option("--urdf-version", type=click.Choice(URDF_VERSIONS), help="The version of URDF to write."),
+    click.option(
+        "--passes",
+        metavar="PIPELINE",
+        callback=pipeline_option("passes"),
+        help="Passes to run, such as 'check-inertia', or @NAME for one that the configuration names.",
+    ),
+    click.option(
+        "--carriers/--no-carriers", default=True, help="Whether to keep in our namespace what the target lacks."
+    ),
+)
+
+
+def ordering_options(command: Command) -> Command:
+    """Give a command the options that say what a file is to become."""
+    for option in reversed(_OPTIONS):
+        command = option(command)
+    return command
+
+
+class Asked(InputOptions):
+    """What these options, and those for reading, give a command."""
+
+    sdf_version: str | None
+    urdf_version: UrdfVersion | None
+    passes: Pipeline
+    carriers: bool
+    expand_includes: bool
+
+
+def request_of(asked: Asked, to: Language, model: str | None = None) -> ConversionRequest:
+    """The options as the compiler takes them."""
+    return ConversionRequest(
+        to=to,
+        sdf_version=asked["sdf_version"],
+        urdf_version=asked["urdf_version"],
+        passes=asked["passes"],
+        carriers=asked["carriers"],
+        model=model,
+        expand_includes=asked["expand_includes"],
+    )

@@ -1,0 +1,76 @@
+"""What a model needs beside its own file to be run in Gazebo: a world, and the configuration of the bridge to ROS."""
+
+from importlib import resources
+
+from twinform.compiler.input.loading import loads
+from twinform.compiler.output.emitting import emit
+from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.rules import plugins as rules
+from twinform.ir import Document, Element, Format, Model, Opaque, Pose, World
+from twinform.passes.plugins.bridge import bridge_yaml, bridges
+from twinform.passes.plugins.ground_clearance import lowest_point
+from twinform.passes.plugins.sites import sensors_of
+from twinform.passes.plugins.worlds import (
+    Needed,
+    kind_of_sensor,
+    needed_by_plugins,
+    needed_for,
+    with_defaults,
+    with_systems,
+)
+
+_EQUATOR = (
+    ("surface_model", "EARTH_WGS84"),
+    ("world_frame_orientation", "ENU"),
+    ("latitude_deg", "0"),
+    ("longitude_deg", "0"),
+    ("elevation", "0"),
+    ("heading_deg", "0"),
+)
+"""A place on earth, for receivers of satellites: any other one is as good as long as nobody says which."""
+
+
+def bridge_text(document: Document, release: str, sink: DiagnosticSink, world: str | None = None) -> str:
+    """The YAML file of ros_gz_bridge for a document."""
+    return bridge_yaml(bridges(document, release, sink, world))
+
+
+def world_text(document: Document, release: str, sink: DiagnosticSink, name: str) -> str:
+    """An SDF file with a world that holds the model of a document, so that it runs by itself.
+
+    The model stands on the ground, if it says no pose and its collisions say how deep they reach.
+    The world has light, ground, the systems that gz-sim adds to worlds without any, and those that the sensors and
+    plugins need.
+    """
+    if document.worlds or document.format is not Format.SDF or len(document.models) != 1:
+        message = "a world is written around one model of SDF"
+        sink.report(rules.NOTHING_TO_ADD_TO, message, document.location)
+        return ""
+    template = loads(resources.files("twinform.compiler").joinpath("world.sdf").read_bytes())
+    needed = _needed(document, release)
+    world = with_systems(with_defaults(template.worlds[0].model_copy(update={"name": name})), needed.systems)
+    world = _with_place(world) if "spherical_coordinates" in needed.elements else world
+    world = world.model_copy(update={"models": (*world.models, _on_the_ground(document.models[0]))})
+    namespaces, version = document.namespaces, document.version
+    return emit(template.model_copy(update={"worlds": (world,), "version": version, "namespaces": namespaces}), sink)
+
+
+def _on_the_ground(model: Model) -> Model:
+    depth = lowest_point(model) if model.pose is None and not model.static else None
+    return model if not depth else model.model_copy(update={"pose": Pose(xyz=(0.0, 0.0, round(-depth, 9)))})
+
+
+def _needed(document: Document, release: str) -> Needed:
+    """What the world has to have for the sensors and plugins of a document."""
+    kinds = [kind_of_sensor(sensor, release) for sensor, _ in sensors_of(document)]
+    all_ = [needed_for(kind) for kind in dict.fromkeys(kinds) if kind is not None]
+    systems = dict.fromkeys(system for each in all_ for system in each.systems)
+    systems |= dict.fromkeys(needed_by_plugins(document, None, release))
+    elements = dict.fromkeys(element for each in all_ for element in each.elements)
+    return Needed(tuple(systems), tuple(elements))
+
+
+def _with_place(world: World) -> World:
+    children = tuple(Element(name=name, text=text) for name, text in _EQUATOR)
+    place = Opaque(element=Element(name="spherical_coordinates", children=children))
+    return world.model_copy(update={"opaque": (*world.opaque, place)})

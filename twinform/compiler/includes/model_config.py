@@ -1,0 +1,75 @@
+"""The model.config of a folder: which of its SDF files is the model."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from twinform.compiler.input.parsing import UnreadableError, parse, read_bytes
+from twinform.diagnostics import DiagnosticSink, Location
+from twinform.diagnostics.rules import files as rules
+from twinform.schemas import Version, parse_version
+
+MANIFESTS = ("model.config", "manifest.xml")
+"""The name of today and the older one."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Entry:
+    name: str
+    version: Version
+    line: int
+
+
+def manifest(folder: Path) -> Path | None:
+    """The file that says which file of a folder is the model; None where the folder has none."""
+    return next((folder / name for name in MANIFESTS if (folder / name).is_file()), None)
+
+
+def model_file(config: Path, asked: Version | None, sink: DiagnosticSink) -> Path | None:
+    """The newest SDF file that a model.config names and that is not newer than asked, or else the newest.
+
+    None where it names none that can be read; the notes then say why.
+    """
+    own = DiagnosticSink(file=str(config), strict=sink.strict)
+    try:
+        return _choose(config, asked, own)
+    except UnreadableError:
+        return None
+    finally:
+        sink.extend(own.diagnostics)
+
+
+def _choose(config: Path, asked: Version | None, sink: DiagnosticSink) -> Path | None:
+    entries = list(_entries(config, sink))
+    if not entries:
+        message = "the model.config names no SDF file"
+        sink.report(rules.BROKEN_MODEL_CONFIG, message, Location(line=1, path="/model"), expected="<sdf>")
+        return None
+    fitting = [entry for entry in entries if asked is None or entry.version <= asked]
+    best = max(fitting or entries, key=lambda entry: entry.version)
+    path = config.parent / best.name
+    where = Location(line=best.line, path="/model/sdf")
+    if not path.resolve().is_relative_to(config.parent.resolve()):
+        message = f"the model.config names {best.name!r}, which is not in its folder"
+        sink.report(rules.URI_LEAVES_FOLDER, message, where, found=best.name)
+        return None
+    if not path.is_file():
+        message = f"the model.config names {best.name!r}, which is not there"
+        sink.report(rules.BROKEN_MODEL_CONFIG, message, where, found=best.name)
+        return None
+    return path
+
+
+def _entries(config: Path, sink: DiagnosticSink) -> Iterator[_Entry]:
+    for element in parse(read_bytes(config, sink), sink).iterchildren("sdf"):
+        name = (element.text or "").strip()
+        if name:
+            yield _Entry(name, _version(element.get("version")), element.sourceline or 0)
+
+
+def _version(text: str | None) -> Version:
+    """A version that is not written, or not a version, is older than all others."""
+    try:
+        return parse_version(text) if text else (0, 0)
+    except ValueError:
+        return (0, 0)

@@ -1,0 +1,30 @@
+"""Documents in memory as input: checked as the file that they would be."""
+
+from twinform.compiler.input.gazebo_extensions import check_extensions
+from twinform.compiler.input.json import compare_documents
+from twinform.compiler.input.loading import lower_tree
+from twinform.compiler.input.options import LoadResult
+from twinform.compiler.output.emitting import document_tree, located
+from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.rules import structure
+from twinform.ir import Document, Format
+from twinform.ir.verify import verify
+
+
+def check_document(document: Document, sink: DiagnosticSink) -> LoadResult:
+    """Say everything that is wrong with a document, as if it were a file: it is, once it is written."""
+    try:
+        tree = document_tree(document)
+    except (ValueError, IndexError) as error:  # a name that is none in XML; no model at all
+        compare_documents(document, None, sink)
+        if not sink.has_errors:
+            sink.report(structure.INVALID_VALUE, f"the document cannot be written: {error}", document.location)
+        return LoadResult(sink.file, document, tuple(sink.diagnostics))
+    found = DiagnosticSink(sink.file, sink.strict)
+    again = lower_tree(tree, found)
+    sink.extend(located(diagnostic, document) for diagnostic in found.diagnostics)
+    compare_documents(document, again, sink)
+    verify(document, sink)
+    if document.format is Format.URDF:
+        check_extensions(document, sink)
+    return LoadResult(sink.file, document, tuple(sink.diagnostics), tree=tree)

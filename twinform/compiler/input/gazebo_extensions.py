@@ -1,0 +1,15 @@
+"""What is wrong in the `<gazebo>` elements of a URDF file."""
+
+from twinform.diagnostics import DiagnosticSink
+from twinform.ir import Document
+
+
+def check_extensions(document: Document, sink: DiagnosticSink) -> None:
+    """Fold them as a conversion would, only to see what it has to say."""
+    if not any(model.extensions for model in document.models):
+        return
+    from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo  # noqa: PLC0415 - most files have none
+
+    found = DiagnosticSink(file=sink.file, strict=sink.strict)
+    FoldGazebo().run(document, found)
+    sink.extend_new(found.diagnostics)

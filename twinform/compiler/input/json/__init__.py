@@ -1,0 +1,6 @@
+"""Documents as JSON, read: from JSON to the text of the format that it is in. See `docs/reference/json.md`."""
+
+from twinform.compiler.input.json.comparing import compare_documents
+from twinform.compiler.input.json.reading import JsonSource, read_json
+
+__all__ = ["JsonSource", "compare_documents", "read_json"]

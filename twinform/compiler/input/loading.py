@@ -1,0 +1,318 @@
+"""From text to a verified document: parse, read, gate, build the IR."""
+
+import gc
+import re
+from collections import defaultdict
+from collections.abc import Callable, Generator, Iterable, Mapping
+from contextlib import contextmanager
+from dataclasses import replace
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from twinform.compiler.errors import CompileError
+from twinform.compiler.input import sdf, urdf
+from twinform.compiler.input.finding_lines import with_exact_lines
+from twinform.compiler.input.gazebo_extensions import check_extensions
+from twinform.compiler.input.limits import excess_of_json
+from twinform.compiler.input.options import Input, LoadOptions, LoadResult, expanded_name, name_of_input
+from twinform.compiler.input.parsing import (
+    UnreadableError,
+    parse,
+    read_bytes,
+    refuse_excess,
+    strip_default_namespace,
+)
+from twinform.compiler.input.split_values import report_split_values
+from twinform.compiler.input.tabbed_numbers import report_tabbed_numbers
+from twinform.compiler.input.unexpanded_xacro import report_unexpanded
+from twinform.compiler.search.uris import SearchPath
+from twinform.diagnostics import DiagnosticSink, Location
+from twinform.diagnostics.rules import model, reading, structure
+from twinform.diagnostics.rules import xacro as xacro_rules
+from twinform.ir import Document, Format
+from twinform.ir.verify import verify
+from twinform.schemas import (
+    Context,
+    Engine,
+    Version,
+    XmlElement,
+    declared_namespaces,
+    gate,
+    parse_version,
+    print_version,
+    refusals,
+    table,
+    undeclared_prefix,
+)
+
+_ROOTS: dict[str, tuple[str, Callable[[XmlElement, Context], Mapping[str, Any]]]] = {
+    "robot": ("urdf", urdf.lower),
+    "sdf": ("sdf", sdf.lower),
+}
+_CONSEQUENCES = frozenset(
+    {model.MISSING_LIMIT, model.PARTIAL_LIMIT, model.SEVERAL_ROOTS, model.EMPTY_MODEL, model.UNKNOWN_MATERIAL}
+)
+_JSON = re.compile(rb"(\xef\xbb\xbf)?\s*\{")
+"""How a JSON document begins."""
+"""How a name that is in a namespace begins in JSON."""
+XACRO = ".xacro"
+"""The ending of the names of files that are expanded before they are read."""
+_OLD_ROOT = "gazebo"
+_OLD_ROOT_VERSIONS = frozenset({"1.2"})
+"""What the root of SDF was called, and the versions of these that are known; 1.0 is another language."""
+_WITHOUT_VERSION = {"urdf": (1, 0)}
+"""The version of a file that declares none."""
+
+
+def read(source: Input, load_options: LoadOptions, *, name: str = "") -> LoadResult:
+    """Read a file, the bytes of one or a document, and say what is wrong with it; `name` stands for it in findings."""
+    sink = DiagnosticSink(file=name or name_of_input(source), strict=load_options.strict)
+    with garbage_collection_paused():
+        if isinstance(source, Document):
+            from twinform.compiler.input.documents import check_document  # noqa: PLC0415 - it reads what it has written
+
+            return check_document(source, sink)
+        return _check(source, sink, load_options)
+
+
+def _check(source: str | Path | bytes, sink: DiagnosticSink, load_options: LoadOptions) -> LoadResult:
+    if not isinstance(source, bytes):
+        load_options.search.seen.add(Path(source))
+    try:
+        if not isinstance(source, bytes) and (load_options.xacro or Path(source).suffix.lower() == XACRO):
+            return _check_xacro(Path(source), sink, load_options)
+        text = source if isinstance(source, bytes) else read_bytes(Path(source), sink)
+    except UnreadableError:
+        return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True)
+    return _check_text(text, sink, load_options)
+
+
+def _check_text(text: bytes, sink: DiagnosticSink, load_options: LoadOptions) -> LoadResult:
+    try:
+        if _JSON.match(text):
+            return _check_json(text, sink, load_options)
+        document, tree = read_document(text, sink, load_options.engine)
+    except UnreadableError:
+        return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True)
+    if document is not None and not sink.has_errors:
+        verify(document, sink)
+        if document.format is Format.URDF:
+            check_extensions(document, sink)
+    sink.diagnostics[:] = with_exact_lines(sink.diagnostics, tree, sink.file)
+    found = tuple(sorted(sink.diagnostics, key=lambda each: each.location.line))
+    return LoadResult(sink.file, document, found, tree=tree)
+
+
+def _check_json(text: bytes, sink: DiagnosticSink, load_options: LoadOptions) -> LoadResult:
+    """Read a JSON document as the text of its format that it stands for.
+
+    Raises:
+        UnreadableError: there is too much of it.
+    """
+    from twinform.compiler.input.json import read_json  # noqa: PLC0415 - few files are JSON
+
+    refuse_excess(excess_of_json(text), sink)
+    source = read_json(text, sink)
+    if source is None:
+        return LoadResult(sink.file, None, tuple(sink.diagnostics))
+    name = f"{sink.file} (as {source.format.upper()})"
+    loaded = _check_text(source.text, DiagnosticSink(name, sink.strict), load_options)
+    sink.origins[name] = source.origins(loaded.document, sink.file)
+    sink.extend(loaded.diagnostics)
+    if loaded.document is not None and loaded.accepted:
+        source.compare(loaded.document, sink)
+    found = tuple(sorted(sink.diagnostics, key=lambda each: each.location.line))
+    return replace(loaded, path=sink.file, diagnostics=found, origins=sink.origins)
+
+
+def _check_xacro(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> LoadResult:
+    """Expand a xacro file and read the text that comes out; findings are reported where their parts were written.
+
+    Raises:
+        UnreadableError: it cannot be expanded, or must not.
+    """
+    from twinform.compiler.input.xacro.expansion import expand  # noqa: PLC0415 - few files need it
+
+    if load_options.xacro is False:
+        message = "this is a xacro file, and xacro is refused here"
+        sink.report(xacro_rules.XACRO_REFUSED, message, Location(line=1))
+        raise UnreadableError
+    expansion = expand(path, load_options.arguments, load_options.search, sink)
+    load_options.search.seen.update(map(Path, {place.file for place in expansion.origins.places}))
+    name = expanded_name(sink.file)
+    sink.origins[name] = expansion.origins
+    loaded = _check_text(expansion.text, DiagnosticSink(name, sink.strict), load_options)
+    sink.extend(loaded.diagnostics)
+    return replace(loaded, path=sink.file, diagnostics=tuple(sink.diagnostics), origins=sink.origins)
+
+
+def load(
+    source: str | Path,
+    *,
+    strict: bool = False,
+    engine: Engine = "libxml2",
+    paths: Iterable[str | Path] = (),
+    arguments: Mapping[str, str] | None = None,
+) -> Document:
+    """The document of a file; `paths` and `arguments` are those of `check`.
+
+    Raises:
+        CompileError: the file has an error; what was found is in its diagnostics.
+    """
+    return _document(read(source, LoadOptions(strict, engine, SearchPath.of(paths), arguments or {})))
+
+
+def loads(text: str | bytes, name: str = "<string>", *, strict: bool = False, engine: Engine = "libxml2") -> Document:
+    """The document of a text; `name` stands for the file in diagnostics.
+
+    Raises:
+        CompileError: the text has an error; what was found is in its diagnostics.
+    """
+    data = text.encode() if isinstance(text, str) else text
+    return _document(read(data, LoadOptions(strict, engine), name=name))
+
+
+def _document(loaded: LoadResult) -> Document:
+    if loaded.document is None or not loaded.accepted:
+        raise CompileError(loaded.diagnostics, unreadable=loaded.unreadable)
+    return loaded.document
+
+
+def read_document(text: bytes, sink: DiagnosticSink, engine: Engine) -> tuple[Document | None, XmlElement]:
+    """The document of an XML text and its tree. Where it has errors, the document is there if it can be.
+
+    Raises:
+        UnreadableError: it is not XML.
+    """
+    root, namespace = read_tree(text, sink)
+    report_split_values(text, sink)
+    if b"<xacro:" in text or b"${" in text:
+        report_unexpanded(root, sink)
+    format_, lower = _ROOTS[str(root.tag)]
+    if format_ == "urdf":
+        report_tabbed_numbers(text, sink)
+    context = Context(sink, sink.file, format_, declared_version(root, format_, sink))
+    errors = refusals(root, context, engine)
+    context.clean = not errors
+    context.simple = context.clean and _is_plain(text, sink)
+    data = lower(root, context)
+    if errors:
+        gate(root, context, engine, errors)
+    data = {**data, "namespaces": _namespaces(root, namespace, inside=_declares_inside(root, text, sink))}
+    if sink.has_errors:
+        return _verify_what_is_there(data, sink), root
+    return Document.model_validate(data), root
+
+
+def read_tree(text: bytes, sink: DiagnosticSink) -> tuple[XmlElement, str | None]:
+    """The XML tree of a text in one of our formats, its names plain, and the default namespace that it had.
+
+    Raises:
+        UnreadableError: it is not XML, or of another format.
+    """
+    root = parse(text, sink)
+    namespace = strip_default_namespace(root)
+    if root.tag == _OLD_ROOT and root.get("version") in _OLD_ROOT_VERSIONS:
+        message = f"the root of SDF {root.get('version')} is <{_OLD_ROOT}>; read, and written, as <sdf>"
+        sink.report(reading.OLD_ROOT, message, Location(line=root.sourceline or 0, path=f"/{root.tag}"))
+        root.tag = "sdf"
+    if root.tag not in _ROOTS:
+        where = Location(line=root.sourceline or 0, path=f"/{root.tag}")
+        message = f"the root element is <{root.tag}>; expected <robot> or <sdf>"
+        sink.report(reading.UNKNOWN_ROOT, message, where, found=str(root.tag), expected="robot or sdf")
+        raise UnreadableError
+    return root, namespace
+
+
+def lower_tree(root: XmlElement, sink: DiagnosticSink, *, valid: bool = False) -> Document:
+    """The document of a tree that we have written ourselves; errors in the notes where it is not valid after all.
+
+    `valid` says that its schema has seen it already.
+    """
+    format_, lower = _ROOTS[str(root.tag)]
+    context = Context(sink, sink.file, format_, declared_version(root, format_, sink))
+    errors = [] if valid else refusals(root, context, "libxml2")
+    context.clean = not errors
+    data = lower(root, context)
+    if errors:
+        gate(root, context, "libxml2", errors)
+    return Document.model_validate({**data, "namespaces": _namespaces(root, None)})
+
+
+def _verify_what_is_there(data: Mapping[str, Any], sink: DiagnosticSink) -> Document | None:
+    """After an error the names and references are still checked, so that the author sees all at once.
+
+    Left out are findings that may only follow from what could not be read.
+    """
+    found = DiagnosticSink(file=sink.file, strict=sink.strict)
+    try:
+        document = Document.model_validate(data)
+    except ValidationError:
+        return None  # without its name or type a thing cannot be looked at, and that is reported already
+    verify(document, found)
+    sink.extend(each for each in found.diagnostics if each.rule not in _CONSEQUENCES)
+    return document
+
+
+def declared_version(root: XmlElement, format_: str, sink: DiagnosticSink) -> Version:
+    """The version that the table pass goes by: the declared one where the format has it, else the newest."""
+    facts, declared = table(format_), root.get("version")
+    if declared is None and format_ in _WITHOUT_VERSION:
+        return _WITHOUT_VERSION[format_]
+    if declared in facts.versions:
+        return parse_version(declared)
+    where = Location(line=root.sourceline or 0, path=f"/{root.tag}/@version")
+    newest = print_version(facts.newest)
+    if declared is not None:
+        message = f"{format_.upper()} has no version {declared!r}; read as {newest}"
+        sink.report(structure.UNKNOWN_VERSION, message, where, found=declared, expected=", ".join(facts.versions))
+    return facts.newest
+
+
+def _is_plain(text: bytes, sink: DiagnosticSink) -> bool:
+    """Whether no name has a namespace: none is declared, nor was a prefix repaired; in UTF-16 there is a zero byte."""
+    repaired = any(found.rule is reading.REPAIRED_XML for found in sink.diagnostics)
+    return not repaired and b"xmlns" not in text and b"\0" not in text
+
+
+def _declares_inside(root: XmlElement, text: bytes, sink: DiagnosticSink) -> bool:
+    """Whether other elements than the root may declare namespaces, or have had prefixes of theirs repaired."""
+    repaired = any(found.rule is reading.REPAIRED_XML for found in sink.diagnostics)
+    return repaired or text.count(b"xmlns") > len(root.nsmap) or b"\0" in text
+
+
+def _namespaces(root: XmlElement, default: str | None, *, inside: bool = True) -> tuple[tuple[str, str], ...]:
+    """The prefixes of a document, those of its root first; one that is another namespace inside gets another name."""
+    own = [(prefix, uri) for prefix, uri in root.nsmap.items() if prefix]
+    others = sorted(declared_namespaces(root).difference(own)) if inside else []
+    found: dict[str, str] = {}
+    known: set[str] = set()
+    numbers: defaultdict[str, count[int]] = defaultdict(lambda: count(2))
+    for prefix, uri in (*own, *others):
+        wanted = undeclared_prefix(uri) or prefix
+        if found.setdefault(wanted, uri) != uri and uri not in known:
+            found[next(name for n in numbers[wanted] if (name := f"{wanted}{n}") not in found)] = uri
+        known.add(uri)
+    return (*((("", default),) if default else ()), *sorted(found.items()))
+
+
+@contextmanager
+def garbage_collection_paused() -> Generator[None]:
+    """Keep the collector from walking a growing tree again and again; nothing here makes cycles.
+
+    Before it goes on, all that was made joins the old generation, which `freeze` and `unfreeze` do without looking at
+    it; otherwise the first thing that the collector did would be to walk all of it once more.
+    """
+    enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if enabled:
+            if not gc.get_freeze_count():  # what others have frozen stays so
+                gc.freeze()
+                gc.unfreeze()
+            gc.enable()

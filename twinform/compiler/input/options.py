@@ -1,0 +1,83 @@
+"""What is read, how, and what is found: the words that all of the compiler has for it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from twinform.compiler.search.uris import SearchPath
+from twinform.diagnostics import Diagnostic, Entry, Origins
+from twinform.ir import Document, count_parts
+from twinform.schemas import Engine, XmlElement
+
+Input = str | Path | bytes | Document
+"""What is read: the path of a file, the bytes of one, or a document that was read or made."""
+
+
+@dataclass(frozen=True, slots=True)
+class LoadOptions:
+    """How files are read.
+
+    `search` are the folders for URIs, `arguments` those of xacro. `xacro` says which files are expanded: by default
+    those whose name ends so, all where it is true, and none where it is false.
+    """
+
+    strict: bool = False
+    engine: Engine = "libxml2"
+    search: SearchPath = field(default_factory=SearchPath.of)
+    arguments: Mapping[str, str] = field(default_factory=dict[str, str])
+    xacro: bool | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class LoadResult:
+    """What `check` found. `unreadable` says that there is no model at all: no file, no XML, or another format.
+
+    The document may be there in spite of errors; `accepted` says whether it has any. `tree` is the XML that it came
+    from, and `origins` lead from its lines to where they were written if it was expanded. Where includes were expanded,
+    `included` is the size of their files, `entries` what became of parts of them, and `mixed` says that the files may
+    have been of several versions.
+    """
+
+    path: str
+    document: Document | None
+    diagnostics: tuple[Diagnostic, ...]
+    unreadable: bool = False
+    tree: XmlElement | None = None
+    origins: Mapping[str, Origins] = field(default_factory=dict[str, Origins])
+    included: int = 0
+    entries: tuple[Entry, ...] = ()
+    mixed: bool = False
+
+    @property
+    def text_name(self) -> str:
+        """What the text that the document was read from is called in locations: a file, or what it expanded to."""
+        expanded = expanded_name(self.path)
+        return expanded if expanded in self.origins else self.path
+
+    @property
+    def size(self) -> int:
+        """How many elements and attributes the source has."""
+        if self.tree is not None:
+            return self.included + _parts(self.tree)
+        return count_parts(self.document) if self.document else 0
+
+    @property
+    def accepted(self) -> bool:
+        """Whether there is no error."""
+        return not any(diagnostic.is_error for diagnostic in self.diagnostics)
+
+
+def expanded_name(file: str) -> str:
+    """What the text is called that a xacro file expands to."""
+    return f"{file} (expanded)"
+
+
+def _parts(tree: XmlElement) -> int:
+    return sum(1 + len(element.keys()) for element in tree.iter())
+
+
+def name_of_input(source: Input) -> str:
+    """What messages call it: a document is called as the file that it came from."""
+    if isinstance(source, Document):
+        return source.location.file or "<document>"
+    return "<bytes>" if isinstance(source, bytes) else str(source)

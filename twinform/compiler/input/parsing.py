@@ -1,0 +1,170 @@
+"""From bytes to a safe XML tree.
+
+The input may be hostile: no entities, no DTD, no network, no decompression, a limit on size. Real files are often not
+quite XML; what the parsers of ROS and Gazebo let pass is repaired when it can only mean one thing.
+"""
+
+import codecs
+from pathlib import Path
+from typing import cast
+
+from lxml import etree
+
+from twinform.compiler.input.limits import (
+    LARGEST,
+    Excess,
+    excess_of_bytes,
+    excess_of_namespaces,
+    excess_of_tree,
+    uncountable_encoding,
+)
+from twinform.compiler.input.xml_recovery import (
+    LIMITS,
+    LOST_BRACKET,
+    first_fatal,
+    repaired,
+    with_bracket,
+    with_single_colons,
+)
+from twinform.diagnostics import DiagnosticSink, Location
+from twinform.diagnostics.rules import reading
+from twinform.schemas import XmlElement, undeclared_namespace
+
+_UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+
+
+class UnreadableError(Exception):
+    """There is no tree; the notes say why."""
+
+
+def read_bytes(path: Path, sink: DiagnosticSink) -> bytes:
+    """The bytes of a file; of a pipe or device no more than a file may have.
+
+    Raises:
+        UnreadableError: it is missing, or too large.
+    """
+    try:
+        with path.open("rb") as file:
+            text = file.read(LARGEST + 1)
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise _unreadable(sink, f"cannot read the file: {reason}") from error
+    if len(text) > LARGEST:
+        raise _unreadable(sink, f"the file has more than {LARGEST:,} bytes, which is the limit")
+    return text
+
+
+def parse(text: bytes, sink: DiagnosticSink) -> XmlElement:
+    """The root of the document, its default namespace removed and undeclared prefixes given a namespace.
+
+    Raises:
+        UnreadableError: it is not XML, or has a document type declaration.
+    """
+    if not text.strip():
+        raise _unreadable(sink, "the file is empty")
+    refuse_excess(excess_of_bytes(text), sink)
+    encoding = uncountable_encoding(text)
+    if encoding is not None:
+        message = f"the encoding {encoding!r} is none that models are written in"
+        hint = "save the file as UTF-8, or name an encoding that it may have, such as UTF-8 or ISO-8859-1"
+        sink.report(reading.NOT_WELL_FORMED, message, Location(line=1, path="/"), help=hint)
+        raise UnreadableError
+    repaired = False
+    try:
+        root = etree.fromstring(text, _parser(recover=False))
+        refuse_excess(excess_of_tree(root, text), sink)
+    except etree.XMLSyntaxError as error:
+        root, repaired = _recover(text, sink, error), True
+    refuse_excess(excess_of_namespaces(root, text, repaired=repaired), sink)
+    if root.getroottree().docinfo.doctype:
+        sink.report(reading.DOCTYPE, "the document has a DOCTYPE; none is allowed", Location(line=1, path="/"))
+        raise UnreadableError
+    if b"\0" in text[:4] or text[:2] in _UTF_16:
+        message = "the file is in UTF-16, which neither urdfdom nor Drake nor libsdformat reads"
+        sink.report(reading.WIDE_ENCODING, message, Location(line=1, path="/"), help="save the file as UTF-8")
+    return root
+
+
+def refuse_excess(excess: Excess | None, sink: DiagnosticSink) -> None:
+    """Report what there is too much of.
+
+    Raises:
+        UnreadableError: there is something.
+    """
+    if excess is not None:
+        sink.report(reading.OVERSIZED_FILE, excess.message, excess.location)
+        raise UnreadableError
+
+
+def _parser(*, recover: bool) -> etree.XMLParser:
+    return etree.XMLParser(
+        resolve_entities=False,
+        no_network=True,
+        load_dtd=False,
+        attribute_defaults=False,
+        huge_tree=False,
+        remove_comments=True,
+        remove_pis=True,
+        recover=recover,
+    )
+
+
+def _recover(text: bytes, sink: DiagnosticSink, error: etree.XMLSyntaxError) -> XmlElement:
+    whole = with_bracket(text)
+    if whole is not None:
+        line = text[: text.index(b"?xml")].count(b"\n") + 1
+        message = "not well-formed XML, repaired: the '<' of the XML declaration is missing"
+        sink.report(reading.REPAIRED_XML, message, Location(line=line, path="/"), help=LOST_BRACKET)
+        text = whole
+    text, flaws = with_single_colons(text)
+    parser = _parser(recover=True)
+    try:
+        root = cast("XmlElement | None", etree.fromstring(text, parser))  # None for what has no element at all
+    except etree.XMLSyntaxError:  # what begins with a zero byte is no text to libxml2, and nothing is recovered
+        root = None
+    log = list(parser.error_log)
+    flaw = first_fatal(log, text)
+    if root is None or flaw is not None:
+        line, column, message, hint = flaw or (error.position[0], error.position[1], error.msg or "not XML", None)
+        if any(entry.type_name == "ERR_RESOURCE_LIMIT" for entry in log):
+            refuse_excess(Excess(f"{LIMITS} (column {column})", Location(line=line, path="/")), sink)
+        words = f"not well-formed XML: {message} (column {column})"
+        sink.report(reading.NOT_WELL_FORMED, words, Location(line=line, path="/"), help=hint)
+        raise UnreadableError from error
+    refuse_excess(excess_of_tree(root, text), sink)
+    for line, _, message, hint in (*flaws, *repaired(log)):
+        words = f"not well-formed XML, repaired: {message}"
+        sink.report(reading.REPAIRED_XML, words, Location(line=line, path="/"), help=hint)
+    _declare_prefixes(root)
+    return root
+
+
+def _declare_prefixes(root: XmlElement) -> None:
+    """Give the names of undeclared prefixes, which libxml2 leaves as literal `prefix:name`, a namespace."""
+    for element in root.iter():
+        tag = str(element.tag)
+        if ":" in tag and tag[0] != "{":
+            element.tag = _qualified(tag)
+        for name in [name for name in element.attrib if ":" in str(name) and str(name)[0] != "{"]:
+            element.set(_qualified(str(name)), element.attrib.pop(name))
+
+
+def _qualified(name: str) -> str:
+    prefix, _, local = name.partition(":")
+    return f"{{{undeclared_namespace(prefix)}}}{local}"
+
+
+def strip_default_namespace(root: XmlElement) -> str | None:
+    """Make names in the default namespace plain, as the readers of ROS and Gazebo see them; give the namespace."""
+    namespace = root.nsmap.get(None)
+    if namespace is None:
+        return None
+    start = f"{{{namespace}}}"
+    for element in root.iter(f"{start}*"):
+        element.tag = str(element.tag)[len(start) :]
+    return namespace
+
+
+def _unreadable(sink: DiagnosticSink, message: str) -> UnreadableError:
+    sink.report(reading.UNREADABLE_FILE, message)
+    return UnreadableError()

@@ -1,0 +1,79 @@
+"""From a xacro file to the text that it expands to, and where its lines come from."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from lxml import etree
+
+from twinform.compiler.input.limits import LARGEST
+from twinform.compiler.input.parsing import UnreadableError
+from twinform.compiler.input.xacro.conversation import ask_worker
+from twinform.compiler.search.uris import SearchPath
+from twinform.diagnostics import DiagnosticSink, Location, Origins
+from twinform.diagnostics.rules import reading
+from twinform.diagnostics.rules import xacro as rules
+
+_REMARKS = {"warning: ": rules.XACRO_WARNING, "error: ": rules.XACRO_WARNING}
+
+
+@dataclass(frozen=True, slots=True)
+class Expansion:
+    """The expanded text, and where the elements on its lines were written."""
+
+    text: bytes
+    origins: Origins
+
+
+def expand(path: Path, arguments: Mapping[str, str], search: SearchPath, sink: DiagnosticSink) -> Expansion:
+    """The text of a xacro file.
+
+    Raises:
+        UnreadableError: it cannot be expanded; the notes say why.
+    """
+    if not path.is_file():
+        sink.report(reading.UNREADABLE_FILE, "cannot read the file: there is none of this name")
+        raise UnreadableError
+    outcome = ask_worker(path, arguments, search)
+    _report_remarks(outcome, sink)
+    if "text" not in outcome:
+        _report_failure(outcome, sink)
+        raise UnreadableError
+    for name in outcome["unused"]:
+        message = f"the argument {name!r} is not one of the file's"
+        sink.report(rules.UNUSED_ARGUMENT, message, Location(line=1), found=name)
+    text = outcome["text"].encode()
+    if len(text) > LARGEST:
+        message = f"the expanded file has {len(text):,} bytes; the limit is {LARGEST:,}"
+        sink.report(reading.UNREADABLE_FILE, message)
+        raise UnreadableError
+    return Expansion(text, _origins(text, outcome["places"]))
+
+
+def _report_failure(outcome: Mapping[str, Any], sink: DiagnosticSink) -> None:
+    if "missing" in outcome:
+        advice = "run: pip install 'twinform[xacro]'"
+        message = f"this is a xacro file, and xacro is not installed ({outcome['missing']})"
+        sink.report(rules.XACRO_MISSING, message, Location(line=1), help=advice)
+        return
+    file, line = outcome["place"]
+    sink.report(rules.XACRO_ERROR, outcome["error"], Location(file, line), help=outcome.get("help") or None)
+
+
+def _report_remarks(outcome: Mapping[str, Any], sink: DiagnosticSink) -> None:
+    for text, file, line in outcome.get("remarks", ()):
+        start = next((start for start in _REMARKS if text.startswith(start)), "")
+        rule = _REMARKS.get(start, rules.XACRO_MESSAGE)
+        sink.report(rule, text.removeprefix(start), Location(file, line))
+
+
+def _origins(text: bytes, places: list[tuple[str, int] | None]) -> Origins:
+    """Elements are in the same order in the expanded text and in the list of places."""
+    parser = etree.XMLParser(remove_comments=True, remove_pis=True, resolve_entities=False, no_network=True)
+    try:
+        root = etree.fromstring(text, parser)
+    except etree.XMLSyntaxError:
+        return Origins()  # reading the text will say what is wrong with it
+    pairs = zip(root.iter(), places, strict=False)
+    return Origins.of((element.sourceline or 0, Location(*place)) for element, place in pairs if place)

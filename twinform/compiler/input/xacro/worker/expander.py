@@ -1,0 +1,162 @@
+"""xacro, with every function replaced by which it reads files, evaluates expressions, or leaves its own process."""
+
+import sys
+from collections.abc import Callable, Mapping
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType, SimpleNamespace
+from typing import Any
+from xml.dom import minidom
+
+from twinform.compiler.input.xacro.worker.channel import Compiler, MissingFileError
+from twinform.compiler.input.xacro.worker.data_files import DataFiles
+from twinform.compiler.input.xacro.worker.expressions.budget import Budget
+from twinform.compiler.input.xacro.worker.expressions.interpreter import Interpreter
+from twinform.compiler.input.xacro.worker.expressions.values import Names, RefusedError, Value
+from twinform.compiler.input.xacro.worker.language import xacro_functions
+from twinform.compiler.input.xacro.worker.places import Place, parse, place_of
+from twinform.compiler.input.xacro.worker.substitutions import Substitutions
+from twinform.compiler.input.xacro.worker.texts import Texts
+from twinform.compiler.input.xacro.worker.vocabulary import vocabulary
+
+_WATCHED = ("eval_all", "check_attrs", "grab_property", "grab_macro", "process_include", "handle_macro_call")
+"""Functions of xacro whose first argument is the element that it is at."""
+_BARRED = ("compile", "eval", "exec", "open")
+"""What the modules of xacro have no more: whatever of them is not replaced fails in place of running."""
+
+
+class Expander:
+    """Expands one file, and is what the functions of its expressions know of it."""
+
+    def __init__(self, compiler: Compiler, file: str) -> None:
+        self.xacro: Any = import_module("xacro")
+        self.module: Any = import_module("xacro.substitution_args")
+        self.compiler = compiler
+        self.file = file
+        self.node: Any = None
+        self.budget = Budget()
+        self.interpreter = Interpreter(self.budget, self.xacro.NameSpace)
+        self.substitutions = Substitutions(self.module, self.interpreter, self._package, compiler.environment)
+        self.texts = Texts(self.interpreter.evaluate, self._substitute, self.xacro.XacroException, self.budget)
+        theirs: Mapping[str, Any] = getattr(self.xacro, "_global_symbols", {})
+        self.names = vocabulary(theirs, xacro_functions(self), self.budget, self._warn)
+        units = {unit.value.tag: unit.value.conversion_constant for unit in self.xacro.ConstructUnits}
+        self.data_files = DataFiles(units, self._measure)
+        self.beside: Callable[[str], str] = self.xacro.abs_filename_spec
+        self.print_location: Callable[[], None] = self.xacro.print_location
+        self._replace()
+
+    def expand(self, arguments: dict[str, str]) -> minidom.Document:
+        """The tree that the file expands to."""
+        return self.xacro.process_file(self.file, mappings=arguments, verbosity=0)
+
+    def place(self) -> Place:
+        """Where the element was written that was looked at last."""
+        return place_of(self.node) or (self.file, 1)
+
+    def argument(self, name: str) -> str:
+        """An argument of the file, as text."""
+        return self.xacro.substitution_args_context["arg"][name]
+
+    def path(self, name: str) -> str:
+        """What a file name means in the file that is being read."""
+        return self._find(name) if name.startswith("package://") else self.beside(name)
+
+    def data(self, name: str) -> Value:
+        """The content of a data file."""
+        path = self.path(name)
+        return self.data_files.load(self.compiler.read(path), path)
+
+    def say(self, text: str) -> None:
+        """Have something reported: what is printed is noted with its place."""
+        print(text, file=sys.stderr)  # noqa: T201 - see above
+
+    def locate(self) -> None:
+        """Have it reported which macros and files are being expanded."""
+        self.print_location()
+
+    def failure(self, message: str) -> Exception:
+        """What stops the expansion."""
+        return self.xacro.XacroException(message)
+
+    def _replace(self) -> None:
+        _replace(
+            self.xacro,
+            {
+                "_global_symbols": self.names,
+                "abs_filename_spec": self.path,
+                "eval_extension": self._substitute,
+                "eval_text": self._text,
+                "glob": SimpleNamespace(glob=self.compiler.match),
+                "load_yaml": self.data,
+                "parse": self._parse,
+                "print_location": lambda: None,  # every remark has its place already
+                "root_dir": _working_folder(),
+                "safe_eval": self.interpreter.evaluate,
+                **{name: self._watched(getattr(self.xacro, name, None)) for name in _WATCHED},
+            },
+        )
+        _replace(self.module, self.substitutions.replacements())
+        for module in (self.xacro, self.module):
+            for name in _BARRED:
+                setattr(module, name, _refuse)
+
+    def _watched(self, function: Any) -> Callable[..., Any]:
+        def call(node: Any, *rest: Any) -> Any:
+            self.node = node
+            self.budget.spend()
+            return function(node, *rest)
+
+        return call
+
+    def _text(self, text: str, symbols: Names) -> Value:
+        """What xacro's function of the same arguments does."""
+        return self.texts.value(text, symbols)
+
+    def _substitute(self, text: str) -> str:
+        if text == "$(cwd)":
+            return self.xacro.root_dir
+        try:
+            return self.module.resolve_args(text, context=self.xacro.substitution_args_context)
+        except self.module.ArgException as error:
+            raise self.xacro.XacroException("Undefined substitution argument", exc=error) from error
+        except Exception as error:
+            raise self.xacro.XacroException(exc=error, suffix=f"when evaluating '{text}'") from error
+
+    def _package(self, name: str) -> str:
+        return self._find(f"package://{name}")
+
+    def _find(self, uri: str) -> str:
+        return self.compiler.find(uri, (self.xacro.filestack or [None])[-1] or self.file)
+
+    def _warn(self, text: str) -> None:
+        self.xacro.warning(text)
+
+    def _measure(self, expression: str) -> Value:
+        return self.interpreter.evaluate(expression, self.names)
+
+    def _parse(self, _: object, filename: str) -> minidom.Document:
+        """What xacro's own function does, with lines."""
+        try:
+            return parse(self.compiler.read(filename), filename)
+        except MissingFileError as error:
+            self.xacro.filestack.pop()
+            raise self.xacro.XacroException(exc=error) from error
+
+
+def _replace(module: ModuleType, replacements: Mapping[str, Any]) -> None:
+    for name, value in replacements.items():
+        if not hasattr(module, name):
+            raise ImportError(f"this version of xacro is not known: {module.__name__} has no {name}")
+        setattr(module, name, value)
+
+
+def _refuse(*_: object, **__: object) -> Any:
+    raise RefusedError("xacro must not evaluate or open anything by itself")
+
+
+def _working_folder() -> str:
+    try:
+        return str(Path.cwd())
+    except OSError:  # it was deleted
+        return "."

@@ -1,0 +1,150 @@
+"""Text that is not quite XML: what can be mended without any doubt, and what to tell the author of the rest."""
+
+import re
+from collections.abc import Iterable
+from typing import NamedTuple, Protocol
+
+REPAIRS = {
+    "ERR_UNKNOWN_VERSION": "write <?xml version='1.0'?>",
+    "ERR_VERSION_MISSING": "write <?xml version='1.0'?>",
+    "ERR_HYPHEN_IN_COMMENT": "write no '--' inside a comment",
+    "NS_ERR_UNDEFINED_NAMESPACE": "declare the prefix on the root element with xmlns:prefix='...'",
+    "ERR_RESERVED_XML_NAME": "move <?xml ...?> to the very beginning of the file",
+}
+"""What libxml2 recovers from without any doubt about the tree, and what the author should do instead."""
+
+LIMITS = "elements are more than 256 deep, a text has more than 10 MB, or entities make more of it than they are"
+"""What libxml2 refuses whatever it says."""
+
+LOST_BRACKET = "write <?xml, with the '<', at the beginning"
+
+_BOM = b"\xef\xbb\xbf"
+_FOLLOWS = frozenset({"ERR_SPACE_REQUIRED", "ERR_STRING_NOT_STARTED", "ERR_XMLDECL_NOT_FINISHED"})
+"""What libxml2 says as well of a declaration that it does not understand."""
+
+_HELP = {
+    "ERR_ATTRIBUTE_NOT_STARTED": "put the value of the attribute in quotes: name='value'",
+    "ERR_ATTRIBUTE_NOT_FINISHED": "close the quotes of the attribute that begins on this line or before it",
+    "ERR_LT_IN_ATTRIBUTE": "close the quotes of the attribute that begins on this line or before it; a '<' that is "
+    "meant is written &lt;",
+    "ERR_ATTRIBUTE_WITHOUT_VALUE": "give the attribute a value in quotes: name='value'",
+    "ERR_ATTRIBUTE_REDEFINED": "delete one of the two attributes of this name",
+    "ERR_SPACE_REQUIRED": "put a blank between attributes",
+    "ERR_GT_REQUIRED": "close the tag with '>'; an end tag has no attributes",
+    "ERR_TAG_NOT_FINISHED": "the file ends too early: it was cut off, or the last end tags are missing",
+    "ERR_UNDECLARED_ENTITY": "write the character itself; XML knows only &lt; &gt; &amp; &apos; and &quot;",
+    "ERR_COMMENT_NOT_FINISHED": "close the comment with -->",
+    "ERR_CDATA_NOT_FINISHED": "close the section with ]]>",
+    "ERR_INVALID_ENCODING": "save the file as UTF-8, or name its encoding: <?xml version='1.0' encoding='...'?>",
+    "ERR_UNSUPPORTED_ENCODING": "name an encoding that exists, such as UTF-8",
+    "ERR_INVALID_CHAR": "delete the control character",
+    "NS_ERR_QNAME": "write one colon between a prefix and a name",
+}
+_COLONS = re.compile(
+    rb"<!--(?:.*?-->|.*)|<!\[CDATA\[(?:.*?\]\]>|.*)|(?P<start></?[A-Za-z_][\w.-]*)::(?=[A-Za-z_])", re.DOTALL
+)
+"""Two colons in a tag; comments and sections are passed over, and those that do not end to the end of the text."""
+_MISMATCH = re.compile(r"Opening and ending tag mismatch: (?P<open>\S+) line (?P<line>\d+) and (?P<close>\S+)")
+
+
+class Entry(Protocol):
+    """An entry of libxml2's error log."""
+
+    @property
+    def line(self) -> int: ...  # noqa: D102 - the names say it
+    @property
+    def column(self) -> int: ...  # noqa: D102 - as above
+    @property
+    def message(self) -> str: ...  # noqa: D102 - as above
+    @property
+    def type_name(self) -> str: ...  # noqa: D102 - as above
+
+
+class XmlError(NamedTuple):
+    """What is wrong at a place, and what to do about it."""
+
+    line: int
+    column: int
+    message: str
+    help: str | None
+
+
+def with_bracket(text: bytes) -> bytes | None:
+    """The text with the `<` that its declaration has lost; None where that is not what is wrong with it."""
+    start = text.removeprefix(_BOM)
+    return text.replace(b"?xml", b"<?xml", 1) if start.lstrip().startswith(b"?xml") else None
+
+
+def with_single_colons(text: bytes) -> tuple[bytes, list[XmlError]]:
+    """The text with one colon where tags have two between a prefix and a name, and where that was."""
+    flaws: list[XmlError] = []
+    pieces: list[bytes] = []
+    line, counted, copied = 1, 0, 0
+    for found in (each for each in _COLONS.finditer(text) if each["start"]):
+        line, counted = line + text.count(b"\n", counted, found.start()), found.start()
+        pieces += (text[copied : found.start()], found["start"], b":")
+        copied = found.end()
+        if not found["start"].startswith(b"</"):
+            name = found["start"][1:].decode(errors="replace")
+            flaws.append(XmlError(line, 0, f"two colons behind the prefix {name}", _HELP["NS_ERR_QNAME"]))
+    return b"".join((*pieces, text[copied:])), flaws
+
+
+def first_fatal(log: Iterable[Entry], text: bytes) -> XmlError | None:
+    """The first entry that leaves doubt about the tree."""
+    entries = list(log)
+    mended = {(entry.line, entry.column) for entry in entries if entry.type_name == "ERR_VERSION_MISSING"}
+    for entry in entries:
+        if entry.type_name in REPAIRS or (entry.type_name in _FOLLOWS and (entry.line, entry.column) in mended):
+            continue
+        line = entry.line
+        if entry.type_name == "ERR_COMMENT_NOT_FINISHED":
+            line = text[: text.rfind(b"<!--")].count(b"\n") + 1
+        return XmlError(line, entry.column, entry.message.strip(), _help(entry, text))
+    return None
+
+
+def repaired(log: Iterable[Entry]) -> list[XmlError]:
+    """The entries that do not."""
+    return [
+        XmlError(entry.line, entry.column, entry.message.strip(), REPAIRS[entry.type_name])
+        for entry in log
+        if entry.type_name in REPAIRS
+    ]
+
+
+def _help(entry: Entry, text: bytes) -> str | None:
+    if _is_at_the_end(entry, text) and entry.type_name in {"ERR_ATTRIBUTE_WITHOUT_VALUE", "ERR_GT_REQUIRED"}:
+        return "the file ends in the middle of a tag: it was cut off"
+    match entry.type_name:
+        case "ERR_TAG_NAME_MISMATCH":
+            return _mismatch(entry.message)
+        case "ERR_NAME_REQUIRED":
+            if entry.message.startswith("xmlParseEntityRef"):
+                return "write & as &amp;"
+            return "write the name right behind the '<'; a '<' that is meant as text is written &lt;"
+        case "ERR_DOCUMENT_EMPTY":
+            return "a model begins with '<': delete what stands before it, or name another file if this is no model"
+        case "ERR_DOCUMENT_END":
+            return _extra(entry.line, text)
+        case _:
+            return _HELP.get(entry.type_name)
+
+
+def _is_at_the_end(entry: Entry, text: bytes) -> bool:
+    return entry.line >= text.rstrip().count(b"\n") + 1 and not text.rstrip().endswith(b">")
+
+
+def _mismatch(message: str) -> str:
+    found = _MISMATCH.match(message)
+    if found is None:
+        return "let every end tag repeat the name of its start tag"
+    opened, line, closed = found["open"], found["line"], found["close"]
+    return f"write </{opened}> for the <{opened}> of line {line} before this </{closed}>, or correct the name"
+
+
+def _extra(line: int, text: bytes) -> str:
+    rest = b"\n".join(text.splitlines()[line - 1 :]).lstrip()
+    if rest.startswith(b"<") and not rest.startswith(b"</"):
+        return "a file holds one root element: move the second one into a file of its own"
+    return "delete what follows the end tag of the root element"

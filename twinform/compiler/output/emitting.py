@@ -1,0 +1,163 @@
+"""From a document to validated text."""
+
+import re
+from collections.abc import Callable
+from collections.abc import Set as AbstractSet
+from dataclasses import replace
+
+from lxml import etree
+
+from twinform.compiler.output import sdf, urdf
+from twinform.compiler.output.default_namespaces import has_made_up_prefixes, restore_defaults
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Fate, Location
+from twinform.diagnostics.rules import to_sdf
+from twinform.ir import Document, Format, walk
+from twinform.ir.verify import verify_again
+from twinform.passes import PassInstrumentation, Pipeline
+from twinform.schemas import (
+    Context,
+    Version,
+    XmlElement,
+    gate,
+    libxml2_errors,
+    parse_version,
+    path_of,
+    print_version,
+    reader,
+    table,
+)
+
+_NAMED = re.compile(r"\[@name='([^']*)'\]")
+_BACK_ENDS: dict[Format, Callable[[Document, Version, dict[str | None, str]], XmlElement]] = {
+    Format.URDF: urdf.emit,
+    Format.SDF: sdf.emit,
+}
+
+
+def emit(document: Document, sink: DiagnosticSink, *, fit: bool = False, kept: AbstractSet[str] = frozenset()) -> str:
+    """The text of a document in its own format and version, and errors in the notes where its schema refuses it.
+
+    Where the document was not read in this version, `fit` leaves out what other versions have and this one has not, and
+    accounts for it; but not the names that are `kept`, which the files that it was made of had so too.
+    """
+    return serialised(valid_tree(document, sink, fit=fit, kept=kept), document)
+
+
+def emit_legal(
+    document: Document,
+    legalisation: Pipeline,
+    sink: DiagnosticSink,
+    instrumentation: PassInstrumentation | None = None,
+    *,
+    fit: bool = True,
+    kept: AbstractSet[str] = frozenset(),
+) -> tuple[Document, str]:
+    """The document after the passes that its target asks for, and its text; empty where the notes have errors.
+
+    `fit` and `kept` are those of `emit`.
+    """
+    if len(legalisation):
+        document = legalisation.run(document, sink, instrumentation=instrumentation)
+        if not sink.has_errors:
+            verify_again(document, sink)
+    if sink.has_errors:
+        return document, ""
+    text = emit(document, sink, fit=fit, kept=kept)
+    return document, "" if sink.has_errors else text
+
+
+def valid_tree(
+    document: Document, sink: DiagnosticSink, *, fit: bool = False, kept: AbstractSet[str] = frozenset()
+) -> XmlElement:
+    """The XML of a document, validated; `emit` says how."""
+    root = document_tree(document)
+    found = DiagnosticSink(file=sink.file)
+    _validate(root, document.format, written_version(document), found, kept=kept if fit else None)
+    sink.entries.extend(found.entries)
+    sink.extend([located(diagnostic, document) for diagnostic in found.diagnostics])
+    return root
+
+
+def located(diagnostic: Diagnostic, document: Document) -> Diagnostic:
+    """A finding about what is to be written, with the line of the part of the source that it was made of."""
+    if diagnostic.location.line:
+        return diagnostic
+    lines = {name: node.source.line for node in walk(document) if node.source and (name := getattr(node, "name", None))}
+    named = (lines[name] for name in reversed(_NAMED.findall(diagnostic.location.path)) if name in lines)
+    return replace(diagnostic, location=diagnostic.location._replace(line=next(named, 1)))
+
+
+def document_tree(document: Document) -> XmlElement:
+    """The XML of a document, its names without a default namespace."""
+    named = {prefix or None: uri for prefix, uri in document.namespaces if prefix}
+    return _BACK_ENDS[document.format](document, written_version(document), named)
+
+
+def serialised(root: XmlElement, document: Document) -> str:
+    """The text of a document whose XML this is."""
+    default = dict(document.namespaces).get("")
+    if default is not None:
+        root = _in_namespace(root, default)
+    etree.indent(root, "  ")
+    text = etree.tostring(root, encoding="unicode")
+    if has_made_up_prefixes(text):
+        restore_defaults(root, dict(document.namespaces))
+        text = etree.tostring(root, encoding="unicode")
+    return f'<?xml version="1.0"?>\n{text}\n'
+
+
+def written_version(document: Document) -> Version:
+    """The version whose schema a document follows; the newest where it declares none that exists."""
+    facts = table(document.format)
+    if document.version in facts.versions:
+        return parse_version(document.version)
+    return (1, 0) if document.format is Format.URDF and document.version is None else facts.newest
+
+
+def _validate(
+    root: XmlElement, format_: Format, version: Version, sink: DiagnosticSink, *, kept: AbstractSet[str] | None
+) -> None:
+    """The gate behind the back end. The table pass looks only where the XSD refuses: at what came in as unknown.
+
+    What the version does not have is left out, but for the names that are kept; all of it stays where `kept` is None.
+    """
+    errors = libxml2_errors(root, format_, version)
+    if not errors:
+        return
+    found = DiagnosticSink(file=sink.file)
+    context = Context(found, sink.file, format_, version)
+    reader(format_, version).read(root, context)
+    gate(root, context, errors=errors)
+    if kept is not None:
+        _leave_out(context, kept, sink)
+    sink.extend(diagnostic for diagnostic in found.diagnostics if diagnostic.is_error)
+
+
+def _leave_out(context: Context, kept: AbstractSet[str], sink: DiagnosticSink) -> None:
+    """Take what the version does not have out of the tree that the table pass has looked at."""
+    version = f"{context.format.upper()} {print_version(context.version)}"
+    for element, fact in context.outside:
+        if fact.name in kept:
+            continue
+        what = f"the attribute {fact.name[1:]!r} of <{element.tag}>" if fact.is_attribute else f"<{element.tag}>"
+        message = f"{version} does not have {what}"
+        where = Location(sink.file, element.sourceline or 0, path_of(element))
+        weight = 1 if fact.is_attribute else sum(1 + len(each.keys()) for each in element.iter())
+        sink.report(to_sdf.OLDER_VERSION, message, where, found=fact.name)
+        sink.account(Fate.DROPPED, to_sdf.OLDER_VERSION, message, where, weight)
+        parent = element.getparent()
+        if fact.is_attribute:
+            element.attrib.pop(fact.name[1:], None)
+        elif parent is not None:
+            parent.remove(element)
+
+
+def _in_namespace(root: XmlElement, namespace: str) -> XmlElement:
+    """The same tree with its plain names in a default namespace."""
+    made = etree.Element(f"{{{namespace}}}{root.tag}", dict(root.attrib), {None: namespace, **root.nsmap})
+    made.text = root.text
+    made.extend(list(root))
+    for element in made.iterdescendants():
+        if str(element.tag)[0] != "{":
+            element.tag = f"{{{namespace}}}{element.tag}"
+    return made

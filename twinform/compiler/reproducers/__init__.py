@@ -1,0 +1,1 @@
+"""Files that make the fault of a pass come again, for `twinform reproduce`."""

@@ -1,0 +1,71 @@
+"""Files that make the fault of a pass come again: written where a pass fails, read by `twinform reproduce`."""
+
+import re
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+from twinform import __version__
+from twinform.compiler.reproducers.reproducer import Reproducer
+from twinform.passes import PassError
+
+_UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
+_LONGEST = 60
+"""Characters of a model's name in that of a file: file systems take 255 in all."""
+_MOST = 1000
+"""Files of one name; more are somebody's mistake."""
+
+
+def write_reproducer(error: PassError, source: str, folder: Path | None = None) -> Path:
+    """Write what makes the fault come again, and say where.
+
+    It goes into the folder, or the current one; where that cannot be written, into the one for temporary files. Nothing
+    is overwritten.
+
+    Raises:
+        OSError: it cannot be written.
+        TypeError: the pass has an option that the text of a pipeline cannot say.
+        ValueError: what the pass was given is no document of the IR.
+    """
+    text = Reproducer.of(error, source, __version__).to_json()
+    stem = f"twinform-{error.name}-{_stem(source)}"
+    folders = [folder] if folder else [Path(), Path(tempfile.gettempdir())]
+    problem: OSError | None = None
+    for each in folders:
+        try:
+            return _write_new(each, stem, text)
+        except OSError as error_:
+            problem = error_
+    raise problem or FileNotFoundError(str(folder))
+
+
+def _stem(source: str) -> str:
+    """The name of the source without its endings, of what is no file `document`."""
+    return _UNSAFE.sub("_", Path(source).name.partition(".")[0])[:_LONGEST].strip("_") or "document"
+
+
+def _write_new(folder: Path, stem: str, text: str) -> Path:
+    folder.mkdir(parents=True, exist_ok=True)
+    for path in _names(folder, stem):
+        try:
+            with path.open("x", encoding="utf-8", newline="\n") as file:
+                file.write(text)
+        except FileExistsError:
+            continue
+        return path
+    raise FileExistsError(f"there are {_MOST} files called {stem}")
+
+
+def _names(folder: Path, stem: str) -> Iterator[Path]:
+    yield folder / f"{stem}.json"
+    yield from (folder / f"{stem}-{number}.json" for number in range(2, _MOST + 1))
+
+
+def read_reproducer(path: Path) -> Reproducer:
+    """The reproducer in a file.
+
+    Raises:
+        OSError: it cannot be read.
+        ValueError: it is no reproducer.
+    """
+    return Reproducer.model_validate_json(path.read_bytes())

@@ -1,0 +1,63 @@
+"""What a conversion is asked for."""
+
+from dataclasses import dataclass, field
+from typing import Literal, get_args
+
+from twinform.ir import Document, Format
+from twinform.passes import NO_ASSETS, Assets, Pipeline
+from twinform.passes.carriers.provenance import has_mixed_words, source_version
+from twinform.passes.legalise import Target, legalisation
+from twinform.passes.legalise.to_urdf.select_model import SelectModel
+from twinform.schemas import table
+
+Language = Literal["sdf", "urdf", "json"]
+UrdfVersion = Literal["1.0", "1.1", "1.2"]
+URDF_VERSIONS: tuple[UrdfVersion, ...] = get_args(UrdfVersion)
+DEFAULT_SDF_VERSION = "1.11"
+"""The version of Gazebo Harmonic, the newest long-term release, and the first that can say `mimic`."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ConversionRequest:
+    """What a conversion is asked for; `passes` are the user's, and `assets` the files beside the source.
+
+    `mixed` says that the source has words that its version does not have.
+    """
+
+    to: Language
+    sdf_version: str | None = None
+    urdf_version: UrdfVersion | None = None
+    passes: Pipeline = field(default_factory=Pipeline)
+    carriers: bool = True
+    model: str | None = None
+    expand_includes: bool = False
+    mixed: bool = False
+    assets: Assets = field(default=NO_ASSETS, compare=False, repr=False)
+
+    def plan(self, source: Document) -> Pipeline:
+        """Every pass that a conversion of this document runs, in order: the user's, then those of the target."""
+        return Pipeline((*self.passes, *self.selection(source), *self.legalisation(source)))
+
+    def selection(self, source: Document) -> Pipeline:
+        """What takes the model that is asked for out of a file, where the way to the target does not begin so."""
+        if self.model is None or (source.format is Format.SDF and self.to == "urdf"):
+            return Pipeline()
+        return Pipeline((SelectModel(model=self.model),))
+
+    def legalisation(self, source: Document) -> Pipeline:
+        """The passes that the target asks for."""
+        if self.to == "json":
+            return Pipeline()
+        target = self.target(source, Format(self.to))
+        return Pipeline(legalisation(source.format, source.version, target)).with_files(self.assets)
+
+    def target(self, source: Document, format_: Format) -> Target:
+        """What a document becomes: of the version that is asked for, or else of the one that it came from."""
+        own = source.version if source.format is Format.SDF else None
+        before = None if source.format is format_ else source_version(source, format_)
+        before = before if before in table(format_).versions else None
+        version = self.sdf_version or own or before or DEFAULT_SDF_VERSION
+        known: dict[str, UrdfVersion] = {each: each for each in URDF_VERSIONS}
+        urdf = self.urdf_version or known.get(before or "", "1.0")
+        back = (version if format_ is Format.SDF else urdf) == before and has_mixed_words(source)
+        return Target(format_, version, urdf, self.carriers, self.model, back, self.mixed)

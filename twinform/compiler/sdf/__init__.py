@@ -1,1 +1,0 @@
-"""SDF: front end and back end."""

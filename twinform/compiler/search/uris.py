@@ -1,0 +1,191 @@
+"""Where the files are that a model names by URI."""
+
+import os
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from posixpath import normpath
+from typing import Literal, Self
+from urllib.parse import unquote, urlsplit
+
+from twinform.compiler.search import fuel
+from twinform.compiler.search.packages import PackageIndex, is_package, package_name
+from twinform.compiler.search.search_roots import folders_around
+from twinform.diagnostics.rules import files as rules
+from twinform.passes import AssetError
+
+_MODEL_VARIABLES = ("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "SDF_PATH", "GAZEBO_MODEL_PATH")
+_MOST_SHOWN = 6
+_MODEL_MARK = "model.config"
+
+
+class UriError(AssetError):
+    """A URI that leads nowhere, or where it must not lead."""
+
+
+@dataclass(frozen=True, slots=True)
+class SearchPath:
+    """The folders in which URIs are looked up.
+
+    `own` comes from the caller and is looked in first; `models` hold a folder for each model, `packages` one for each
+    package, and `workspaces` packages at any depth. The folders around the file that has the URI come last. `seen` are
+    the files that were found or read, so that nothing is written over one of them.
+    """
+
+    own: tuple[Path, ...] = ()
+    models: tuple[Path, ...] = ()
+    packages: tuple[Path, ...] = ()
+    workspaces: tuple[Path, ...] = ()
+    fuel: tuple[Path, ...] = ()
+    index: PackageIndex = field(default_factory=PackageIndex, compare=False, repr=False)
+    seen: set[Path] = field(default_factory=set[Path], compare=False, repr=False)
+
+    @classmethod
+    def of(cls, own: Iterable[str | Path] = (), environment: Mapping[str, str] = os.environ) -> Self:
+        """The folders given, and those that the variables of Gazebo and ROS name."""
+        ament = tuple(prefix / "share" for prefix in _folders(environment, "AMENT_PREFIX_PATH"))
+        return cls(
+            own=tuple(map(Path, own)),
+            models=tuple(folder for name in _MODEL_VARIABLES for folder in _folders(environment, name)),
+            packages=ament,
+            workspaces=tuple(_folders(environment, "ROS_PACKAGE_PATH")),
+            fuel=fuel.caches(environment),
+        )
+
+    def find(self, uri: str, beside: Path) -> Path:
+        """The file or folder that a URI names, which stands in the file `beside`.
+
+        Raises:
+            UriError: there is none, or it must not be read.
+        """
+        found = self._find(uri.strip(), beside)
+        self.seen.add(found)
+        return found
+
+    def _find(self, uri: str, beside: Path) -> Path:
+        scheme, separator, rest = uri.partition("://")
+        if not separator:
+            return self._plain(uri, beside)
+        match scheme:
+            case "model" | "package":
+                return self._named(uri, rest, beside)
+            case "file":
+                return self._plain(unquote(rest), beside, uri)
+            case "http" | "https":
+                return self._cached(uri)
+            case _:
+                raise UriError(rules.UNRESOLVED_URI, f"{uri!r} has a scheme that is not known: {scheme!r}")
+
+    def package(self, name: str, beside: Path) -> Path:
+        """The folder of a package, as `$(find name)` and `package://name` mean it.
+
+        Raises:
+            UriError: it is not there, or is no name.
+        """
+        return self._named(f"package://{name}", name, beside)
+
+    def _named(self, uri: str, rest: str, beside: Path) -> Path:
+        name, _, inner = normpath(unquote(rest)).partition("/")
+        if name in {"", "."}:
+            raise UriError(rules.UNRESOLVED_URI, f"{uri!r} names no model or package")
+        if name == "..":
+            raise UriError(rules.URI_LEAVES_FOLDER, f"{uri!r} leads out of the folders of models and packages")
+        around = folders_around(beside)
+        for folder in self._candidates(name, around):
+            if exists(folder / inner):
+                self._require_inside(uri, folder / inner, around)
+                return folder / inner
+        raise self._missing(uri, (*self._roots(), *around))
+
+    def _candidates(self, name: str, around: tuple[Path, ...]) -> Iterator[Path]:
+        """Every folder that may be called so, the most likely first."""
+        for root in self._roots():
+            yield root / name
+        for root in (*self.own, *self.workspaces):
+            if root.name == name or is_package(root, name):
+                yield root
+        for folder in around:
+            if folder.name == name or is_package(folder, name):
+                yield folder
+            yield folder / name
+            yield folder / "models" / name
+        for root in (*self.own, *self.workspaces):
+            yield from self.index.named(name, root)
+        for folder in around:
+            yield from self.index.directly_in(name, folder)
+
+    def _roots(self) -> tuple[Path, ...]:
+        return (*self.own, *self.models, *self.packages, *self.workspaces)
+
+    def _require_inside(self, uri: str, path: Path, around: Iterable[Path]) -> None:
+        real = path.resolve()
+        if not any(real.is_relative_to(root.resolve()) for root in (*self._roots(), *around)):
+            message = f"{uri!r} leads to {str(real)!r}, outside of the folders of models and packages"
+            raise UriError(rules.URI_LEAVES_FOLDER, message, "name the folder with --path DIR if this is meant")
+
+    def _plain(self, path: str, beside: Path, uri: str | None = None) -> Path:
+        """A path: absolute, beside the file, or in one of the folders."""
+        around = folders_around(beside)
+        for root in (beside.parent, *self._roots(), *around, *(folder / "models" for folder in around)):
+            if path and exists(root / path):
+                self._require_inside(uri or path, root / path, (beside.parent, *around))
+                return root / path
+        raise self._missing(uri or path, (beside.parent, *self._roots(), *around))
+
+    def _cached(self, uri: str) -> Path:
+        found = fuel.cached(uri, self.fuel)
+        if found is None:
+            host = urlsplit(uri).hostname or "the network"
+            message = f"{uri!r} is not in the local cache of Fuel, and nothing is fetched from {host}"
+            raise UriError(rules.UNRESOLVED_URI, message, _searched(self.fuel, f"run `gz fuel download -u '{uri}'`"))
+        return found
+
+    def _missing(self, uri: str, roots: Iterable[Path]) -> UriError:
+        where = _searched(dict.fromkeys(roots), "name other folders with --path DIR")
+        return UriError(rules.UNRESOLVED_URI, f"{uri!r} is not found", where)
+
+
+def exists(path: Path) -> bool:
+    """Whether a file or folder is there."""
+    try:
+        return path.exists()
+    except OSError:  # a name that is too long, a folder that may not be read
+        return False
+
+
+def _folders(environment: Mapping[str, str], variable: str) -> Iterator[Path]:
+    return (Path(part) for part in environment.get(variable, "").split(os.pathsep) if part)
+
+
+def _searched(folders: Iterable[Path], advice: str) -> str:
+    names = [str(folder) for folder in folders]
+    more = f" and {len(names) - _MOST_SHOWN} more" if len(names) > _MOST_SHOWN else ""
+    looked = f"looked in {', '.join(names[:_MOST_SHOWN])}{more}; " if names else ""
+    return looked + advice
+
+
+@dataclass(frozen=True, slots=True)
+class LocalAssets:
+    """The files that the document in the file `beside` names, for its passes."""
+
+    search: SearchPath
+    beside: Path
+
+    @property
+    def folder(self) -> Path | None:
+        """The folder of the document; None for a text that came from no file."""
+        return self.beside.parent if exists(self.beside) else None
+
+    def find(self, uri: str) -> Path:
+        """The file or folder that a URI names.
+
+        Raises:
+            UriError: there is none, or it must not be read.
+        """
+        return self.search.find(uri, self.beside)
+
+    def holder(self, folder: Path, kind: Literal["package", "model"]) -> str | None:
+        """What the package of ROS or the model of Gazebo is called that a folder is; None where it is none."""
+        if kind == "package":
+            return package_name(folder)
+        return folder.name if exists(folder / _MODEL_MARK) else None

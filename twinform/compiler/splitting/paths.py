@@ -1,0 +1,100 @@
+"""Relative paths of a world that is split: said from the folder that its files go to, and found from there."""
+
+import os
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Literal
+from urllib.parse import quote, unquote
+
+from twinform.compiler.search.uris import LocalAssets, exists
+from twinform.diagnostics import DiagnosticSink, Location
+from twinform.diagnostics.rules.files import MISSING_FILE
+from twinform.ir import Document
+from twinform.passes.framework.assets import AssetError
+from twinform.passes.transforms.uris import map_uris
+
+_ABSOLUTE = re.compile(r"[A-Za-z][\w+.-]*:|/|__")
+"""A scheme, a path from the root, or a word such as `__default__`."""
+_FILE = "file://"
+
+
+@dataclass(frozen=True, slots=True)
+class MovedAssets:
+    """The files that a document names whose relative paths were said anew: found by both spellings."""
+
+    source: LocalAssets
+    before: dict[str, str] = field(default_factory=dict[str, str])
+    """What each new path was in the source."""
+
+    @property
+    def folder(self) -> Path | None:
+        """The folder of the source."""
+        return self.source.folder
+
+    def find(self, uri: str) -> Path:
+        """The file or folder that a URI names.
+
+        Raises:
+            UriError: there is none, or it must not be read.
+        """
+        return self.source.find(self.before.get(uri, uri))
+
+    def holder(self, folder: Path, kind: Literal["package", "model"]) -> str | None:
+        """What the package of ROS or the model of Gazebo is called that a folder is; None where it is none."""
+        return self.source.holder(folder, kind)
+
+
+def moved(document: Document, source: LocalAssets, folder: Path, sink: DiagnosticSink) -> tuple[Document, MovedAssets]:
+    """The document with paths that lead to the same files from another folder, and the files as it names them now.
+
+    A path that leads to no file stays as it is, with a warning.
+    """
+    assets = MovedAssets(source)
+    here, there = source.beside.parent.resolve(), folder.resolve()
+    if here == there:
+        return document, assets
+
+    missing = set[str]()
+
+    def change(uri: str, _kind: str, where: Location) -> str:
+        path = _relative(uri)
+        if path is None:
+            return uri
+        found = _found(path, source)
+        if found is None:
+            _report(path, where, sink, missing)
+            return uri
+        new = os.path.relpath(found.parent.resolve() / found.name, there).replace(os.sep, "/")
+        made = _FILE + quote(new) if uri.strip().startswith(_FILE) else new
+        assets.before[made] = uri
+        return made
+
+    return map_uris(document, change), assets
+
+
+def _relative(uri: str) -> str | None:
+    """The path that is meant from the folder of the file; None where another place is."""
+    path = uri.strip()
+    if path.startswith(_FILE):
+        path = unquote(path.removeprefix(_FILE))
+    return None if not path or _ABSOLUTE.match(path) else path
+
+
+def _found(path: str, source: LocalAssets) -> Path | None:
+    """The file beside the source, which is not opened here and may be anywhere, or in the folders that are searched."""
+    beside = source.beside.parent / path
+    if exists(beside):
+        return beside
+    try:
+        return source.find(path)
+    except AssetError:
+        return None
+
+
+def _report(path: str, where: Location, sink: DiagnosticSink, reported: set[str]) -> None:
+    """Say once of each path that it is left alone."""
+    if path not in reported:
+        reported.add(path)
+        rest = "so it stays as it is: a path from the folder of the source, not of the result"
+        sink.report(MISSING_FILE, f"{path!r} leads to no file, {rest}", where, found=path)

@@ -1,1 +1,0 @@
-"""URDF: front end and back end."""

@@ -1,0 +1,122 @@
+"""What a stage of the compiler writes its findings into."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+
+from twinform.diagnostics.diagnostic import Diagnostic
+from twinform.diagnostics.ledger import Entry, Fate
+from twinform.diagnostics.location import NOWHERE, Location
+from twinform.diagnostics.origins import Origins
+from twinform.diagnostics.rule import Rule, Severity
+from twinform.diagnostics.side_file import SideFile
+
+MOST = 1000  # a hostile file can hold a hundred thousand mistakes; nobody reads past the first thousand
+LONGEST = 2000
+"""The longest message, in characters: a URI in it may have ten million."""
+
+
+@dataclass(slots=True)
+class DiagnosticSink:
+    """Collects diagnostics and ledger entries, in the order in which they are made.
+
+    `file` completes the locations, which know only a line and a path. `origins` lead from the lines of expanded texts
+    to where they were written. `has_errors` says whether anything here stops a conversion. `companions` are the files
+    that passes make to lie beside the result.
+    """
+
+    file: str = ""
+    strict: bool = False
+    diagnostics: list[Diagnostic] = field(default_factory=list[Diagnostic])
+    entries: list[Entry] = field(default_factory=list[Entry])
+    left_out: int = 0
+    has_errors: bool = False
+    origins: dict[str, Origins] = field(default_factory=dict[str, Origins])
+    companions: list[SideFile] = field(default_factory=list[SideFile])
+
+    def __post_init__(self) -> None:
+        self.has_errors = any(diagnostic.is_error for diagnostic in self.diagnostics)
+
+    def report(
+        self,
+        rule: Rule,
+        message: str,
+        location: Location = NOWHERE,
+        *,
+        found: str | None = None,
+        expected: str | None = None,
+        help: str | None = None,
+        related: tuple[Location, ...] = (),
+        severity: Severity | None = None,
+    ) -> None:
+        """Add a diagnostic; its severity follows from the rule and the mode where it is not given.
+
+        Past the limit, only the first error is still kept.
+        """
+        message, found = _shortened(message), _shortened(found) if found else found
+        severity = severity or rule.severity_in(strict=self.strict)
+        where = self._complete(location)
+        diagnostic = self._traced(Diagnostic(rule, message, where, severity, found, expected, help, related))
+        self._add(diagnostic)
+
+    def takes(self, severity: Severity) -> bool:
+        """Whether a finding so severe is still kept."""
+        return len(self.diagnostics) < MOST or (severity is Severity.ERROR and not self.has_errors)
+
+    def has(self, rule: Rule, location: Location, least: Severity = Severity.INFO) -> bool:
+        """Whether this rule was reported at this place, at least so severely."""
+        where = self._place(location)
+        return any(
+            each.rule is rule and self._place(each.location) == where and each.severity >= least
+            for each in self.diagnostics
+        )
+
+    def extend_new(self, diagnostics: Iterable[Diagnostic]) -> None:
+        """Add those whose rule was not reported at their place before."""
+        known = {(each.rule.name, self._place(each.location)) for each in self.diagnostics}
+        self.extend(each for each in diagnostics if (each.rule.name, self._place(each.location)) not in known)
+
+    def extend(self, diagnostics: Iterable[Diagnostic]) -> None:
+        """Add diagnostics that another stage has made."""
+        for diagnostic in diagnostics:
+            self._add(self._traced(diagnostic))
+
+    def account(self, fate: Fate, rule: Rule, message: str, location: Location = NOWHERE, weight: int = 1) -> None:
+        """Add a ledger entry."""
+        self.entries.append(Entry(fate, rule, message, self._origin(self._complete(location)), weight))
+
+    def traced_entries(self) -> tuple[Entry, ...]:
+        """The ledger's entries, also those that others have made, with the places where their parts were written."""
+        return tuple(replace(each, location=self._origin(each.location)) for each in self.entries)
+
+    def _place(self, location: Location) -> tuple[str, str | int]:
+        """What a place is known by: its path, since its line may be that of the part or of the node around it."""
+        where = self._origin(self._complete(location))
+        return where.file, where.path or where.line
+
+    def _add(self, diagnostic: Diagnostic) -> None:
+        if not self.takes(diagnostic.severity):
+            self.left_out += 1
+            return
+        self.diagnostics.append(diagnostic)
+        self.has_errors = self.has_errors or diagnostic.is_error
+
+    def _complete(self, location: Location) -> Location:
+        return location if location.file else location._replace(file=self.file)
+
+    def _traced(self, diagnostic: Diagnostic) -> Diagnostic:
+        """The diagnostic with the place where its part was written first, and its place in an expanded text second."""
+        if diagnostic.location.file not in self.origins:
+            return diagnostic
+        where = self._origin(diagnostic.location)
+        related = (diagnostic.location, *map(self._origin, diagnostic.related))
+        return replace(diagnostic, location=where, related=related)
+
+    def _origin(self, location: Location) -> Location:
+        """Where a place in an expanded text was written; any other place itself."""
+        origins = self.origins.get(location.file)
+        place = origins.place(location.line) if origins else None
+        return place._replace(path=location.path) if place else location
+
+
+def _shortened(text: str) -> str:
+    return text if len(text) <= LONGEST else f"{text[: LONGEST // 2]} ... {text[-LONGEST // 4 :]}"

@@ -1,0 +1,52 @@
+"""The materials of Gazebo Classic as colours."""
+
+import tomllib
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+from twinform.ir import Color
+
+_DATA = "data/classic_materials.toml"
+_WHITE = (1.0, 1.0, 1.0)
+"""What OGRE, whose scripts these are, takes for an ambient or diffuse colour that is not written."""
+
+
+@dataclass(frozen=True, slots=True)
+class ClassicMaterial:
+    """The colours of a material; `shininess` is the exponent of the highlight, `textures` are file names."""
+
+    ambient: Color
+    diffuse: Color
+    specular: Color | None
+    emissive: Color | None
+    shininess: float | None
+    textures: tuple[str, ...]
+
+
+@cache
+def classic_materials() -> dict[str, ClassicMaterial]:
+    """Those that have colours or images, by name."""
+    text = files("twinform.passes.appearance").joinpath(_DATA).read_text(encoding="utf-8")
+    rows: dict[str, dict[str, list[float] | list[str] | float]] = tomllib.loads(text)
+    return {name: _material(row) for name, row in rows.items() if row}
+
+
+def _material(row: dict[str, list[float] | list[str] | float]) -> ClassicMaterial:
+    shininess, textures = row.get("shininess"), row.get("textures")
+    return ClassicMaterial(
+        ambient=_color(row.get("ambient")) or (*_WHITE, 1.0),
+        diffuse=_color(row.get("diffuse")) or (*_WHITE, 1.0),
+        specular=_color(row.get("specular")),
+        emissive=_color(row.get("emissive")),
+        shininess=float(shininess) if isinstance(shininess, int | float) else None,
+        textures=tuple(map(str, textures)) if isinstance(textures, list) else (),
+    )
+
+
+def _color(value: object) -> Color | None:
+    """Red, green, blue, and an alpha of one."""
+    if not isinstance(value, list):
+        return None
+    parts: list[object] = value  # pyright: ignore[reportUnknownVariableType] - TOML says no more than list
+    return (*(float(str(part)) for part in parts), 1.0)

@@ -1,0 +1,147 @@
+"""Say how visuals look in the words of newer Gazebo."""
+
+import math
+from typing import ClassVar
+
+from pydantic import Field
+
+from twinform.diagnostics import DiagnosticSink, Location
+from twinform.diagnostics.rules.appearance import PBR_TOO_OLD, TEXTURED_SCRIPT, UNKNOWN_SCRIPT
+from twinform.ir import Document, Element, Format, GazeboExtension, Link, Material, Opaque, replace_fields, rewrite
+from twinform.passes.appearance.classic_materials import ClassicMaterial, classic_materials
+from twinform.passes.carriers.carriers import to_element
+from twinform.passes.framework.base import Pass
+from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
+from twinform.schemas import format_value, parse_version, table
+
+_PBR = "pbr/metal"
+_PBR_SINCE = (1, 6)
+
+
+class Materials(Pass):
+    """Turn material scripts of Gazebo Classic into colours, and colours into those of PBR.
+
+    Changes, on links whose name matches `links`:
+
+    1. with `scripts`, in SDF, a `<script>` that names a material of Classic: the colours of it are written instead, but
+       for those that the visual says itself;
+    2. with `scripts`, in URDF, the tag `<material>Gazebo/Red</material>` of a `<gazebo>` element, which becomes a
+       `<visual>` with the colours; the materials of URDF itself stay, ROS shows them;
+    3. with `pbr`, materials that have a colour and no `<pbr>`: they get its `metalness` and `roughness`; where that is
+       not given, it comes from the script's highlight: sqrt(2 / (shininess + 2)).
+
+    Never touches: materials of URDF, textures, and scripts of others.
+    Diagnostics: `unknown-script` for scripts whose colours are not known, which stay, and `textured-script` for those
+    that have an image as well, which newer Gazebo does not bring, and `pbr-too-old` for SDF before 1.6.
+    """
+
+    name = "materials"
+    example: ClassVar[str] = "materials{pbr=true roughness=0.7}"
+
+    scripts: bool = Field(default=True, description="Whether scripts become colours.")
+    pbr: bool = Field(default=False, description="Whether colours become those of PBR.")
+    metalness: float = Field(default=0.0, ge=0, le=1, description="From 0, paint, to 1, bare metal.")
+    roughness: float | None = Field(default=None, ge=0, le=1, description="From 0, a mirror, to 1.")
+    links: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only links"))
+
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
+        """The document with other materials."""
+        if self.pbr and not _has_pbr(document):
+            message = f"SDF {document.version} has no PBR, so the colours stay as they are"
+            sink.report(PBR_TOO_OLD, message, document.location, found=document.version, expected="1.6 or newer")
+            return self.model_copy(update={"pbr": False}).run(document, sink)
+
+        if document.format is Format.URDF:
+            return rewrite(document, GazeboExtension, lambda extension: self._extension(extension, sink))
+        return rewrite(document, Link, lambda link: self._link(link, sink))
+
+    def _is_meant(self, link: str | None) -> bool:
+        return link is not None and matches(link, self.links)
+
+    def _link(self, link: Link, sink: DiagnosticSink) -> Link:
+        if not self._is_meant(link.name):
+            return link
+        return rewrite(link, Material, lambda material: self._material(material, sink))
+
+    def _material(self, material: Material, sink: DiagnosticSink) -> Material:
+        script, found = material.script, None
+        if self.scripts and script is not None and script.name:
+            found = _known(script.name, script.location, sink)
+            if found:
+                material = _coloured(material, found)
+        return self._made_pbr(material, found) if self.pbr else material
+
+    def _made_pbr(self, material: Material, script: ClassicMaterial | None) -> Material:
+        """The material with metalness and roughness, if it has a colour and no PBR."""
+        colour = material.diffuse or material.ambient
+        if colour is None or material.albedo_map or any(_is_pbr(part) for part in material.opaque):
+            return material
+        numbers = {"metalness": self.metalness, "roughness": self._roughness(script)}
+        parts = (
+            Opaque(at=_PBR, element=Element(name=name, text=format_value(value)))
+            for name, value in numbers.items()
+            if value is not None
+        )
+        return material.model_copy(update={"opaque": (*material.opaque, *parts)})
+
+    def _roughness(self, script: ClassicMaterial | None) -> float | None:
+        """B. Karis 2013, Specular BRDF reference: the roughness of Blinn and Phong's highlight with this exponent."""
+        if self.roughness is not None or script is None or script.shininess is None:
+            return self.roughness
+        return min(1.0, math.sqrt(2 / (script.shininess + 2)))
+
+    def _extension(self, extension: GazeboExtension, sink: DiagnosticSink) -> GazeboExtension:
+        """A `<gazebo>` element of URDF with the colours of the script that it names."""
+        if not self.scripts or not self._is_meant(extension.reference):
+            return extension
+        return replace_fields(extension, content=tuple(self._tag(element, sink) for element in extension.content))
+
+    def _tag(self, element: Element, sink: DiagnosticSink) -> Element:
+        name = (element.get("value") or element.text or "").strip()
+        if element.name != "material" or element.children or not name:
+            return element
+        found = _known(name, element.location, sink)
+        if found is None:
+            return element
+        material = _coloured(Material(), found)
+        made = to_element(self._made_pbr(material, found) if self.pbr else material, "material", "sdf")
+        return Element(name="visual", children=(made,), source=element.source)
+
+
+def _has_pbr(document: Document) -> bool:
+    """Whether the document's version has PBR; what stands in the `<gazebo>` elements of URDF is of the newest."""
+    version = document.version
+    if document.format is not Format.SDF or version is None or version not in table("sdf").versions:
+        return True
+    return parse_version(version) >= _PBR_SINCE
+
+
+def _known(name: str, where: Location, sink: DiagnosticSink) -> ClassicMaterial | None:
+    """The material of a script; what is not known of it is noted."""
+    found = classic_materials().get(name)
+    if found is None:
+        message = f"the colours of the material script {name!r} are not known; it stays"
+        sink.report(UNKNOWN_SCRIPT, message, where, found=name)
+    elif found.textures:
+        message = (
+            f"of the material script {name!r} the colours are taken, and not its image {', '.join(found.textures)}"
+        )
+        sink.report(TEXTURED_SCRIPT, message, where, found=name)
+    return found
+
+
+def _coloured(material: Material, found: ClassicMaterial) -> Material:
+    """The material with the colours of a script, where it says none itself."""
+    return material.model_copy(
+        update={
+            "script": None,
+            "ambient": material.ambient or found.ambient,
+            "diffuse": material.diffuse or found.diffuse,
+            "specular": material.specular or found.specular,
+            "emissive": material.emissive or found.emissive,
+        }
+    )
+
+
+def _is_pbr(part: Opaque) -> bool:
+    return part.at.startswith("pbr") or (part.element is not None and part.element.name == "pbr")

@@ -1,0 +1,118 @@
+"""Set how collisions touch."""
+
+from typing import ClassVar, Self
+
+from pydantic import Field, model_validator
+
+from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.rules.appearance import NOTHING_MATCHED, UNSET_SURFACE
+from twinform.ir import Collision, Document, Format, Link, Model, Surface, rewrite
+from twinform.passes.appearance.link_tags import with_element, with_tags
+from twinform.passes.framework.base import Pass
+from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
+from twinform.schemas import format_value
+
+_TAGS = {"mu": "mu1", "mu2": "mu2", "kp": "kp", "kd": "kd", "max_vel": "maxVel", "min_depth": "minDepth"}
+"""The flat tags of `<gazebo>`, by field; the others stand where SDF has them."""
+_PATHS = {
+    "restitution_coefficient": ("collision", "surface", "bounce", "restitution_coefficient"),
+    "slip1": ("collision", "surface", "friction", "ode", "slip1"),
+    "slip2": ("collision", "surface", "friction", "ode", "slip2"),
+}
+
+
+class SetSurface(Pass):
+    """Set friction, restitution and contact parameters of collisions.
+
+    Changes the collisions whose name matches `collisions` on links whose name matches `links`:
+
+    1. in SDF, the `<surface>` of each;
+    2. in URDF, the `<gazebo reference="LINK">` tags `mu1`, `mu2`, `kp`, `kd`, `maxVel` and `minDepth`, and for what has
+       no tag, restitution and slip, the `<collision>` in such an element. These are about all collisions of a link.
+
+    Only what an option is given for is set; all else that is written of a surface stays.
+    Never touches: links without collisions, and models that an `<include>` names.
+    Diagnostics: `unset-surface` where URDF cannot say it for one of several collisions, and `nothing-matched`.
+    """
+
+    name = "set-surface"
+    example: ClassVar[str] = 'set-surface{links="*wheel*" mu=0.9 mu2=0.5}'
+
+    links: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only links"))
+    collisions: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only collisions"))
+    mu: float | None = Field(default=None, ge=0, description="Coulomb friction along the first direction.")
+    mu2: float | None = Field(default=None, ge=0, description="Likewise along the second; not set, it stays as it is.")
+    restitution: float | None = Field(default=None, ge=0, le=1, description="From 0, no bounce, to 1.")
+    kp: float | None = Field(default=None, gt=0, description="The stiffness of the contact, in N/m.")
+    kd: float | None = Field(default=None, ge=0, description="The damping of the contact, in N s/m.")
+    slip1: float | None = Field(default=None, ge=0, description="Force dependent slip along the first, in m/(N s).")
+    slip2: float | None = Field(default=None, ge=0, description="Likewise along the second direction.")
+    max_vel: float | None = Field(default=None, ge=0, description="The fastest correction of a contact, in m/s.")
+    min_depth: float | None = Field(default=None, ge=0, description="The depth that is left uncorrected, in m.")
+
+    @model_validator(mode="after")
+    def _check_numbers(self) -> Self:
+        if any(value in {float("inf"), float("-inf")} for value in self._values().values()):
+            raise ValueError("a surface has finite numbers")
+        return self
+
+    def _values(self) -> dict[str, float]:
+        """What is to be set, by the fields of a surface."""
+        fields = {"restitution_coefficient": self.restitution}
+        fields |= {name: getattr(self, name) for name in (*_TAGS, "slip1", "slip2")}
+        return {name: value for name, value in fields.items() if value is not None}
+
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
+        """The document with other surfaces."""
+        matched: list[Collision] = []
+
+        if document.format is Format.URDF:
+            made = rewrite(document, Model, lambda model: self._in_urdf(model, matched, sink))
+        else:
+            made = rewrite(document, Link, lambda link: self._in_sdf(link, matched))
+        if not matched:
+            collisions, links = ", ".join(self.collisions), ", ".join(self.links)
+            message = f"no collision {collisions!r} on a link {links!r}"
+            sink.report(NOTHING_MATCHED, message, document.location, found=collisions)
+        return made
+
+    def _matching(self, link: Link) -> list[Collision]:
+        if not matches(link.name, self.links):
+            return []
+        return [one for one in link.collisions if matches(one.name, self.collisions)]
+
+    def _in_sdf(self, link: Link, matched: list[Collision]) -> Link:
+        meant = self._matching(link)
+        matched += meant
+        if not meant or not self._values():
+            return link
+        chosen = {id(one) for one in meant}
+        collisions = tuple(self._set(one) if id(one) in chosen else one for one in link.collisions)
+        return link if collisions == link.collisions else link.model_copy(update={"collisions": collisions})
+
+    def _set(self, collision: Collision) -> Collision:
+        surface = (collision.surface or Surface()).model_copy(update=self._values())
+        return collision.model_copy(update={"surface": surface})
+
+    def _in_urdf(self, model: Model, matched: list[Collision], sink: DiagnosticSink) -> Model:
+        links: list[str] = []
+        for link in model.links:
+            meant = self._matching(link)
+            matched += meant
+            if meant and len(meant) < len(link.collisions):
+                names = ", ".join(repr(one.name) for one in meant)
+                message = f"URDF has one surface for all collisions of link {link.name!r}, not one for {names}"
+                sink.report(UNSET_SURFACE, message, meant[0].location, found=meant[0].name)
+            elif meant:
+                links.append(link.name)
+        made = self._tagged(model, links)
+        return model if made == model else made
+
+    def _tagged(self, model: Model, links: list[str]) -> Model:
+        values = {name: format_value(value) for name, value in self._values().items()}
+        tags = {tag: values[name] for name, tag in _TAGS.items() if name in values}
+        model = with_tags(model, links, tags)
+        for name, path in _PATHS.items():
+            if name in values:
+                model = with_element(model, links, path, values[name])
+        return model

@@ -1,0 +1,147 @@
+"""Putting pieces of SDF into a typed node, as if they had stood in its element."""
+
+from collections.abc import Mapping
+from typing import Any, TypeGuard, TypeVar, cast
+
+from lxml import etree
+from pydantic import ValidationError
+
+from twinform.diagnostics import DiagnosticSink
+from twinform.ir import Model, Node, Opaque
+from twinform.passes.carriers.definitions import definition_of
+from twinform.passes.carriers.sdf_versions import Terms
+from twinform.schemas import Context, Version, XmlElement, element_xml, reader
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+_REQUIRED = frozenset({"name", "type", "format", "version", "kind"})
+"""Fields that a node cannot be made without; where a piece sets them, it says so."""
+_ABOUT = frozenset({"source", "spelling"})
+
+
+class CarrierError(Exception):
+    """A carrier holds what cannot stand in its place, because somebody edited it."""
+
+
+def absorb(node: AnyNode, pieces: tuple[Opaque, ...], terms: Terms, version: Version) -> AnyNode:
+    """The node with the pieces; what the terms say is to go goes before they come.
+
+    Raises:
+        CarrierError: a piece is not of SDF.
+    """
+    for path in terms.without:
+        node = _blanked(node, path.split("."))
+    if terms.instead and isinstance(node, Model):
+        node = node.model_copy(update=_without_scope(node, terms.instead))
+    for piece in pieces:
+        node = _absorb(node, piece, terms, version)
+    return node
+
+
+def says_already(node: Node, piece: Opaque, terms: Terms) -> bool:
+    """Whether a mimic, which no older version has, was written by hand where one is carried."""
+    if terms.without or terms.instead or piece.element is None or piece.element.name != "mimic":
+        return False
+    holder: object = node
+    for step in filter(None, piece.at.split("/")):
+        holder = getattr(holder, step, None)
+    return getattr(holder, "mimic", None) is not None
+
+
+def _blanked(node: AnyNode, path: list[str]) -> AnyNode:
+    first, *rest = path
+    value = getattr(node, first, None)
+    if value is None:
+        return node
+    inner = _blanked(value, rest) if rest else type(node).model_fields[first].default
+    return node.model_copy(update={first: inner})
+
+
+def _without_scope(model: Model, prefix: str) -> dict[str, object]:
+    """A model without what was flattened into it from a nested one, and without that one as it was put together."""
+    own = prefix.removesuffix("::")
+    return {
+        field: tuple(each for each in getattr(model, field) if each.name != own and not each.name.startswith(prefix))
+        for field in ("links", "joints", "frames", "models")
+    }
+
+
+def _absorb(node: AnyNode, piece: Opaque, terms: Terms, version: Version) -> AnyNode:
+    data = _read(piece, definition_of(node) or "", version)
+    if piece.element is not None and piece.element.name == "pose" and not piece.at:
+        node = node.model_copy(update={"pose": None})  # one pose stands for another
+    return _merged(node, data, terms.index)
+
+
+def _read(piece: Opaque, definition: str, version: Version) -> dict[str, Any]:
+    """What a piece says about the node of a definition."""
+    if not definition:
+        raise CarrierError("there is nothing of SDF around it")
+    xml = etree.SubElement(etree.Element("sdf"), definition)
+    holder = xml
+    for step in filter(None, piece.at.split("/")):
+        holder = etree.SubElement(holder, step)
+    _put(piece, holder)
+    sink = DiagnosticSink()
+    data = reader("sdf", version).read(xml, Context(sink, "", "sdf", version), definition)
+    for found in sink.diagnostics:
+        if found.is_error and found.location.path != f"/sdf/{definition}":  # which lacks all that is not in the piece
+            raise CarrierError(found.message)
+    return {name: value for name, value in data.items() if name not in _REQUIRED or xml.get(name) is not None}
+
+
+def _put(piece: Opaque, holder: XmlElement) -> None:
+    if piece.element is not None:
+        element_xml(piece.element, holder)
+    elif piece.attribute is not None:
+        holder.set(*piece.attribute)
+    else:
+        holder.text = piece.text
+
+
+def _merged(node: AnyNode, data: Mapping[str, Any], index: int | None = None) -> AnyNode:
+    """The node with what was read: one of several is put in its place, a part of a part into that."""
+    required = {name: getattr(node, name) for name in type(node).model_fields if name in _REQUIRED}
+    try:
+        read = type(node).model_validate({**required, **data})
+    except ValidationError as error:
+        raise CarrierError(error.errors(include_url=False)[0]["msg"]) from error
+    update: dict[str, object] = {
+        name: _merged_value(node, name, getattr(read, name), index) for name in data if name not in _ABOUT
+    }
+    if read.spelling:
+        update["spelling"] = {**(node.spelling or {}), **read.spelling}
+    return node.model_copy(update=update)
+
+
+def _merged_value(node: Node, name: str, value: object, index: int | None) -> object:
+    mine = getattr(node, name)
+    if name == "opaque":
+        return (*mine, *cast("tuple[Opaque, ...]", value))
+    if _are_nodes(value):
+        return _inserted(mine, value, index, node)
+    if not isinstance(value, Node):
+        return value
+    if isinstance(mine, Node) and type(value) is type(mine):
+        return _merged(mine, _said(value))
+    return value.model_copy(update={"source": mine.source if isinstance(mine, Node) else node.source})
+
+
+def _said(node: Node) -> dict[str, Any]:
+    """What a node says, as the data of another one."""
+    fields = type(node).model_fields
+    return {
+        name: getattr(node, name) for name in fields if name != "source" and getattr(node, name) != fields[name].default
+    }
+
+
+def _are_nodes(value: object) -> TypeGuard[tuple[Node, ...]]:
+    return isinstance(value, tuple) and isinstance(next(iter(cast("tuple[object, ...]", value)), None), Node)
+
+
+def _inserted(mine: tuple[Node, ...], value: tuple[Node, ...], index: int | None, node: Node) -> tuple[Node, ...]:
+    place = len(mine) if index is None else min(index, len(mine))
+    # it stands where its neighbour stands, so that it is written there
+    beside = mine[place] if place < len(mine) else mine[-1] if mine else node
+    placed = tuple(one.model_copy(update={"source": beside.source}) for one in value)
+    return (*mine[:place], *placed, *mine[place:])

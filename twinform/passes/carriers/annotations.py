@@ -1,0 +1,71 @@
+"""Marks: elements of our namespace that say how the source wrote a part that the target says in its own words.
+
+A mark never repeats what the target says; it holds the rest, so that it stays true when the other part is edited:
+
+    <tf:made/>                                   a conversion made this link, joint or frame up
+    <tf:from format="sdf" version="1.9"/>        in a model: what it was converted from
+    <tf:offset xyz="0 0 0.1" rpy="0 0 0"/>       the frame that the source had, in the frame that stands here
+    <tf:pose relative_to="base"/>                the frame, and the notation, in which the source wrote this pose
+    <tf:axis expressed_in="base"/>               the frame in which the source wrote this axis
+    <tf:extension/>                              the source says this joint in a `<gazebo>` element
+
+Other marks stand beside what uses them: `joint_chains.py`, `to_sdf/shared_materials.py` and so on. They are elements
+and never attributes: other readers skip foreign elements, and some fail on foreign attributes.
+"""
+
+from collections.abc import Mapping
+from typing import TypeVar
+
+from twinform.ir import Element, Node, Opaque, holds_opaque, rewrite
+from twinform.passes.carriers.carriers import NAMESPACE
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+EXTENSION = "extension"
+"""The mark on a joint of SDF that URDF says in a `<gazebo>` element."""
+SYNTHESIZED = "made"
+"""The mark on a link, joint or frame that was not in the source."""
+
+
+def annotation(kind: str, text: str | None = None, attributes: Mapping[str, str | None] | None = None) -> Opaque:
+    """A mark; attributes that are None are left out."""
+    written = tuple((name, value) for name, value in (attributes or {}).items() if value is not None)
+    return Opaque(element=Element(name=f"{{{NAMESPACE}}}{kind}", text=text, attributes=written))
+
+
+def with_annotation(
+    node: AnyNode, kind: str, text: str | None = None, attributes: Mapping[str, str | None] | None = None
+) -> AnyNode:
+    """The node with one more mark, before its other opaque parts."""
+    return node.model_copy(update={"opaque": (annotation(kind, text, attributes), *node.opaque)})
+
+
+def is_annotation(part: Opaque, kind: str) -> bool:
+    """Whether an opaque part is a mark of this kind."""
+    return part.element is not None and part.element.name == f"{{{NAMESPACE}}}{kind}"
+
+
+def find_annotation(node: Node, kind: str) -> Element | None:
+    """The first mark of a kind on the node."""
+    return next((part.element for part in node.opaque if is_annotation(part, kind)), None) if node.opaque else None
+
+
+def without_annotation(node: AnyNode, *kinds: str) -> AnyNode:
+    """The node without its marks of these kinds."""
+    kept = tuple(part for part in node.opaque if not any(is_annotation(part, kind) for kind in kinds))
+    return node if len(kept) == len(node.opaque) else node.model_copy(update={"opaque": kept})
+
+
+def mark_synthesized(node: AnyNode) -> AnyNode:
+    """The node, marked as made up by a pass, so that the reverse conversion leaves it out."""
+    return node if is_synthesized(node) else with_annotation(node, SYNTHESIZED)
+
+
+def is_synthesized(node: Node) -> bool:
+    """Whether a pass has made the node up."""
+    return find_annotation(node, SYNTHESIZED) is not None
+
+
+def without_synthesized(node: AnyNode) -> AnyNode:
+    """The node without marks of what was made up, on it and in it."""
+    return rewrite(node, Node, lambda each: without_annotation(each, SYNTHESIZED), enter=holds_opaque)

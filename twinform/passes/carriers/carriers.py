@@ -1,0 +1,173 @@
+"""Carriers: pieces of one format that travel inside a file of the other, where every reader but ours skips them.
+
+A carrier is an element of our namespace, named after the format that its piece belongs to, inside the element that the
+piece belongs to:
+
+    <tf:urdf at="limit"><foo/></tf:urdf>                  an element, inside the piece's own `limit`
+    <tf:urdf attribute="k" value="1"/>                    an attribute; an empty one without `value`
+    <tf:urdf attribute="k" blanks="20 9"/>                one of blanks, by their code points
+    <tf:urdf text="free"/>                                text
+
+libsdformat strips attributes, and prints an error for an empty one of an element that it does not know, so a piece has
+none:
+
+    <material><tf:empty attribute="name"/></material>                  <material name=""/>
+    <material><tf:empty attribute="name" blanks="20"/></material>      <material name=" "/>
+"""
+
+import re
+from collections.abc import Iterable
+from typing import TypeVar
+
+from lxml import etree
+
+from twinform.ir import Element, Node, Opaque, untyped_elements
+from twinform.schemas import XmlElement, parse_version, table, writer
+
+NAMESPACE = "urn:twinform:1"
+PREFIX = "tf"
+_OURS = f"{{{NAMESPACE}}}"
+
+Attributes = tuple[tuple[str, str], ...]
+
+_EMPTY = f"{_OURS}empty"
+SOURCE = "source"
+"""What versions before 0.2 wrote at the end of a model: changes that lead back to the source."""
+
+DANGLING: Attributes = (("dangling", "true"),)
+"""What a carrier says about a piece that named what was not there, so that this is no sign of an edit."""
+
+OVERRULED: Attributes = (("overruled", "true"),)
+"""What a carrier says about a tag behind which another one of the same field stood."""
+SECOND: Attributes = (("index", "1"),)
+"""What a carrier says about a piece that stood beside another one of its kind, and is no rest of that."""
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+
+def carry(node: AnyNode, pieces: Iterable[Opaque], dialect: str, about: Attributes = ()) -> AnyNode:
+    """The node with these pieces of the other format in carriers; `about` are more attributes of the carriers."""
+    carriers = pack(pieces, dialect, about)
+    return node.model_copy(update={"opaque": (*node.opaque, *carriers)}) if carriers else node
+
+
+def pack(pieces: Iterable[Opaque], dialect: str, about: Attributes = ()) -> tuple[Opaque, ...]:
+    """A carrier for each of the pieces, with these attributes besides."""
+    return tuple([Opaque(element=_carrier(piece, dialect, about)) for piece in pieces])
+
+
+def is_carrier(part: Opaque, dialect: str) -> bool:
+    """Whether an opaque part is a carrier of a piece of this format."""
+    return part.element is not None and part.element.name == f"{{{NAMESPACE}}}{dialect}"
+
+
+def is_dangling(part: Opaque) -> bool:
+    """Whether what a carrier holds named a part that was not there."""
+    return part.element is not None and part.element.get("dangling") is not None
+
+
+def is_overruled(part: Opaque) -> bool:
+    """Whether a carrier holds a tag behind which another one of the same field stood."""
+    return part.element is not None and part.element.get("overruled") is not None
+
+
+def is_ours(part: Opaque) -> bool:
+    """Whether an opaque part is of our own namespace: a carrier, or a mark."""
+    name = part.element.name if part.element else part.attribute[0] if part.attribute else ""
+    return name.startswith(_OURS)
+
+
+def is_memory(part: Opaque) -> bool:
+    """Whether only versions before 0.2 wrote such a part, which remembered the source.
+
+    That is `<tf:source>`, attributes of our namespace, and carriers of what stood outside the model (`at="/sdf"`).
+    """
+    if part.element is None:
+        return is_ours(part)
+    return is_carrier(part, SOURCE) or (is_ours(part) and (part.element.get("at") or "").startswith("/"))
+
+
+def has_ours(node: Node) -> bool:
+    """Whether a carrier or mark is anywhere in a node."""
+    return any(element.name.startswith(_OURS) for element in untyped_elements(node))
+
+
+def unpack(part: Opaque) -> tuple[Opaque, ...]:
+    """The pieces in a carrier: the inverse of what `carry` packs."""
+    element = part.element
+    if element is None:
+        return ()
+    at = element.get("at") or ""
+    name, value, text = element.get("attribute"), element.get("value"), element.get("text")
+    if name is not None:
+        return (Opaque(at=at, attribute=(name, _blank_value(element) if value is None else value)),)
+    if text is not None:
+        return (Opaque(at=at, text=text),)
+    return tuple(Opaque(at=at, element=_with_empty(child)) for child in element.children)
+
+
+def to_element(node: Node, tag: str, dialect: str, definition: str | None = None) -> Element:
+    """A typed node as the element that it is in a format; the definition has the tag's name where none is given."""
+    made = etree.Element(tag)
+    writer(dialect, parse_version(table(dialect).versions[-1])).write(node, made, definition or tag)
+    return from_xml(made)
+
+
+def from_xml(xml: XmlElement) -> Element:
+    """An XML tree as an `Element`."""
+    return Element.unchecked(
+        name=xml.tag,
+        attributes=tuple(xml.items()),
+        text=(xml.text or "").strip() or None,
+        children=tuple([from_xml(child) for child in xml]),
+        tail=(xml.tail or "").strip() or None,
+    )
+
+
+def _carrier(piece: Opaque, dialect: str, about: Attributes) -> Element:
+    attributes = [*about, ("at", piece.at)] if piece.at else [*about]
+    if piece.attribute is not None:
+        name, value = piece.attribute
+        attributes += [("attribute", name), *(_blanks(value) if _is_blank(value) else [("value", value)])]
+    if piece.text is not None:
+        attributes.append(("text", piece.text))
+    children = (_without_empty(piece.element),) if piece.element is not None else ()
+    return Element(name=f"{{{NAMESPACE}}}{dialect}", attributes=tuple(attributes), children=children)
+
+
+def _is_blank(value: str) -> bool:
+    """Whether a reader that strips values sees none."""
+    return not value.strip()
+
+
+def _blanks(value: str) -> Attributes:
+    """An attribute for the characters of a blank value; none for an empty one."""
+    return (("blanks", " ".join(f"{ord(character):x}" for character in value)),) if value else ()
+
+
+def _blank_value(element: Element) -> str:
+    """The inverse of `_blanks`; what somebody wrote there that is no blank of XML counts for nothing."""
+    codes = (element.get("blanks") or "").split()
+    characters = (chr(int(code, 16)) for code in codes if re.fullmatch("[0-9a-f]{1,4}", code))
+    return "".join(each for each in characters if each.isspace() and (each >= " " or each in "\t\n\r"))
+
+
+def _without_empty(element: Element) -> Element:
+    """The element with its attributes without a value, and those of all below, as elements."""
+    if not any(_is_blank(value) for each in element.walk() for _, value in each.attributes):
+        return element
+    empty = [pair for pair in element.attributes if _is_blank(pair[1])]
+    annotations = [Element(name=_EMPTY, attributes=(("attribute", name), *_blanks(value))) for name, value in empty]
+    attributes = tuple(pair for pair in element.attributes if pair not in empty)
+    children = (*annotations, *map(_without_empty, element.children))
+    return element.model_copy(update={"attributes": attributes, "children": children})
+
+
+def _with_empty(element: Element) -> Element:
+    """The inverse of `_without_empty`; an attribute that is there by now stays."""
+    if not any(each.name == _EMPTY for each in element.walk()):
+        return element
+    empty = [(child.get("attribute"), _blank_value(child)) for child in element.children if child.name == _EMPTY]
+    added = tuple((name, value) for name, value in empty if name and element.get(name) is None)
+    children = tuple(_with_empty(child) for child in element.children if child.name != _EMPTY)
+    return element.model_copy(update={"attributes": (*element.attributes, *added), "children": children})

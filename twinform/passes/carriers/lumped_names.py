@@ -1,0 +1,77 @@
+"""Names of lumped collisions, and the marks that give them back.
+
+libsdformat calls the collision of a link that it lumps into another one `HOST_fixed_joint_lump__NAME_collision_N`, and
+URDF for Gazebo names it so in contact sensors and plugins. Here nothing is lumped unless somebody asks for it, and the
+collision keeps its own name. The mark stands beside the text that was changed:
+
+    <collision>pad_collision</collision><tf:lumped instead_of="pad_collision">base_fixed_joint_lump__pad_...</tf:lumped>
+"""
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from twinform.ir import Element, Model
+from twinform.passes.carriers.carriers import NAMESPACE
+
+LUMP = "_fixed_joint_lump__"
+_LUMPED = f"{{{NAMESPACE}}}lumped"
+
+
+class Followed(NamedTuple):
+    """A collision that a name means, and the link that it is on."""
+
+    name: str
+    link: str
+
+
+def mentions_collisions(model: Model) -> bool:
+    """Whether a `<gazebo>` element may name a collision: in a contact sensor, or a lumped one anywhere."""
+    elements = (one for each in model.extensions for part in each.content for one in part.walk())
+    return any(one.name == "contact" or LUMP in (one.text or "") for one in elements)
+
+
+def followed(element: Element, names: Mapping[str, Followed], *, carriers: bool) -> Element:
+    """The element with every text in it that is one of these names changed, and marked if wanted."""
+    children: list[Element] = []
+    for child in element.children:
+        found = names.get((child.text or "").strip())
+        if found is None or child.children:
+            children.append(followed(child, names, carriers=carriers))
+            continue
+        children.append(child.model_copy(update={"text": found.name}))
+        if carriers:
+            text = (child.text or "").strip()
+            children.append(Element(name=_LUMPED, attributes=(("instead_of", found.name),), text=text))
+    same = len(children) == len(element.children) and all(map(_is_same, children, element.children))
+    return element if same else element.model_copy(update={"children": tuple(children)})
+
+
+def has_marks(model: Model) -> bool:
+    """Whether a mark says the name of a lumped collision."""
+    return any(one.name == _LUMPED for each in model.extensions for part in each.content for one in part.walk())
+
+
+def restored(element: Element, names: Mapping[str, Followed], stale: list[Element]) -> Element:
+    """The element by the names that marks in it say, where `names` has them mean what stands there now.
+
+    A text that was edited since stays, and so does one whose old name means another collision by now, or none: these
+    marks are added to `stale`.
+    """
+    if not any(one.name == _LUMPED for one in element.walk()):
+        return element
+    children: list[Element] = []
+    for child in element.children:
+        if child.name != _LUMPED:
+            children.append(restored(child, names, stale))
+            continue
+        meant = names.get(child.text or "")
+        text = (children[-1].text or "").strip() if children else None
+        if meant and text == child.get("instead_of") == meant.name:
+            children[-1] = children[-1].model_copy(update={"text": child.text})
+        else:
+            stale.append(child)
+    return element.model_copy(update={"children": tuple(children)})
+
+
+def _is_same(one: Element, other: Element) -> bool:
+    return one is other

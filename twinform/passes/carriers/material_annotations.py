@@ -1,0 +1,38 @@
+"""How a conversion names materials, and the marks on what SDF and URDF say of them that the other does not.
+
+<tf:colors ambient="0.1 0.1 0.1 1" of="1 0 0 1"/>   in a visual of URDF: SDF's other color, while `of` is this one's
+<tf:scripts>file://a.material</tf:scripts>          in a visual of URDF: where the material of its link's tag is
+<tf:material>rubber</tf:material>                   in a visual of SDF: the name that URDF has for its material
+<tf:shared-material>rubber</tf:shared-material>     in a model of SDF: the robot defines this material
+<tf:look>ambient script</tf:look>                   in a link of SDF: what URDF says of all its visuals in a `<gazebo>`
+"""
+
+from collections.abc import Iterable
+
+from twinform.ir import Link, Visual
+from twinform.passes.carriers.annotations import find_annotation, with_annotation, without_annotation
+
+COLORS = "colors"
+SCRIPTS = "scripts"
+MATERIAL = "material"
+SHARED_MATERIAL = "shared-material"
+LOOK = "look"
+
+_ABOUT = frozenset({"source", "spelling"})
+
+
+def with_look(link: Link, fields: Iterable[str]) -> Link:
+    """The link with a mark on the fields of materials that one extension sets in all visuals, beside what is marked."""
+    names = dict.fromkeys((*look_of(link), *(field for field in fields if field not in _ABOUT)))
+    return with_annotation(without_annotation(link, LOOK), LOOK, " ".join(names))
+
+
+def look_of(link: Link) -> tuple[str, ...]:
+    """The fields of materials that one extension says for all visuals."""
+    found = find_annotation(link, LOOK)
+    return tuple((found.text or "").split()) if found else ()
+
+
+def material_name(link: Link, visual: Visual) -> str:
+    """The name of a material that has none in SDF; URDF asks for one."""
+    return f"{link.name}_{visual.name}_material"

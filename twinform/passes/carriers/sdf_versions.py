@@ -1,0 +1,117 @@
+"""Parts of other versions of SDF, which travel inside a file of a version that does not have them.
+
+Such a carrier says which versions have its part:
+
+    <tf:version since="1.11" at="axis"><mimic/></tf:version>       an element that 1.11 brought
+    <tf:version until="1.6" at="pose" attribute="frame" value=""/> an attribute that went after 1.6
+    <tf:version since="1.7" index="0"><frame/></tf:version>        the first of several
+    <tf:version since="1.8" without="pose"/>                       a field that is written only for older versions
+    <tf:version since="1.9" instead="pose"><pose/></tf:version>    what stands for a sibling in an untyped element
+"""
+
+from dataclasses import dataclass, replace
+from typing import TypeVar
+
+from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule
+from twinform.ir import Element, Node, Opaque
+from twinform.passes.carriers.carriers import NAMESPACE, Attributes, is_carrier, pack, unpack
+from twinform.schemas import Version, parse_version, print_version
+
+DIALECT = "version"
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+
+@dataclass(frozen=True, slots=True)
+class Terms:
+    """Which versions have a part, and how it comes back.
+
+    `index` is its place among its like, `without` the fields that go when it comes, `instead` the sibling that it
+    stands for.
+    """
+
+    since: Version | None = None
+    until: Version | None = None
+    index: int | None = None
+    without: tuple[str, ...] = ()
+    instead: str = ""
+
+    def fit(self, version: Version) -> bool:
+        """Whether a version has the part."""
+        return (self.since is not None and version >= self.since) or (self.until is not None and version <= self.until)
+
+    def attributes(self) -> Attributes:
+        """What the carrier says about itself."""
+        said = {
+            "since": print_version(self.since) if self.since else "",
+            "until": print_version(self.until) if self.until else "",
+            "index": "" if self.index is None else str(self.index),
+            "without": " ".join(self.without),
+            "instead": self.instead,
+        }
+        return tuple((name, text) for name, text in said.items() if text)
+
+
+@dataclass(frozen=True, slots=True)
+class Keeper:
+    """Where parts go that the version asked for does not have; after an error there is nothing left to do."""
+
+    sink: DiagnosticSink
+    carriers: bool
+
+    def keep(
+        self, node: AnyNode, pieces: list[Opaque], terms: Terms, rule: Rule, message: str, where: Location, weight: int
+    ) -> AnyNode:
+        """The node with the pieces in carriers, and an entry in the ledger."""
+        self.account(rule, message, where, weight)
+        if not self.carriers:
+            return node
+        return node.model_copy(update={"opaque": (*node.opaque, *version_carriers(pieces, terms))})
+
+    def keep_element(
+        self, piece: Opaque, terms: Terms, rule: Rule, message: str, where: Location
+    ) -> tuple[Element, ...]:
+        """The carriers of a part of an untyped element, and an entry in the ledger."""
+        self.account(rule, message, where, max(1, piece.weight))
+        carriers = version_carriers([piece], terms) if self.carriers else ()
+        return tuple(part.element for part in carriers if part.element)
+
+    def account(self, rule: Rule, message: str, where: Location, weight: int) -> None:
+        """The entry alone."""
+        self.sink.account(Fate.CARRIED if self.carriers else Fate.DROPPED, rule, message, where, weight)
+
+
+def version_carriers(pieces: list[Opaque], terms: Terms) -> tuple[Opaque, ...]:
+    """The carriers of pieces, and one that only says what is to go: the last comes back first."""
+    carriers = pack(pieces, DIALECT, replace(terms, without=()).attributes())
+    if not terms.without:
+        return carriers
+    return (*carriers, Opaque(element=Element(name=f"{{{NAMESPACE}}}{DIALECT}", attributes=terms.attributes())))
+
+
+def is_version_carrier(part: Opaque) -> bool:
+    """Whether it carries a part of another version."""
+    return is_carrier(part, DIALECT)
+
+
+def terms_of(part: Opaque) -> Terms:
+    """What a carrier says about its part; one that was edited into nonsense fits no version."""
+    said = dict(part.element.attributes) if part.element else {}
+    try:
+        return Terms(
+            parse_version(said["since"]) if "since" in said else None,
+            parse_version(said["until"]) if "until" in said else None,
+            int(said["index"]) if "index" in said else None,
+            tuple(said.get("without", "").split()),
+            said.get("instead", ""),
+        )
+    except ValueError:
+        return Terms()
+
+
+def carried(part: Opaque) -> tuple[Opaque, ...]:
+    """The pieces in a carrier; none in one that only says what is to go."""
+    element = part.element
+    if element is None or (not element.children and element.get("attribute") is None and element.get("text") is None):
+        return ()
+    return unpack(part)

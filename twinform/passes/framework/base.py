@@ -1,0 +1,38 @@
+"""What a pass is."""
+
+from abc import ABC, abstractmethod
+from typing import ClassVar
+
+from pydantic import BaseModel, ConfigDict
+
+from twinform.diagnostics import DiagnosticSink
+from twinform.ir import Document
+
+
+class Pass(BaseModel, ABC):
+    """A step from IR to IR: a frozen object whose fields are its options.
+
+    Valid IR goes in and valid IR comes out; a pass keeps no state between runs, prints nothing, and opens no file
+    unless that is its purpose. What it finds, and what becomes of parts that it cannot keep, goes into the notes.
+
+    Its docstring says what it does in an imperative sentence, then what it `Changes`, in numbered cases where there are
+    several, what it `Never touches:`, and its `Diagnostics:`.
+    """
+
+    model_config = ConfigDict(
+        frozen=True,
+        extra="forbid",
+        alias_generator=lambda name: name.replace("_", "-"),
+        populate_by_name=True,
+        defer_build=True,
+    )
+
+    name: ClassVar[str]
+    """The word for it in a pipeline; the class and the file have the same words."""
+
+    example: ClassVar[str] = ""
+    """A pipeline that uses it, for its page."""
+
+    @abstractmethod
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
+        """The document after the pass; the one that came in where nothing changes."""

@@ -1,0 +1,49 @@
+"""What looks at passes from outside: timing, printed changes and the like are hooks, and no pass knows of them."""
+
+from collections.abc import Iterable
+
+from twinform.diagnostics import DiagnosticSink
+from twinform.ir import Document
+from twinform.passes.framework.base import Pass
+from twinform.passes.framework.errors import PassError
+
+
+class PassInstrumentation:
+    """Is told of each pass before and after it runs, and where it fails. Does nothing until a subclass says what.
+
+    A watch must not change anything: documents are frozen, and the notes are there to be read.
+    """
+
+    def before(self, step: Pass, document: Document, sink: DiagnosticSink) -> None:
+        """The pass is about to run on the document."""
+
+    def after(self, step: Pass, old: Document, new: Document, sink: DiagnosticSink) -> None:
+        """The pass has run; the same document twice where it changed nothing. Nobody has verified the new one yet."""
+
+    def failed(self, step: Pass, error: PassError, sink: DiagnosticSink) -> None:
+        """The pass raised, or, after `after`, what it made is not valid."""
+
+
+class CombinedInstrumentation(PassInstrumentation):
+    """Several as one. They nest like brackets: what is told first before a pass is told last after it.
+
+    So the last one is nearest to the pass, which is the place for a clock.
+    """
+
+    def __init__(self, watches: Iterable[PassInstrumentation]) -> None:
+        self._watches = tuple(watches)
+
+    def before(self, step: Pass, document: Document, sink: DiagnosticSink) -> None:
+        """Tell all, the first one first."""
+        for each in self._watches:
+            each.before(step, document, sink)
+
+    def after(self, step: Pass, old: Document, new: Document, sink: DiagnosticSink) -> None:
+        """Tell all, the last one first."""
+        for each in reversed(self._watches):
+            each.after(step, old, new, sink)
+
+    def failed(self, step: Pass, error: PassError, sink: DiagnosticSink) -> None:
+        """Tell all, the last one first."""
+        for each in reversed(self._watches):
+            each.failed(step, error, sink)

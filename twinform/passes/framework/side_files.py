@@ -1,0 +1,44 @@
+"""Passes that make a file beside the result. They write nothing: the text goes into the notes, and the caller has it.
+
+So the file appears together with the result, only where there is no error, and only in the folder that was named for
+the result: a pipeline may come from a configuration or a reproducer, which have no say in where files are written.
+"""
+
+import re
+from abc import abstractmethod
+from typing import Annotated
+
+from pydantic import AfterValidator, Field
+
+from twinform.diagnostics import DiagnosticSink, SideFile
+from twinform.ir import Document
+from twinform.passes.framework.base import Pass
+
+_PART = re.compile(r"[^./~\\:\x00-\x1f\x7f][^/\\:\x00-\x1f\x7f]*")
+"""The name of a file or folder that is not hidden, and means the same to every system and shell."""
+
+
+def _below(path: str) -> str:
+    if not all(_PART.fullmatch(part) for part in path.split("/")):
+        advice = "such as config/bridge.yaml; it is not absolute, and no part of it begins with . or ~"
+        raise ValueError(f"takes a path below the folder of the result, {advice}")
+    return path
+
+
+CompanionPath = Annotated[str, AfterValidator(_below)]
+"""A path that cannot leave the folder that it is relative to, as long as there are no symbolic links."""
+
+
+class SideFilePass(Pass):
+    """A pass whose purpose is a file beside the result; the document stays as it is."""
+
+    file: CompanionPath = Field(description="Where to write it, below the folder of the result.")
+
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
+        """The same document."""
+        sink.companions.append(SideFile(self.file, self.text(document, sink)))
+        return document
+
+    @abstractmethod
+    def text(self, document: Document, sink: DiagnosticSink) -> str:
+        """What the file says. A file is only written over one that begins with the same line."""

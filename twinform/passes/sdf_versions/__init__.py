@@ -1,0 +1,86 @@
+"""From one version of SDF to another, step by step."""
+
+from functools import lru_cache
+
+from twinform.passes.framework.base import Pass
+from twinform.passes.sdf_versions.base import known_version
+from twinform.passes.sdf_versions.leave_out import LeaveOut
+from twinform.passes.sdf_versions.place_absolutely import has_early_frames
+from twinform.passes.sdf_versions.put_back import PutBack
+from twinform.passes.sdf_versions.rename_states import RenameStates
+from twinform.passes.sdf_versions.set_version import SetVersion
+from twinform.passes.sdf_versions.steps import backward, forward, meaning_back, unversioned
+from twinform.passes.sdf_versions.write_plain_poses import WritePlainPoses
+from twinform.schemas import Version, parse_version, print_version, table
+
+__all__ = [
+    "change_version",
+    "has_early_frames",
+    "known_version",
+    "lower_meaning",
+    "lower_version",
+    "raise_for_merging",
+    "raise_unversioned",
+    "raise_version",
+    "raise_words",
+]
+
+_ANY_POSE: Version = (1, 9)
+"""Since this version a pose that comes out of a carrier may be in any notation."""
+_NAMED_STATES: Version = (1, 12)
+"""Since this version states have names of their own."""
+
+
+def change_version(declared: str | None, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
+    """The passes from the version that a file declares to the one asked for."""
+    old = known_version(declared)
+    if parse_version(old) < parse_version(asked):
+        steps = raise_version(old, asked, carriers=carriers)
+    else:
+        back = PutBack(version=asked, source=old, carriers=carriers)
+        steps = (back, *lower_version(old, asked, carriers=carriers))
+    return (*steps, SetVersion(version=asked))
+
+
+def raise_version(declared: str | None, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
+    """The passes that say an older file in newer words, with what it carries."""
+    old, new = parse_version(known_version(declared)), parse_version(asked)
+    back = PutBack(version=asked, source=print_version(old), carriers=carriers)
+    after: list[Pass] = []  # what came back may be in newer or older words
+    if new < _ANY_POSE:
+        after.append(WritePlainPoses(version=asked, carriers=carriers))
+    if new >= _NAMED_STATES:
+        after.append(RenameStates(version=asked, carriers=carriers))
+    return (*forward(old, new), back, *after, LeaveOut(version=asked, carriers=carriers))
+
+
+@lru_cache(maxsize=64)
+def raise_words(declared: str | None, *, carriers: bool = True, mixed: bool = False) -> tuple[Pass, ...]:
+    """The same for the newest version, with the file's own names and with the parts that only older versions have.
+
+    `mixed` says that the file has words of newer versions too.
+    """
+    old, newest = known_version(declared), table("sdf").versions[-1]
+    back = PutBack(version=newest, source=old, carriers=carriers)
+    return (*forward(parse_version(old), parse_version(newest), names=False, mixed=mixed), back)
+
+
+def raise_for_merging(declared: str, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
+    """The same on the way to a file of several versions: what its version lacks is left out when it is whole."""
+    back = PutBack(version=asked, source=declared, carriers=carriers)
+    return (*forward(parse_version(declared), parse_version(asked)), back, SetVersion(version=asked))
+
+
+def raise_unversioned(*, carriers: bool = True) -> tuple[Pass, ...]:
+    """The passes that say old words in new ones where nobody has declared a version, as in `<gazebo>` elements."""
+    return tuple(unversioned(table("sdf").versions[-1], carriers=carriers))
+
+
+def lower_version(declared: str | None, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
+    """The passes that say a newer file in older words."""
+    return tuple(backward(parse_version(known_version(declared)), parse_version(asked), carriers=carriers))
+
+
+def lower_meaning(asked: str) -> tuple[Pass, ...]:
+    """The passes for what means something else in an older version; newer words stay."""
+    return tuple(meaning_back(parse_version(table("sdf").versions[-1]), parse_version(asked)))

@@ -1,0 +1,88 @@
+"""The shape of the passes between versions of SDF."""
+
+from abc import abstractmethod
+from collections.abc import Callable
+from typing import TypeVar
+
+from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.rules.frames import DANGLING_FRAME
+from twinform.diagnostics.rules.to_urdf import INCLUDE_NOT_EXPANDED
+from twinform.ir import Document, Element, Node, replace_fields
+from twinform.ir.frames import FrameError
+from twinform.passes.carriers.sdf_versions import Keeper
+from twinform.passes.framework.base import Pass
+from twinform.passes.transforms.nodes import map_elements
+from twinform.schemas import Version, parse_version, table
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+
+class VersionPass(Pass):
+    """A pass on the way to `version`. After an error there is nothing left to do.
+
+    `carriers` says whether parts that this version lacks travel in carriers or only into the ledger.
+    """
+
+    version: str
+    carriers: bool = True
+
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
+        """The document in other words."""
+        if sink.has_errors:
+            return document
+        try:
+            return self.change(document, Keeper(sink, self.carriers))
+        except FrameError as error:
+            _report(error, document, self.version, sink)
+            return document
+
+    @abstractmethod
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document after the pass."""
+
+    @property
+    def number(self) -> Version:
+        """The version that is asked for, as a pair of numbers."""
+        return parse_version(self.version)
+
+
+def _report(error: FrameError, document: Document, version: str, sink: DiagnosticSink) -> None:
+    """Say which frame cannot be resolved, and how it could be where an include was not read."""
+    if error.rule is not DANGLING_FRAME or not _has_includes(document):
+        error.report(sink)
+        return
+    message = f"SDF {version} needs to know where {error.found!r} is, and only the file of an include can say"
+    hint = "expand the includes, or write a newer version"
+    sink.report(INCLUDE_NOT_EXPANDED, message, error.location, found=error.found, help=hint)
+
+
+def _has_includes(node: Node) -> bool:
+    inner = (*getattr(node, "worlds", ()), *getattr(node, "models", ()))
+    return bool(getattr(node, "includes", ())) or any(map(_has_includes, inner))
+
+
+def map_own_elements(node: AnyNode, change: Callable[[Element], Element]) -> AnyNode:
+    """The node with its untyped elements changed; those of other namespaces and of carriers are left alone."""
+    if not any(part.element for part in node.opaque):
+        return node
+    return replace_fields(
+        node, opaque=map_elements(node.opaque, lambda element: element if is_foreign(element) else change(element))
+    )
+
+
+def map_inside(element: Element, change: Callable[[Element], Element]) -> Element:
+    """The element with all below it changed, from the inside out, and then itself; plugins are left alone."""
+    if element.name == "plugin" or is_foreign(element):
+        return element
+    return change(replace_fields(element, children=tuple(map_inside(child, change) for child in element.children)))
+
+
+def is_foreign(element: Element) -> bool:
+    """Whether it is of another namespace, such as that of the carriers."""
+    return element.name[0] == "{"
+
+
+def known_version(declared: str | None) -> str:
+    """The version that a file is read as: the newest where it declares none that exists."""
+    versions = table("sdf").versions
+    return declared if declared in versions else versions[-1]

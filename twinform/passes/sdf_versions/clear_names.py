@@ -1,0 +1,103 @@
+"""Since 1.7 links, joints and frames are all frames, and share one scope."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import ClassVar, TypeVar
+
+from twinform.diagnostics import DiagnosticSink, Fate
+from twinform.diagnostics.rules import to_sdf as rules
+from twinform.ir import Document, Frame, Joint, Link, Model, ReferenceKind, World, map_references, rewrite
+from twinform.passes.carriers.sdf_versions import Keeper
+from twinform.passes.sdf_versions.base import VersionPass
+from twinform.passes.transforms.nodes import unique_name
+
+Named = TypeVar("Named", Link, Joint, Frame)
+_RESERVED = "world"
+
+
+class ClearNames(VersionPass):
+    """Give links, joints and frames names that nothing else in the model has.
+
+    Changes: 1. a link with the name of a nested model, a joint with that of a link, a frame with that of any of them
+    gets `_link`, `_joint` or `_frame` behind it, as libsdformat has it; 2. so does one with a name that SDF keeps for
+    itself. References follow; the name of a frame means a link that got another name, or else a frame.
+    Never touches: names inside plugins and sensors, which only they understand.
+    Diagnostics: `renamed`; in the ledger `renamed` as approximated.
+    """
+
+    name: ClassVar[str] = "clear-names"
+
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document with one name for each thing."""
+        document = rewrite(document, Model, lambda model: _clear(model, keeper.sink))
+        return rewrite(document, World, lambda world: _clear_world(world, keeper.sink))
+
+
+@dataclass(frozen=True, slots=True)
+class _Scope:
+    """One model's new names."""
+
+    links: dict[str, str]
+    joints: dict[str, str]
+    frames: dict[str, str]
+    sink: DiagnosticSink
+
+    def follow(self, kind: ReferenceKind, name: str) -> str:
+        """The new name; a frame is a link that is called otherwise now, or else a frame."""
+        if kind == "any":
+            return self.links.get(name) or (name not in self.joints and self.frames.get(name)) or name
+        names = {"link": self.links, "joint": self.joints}.get(kind, {})
+        return name if name == _RESERVED else names.get(name, name)
+
+    def rename(self, node: Named, names: dict[str, str]) -> Named:
+        """The node with its new name."""
+        if node.name not in names:
+            return node
+        kind = type(node).__name__.lower()
+        message = f"{kind} {node.name!r} is called {names[node.name]!r} where names are shared"
+        self.sink.report(rules.RENAMED, message, node.location, found=node.name)
+        self.sink.account(Fate.APPROXIMATED, rules.RENAMED, message, node.location)
+        return node.model_copy(update={"name": names[node.name]})
+
+
+def _clear(model: Model, sink: DiagnosticSink) -> Model:
+    taken = {node.name for node in (*model.models, *model.links, *model.joints, *model.frames)}
+    owned = {nested.name for nested in model.models}
+    links = _clashes(model.links, "link", owned, taken)
+    owned |= {link.name for link in model.links}
+    joints = _clashes(model.joints, "joint", owned, taken)
+    owned |= {joint.name for joint in model.joints}
+    frames = _clashes(model.frames, "frame", owned, taken)
+    if not links and not joints and not frames:
+        return model
+    scope = _Scope(links, joints, frames, sink)
+    followed = map_references(model, scope.follow)
+    update = {
+        "links": tuple(scope.rename(link, links) for link in followed.links),
+        "joints": tuple(scope.rename(joint, joints) for joint in followed.joints),
+        "frames": tuple(scope.rename(frame, frames) for frame in followed.frames),
+    }
+    return followed.model_copy(update=update)
+
+
+def _clear_world(world: World, sink: DiagnosticSink) -> World:
+    taken = {node.name for node in (*world.models, *world.joints)}
+    joints = _clashes(world.joints, "joint", {model.name for model in world.models}, taken)
+    if not joints:
+        return world
+    scope = _Scope({}, joints, {}, sink)
+    return world.model_copy(update={"joints": tuple(scope.rename(joint, joints) for joint in world.joints)})
+
+
+def _clashes(nodes: Iterable[Named], suffix: str, owned: set[str], taken: set[str]) -> dict[str, str]:
+    """New names for the nodes that have the name of another kind, or a reserved one."""
+    renamed: dict[str, str] = {}
+    for node in nodes:
+        if node.name in owned or _is_reserved(node.name):
+            renamed[node.name] = unique_name(f"{node.name.strip('_')}_{suffix}", taken)
+            taken.add(renamed[node.name])
+    return renamed
+
+
+def _is_reserved(name: str) -> bool:
+    return name == _RESERVED or (name.startswith("__") and name.endswith("__"))

@@ -1,0 +1,72 @@
+"""What a document says, apart from what it carries and from the order of things that have none."""
+
+from typing import TypeVar
+
+from twinform.ir import Element, Node, Opaque, holds_opaque, node_fields, replace_fields, rewrite
+from twinform.passes.carriers.sdf_versions import carried, is_version_carrier
+from twinform.passes.transforms.nodes import map_elements
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+_ABOUT = frozenset({"source", "spelling"})
+
+
+def without_carriers(node: AnyNode) -> AnyNode:
+    """The node without carriers of other versions, all the way down."""
+    return rewrite(node, Node, _bare, enter=holds_opaque)
+
+
+def _bare(node: Node) -> Node:
+    kept = (part for part in node.opaque if not is_version_carrier(part))
+    return replace_fields(node, opaque=map_elements(kept, _bare_element))
+
+
+def _bare_element(element: Element) -> Element:
+    kept = (child for child in element.children if not is_version_carrier(Opaque(element=child)))
+    return replace_fields(element, children=tuple(map(_bare_element, kept)))
+
+
+def comparable(node: AnyNode) -> AnyNode:
+    """The node with unlike untyped parts in one order, whatever order they stand in, and without empty nodes."""
+    return rewrite(node, Node, _comparable)
+
+
+def _comparable(node: Node) -> Node:
+    if len(node.opaque) > 1 or any(part.element for part in node.opaque):
+        parts = sorted((_sorted(part) for part in node.opaque), key=_place)
+        node = node.model_copy(update={"opaque": tuple(parts)})
+    empty = [name for name in node_fields(type(node)) if _says_nothing(getattr(node, name))]
+    return node.model_copy(update=dict.fromkeys(empty)) if empty else node
+
+
+def _says_nothing(value: object) -> bool:
+    """Whether it is a node of which nothing would be written."""
+    if not isinstance(value, Node):
+        return False
+    fields = type(value).model_fields
+    return all(getattr(value, name) == field.default for name, field in fields.items() if name not in _ABOUT)
+
+
+def _place(part: Opaque) -> tuple[str, ...]:
+    """Where a part goes: by its own name, or by that of what it carries."""
+    if not is_version_carrier(part):
+        return (part.at, part.name, "", "")
+    said = part.element.get("at") if part.element else None
+    return (part.at, part.name, said or "", " ".join(piece.name for piece in carried(part)))
+
+
+def _sorted(part: Opaque) -> Opaque:
+    return part if part.element is None else part.model_copy(update={"element": _sorted_element(part.element)})
+
+
+def _sorted_element(element: Element) -> Element:
+    attributes = tuple(sorted(element.attributes))
+    if element.name == "plugin":  # only it knows what its order means
+        return element.model_copy(update={"attributes": attributes})
+    children = sorted(map(_sorted_element, element.children), key=lambda child: child.name)
+    return element.model_copy(update={"attributes": attributes, "children": tuple(children)})
+
+
+def same(one: Node, other: Node) -> bool:
+    """Whether two nodes say the same; something that is not a number is like itself here."""
+    one, other = comparable(one), comparable(other)
+    return one == other or one.model_dump_json() == other.model_dump_json()

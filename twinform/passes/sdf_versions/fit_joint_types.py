@@ -1,0 +1,76 @@
+"""Joint types that came with 1.5 and 1.6, and one that went."""
+
+from functools import partial
+from typing import ClassVar
+
+from twinform.diagnostics.rules import sdf_versions as rules
+from twinform.diagnostics.rules import to_sdf as shared_rules
+from twinform.ir import Axis, Document, Format, Joint, Limit, Opaque, rewrite
+from twinform.ir.defaults import AXIS
+from twinform.passes.carriers.carriers import to_element
+from twinform.passes.carriers.sdf_versions import Keeper, Terms
+from twinform.passes.sdf_versions.base import VersionPass
+from twinform.passes.transforms.nodes import text_piece
+from twinform.schemas import Version, format_value, print_version
+
+_NEWER: dict[str, Version] = {"gearbox": (1, 4), "fixed": (1, 5), "screw": (1, 5), "continuous": (1, 6)}
+_OLDER: dict[str, Version] = {"piston": (1, 4)}
+_STILL = Axis(xyz=AXIS[Format.SDF], limit=Limit(lower=0.0, upper=0.0))
+
+
+class FitJointTypes(VersionPass):
+    """Say the types of joints in the words of an older version.
+
+    Changes: 1. `continuous` before 1.6 is `revolute`, without an end to its motion; 2. `fixed` before 1.5 is `revolute`
+    between zero and zero.
+    Diagnostics: `joint-type-unsupported` for `gearbox` before 1.4, `screw` before 1.5 and `piston` after 1.4.
+    """
+
+    name: ClassVar[str] = "fit-joint-types"
+
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document with joints of the version."""
+        return rewrite(document, Joint, partial(_joint, keeper, self.number))
+
+
+def _joint(keeper: Keeper, version: Version, joint: Joint) -> Joint:
+    since, until = _NEWER.get(joint.type, (0, 0)), _OLDER.get(joint.type, (99, 99))
+    if since <= version <= until:
+        return joint
+    if joint.type == "continuous":
+        return _continuous(keeper, joint)
+    if joint.type == "fixed":
+        return _fixed(keeper, joint)
+    message = f"joint {joint.name!r} is {joint.type}, a type that SDF {print_version(version)} does not have"
+    keeper.sink.report(shared_rules.JOINT_TYPE_UNSUPPORTED, message, joint.location.at("@type"), found=joint.type)
+    return joint
+
+
+def _continuous(keeper: Keeper, joint: Joint) -> Joint:
+    pieces = [_type(joint)]
+    changed = joint.model_copy(update={"type": "revolute"})
+    limit = joint.axis.limit if joint.axis else None
+    if joint.axis and limit:
+        ends = {name: getattr(limit, name) for name in ("lower", "upper") if getattr(limit, name) is not None}
+        pieces += [text_piece(name, format_value(value), "axis/limit") for name, value in ends.items()]
+        endless = limit.model_copy(update=dict.fromkeys(ends))
+        changed = changed.model_copy(update={"axis": joint.axis.model_copy(update={"limit": endless})})
+    return _keep(keeper, changed, joint, pieces, Terms(since=_NEWER["continuous"]))
+
+
+def _fixed(keeper: Keeper, joint: Joint) -> Joint:
+    pieces = [_type(joint)]
+    if joint.axis is not None:
+        written = to_element(Joint(name="", type="fixed", axis=joint.axis), "joint", "sdf").find("axis")
+        pieces += [Opaque(element=written)] if written else []
+    changed = joint.model_copy(update={"type": "revolute", "axis": _STILL})
+    return _keep(keeper, changed, joint, pieces, Terms(since=_NEWER["fixed"], without=("axis",)))
+
+
+def _type(joint: Joint) -> Opaque:
+    return Opaque(attribute=("type", joint.type))
+
+
+def _keep(keeper: Keeper, changed: Joint, joint: Joint, pieces: list[Opaque], terms: Terms) -> Joint:
+    message = f"joint {joint.name!r} is {joint.type}, which the version calls {changed.type}"
+    return keeper.keep(changed, pieces, terms, rules.OTHER_WORDS, message, joint.location, len(pieces))

@@ -1,0 +1,46 @@
+"""Before 1.5 there are no models in models."""
+
+from functools import partial
+from typing import ClassVar
+
+from twinform.diagnostics.rules import to_sdf as rules
+from twinform.ir import Document, Model, World, count_parts, rewrite
+from twinform.passes.carriers.annotations import without_synthesized
+from twinform.passes.carriers.sdf_versions import Keeper, Terms
+from twinform.passes.sdf_versions.base import VersionPass
+from twinform.passes.transforms.flattening import flatten
+from twinform.passes.transforms.nodes import piece
+from twinform.schemas import parse_version
+
+
+class FlattenNested(VersionPass):
+    """Bring the links, joints and frames of nested models up into the model, by the names `inner::name`.
+
+    Changes: the nested models themselves are carried.
+    Diagnostics: `older-version` for each.
+    """
+
+    name: ClassVar[str] = "flatten-nested"
+    source: str
+
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document without models in models."""
+        models = tuple(self._flat(model, keeper) for model in document.models)
+        return rewrite(document.model_copy(update={"models": models}), World, partial(self._world, keeper))
+
+    def _world(self, keeper: Keeper, world: World) -> World:
+        return world.model_copy(update={"models": tuple(self._flat(model, keeper) for model in world.models)})
+
+    def _flat(self, model: Model, keeper: Keeper) -> Model:
+        if not model.models:
+            return model
+        flat = without_synthesized(flatten(model, lambda frame, shell: frame))
+        since = parse_version(self.source)  # whose words the nested model is in
+        for index in reversed(range(len(model.models))):
+            nested = model.models[index]
+            message = f"model {nested.name!r} is in model {model.name!r}, which SDF has since 1.5"
+            keeper.sink.report(rules.OLDER_VERSION, message, nested.location, found=nested.name)
+            terms = Terms(since=since, index=index, instead=f"{nested.name}::")
+            where, weight = nested.location, count_parts(nested.model_copy(update={"links": (), "joints": ()}))
+            flat = keeper.keep(flat, [piece(nested, "model")], terms, rules.OLDER_VERSION, message, where, weight)
+        return flat

@@ -1,0 +1,240 @@
+"""The net behind the passes that translate: what the version has no row for is left out."""
+
+from typing import Any, ClassVar
+
+from twinform.diagnostics import Location
+from twinform.diagnostics.rules import sdf_versions as rules
+from twinform.diagnostics.rules import to_sdf as shared_rules
+from twinform.ir import Collision, Document, Element, Node, Opaque, Pose, Visual, node_fields, replace_fields
+from twinform.passes.carriers.definitions import definition_of
+from twinform.passes.carriers.sdf_versions import Keeper, Terms, is_version_carrier
+from twinform.passes.sdf_versions.base import VersionPass, is_foreign
+from twinform.passes.sdf_versions.leftovers import Leftover, node_pieces
+from twinform.passes.sdf_versions.spans import Shape, Span, shape, shape_of, whole
+from twinform.schemas import Fact, Version, print_version
+
+_OF_KINDS = "shape"
+"""The field that holds one of several kinds of node."""
+
+
+class LeaveOut(VersionPass):
+    """Take out what the version does not have.
+
+    Changes: 1. elements and attributes that came later or went earlier are carried; 2. a visual or collision whose
+    shape the version does not have is carried as a whole, and so is what may stand only once in it and stands again.
+    Never touches: what no version has, plugins, and elements of other namespaces.
+    Diagnostics: `older-version`; in the ledger that and `gone-from-sdf`.
+    """
+
+    name: ClassVar[str] = "leave-out"
+
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document with what the version has."""
+        return _Net(keeper, self.number).whole_node(document, shape("sdf"))
+
+
+class _Net:
+    """One run."""
+
+    def __init__(self, keeper: Keeper, version: Version) -> None:
+        self.keeper = keeper
+        self.version = version
+        self.whole = whole(version)
+        self.elements = _Elements(keeper, version)
+
+    def whole_node(self, node: Any, form: Shape) -> Any:
+        """A node whose element can hold carriers, with all that was left over in it."""
+        changed, left = self.node(node, form)
+        for each in left:
+            changed = self._carry(changed, node_pieces(node, each), each)
+        return changed
+
+    def node(self, node: Any, form: Shape) -> tuple[Any, list[Leftover]]:
+        """The node without what the version lacks, and that; the last of several comes first."""
+        update: dict[str, Any] = {}
+        left: list[Leftover] = []
+        values = node.__dict__
+        for field in form.lacking(self.version):
+            value = values[field]
+            if value is None or value == () or _is_plain_pose(value):
+                continue
+            span = form.kinds[value.kind] if field == _OF_KINDS else form.fields[field]
+            update[field], over = self._field(node, field, value, span)
+            left += over
+        if node.opaque:
+            update["opaque"], over = self.elements.parts(node, form)
+            left += over
+        return replace_fields(node, **update), left
+
+    def _field(self, node: Node, field: str, value: Any, span: Span) -> tuple[Any, list[Leftover]]:
+        row = span.row(self.version)
+        if field in node_fields(type(node)) and not isinstance(value, Node):
+            return self._many(field, value, span, row)
+        if row is None:
+            return type(node).model_fields[field].default, [Leftover((field,), value, span.terms(self.version))]
+        if isinstance(value, Node) and (row.reference not in self.whole or span.is_split):
+            return self._inner(field, value, span, row)
+        return value, []
+
+    def _inner(self, field: str, value: Any, span: Span, row: Fact) -> tuple[Any, list[Leftover]]:
+        form = span.shape(row)
+        if definition_of(value) is not None and form.fact.type is None:
+            return self.whole_node(value, form), []
+        changed, left = self.node(value, form)
+        if left and changed == type(value)():  # an element that says nothing is not written
+            changed = None
+        return changed, [each.inside(field, row.name) for each in left]
+
+    def _many(self, field: str, values: Any, span: Span, row: Fact | None) -> tuple[Any, list[Leftover]]:
+        repetition = span.repetition(self.version)
+        kept: list[Any] = []
+        left: list[Leftover] = []
+        for index, value in enumerate(values):
+            terms = self._terms(value, span, row, index)
+            if terms is None and repetition and kept:
+                terms = repetition.terms(self.version)
+            if terms is not None:
+                left.insert(0, Leftover((field,), (value,), terms))
+            elif row is not None and row.reference not in self.whole:
+                kept.append(self.whole_node(value, shape_of(row)))
+            else:
+                kept.append(value)
+        return tuple(kept), left
+
+    def _terms(self, value: Any, span: Span, row: Fact | None, index: int) -> Terms | None:
+        """When there is such a thing, if not in this version."""
+        if row is None:
+            return span.terms(self.version, index)
+        if isinstance(value, Visual | Collision) and value.geometry and value.geometry.shape:
+            known = shape("geometry").kinds.get(value.geometry.shape.kind)
+            if known and known.row(self.version) is None:
+                return known.terms(self.version, index)
+        return None
+
+    def _carry(self, node: Any, pieces: list[Opaque], left: Leftover) -> Any:
+        called = left.called(pieces)
+        where = left.location if left.location.line else node.location
+        message = f"SDF {print_version(self.version)} does not have {called}"
+        rule = rules.GONE_FROM_SDF
+        if left.terms.since is not None:
+            rule = shared_rules.OLDER_VERSION
+            self.keeper.sink.report(rule, message, where, found=called)
+        return self.keeper.keep(node, pieces, left.terms, rule, message, where, left.weight)
+
+
+class _Elements:
+    """The same for untyped parts."""
+
+    def __init__(self, keeper: Keeper, version: Version) -> None:
+        self.keeper = keeper
+        self.version = version
+        self.whole = whole(version)
+
+    def parts(self, node: Node, form: Shape) -> tuple[tuple[Opaque, ...], list[Leftover]]:
+        kept: list[Opaque] = []
+        left: list[Leftover] = []
+        seen: dict[tuple[str, str], int] = {}
+        for part in node.opaque:
+            found = self._part(node, part, form, seen)
+            if isinstance(found, Terms):
+                left.insert(0, Leftover((), part, found))
+                continue
+            changed, attributes = found
+            kept.append(changed)
+            left += attributes
+        return tuple(kept), left
+
+    def _part(
+        self, node: Node, part: Opaque, form: Shape, seen: dict[tuple[str, str], int]
+    ) -> Terms | tuple[Opaque, list[Leftover]]:
+        """The part as the version has it, or when there is such a thing."""
+        name = part.element.name if part.element else f"@{part.attribute[0]}" if part.attribute else ""
+        if not name or name.lstrip("@")[0] == "{" or is_version_carrier(part):
+            return part, []
+        steps = [*filter(None, part.at.split("/")), name]
+        span: Span | None = None
+        row: Fact | None = None
+        for step in steps:
+            span = form.names.get(step)
+            if span is None:
+                return part, []
+            row = span.row(self.version)
+            if row is None:
+                return span.terms(self.version)
+            form = span.shape(row)
+        number = seen[part.at, name] = seen.get((part.at, name), int(self._is_typed(node, row))) + 1
+        repetition = span.repetition(self.version) if span else None
+        if part.element is None or row is None:
+            return part, []
+        if repetition and number > 1:
+            return repetition.terms(self.version)
+        where = part.location
+        element, attributes = self._element(part.element, row, form, where)
+        if element is part.element:
+            return part, []
+        at = f"{part.at}/{name}" if part.at else name
+        lifted = [Leftover((), Opaque(at=at, attribute=pair, source=part.source), terms) for pair, terms in attributes]
+        return part.model_copy(update={"element": element}), lifted
+
+    def _is_typed(self, node: Node, row: Fact | None) -> bool:
+        """Whether the node has such a part in a field already."""
+        return bool(row and row.place and getattr(node, row.place, None))
+
+    def _element(
+        self, element: Element, row: Fact, form: Shape, where: Location
+    ) -> tuple[Element, list[tuple[tuple[str, str], Terms]]]:
+        """The element as the version has it; the attributes that a leaf loses have to be carried beside it."""
+        if form.fact.any or (row.reference in self.whole and form is shape_of(row)):
+            return element, []
+        lost = [(pair, terms) for pair in element.attributes if (terms := self._missing(f"@{pair[0]}", form))]
+        children: list[Element] = []
+        for child in element.children:
+            children += self._child(child, form, where)
+        gone = [pair for pair, _ in lost]
+        if form.fact.type is None:
+            for pair, terms in lost:
+                children += self._keep(Opaque(attribute=pair), terms, f"the attribute {pair[0]!r}", where)
+            lost = []
+        attributes = tuple(pair for pair in element.attributes if pair not in gone)
+        return replace_fields(element, attributes=attributes, children=tuple(children)), lost
+
+    def _child(self, child: Element, form: Shape, where: Location) -> list[Element]:
+        span = None if is_foreign(child) else form.names.get(child.name)
+        if span is None:
+            return [child]
+        row = span.row(self.version)
+        if row is not None and row.type and any(not is_foreign(inner) for inner in child.children):
+            row, span = None, span.containers()  # a wrench is a value, and was a position and a force
+        if row is None:
+            return self._keep(Opaque(element=child), span.terms(self.version), f"<{child.name}>", where)
+        inner, lost = self._element(child, row, span.shape(row), where)
+        beside = [
+            element
+            for pair, terms in lost
+            for element in self._keep(
+                Opaque(at=child.name, attribute=pair), terms, f"the attribute {pair[0]!r} of <{child.name}>", where
+            )
+        ]
+        return [inner, *beside]
+
+    def _missing(self, name: str, form: Shape) -> Terms | None:
+        span = form.names.get(name)
+        return span.terms(self.version) if span and span.row(self.version) is None else None
+
+    def _keep(self, piece: Opaque, terms: Terms, called: str, where: Location) -> list[Element]:
+        message = f"SDF {print_version(self.version)} does not have {called}"
+        rule = shared_rules.OLDER_VERSION if terms.since is not None else rules.GONE_FROM_SDF
+        if terms.since is not None:
+            self.keeper.sink.report(rule, message, where, found=called)
+        return list(self.keeper.keep_element(piece, terms, rule, message, where))
+
+
+def _is_plain_pose(value: object) -> bool:
+    """Whether it is a pose that every version can say, which is nearly every one."""
+    return (
+        isinstance(value, Pose)
+        and not value.opaque
+        and value.relative_to is None
+        and value.degrees is None
+        and value.rotation_format is None
+    )

@@ -1,0 +1,84 @@
+"""What the net has taken out of a node, as pieces of the element that the node is."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import cast
+
+from twinform.diagnostics import NOWHERE, Location
+from twinform.ir import Element, Node, Opaque, count_parts
+from twinform.passes.carriers.carriers import to_element
+from twinform.passes.carriers.definitions import definition_of
+from twinform.passes.carriers.sdf_versions import Terms
+
+_ABOUT = frozenset({"source", "spelling", "name", "type", "kind", "format", "version", "namespaces"})
+_IDENTITY = frozenset({"name", "type", "version"})
+
+
+@dataclass(frozen=True, slots=True)
+class Leftover:
+    """A field's value, found by the fields from the node that carries it; or an untyped part, where there are none."""
+
+    fields: tuple[str, ...]
+    value: object
+    terms: Terms
+
+    def inside(self, field: str, tag: str) -> "Leftover":
+        """The same, seen from the node around it, whose field this is in the element of that tag."""
+        if isinstance(self.value, Opaque):
+            at = f"{tag}/{self.value.at}" if self.value.at else tag
+            return Leftover((), self.value.model_copy(update={"at": at}), self.terms)
+        return Leftover((field, *self.fields), self.value, self.terms)
+
+    @property
+    def first(self) -> object:
+        """The value, or the first of several; there is one where a field of several nodes lost one."""
+        return cast("tuple[object, ...]", self.value)[0] if isinstance(self.value, tuple) else self.value
+
+    @property
+    def location(self) -> Location:
+        """Where it was written, if it knows."""
+        first = self.first
+        return first.location if isinstance(first, Node | Opaque) else NOWHERE
+
+    def called(self, pieces: list[Opaque]) -> str:
+        """What to call it in a message."""
+        names = [f"the attribute {piece.attribute[0]!r}" if piece.attribute else piece.name for piece in pieces]
+        name = getattr(self.first, "name", None) if isinstance(self.first, Node) else None
+        return " and ".join(dict.fromkeys(names)) + (f" {name!r}" if name else "")
+
+    @property
+    def weight(self) -> int:
+        """How many elements and attributes it stands for."""
+        first = self.first
+        if isinstance(first, Opaque):
+            return max(1, first.weight)
+        return count_parts(first) if isinstance(first, Node) else 1
+
+
+def node_pieces(node: Node, left: Leftover) -> list[Opaque]:
+    """The pieces of a leftover of a node."""
+    if isinstance(left.value, Opaque):
+        return [left.value.model_copy(update={"source": None})]
+    bare = _with_only(node, left.fields, left.value)
+    definition = definition_of(node) or ""
+    return list(_pieces(to_element(bare, definition, "sdf", definition), "", len(left.fields) - 1))
+
+
+def _with_only(node: Node, fields: tuple[str, ...], value: object) -> Node:
+    first, *rest = fields
+    inner = _with_only(getattr(node, first), tuple(rest), value) if rest else value
+    blank = {name: type(node).model_fields[name].default for name in node.__dict__ if name not in _ABOUT}
+    return node.model_copy(update={**blank, first: inner})
+
+
+def _pieces(element: Element, at: str, depth: int) -> Iterator[Opaque]:
+    """Attributes and children of the element that is so far down; there is one on each step of the way."""
+    if depth:
+        child = element.children[0]
+        yield from _pieces(child, f"{at}/{child.name}" if at else child.name, depth - 1)
+        return
+    for pair in element.attributes:
+        if at or pair[0] not in _IDENTITY:
+            yield Opaque(at=at, attribute=pair)
+    for child in element.children:
+        yield Opaque(at=at, element=child)

@@ -1,0 +1,57 @@
+"""Since 1.4 the time steps of physics belong to no engine."""
+
+from typing import ClassVar
+
+from twinform.ir import Document, Element, World, rewrite
+from twinform.passes.carriers.sdf_versions import Keeper
+from twinform.passes.sdf_versions.base import VersionPass, map_own_elements
+from twinform.passes.sdf_versions.element_paths import has, put, take
+
+_RATE = "update_rate"
+_REAL_TIME_RATE = "real_time_update_rate"
+_STEP = "max_step_size"
+_ENGINE_STEPS: dict[str, tuple[str, ...]] = {"ode": ("ode", "solver", "dt"), "bullet": ("bullet", "dt")}
+
+
+class MoveTimeSteps(VersionPass):
+    """Say the time steps of `<physics>` as 1.4 does, or with `back` as before.
+
+    Changes: 1. `update_rate` and `real_time_update_rate`; 2. `ode/solver/dt` or `bullet/dt`, and `max_step_size`.
+    Never touches: a second step, which the version asked for has no place for.
+    """
+
+    name: ClassVar[str] = "move-time-steps"
+    back: bool = False
+
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document with its steps in the words of the version."""
+        move = _back if self.back else _forth
+
+        def of_physics(element: Element) -> Element:
+            return move(element) if element.name == "physics" else element
+
+        def in_world(world: World) -> World:
+            return map_own_elements(world, of_physics)
+
+        return rewrite(document, World, in_world)
+
+
+def _forth(physics: Element) -> Element:
+    physics = _rename(physics, (_RATE,), _REAL_TIME_RATE)
+    for path in _ENGINE_STEPS.values():
+        physics = _rename(physics, path, _STEP)
+    return physics
+
+
+def _back(physics: Element) -> Element:
+    physics = _rename(physics, (_REAL_TIME_RATE,), _RATE)
+    *holder, name = _ENGINE_STEPS.get(physics.get("type") or "ode", _ENGINE_STEPS["ode"])
+    return _rename(physics, (_STEP,), name, tuple(holder))
+
+
+def _rename(element: Element, path: tuple[str, ...], name: str, into: tuple[str, ...] = ()) -> Element:
+    """The element with the one at a path moved, unless there is one in its new place."""
+    if has(element, (*into, name)):
+        return element
+    left, taken = take(element, path)
+    return element if taken is None else put(left, into, taken.model_copy(update={"name": name}))

@@ -1,0 +1,87 @@
+"""Since 1.6 gravity and the magnetic field belong to the world."""
+
+from functools import partial
+from typing import ClassVar
+
+from twinform.ir import Document, Element, Opaque, World, rewrite
+from twinform.passes.carriers.sdf_versions import Keeper, Terms, version_carriers
+from twinform.passes.sdf_versions.base import VersionPass
+from twinform.passes.sdf_versions.element_paths import put, take
+from twinform.schemas import format_value, parse_value
+
+_SINCE = (1, 6)
+_FIELD = "magnetic_field"
+_FIELD_SINCE = (1, 5)
+
+
+class MoveWorldFields(VersionPass):
+    """Move `<gravity>` and `<magnetic_field>` from the physics of a world to the world, or with `back` from there.
+
+    Changes: where a world without `<physics>` has one of them, `back` makes one, which goes again on the way forth.
+    Never touches: gravity of a second `<physics>`; the magnetic field on the way to 1.4, which does not have it.
+    """
+
+    name: ClassVar[str] = "move-world-fields"
+    back: bool = False
+
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document with the fields in their places."""
+        return rewrite(
+            document, World, partial(_back, self.carriers, self.number >= _FIELD_SINCE) if self.back else _forth
+        )
+
+
+def _forth(world: World) -> World:
+    for part in world.opaque:
+        if part.element and part.element.name == "physics" and not part.at:
+            return _out_of(world, part, part.element)
+    return world
+
+
+def _out_of(world: World, part: Opaque, physics: Element) -> World:
+    update: dict[str, object] = {}
+    moved: list[Opaque] = []
+    left, gravity = take(physics, ("gravity",))
+    if gravity is not None and gravity.text and world.gravity is None:
+        physics, update["gravity"] = left, parse_value("vector3", gravity.text)
+    left, field = take(physics, (_FIELD,))
+    if field is not None and not _has(world, _FIELD):
+        physics = left
+        moved.append(Opaque(element=field, source=part.source))
+    if not update and not moved:
+        return world
+    changed = part.model_copy(update={"element": physics})
+    update["opaque"] = (*(changed if each is part else each for each in world.opaque), *moved)
+    return world.model_copy(update=update)
+
+
+def _back(carriers: bool, field: bool, world: World) -> World:
+    fields = [part for part in world.opaque if part.element and part.element.name == _FIELD and not part.at]
+    if not field:
+        fields = []
+    moved = [part.element for part in fields if part.element]
+    if world.gravity is not None:
+        moved.insert(0, Element(name="gravity", text=format_value(world.gravity)))
+    if not moved:
+        return world
+    rest = [part for part in world.opaque if part not in fields]
+    place = next((i for i, part in enumerate(rest) if part.element and part.element.name == "physics"), None)
+    if place is None:
+        place = len(rest)
+        rest.append(Opaque(element=_made(carriers=carriers), source=world.source))
+    physics = rest[place].element
+    for element in moved:
+        physics = put(physics, (), element) if physics else None
+    rest[place] = rest[place].model_copy(update={"element": physics})
+    return world.model_copy(update={"gravity": None, "opaque": tuple(rest)})
+
+
+def _made(*, carriers: bool) -> Element:
+    """A `<physics>` that is there for its gravity alone."""
+    annotations = version_carriers([], Terms(since=_SINCE, without=(".",))) if carriers else ()
+    children = tuple(part.element for part in annotations if part.element)
+    return Element(name="physics", attributes=(("type", "ode"),), children=children)
+
+
+def _has(world: World, name: str) -> bool:
+    return any(part.element and part.element.name == name and not part.at for part in world.opaque)

@@ -1,0 +1,78 @@
+"""Since 1.7 a pose names its frame `relative_to`."""
+
+from typing import ClassVar, TypeVar
+
+from twinform.ir import (
+    Document,
+    Element,
+    Model,
+    Node,
+    Opaque,
+    Pose,
+    holds_opaque,
+    map_children,
+    replace_fields,
+    rewrite,
+)
+from twinform.passes.carriers.sdf_versions import Keeper
+from twinform.passes.sdf_versions.base import VersionPass, is_foreign, map_own_elements
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+_OLD = "frame"
+_NEW = "relative_to"
+
+
+class NamePoseFrames(VersionPass):
+    """Call the frame of a pose `relative_to`, which SDF 1.5 and 1.6 call `frame`.
+
+    Changes: every pose, those in untyped elements too.
+    Never touches: an empty name, which means nothing; the pose of a model at the root of the file, which names no frame
+    in newer versions; in an untyped element the pose in a frame of its own, which goes along with that frame.
+    """
+
+    name: ClassVar[str] = "name-pose-frames"
+
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document with poses in the words of 1.7."""
+        models = tuple(map(_renamed_model, document.models))
+        rest = map_children(document.model_copy(update={"models": ()}), _all_renamed)
+        return rest.model_copy(update={"models": models})
+
+
+def _renamed_model(model: Model) -> Model:
+    """A model at the root of the file, whose own pose stays."""
+    return _all_renamed(model).model_copy(update={"pose": model.pose})
+
+
+def _all_renamed(node: AnyNode) -> AnyNode:
+    return rewrite(node, Node, _renamed, enter=holds_opaque)
+
+
+def _renamed(node: Node) -> Node:
+    return _pose(node) if isinstance(node, Pose) else map_own_elements(node, _inside)
+
+
+def _pose(pose: Pose) -> Pose:
+    found = next((part for part in pose.opaque if part.attribute and part.attribute[0] == _OLD), None)
+    if found is None or not found.attribute or not found.attribute[1] or pose.relative_to is not None:
+        return pose
+    rest: tuple[Opaque, ...] = tuple(part for part in pose.opaque if part is not found)
+    return pose.model_copy(update={_NEW: found.attribute[1], "opaque": rest})
+
+
+def _inside(element: Element, own: frozenset[str | None] = frozenset()) -> Element:
+    """An untyped element with its poses renamed; `own` are the frames of the one around it."""
+    if element.name == "plugin" or is_foreign(element):
+        return element
+    if element.name == "pose":
+        return element if element.get(_OLD) in own else _element(element)
+    frames = frozenset(child.get("name") for child in element.children if child.name == "frame")
+    return replace_fields(element, children=tuple(_inside(child, frames) for child in element.children))
+
+
+def _element(pose: Element) -> Element:
+    if not pose.get(_OLD) or pose.get(_NEW) is not None:
+        return pose
+    attributes = tuple((_NEW if name == _OLD else name, value) for name, value in pose.attributes)
+    return pose.model_copy(update={"attributes": attributes})

@@ -1,0 +1,58 @@
+"""What may go without a name in one version must have one in another."""
+
+from pathlib import PurePosixPath
+from typing import ClassVar, TypeVar
+
+from twinform.diagnostics import DiagnosticSink, Fate
+from twinform.diagnostics.rules import sdf_versions as rules
+from twinform.ir import Document, Light, Plugin, rewrite
+from twinform.passes.carriers.sdf_versions import Keeper
+from twinform.passes.sdf_versions.base import VersionPass
+from twinform.passes.transforms.nodes import unique_name
+
+_LIGHTS = (1, 6)
+"""Since this version a light has a name."""
+_PLUGINS = (1, 9)
+"""Until this version a plugin has one."""
+Named = TypeVar("Named", Light, Plugin)
+
+
+class NameTheNameless(VersionPass):
+    """Name the lights and plugins that the version wants to have a name.
+
+    Changes: 1. from 1.6 on a light is called `light`; 2. until 1.9 a plugin is called like its file. A number makes the
+    name unlike others.
+    Diagnostics: in the ledger `name-made`.
+    """
+
+    name: ClassVar[str] = "name-the-nameless"
+
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document with names."""
+        taken: set[str] = set()
+        if self.number >= _LIGHTS:
+            document = rewrite(document, Light, lambda light: _named(light, taken, keeper.sink))
+        if self.number <= _PLUGINS:
+            document = rewrite(document, Plugin, lambda plugin: _named_by_file(plugin, taken, keeper.sink))
+        return document
+
+
+def _named(light: Light, taken: set[str], sink: DiagnosticSink) -> Light:
+    return light if light.name else _called("light", "light", light, taken, sink)
+
+
+def _named_by_file(plugin: Plugin, taken: set[str], sink: DiagnosticSink) -> Plugin:
+    return plugin if plugin.name is not None else _called("plugin", plugin_stem(plugin.filename), plugin, taken, sink)
+
+
+def plugin_stem(filename: str | None) -> str:
+    """What a plugin without a name is called: like its file."""
+    return PurePosixPath(filename or "").stem.removeprefix("lib") or "plugin"
+
+
+def _called(kind: str, wish: str, node: Named, taken: set[str], sink: DiagnosticSink) -> Named:
+    name = unique_name(wish, taken)
+    taken.add(name)
+    message = f"a {kind} without a name is called {name!r}"
+    sink.account(Fate.APPROXIMATED, rules.NAME_MADE, message, node.location)
+    return node.model_copy(update={"name": name})

@@ -1,0 +1,219 @@
+"""Since 1.8 a name like `arm::hand` is that of a hand in a nested model."""
+
+from dataclasses import dataclass, field
+from functools import partial
+from typing import ClassVar, TypeVar
+
+from twinform.diagnostics import DiagnosticSink, Fate
+from twinform.diagnostics.rules import sdf_versions as rules
+from twinform.ir import (
+    IN_MODELS,
+    Axis,
+    Document,
+    Format,
+    Frame,
+    Joint,
+    Link,
+    Model,
+    Pose,
+    ReferenceKind,
+    map_references,
+    rewrite,
+)
+from twinform.ir.defaults import direction
+from twinform.ir.frames import MODEL, WORLD, FrameGraph
+from twinform.passes.carriers.sdf_versions import Keeper
+from twinform.passes.sdf_versions.base import VersionPass
+
+Part = TypeVar("Part", Link, Joint, Frame)
+_SCOPE = "::"
+
+
+class NestModels(VersionPass):
+    """Make nested models of links, joints, frames and models that were flattened into the model with scoped names.
+
+    Changes: 1. `arm::hand` becomes `hand` in a model `arm`, whose frame is that of `arm::__model__` where there is one
+    and else that of the model around it; everything stays where it is; 2. what names them does so too. A joint between
+    one of them and a part of another model stays outside, with `_` for `::` in its name.
+    Diagnostics: in the ledger `other-words`.
+    """
+
+    name: ClassVar[str] = "nest-models"
+
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document without scoped names."""
+        return rewrite(document, Model, lambda model: nest(model, keeper.sink))
+
+
+@dataclass(slots=True)
+class _Inner:
+    """What goes into one nested model."""
+
+    name: str
+    links: list[Link] = field(default_factory=list[Link])
+    joints: list[Joint] = field(default_factory=list[Joint])
+    frames: list[Frame] = field(default_factory=list[Frame])
+    models: list[Model] = field(default_factory=list[Model])
+    own: Frame | None = None
+
+    @property
+    def prefix(self) -> str:
+        return self.name + _SCOPE
+
+    @property
+    def holds_anything(self) -> bool:
+        return bool(self.links or self.joints or self.frames or self.models)
+
+    def strip(self, name: str | None) -> str | None:
+        """A name of the outer model as one of this."""
+        return name.removeprefix(self.prefix) if name else name
+
+    def holds(self, name: str | None) -> bool:
+        """Whether a name of the outer model is one of this."""
+        return bool(name) and (name or "").startswith(self.prefix)
+
+    def joint_is_inside(self, joint: Joint) -> bool:
+        leaders = (axis.mimic.joint for axis in (joint.axis, joint.axis2) if axis and axis.mimic)
+        ends = all(end == WORLD or self.holds(end) for end in (joint.parent, joint.child))
+        return ends and all(self.holds(leader) for leader in leaders)
+
+    def moved(self, node: Part, update: dict[str, object]) -> Part:
+        """A part of the outer model as one of this; what it names here it names by its new name."""
+        return map_references(node.model_copy(update={"name": self.strip(node.name), **update}), self.follow)
+
+    def follow(self, kind: ReferenceKind, name: str) -> str:
+        return name.removeprefix(self.prefix) if kind in IN_MODELS else name
+
+
+def nest(model: Model, sink: DiagnosticSink, among: frozenset[str] | None = None) -> Model:
+    """The model with nested models of what has scoped names in it.
+
+    `among` are the full names of the models that there are to be; None makes one of every scope.
+    """
+    named = (*model.links, *model.joints, *model.frames, *model.models)
+    if not any(_SCOPE in node.name for node in named):
+        return model
+    graph = FrameGraph(model)
+    first = partial(_first, among)
+    inner = {name: _Inner(name) for node in named if (name := first(node.name))}
+    links, joints, frames = list[Link](), list[Joint](), list[Frame]()
+    for link in model.links:
+        (inner[name].links if (name := first(link.name)) else links).append(link)
+    for joint in model.joints:
+        name = first(joint.name)
+        if name and inner[name].joint_is_inside(joint):
+            inner[name].joints.append(joint)
+        else:
+            joints.append(joint.model_copy(update={"name": joint.name.replace(_SCOPE, "_")}) if name else joint)
+    for frame in model.frames:
+        name = first(frame.name)
+        if not name:
+            frames.append(frame)
+        elif frame.name == f"{name}{_SCOPE}{MODEL}":
+            inner[name].own = frame
+        else:
+            inner[name].frames.append(frame)
+    models = [nested for nested in model.models if not first(nested.name)]
+    for nested in model.models:
+        if name := first(nested.name):
+            inner[name].models.append(nested)
+    made = [_model(each, model, graph, sink, _within(each, among)) for each in inner.values() if each.holds_anything]
+    there = tuple(_merged(nested, made) for nested in models)
+    new = tuple(nested for nested in made if nested.name not in {each.name for each in models})
+    update = {"links": tuple(links), "joints": tuple(joints), "frames": tuple(frames), "models": (*there, *new)}
+    return model.model_copy(update=update)
+
+
+def _first(among: frozenset[str] | None, name: str) -> str:
+    """The model that a scoped name begins with."""
+    if among is None:
+        return name.partition(_SCOPE)[0] if _SCOPE in name else ""
+    return min((path for path in among if name.startswith(path + _SCOPE)), key=len, default="")
+
+
+def _within(inner: _Inner, among: frozenset[str] | None) -> frozenset[str] | None:
+    """The models that are to be in a nested one, by their names in that."""
+    return among and frozenset(path.removeprefix(inner.prefix) for path in among if inner.holds(path))
+
+
+def _model(
+    inner: _Inner, around: Model, graph: FrameGraph, sink: DiagnosticSink, among: frozenset[str] | None
+) -> Model:
+    own, base = inner.own, MODEL
+    pose = canonical = None
+    if own is not None:
+        base = own.name
+        pose = own.pose
+        frame = (pose.relative_to if pose else None) or own.attached_to
+        if inner.holds(frame):
+            pose = graph.pose(own.name, MODEL, kind="frame").to_pose()
+        elif frame:
+            pose = (pose or Pose()).model_copy(update={"relative_to": frame})
+        canonical = inner.strip(own.attached_to) if inner.holds(own.attached_to) else None
+    nested = Model(
+        name=inner.name,
+        pose=pose,
+        canonical_link=canonical,
+        links=tuple(_link(link, inner, base, graph) for link in inner.links),
+        joints=tuple(_joint(joint, inner, graph) for joint in inner.joints),
+        frames=tuple(_frame(frame, inner, base, graph) for frame in inner.frames),
+        models=tuple(_inner_model(nested, inner, base, graph) for nested in inner.models),
+        source=next((each.source for each in (*inner.links, *inner.frames, *inner.joints)), around.source),
+    )
+    message = f"{len(nested.links)} links, {len(nested.joints)} joints and {len(nested.frames)} frames of model "
+    message += f"{around.name!r} are in its nested model {inner.name!r}"
+    sink.account(Fate.APPROXIMATED, rules.OTHER_WORDS, message, nested.location, 0)
+    return nest(nested, sink, among)
+
+
+def _link(link: Link, inner: _Inner, base: str, graph: FrameGraph) -> Link:
+    pose = link.pose
+    if not inner.holds(pose.relative_to if pose else None) and (base != MODEL or (pose and pose.relative_to)):
+        pose = graph.pose(link.name, base, base="frame").to_pose()
+    return inner.moved(link, {"pose": pose})
+
+
+def _inner_model(model: Model, inner: _Inner, base: str, graph: FrameGraph) -> Model:
+    pose = model.pose
+    if not inner.holds(pose.relative_to if pose else None) and (base != MODEL or (pose and pose.relative_to)):
+        where = graph.pose(model.name, base, kind="model", base="frame")
+        pose = where.to_pose()  # of the model's own frame, which a placement frame would move
+        model = model.model_copy(update={"placement_frame": None})
+    pose = pose and map_references(pose, inner.follow)
+    return model.model_copy(update={"name": inner.strip(model.name), "pose": pose})
+
+
+def _frame(frame: Frame, inner: _Inner, base: str, graph: FrameGraph) -> Frame:
+    pose, held = frame.pose, inner.holds(frame.attached_to)
+    around = (pose.relative_to if pose else None) or frame.attached_to
+    if not inner.holds(around):
+        pose = graph.pose(frame.name, base, kind="frame", base="frame").to_pose(MODEL)
+    held_by = frame.attached_to if held else graph.body(frame.name, kind="frame")
+    return inner.moved(frame, {"attached_to": held_by if inner.holds(held_by) else None, "pose": pose})
+
+
+def _joint(joint: Joint, inner: _Inner, graph: FrameGraph) -> Joint:
+    pose = joint.pose
+    if pose is not None and pose.relative_to and not inner.holds(pose.relative_to):
+        pose = graph.pose(joint.name, joint.child or "", kind="joint").to_pose()
+    axes = {field: _axis(joint, getattr(joint, field), inner, graph) for field in ("axis", "axis2")}
+    return inner.moved(joint, {"pose": pose, **axes})
+
+
+def _axis(joint: Joint, axis: Axis | None, inner: _Inner, graph: FrameGraph) -> Axis | None:
+    """The axis, turned into the joint where the frame that it is expressed in is outside."""
+    if axis is None or not axis.expressed_in or inner.holds(axis.expressed_in):
+        return axis
+    if axis.expressed_in == MODEL and inner.own is None:
+        return axis
+    turn = graph.pose(axis.expressed_in, joint.name, kind="frame", base="joint")
+    return axis.model_copy(update={"xyz": turn.rotate(direction(axis, Format.SDF)), "expressed_in": None})
+
+
+def _merged(nested: Model, made: list[Model]) -> Model:
+    """A nested model that was there already, with what was found of it in the model around it."""
+    found = next((each for each in made if each.name == nested.name), None)
+    if found is None:
+        return nested
+    update = {name: (*getattr(nested, name), *getattr(found, name)) for name in ("links", "joints", "frames", "models")}
+    return nested.model_copy(update=update)

@@ -1,0 +1,46 @@
+"""Since 1.8 an inertial is posed in its link and nowhere else."""
+
+from typing import ClassVar
+
+from twinform.diagnostics import DiagnosticSink, Fate
+from twinform.diagnostics.rules import sdf_versions as rules
+from twinform.ir import Document, Link, Model, rewrite
+from twinform.ir.frames import FrameGraph
+from twinform.passes.carriers.sdf_versions import Keeper
+from twinform.passes.sdf_versions.base import VersionPass
+
+
+class PlaceInertials(VersionPass):
+    """Pose inertials in their links.
+
+    Changes: 1. a pose that names another frame, as 1.7 alone has it, is moved; 2. an empty name, which means nothing,
+    goes.
+    Diagnostics: in the ledger `other-words` as approximated.
+    """
+
+    name: ClassVar[str] = "place-inertials"
+
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document with inertials in their links."""
+        return rewrite(document, Model, lambda model: _place_all(model, keeper))
+
+
+def _place_all(model: Model, keeper: Keeper) -> Model:
+    poses = [link.inertial.pose for link in model.links if link.inertial and link.inertial.pose]
+    if all(pose.relative_to is None for pose in poses):
+        return model
+    graph = FrameGraph(model)
+    return model.model_copy(update={"links": tuple(_place(link, graph, keeper.sink) for link in model.links)})
+
+
+def _place(link: Link, graph: FrameGraph, sink: DiagnosticSink) -> Link:
+    inertial = link.inertial
+    pose = inertial.pose if inertial else None
+    if inertial is None or pose is None or pose.relative_to is None:
+        return link
+    placed = pose.model_copy(update={"relative_to": None})
+    if pose.relative_to:
+        placed = graph.resolve(pose, link.name, link.name).to_pose()
+        message = f"the inertial of link {link.name!r} is posed relative to {pose.relative_to!r}"
+        sink.account(Fate.APPROXIMATED, rules.OTHER_WORDS, message, pose.location)
+    return link.model_copy(update={"inertial": inertial.model_copy(update={"pose": placed})})

@@ -1,0 +1,25 @@
+"""The last step between versions: the document declares the new one."""
+
+from typing import ClassVar
+
+from twinform.diagnostics import DiagnosticSink, Fate
+from twinform.ir import Document
+from twinform.passes.carriers.carriers import NAMESPACE, PREFIX
+from twinform.passes.framework.base import Pass
+
+
+class SetVersion(Pass):
+    """Declare the document to be SDF of a version, with the prefix of the carriers where there are any.
+
+    Changes: version and namespaces of the document.
+    """
+
+    name: ClassVar[str] = "set-version"
+    version: str
+
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
+        """The document in its new version."""
+        namespaces = document.namespaces
+        if any(entry.fate is Fate.CARRIED for entry in sink.entries) and (PREFIX, NAMESPACE) not in namespaces:
+            namespaces = (*(pair for pair in namespaces if pair[0] != PREFIX), (PREFIX, NAMESPACE))
+        return document.model_copy(update={"version": self.version, "namespaces": namespaces})

@@ -1,0 +1,103 @@
+"""Since 1.6 an IMU has its noise on each axis."""
+
+from functools import partial
+from typing import ClassVar
+
+from twinform.ir import Document, Element, Sensor, rewrite
+from twinform.passes.carriers.carriers import NAMESPACE
+from twinform.passes.carriers.sdf_versions import Keeper
+from twinform.passes.sdf_versions.base import VersionPass, map_own_elements
+from twinform.passes.sdf_versions.element_paths import has, put, take
+
+_MEASURED = {"rate": "angular_velocity", "accel": "linear_acceleration"}
+_NUMBERS = ("mean", "stddev", "bias_mean", "bias_stddev")
+_MARK = f"{{{NAMESPACE}}}noise"
+"""Says in an IMU that its noise was written once for all axes: `<tf:noise/>`."""
+_DEFAULT = "gaussian"
+"""The noise of an IMU that does not say of what type it is; on an axis the default is none."""
+
+
+class SpreadImuNoise(VersionPass):
+    """Write the noise of an IMU on each of its axes.
+
+    Changes: `imu/noise`, whose `rate` becomes the noise of `angular_velocity` and whose `accel` that of
+    `linear_acceleration`. With `mark`, it says so beside, for the conversion back.
+    Never touches: an axis that says its noise already.
+    """
+
+    name: ClassVar[str] = "spread-imu-noise"
+    mark: bool = False
+
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document with noise on axes."""
+        return rewrite(document, Sensor, partial(_sensor, self.mark))
+
+
+class GatherImuNoise(VersionPass):
+    """Write the noise of an IMU once for all of its axes, as SDF did before 1.6.
+
+    Changes: where the three axes of `angular_velocity`, and those of `linear_acceleration`, have one noise and say
+    nothing else, it becomes `imu/noise`. With `marked`, only where it was written so before.
+    Never touches: axes that differ, or noises of two types.
+    """
+
+    name: ClassVar[str] = "gather-imu-noise"
+    marked: bool = False
+
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document with noise once for each IMU."""
+
+        def gather(element: Element) -> Element:
+            return element if self.marked and element.find(_MARK) is None else gathered(element)
+
+        return rewrite(document, Sensor, lambda sensor: map_own_elements(sensor, gather))
+
+
+def gathered(element: Element) -> Element:
+    """An `<imu>` with its noise said once; the same one where that cannot be."""
+    if element.name != "imu":
+        return element
+    noises = {old: _common_noise(element, new) for old, new in _MEASURED.items()}
+    types = {noise.get("type") for noise in noises.values() if noise is not None}
+    if None in noises.values() or len(types) != 1:
+        return element
+    kept = tuple(child for child in element.children if child.name not in {*_MEASURED.values(), _MARK})
+    numbers = tuple(
+        Element(name=old, children=noise.children) for old, noise in noises.items() if noise and noise.children
+    )
+    type_ = Element(name="type", text=types.pop())
+    return element.model_copy(update={"children": (*kept, Element(name="noise", children=(type_, *numbers)))})
+
+
+def _common_noise(imu: Element, measured: str) -> Element | None:
+    """The noise that the three axes of a measurement have in common, if they say nothing else."""
+    holder = imu.find(measured)
+    axes = [holder.find(axis) for axis in ("x", "y", "z")] if holder else []
+    first = axes[0].find("noise") if axes and axes[0] else None
+    if holder is None or first is None or len(holder.children) != len(axes):
+        return None
+    same = all(axis is not None and axis.children == (first,) and not axis.attributes for axis in axes)
+    plain = all(child.name in _NUMBERS and not child.children for child in first.children)
+    return first if same and plain and [name for name, _ in first.attributes] == ["type"] else None
+
+
+def _sensor(mark: bool, sensor: Sensor) -> Sensor:
+    return map_own_elements(sensor, partial(_imu, mark))
+
+
+def _imu(mark: bool, element: Element) -> Element:
+    if element.name != "imu":
+        return element
+    imu, noise = take(element, ("noise",))
+    if noise is None:
+        return element
+    kind = noise.find("type")
+    type_ = (kind.text if kind else None) or _DEFAULT
+    for old, new in _MEASURED.items():
+        numbers = noise.find(old) or Element(name=old)
+        children = tuple(child for child in numbers.children if child.name in _NUMBERS)
+        made = Element(name="noise", attributes=(("type", type_),), children=children)
+        for axis in ("x", "y", "z"):
+            if not has(imu, (new, axis, "noise")):
+                imu = put(imu, (new, axis), made)
+    return imu.model_copy(update={"children": (Element(name=_MARK), *imu.children)}) if mark else imu

@@ -1,0 +1,92 @@
+"""Before 1.7 an axis is in the joint's frame or the model's, and before 1.5 always in the model's."""
+
+from functools import partial
+from typing import ClassVar
+
+from twinform.diagnostics.rules import sdf_versions as rules
+from twinform.ir import Axis, Document, Element, Format, Joint, Model, Opaque, rewrite
+from twinform.ir.defaults import AXIS, direction
+from twinform.ir.frames import MODEL, FrameGraph
+from twinform.passes.carriers.sdf_versions import Keeper, Terms
+from twinform.passes.sdf_versions.base import VersionPass
+from twinform.schemas import Version, format_value
+
+_NAMES: Version = (1, 7)
+_WORDS: Version = (1, 5)
+
+
+class TurnAxes(VersionPass):
+    """Express axes in the frames that an older version has for them.
+
+    Changes: 1. an axis in `__model__` has `use_parent_model_frame` from 1.5 on, and needs no word before; 2. any other
+    that names a frame is turned into the joint's, or before 1.5 into the model's, as are those that name none.
+    Never touches: the numbers of an axis that has the right frame already.
+    Diagnostics: in the ledger `other-words`.
+    """
+
+    name: ClassVar[str] = "turn-axes"
+
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document with axes in the words of the version."""
+        return rewrite(document, Model, partial(_model, keeper, self.number >= _WORDS))
+
+
+def _model(keeper: Keeper, has_word: bool, model: Model) -> Model:
+    axes = [axis for joint in model.joints for axis in (joint.axis, joint.axis2) if axis]
+    if all(axis.expressed_in is None and has_word for axis in axes):
+        return model
+    turn = _Turner(keeper, FrameGraph(model), has_word=has_word)
+    return model.model_copy(update={"joints": tuple(map(turn.joint, model.joints))})
+
+
+class _Turner:
+    """Turns the axes of one model."""
+
+    def __init__(self, keeper: Keeper, graph: FrameGraph, *, has_word: bool) -> None:
+        self.keeper = keeper
+        self.graph = graph
+        self.has_word = has_word
+
+    def joint(self, joint: Joint) -> Joint:
+        for field in ("axis", "axis2"):
+            axis: Axis | None = getattr(joint, field)
+            if axis is not None:
+                joint = self._axis(joint, field, axis)
+        return joint
+
+    def _axis(self, joint: Joint, field: str, axis: Axis) -> Joint:
+        frame = axis.expressed_in
+        if self.has_word and frame == MODEL:
+            said = axis.model_copy(update={"expressed_in": None, "use_parent_model_frame": True})
+            return joint.model_copy(update={field: said})
+        if not self.has_word:
+            plain = axis.model_copy(update={"expressed_in": None, "use_parent_model_frame": None})
+            in_model = frame == MODEL or axis.use_parent_model_frame
+            return joint.model_copy(update={field: plain}) if in_model else self._turned(joint, field, axis, MODEL)
+        return joint if frame is None else self._turned(joint, field, axis, joint.name)
+
+    def _turned(self, joint: Joint, field: str, axis: Axis, base: str) -> Joint:
+        """The joint with the axis in another frame, and the axis that it had in a carrier."""
+        to_model = base == MODEL
+        turn = self.graph.pose(
+            axis.expressed_in or joint.name, base, kind="joint", base="model" if to_model else "joint"
+        )
+        x, y, z = turn.rotate(direction(axis, Format.SDF))
+        xyz = None if axis.xyz is None and (x, y, z) == AXIS[Format.SDF] else (x + 0.0, y + 0.0, z + 0.0)
+        plain = axis.model_copy(update={"xyz": xyz, "expressed_in": None})
+        turned = joint.model_copy(update={field: plain})
+        message = f"the axis of joint {joint.name!r} is expressed in {axis.expressed_in or 'its own frame'}"
+        written = axis.xyz is not None or axis.expressed_in is not None
+        # back in newer words, an axis that was written without a frame is one in the model
+        gone = [f"{field}.expressed_in"] if to_model and axis.expressed_in is None else []
+        gone += [f"{field}.xyz"] if axis.xyz is None and xyz is not None else []
+        terms = Terms(since=_NAMES, without=tuple(gone))
+        pieces = [_written(field, axis)] if written else []
+        weight = (axis.xyz is not None) + (axis.expressed_in is not None)
+        return self.keeper.keep(turned, pieces, terms, rules.OTHER_WORDS, message, axis.location, weight)
+
+
+def _written(field: str, axis: Axis) -> Opaque:
+    attributes = () if axis.expressed_in is None else (("expressed_in", axis.expressed_in),)
+    text = format_value(axis.xyz) if axis.xyz is not None else None
+    return Opaque(at=field, element=Element(name="xyz", attributes=attributes, text=text))

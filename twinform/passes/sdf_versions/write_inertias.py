@@ -1,0 +1,44 @@
+"""Before 1.11 no inertia was left to the reader."""
+
+from functools import partial
+from typing import ClassVar
+
+from twinform.diagnostics.rules import sdf_versions as rules
+from twinform.ir import Document, Inertial, Link, Model, rewrite
+from twinform.ir.frames import FrameGraph
+from twinform.passes.analyses.automatic_inertias import NoInertiaError, automatic, map_automatic, written_out
+from twinform.passes.analyses.meshes import Meshes
+from twinform.passes.carriers.sdf_versions import Keeper, Terms
+from twinform.passes.framework.assets import AssetPass
+from twinform.passes.sdf_versions.base import VersionPass
+
+_SINCE = (1, 11)
+
+
+class WriteInertias(VersionPass, AssetPass):
+    """Write the inertias that newer versions leave to their reader (`<inertial auto="true">`).
+
+    Changes: mass, pose and inertia of such a link are those of its collisions, filled with their densities; a mass that
+    is written stays.
+    Never touches: links without collisions or with shapes without an inside; of these a later pass says that the
+    version cannot say it.
+    """
+
+    name: ClassVar[str] = "write-inertias"
+
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document with every inertia written out."""
+        write = partial(_write, keeper, Meshes(self._assets))
+        return rewrite(document, Model, lambda model: map_automatic(model, write))
+
+
+def _write(keeper: Keeper, meshes: Meshes, link: Link, inertial: Inertial, graph: FrameGraph) -> Link:
+    try:
+        found = automatic(link, inertial, link.collisions, graph, meshes)
+    except NoInertiaError:
+        return link
+    written, pieces, made = written_out(inertial, found)
+    message = f"the inertia of link {link.name!r} is left to be computed from its collisions"
+    terms = Terms(since=_SINCE, without=made)
+    kept = keeper.keep(written, pieces, terms, rules.OTHER_WORDS, message, inertial.location, len(pieces))
+    return link.model_copy(update={"inertial": kept})

@@ -1,0 +1,66 @@
+"""Before 1.9 a pose is six numbers, the angles in radians."""
+
+from functools import partial
+from typing import ClassVar, TypeVar
+
+from twinform.diagnostics import NOWHERE
+from twinform.diagnostics.rules import sdf_versions as rules
+from twinform.ir import Document, Element, Node, Opaque, Pose, count_parts, map_children, rewrite
+from twinform.ir.transform import Transform
+from twinform.passes.carriers.carriers import to_element
+from twinform.passes.carriers.sdf_versions import Keeper, Terms, version_carriers
+from twinform.passes.sdf_versions.base import VersionPass, map_inside, map_own_elements
+from twinform.passes.sdf_versions.element_paths import replace
+from twinform.passes.transforms.element_poses import read_pose
+from twinform.passes.transforms.nodes import pose_piece
+from twinform.passes.transforms.notation import in_radians
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+_SINCE = (1, 9)
+_WORDS = ("rotation_format", "degrees")
+
+
+class WritePlainPoses(VersionPass):
+    """Write quaternions and degrees as roll, pitch and yaw in radians.
+
+    Changes: every such pose, those in untyped elements too.
+    Diagnostics: in the ledger `other-words`.
+    """
+
+    name: ClassVar[str] = "write-plain-poses"
+
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document with plain poses."""
+        return map_children(document, lambda child: rewrite(child, Node, partial(_plain, keeper)))
+
+
+def _plain(keeper: Keeper, node: Node) -> Node:
+    node = map_own_elements(node, partial(map_inside, change=partial(_element, keeper)))
+    pose: Pose | None = node.__dict__.get("pose")
+    if pose is None or not (pose.quat_xyzw or pose.degrees is not None or pose.rotation_format is not None):
+        return node
+    made = in_radians(Transform.from_pose(pose), pose.relative_to).model_copy(update={"opaque": pose.opaque})
+    changed = node.model_copy(update={"pose": made if made != Pose() else None})
+    called = getattr(node, "name", None) or type(node).__name__.lower()
+    message = f"the pose of {called!r} is written in degrees or as a quaternion"
+    weight = count_parts(pose)
+    terms = Terms(since=_SINCE)
+    return keeper.keep(changed, [pose_piece(pose)], terms, rules.OTHER_WORDS, message, pose.location, weight)
+
+
+def _element(keeper: Keeper, element: Element) -> Element:
+    pose = element.find("pose")
+    if pose is None or all(pose.get(word) is None for word in _WORDS):
+        return element
+    read = read_pose(pose)
+    plain = to_element(in_radians(Transform.from_pose(read), read.relative_to), "pose", "sdf")
+    rest = tuple(pair for pair in pose.attributes if pair[0] not in (*_WORDS, "relative_to"))
+    plain = plain.model_copy(update={"attributes": (*plain.attributes, *rest)})
+    message = f"the pose of <{element.name}> is written in degrees or as a quaternion"
+    keeper.account(rules.OTHER_WORDS, message, NOWHERE, 1 + len(pose.attributes))
+    changed = replace(element, pose, plain)
+    if not keeper.carriers:
+        return changed
+    carriers = version_carriers([Opaque(element=pose)], Terms(since=_SINCE, instead="pose"))
+    children = (*changed.children, *(part.element for part in carriers if part.element))
+    return changed.model_copy(update={"children": children})

@@ -1,0 +1,55 @@
+"""Since 1.10 a screw says its pitch in metres per turn."""
+
+import math
+from functools import partial
+from typing import ClassVar
+
+from twinform.diagnostics.rules import sdf_versions as rules
+from twinform.ir import Document, Joint, rewrite
+from twinform.passes.carriers.sdf_versions import Keeper, Terms
+from twinform.passes.sdf_versions.base import VersionPass
+from twinform.passes.transforms.nodes import text_piece
+from twinform.schemas import format_value
+
+_SINCE = (1, 10)
+_DEFAULT = 1.0
+"""Of `thread_pitch` in rad/m, and of `screw_thread_pitch` in m per turn."""
+
+
+class WriteThreadPitches(VersionPass):
+    """Write the pitch of a screw joint in words that the version understands.
+
+    Changes: 1. on the way to 1.10 a pitch that is not written, 1 rad/m, is written, because another one is meant
+    without it from there on; 2. with `back`, a `screw_thread_pitch` of s m per turn becomes a `thread_pitch` of -2 pi/s
+    rad/m, as does the one that goes without saying.
+    Never touches: a `thread_pitch` that is written, which all versions understand.
+    """
+
+    name: ClassVar[str] = "write-thread-pitches"
+    back: bool = False
+
+    def change(self, document: Document, keeper: Keeper) -> Document:
+        """The document with screws in the words of the version."""
+        return rewrite(document, Joint, partial(_back, keeper) if self.back else _forth)
+
+
+def _forth(joint: Joint) -> Joint:
+    if joint.type != "screw" or joint.thread_pitch is not None or joint.screw_thread_pitch is not None:
+        return joint
+    return joint.model_copy(update={"thread_pitch": _DEFAULT})
+
+
+def _back(keeper: Keeper, joint: Joint) -> Joint:
+    written = joint.screw_thread_pitch
+    if joint.type != "screw" or (written is None and joint.thread_pitch is not None):
+        return joint
+    pitch = _DEFAULT if written is None else written
+    message = f"screw joint {joint.name!r} moves {pitch:g} m per turn"
+    made = -math.tau / pitch if pitch else 0.0
+    changed = joint.model_copy(update={"thread_pitch": made, "screw_thread_pitch": None})
+    pieces = [] if written is None else [text_piece("screw_thread_pitch", format_value(written))]
+    if joint.thread_pitch is not None:
+        pieces.append(text_piece("thread_pitch", format_value(joint.thread_pitch)))
+    gone = ("thread_pitch",) if joint.thread_pitch is None else ()
+    terms = Terms(since=_SINCE, without=gone)
+    return keeper.keep(changed, pieces, terms, rules.OTHER_WORDS, message, joint.location, max(1, len(pieces)))

@@ -1,0 +1,173 @@
+"""Poses in parts that have no typed form: projectors, particle emitters, cameras of a sensor."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache, partial
+from typing import TypeVar
+
+from twinform.diagnostics import DiagnosticSink
+from twinform.ir import Element, Node, Opaque, Pose, ReferenceChange, Sensor, holds_opaque, map_references, rewrite
+from twinform.ir.frames import FrameGraph, Kind
+from twinform.ir.transform import Transform
+from twinform.passes.carriers.carriers import NAMESPACE, to_element
+from twinform.passes.transforms.nodes import map_elements
+from twinform.passes.transforms.notation import POSE, as_marked
+from twinform.schemas import Context, element_xml, reader, table
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+_FRAME_ATTRIBUTES = ("relative_to", "frame")
+"""How a pose names its frame, since SDF 1.7 and before."""
+
+Keep = Callable[[str, Pose], tuple[Element, ...]]
+"""What is written beside the moved pose for the one that stood there: (a message, that pose)"""
+
+
+_MARK = f"{{{NAMESPACE}}}{POSE}"
+
+
+def _as_named(name: str) -> tuple[str, Kind]:
+    return name, "frame"
+
+
+@dataclass(frozen=True, slots=True)
+class ElementPoses:
+    """Moves the poses in opaque parts of one link or joint, whose frame becomes `base`."""
+
+    graph: FrameGraph
+    holder: str
+    base: tuple[str, Kind]
+    keep: Keep
+    kind: Kind = "link"
+    frame: Callable[[str], tuple[str, Kind]] = _as_named
+    """The frame that a mark names, where marks say in which frame a pose is to be written."""
+    stays: frozenset[str] = frozenset()
+    """Frames that poses may go on naming."""
+
+    def parts(self, parts: tuple[Opaque, ...], *, still: bool) -> tuple[Opaque, ...]:
+        """The opaque parts of the link: their poses are in the link's frame, or in the one that they name."""
+        if not parts:
+            return parts
+
+        def move(element: Element) -> Element:
+            return element if element.name[0] == "{" else self._move(element, Transform(), moves=not still)
+
+        return map_elements(parts, move)
+
+    def sensor(self, sensor: Sensor, written: Pose | None) -> Sensor:
+        """A sensor of the link; a pose in it that names a frame becomes one in the sensor's frame."""
+        if not any(_names_frame(part.element) or _is_marked(part.element) for part in sensor.opaque if part.element):
+            return sensor
+        placed = self._resolve(written)
+
+        def move(element: Element) -> Element:
+            return self._move(element, placed, moves=False) if element.name[0] != "{" else element
+
+        return sensor.model_copy(update={"opaque": map_elements(sensor.opaque, move)})
+
+    def _move(self, element: Element, holder: Transform, *, moves: bool) -> Element:
+        """An element whose own pose is in the moved frame, or else relative to `holder` where it names another one."""
+        children = tuple(
+            child if child.name == "pose" or child.name[0] == "{" else self._move(child, holder, moves=False)
+            for child in element.children
+        )
+        pose, mark = element.find("pose"), element.find(_MARK)
+        if mark is not None:
+            return self._as_marked(element, children, mark, holder, pose, moves=moves)
+        if pose is not None and not moves and _frame_of(pose) in _own_frames(element):  # of SDF 1.5 and 1.6
+            return element.model_copy(update={"children": children})
+        if pose is not None and _frame_of(pose) in self.stays:
+            return element.model_copy(update={"children": children})
+        names_frame = pose is not None and _frame_of(pose) is not None
+        if not names_frame and not (moves and (pose is not None or element.name in link_elements("pose"))):
+            return element.model_copy(update={"children": children}) if children != element.children else element
+        read = Pose() if pose is None else read_pose(pose)
+        in_base = self._resolve(read)
+        made = to_element(holder.inverse().compose(in_base).to_pose(), "pose", "sdf")
+        children = tuple(made if child is pose else child for child in children)
+        if pose is None:
+            return element.model_copy(update={"children": (made, *children)})
+        message = f"the pose of <{element.name}> of {self.kind} {self.holder!r} is in another frame"
+        return element.model_copy(update={"children": (*children, *self.keep(message, read))})
+
+    def _as_marked(
+        self,
+        element: Element,
+        children: tuple[Element, ...],
+        mark: Element,
+        holder: Transform,
+        pose: Element | None,
+        *,
+        moves: bool,
+    ) -> Element:
+        """An element whose pose is written in the frame and notation that a mark in it says; the mark goes."""
+        read = Pose() if pose is None else read_pose(pose)
+        placed = self._resolve(read) if moves or read.relative_to else holder.compose(Transform.from_pose(read))
+        name = mark.get("relative_to")
+        around, kind = self.frame(name) if name else ("", "frame")
+        known = bool(name) and self.graph.knows(around)
+        if known:
+            here = self.graph.pose(self.base[0], around, kind=self.base[1], base=kind).compose(placed)
+        else:
+            here = placed if moves else holder.inverse().compose(placed)
+        made = to_element(as_marked(here, mark, name if known else None) or Pose(), "pose", "sdf")
+        rest = tuple(made if child is pose else child for child in children if child is not mark)
+        return element.model_copy(update={"children": rest if pose is not None else (made, *rest)})
+
+    def _resolve(self, pose: Pose | None) -> Transform:
+        return self.graph.resolve(pose, self.holder, self.base[0], kind=self.kind, base=self.base[1])
+
+
+@cache
+def link_elements(part: str) -> frozenset[str]:
+    """The elements of a link without a typed form that may have such a part: a `pose`, or a `@name`."""
+    facts = table("sdf")
+    rows = [row for row in facts.definitions["link"].children if row.place is None]
+    return frozenset(row.name for row in rows if any(inner.name == part for inner in facts.resolve(row).rows))
+
+
+def _frame_of(pose: Element) -> str | None:
+    return next((value for name in _FRAME_ATTRIBUTES if (value := pose.get(name))), None)
+
+
+def _own_frames(element: Element) -> frozenset[str]:
+    return frozenset(child.get("name") or "" for child in element.children if child.name == "frame")
+
+
+def _names_frame(element: Element) -> bool:
+    """Whether a pose in the element names its frame; what is carried in it does not count."""
+    if element.name[0] == "{":
+        return False
+    own = element.name == "pose" and _frame_of(element) is not None
+    return own or any(map(_names_frame, element.children))
+
+
+def _is_marked(element: Element) -> bool:
+    return any(each.name == _MARK for each in element.walk())
+
+
+def read_pose(element: Element) -> Pose:
+    """The pose that an element says; SDF before 1.7 calls its frame `frame`."""
+    context = Context(DiagnosticSink(), "", "sdf", table("sdf").newest)
+    pose = Pose.model_validate(reader("sdf", context.version).read(element_xml(element), context, "pose"))
+    return pose.model_copy(update={"relative_to": _frame_of(element), "opaque": ()})
+
+
+def map_frames(node: AnyNode, change: ReferenceChange) -> AnyNode:
+    """The node with every reference in it changed, also those of poses in its opaque parts."""
+    return rewrite(map_references(node, change), Node, partial(_map_opaque_poses, change), enter=holds_opaque)
+
+
+def _map_opaque_poses(change: ReferenceChange, node: AnyNode) -> AnyNode:
+    if not node.opaque:
+        return node
+    return node.model_copy(update={"opaque": map_elements(node.opaque, partial(_map_element, change))})
+
+
+def _map_element(change: ReferenceChange, element: Element) -> Element:
+    attributes = element.attributes
+    if element.name == "pose":
+        follows = _FRAME_ATTRIBUTES
+        attributes = tuple((name, change("any", text) if name in follows else text) for name, text in attributes)
+    children = tuple(_map_element(change, child) for child in element.children)
+    return element.model_copy(update={"attributes": attributes, "children": children})

@@ -1,0 +1,45 @@
+"""Joints between links, where a joint of newer SDF is between frames."""
+
+from collections.abc import Container
+
+from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.rules import model as rules
+from twinform.ir import Joint, Opaque, Pose
+from twinform.ir.frames import FrameGraph
+from twinform.passes.transforms.nodes import text_piece
+
+ENDS = "ends"
+"""The mark on a joint whose ends were frames: `<tf:ends parent="mount" child="flange"/>`."""
+
+
+def resolve_ends(joint: Joint, links: Container[str], graph: FrameGraph) -> tuple[Joint, list[Opaque]]:
+    """The joint between the links that its ends move with, and the ends that were others, as pieces.
+
+    It stays where it is: its pose names the frame that it was relative to.
+
+    Raises:
+        FrameError: an end is not known.
+    """
+    changed: dict[str, object] = {}
+    pieces: list[Opaque] = []
+    for end, name in (("parent", joint.parent), ("child", joint.child)):
+        if name is None or name in links:
+            continue
+        body = graph.body(name, source=joint.source)
+        if body != name:
+            changed[end] = body
+            pieces.append(text_piece(end, name))
+    if "child" in changed and not (joint.pose and joint.pose.relative_to):
+        changed["pose"] = (joint.pose or Pose()).model_copy(update={"relative_to": joint.child})
+    return (joint.model_copy(update=changed) if changed else joint), pieces
+
+
+def report_self_joint(joint: Joint, resolved: Joint, sink: DiagnosticSink) -> None:
+    """Both ends of a joint move with one link."""
+    message = f"both ends of joint {joint.name!r} move with link {resolved.child!r}"
+    sink.report(rules.SELF_JOINT, message, joint.location, found=joint.child)
+
+
+def named_ends(pieces: list[Opaque]) -> str:
+    """The ends that were replaced, for a message."""
+    return " and ".join(repr(piece.element.text) for piece in pieces if piece.element)

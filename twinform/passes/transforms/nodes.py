@@ -1,0 +1,36 @@
+"""Small things that several passes do with nodes."""
+
+from collections.abc import Callable, Container, Iterable
+
+from twinform.ir import Element, Node, Opaque, Pose, replace_fields
+from twinform.passes.carriers.carriers import to_element
+
+
+def unique_name(name: str, taken: Container[str]) -> str:
+    """The name, with the first number behind it that makes it unlike all others."""
+    made, number = name, 1
+    while made in taken:
+        made, number = f"{name}_{number}", number + 1
+    return made
+
+
+def piece(node: Node, tag: str) -> Opaque:
+    """A node as an SDF element that can travel in a carrier."""
+    return Opaque(element=to_element(node, tag, "sdf"))
+
+
+def pose_piece(pose: Pose) -> Opaque:
+    """A pose as it was written."""
+    return piece(pose, "pose")
+
+
+def text_piece(name: str, text: str, at: str = "") -> Opaque:
+    """An element with text."""
+    return Opaque(at=at, element=Element(name=name, text=text))
+
+
+def map_elements(parts: Iterable[Opaque], change: Callable[[Element], Element]) -> tuple[Opaque, ...]:
+    """Opaque parts with every element changed; it is for `change` to look further down."""
+    return tuple(
+        [part if part.element is None else replace_fields(part, element=change(part.element)) for part in parts]
+    )
