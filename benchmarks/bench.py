@@ -28,7 +28,7 @@ INTRODUCTION = f"""# How fast it is
 
 Made by `make bench`. The robots are trees with {robots.ELEMENTS_PER_LINK} elements for each link; each figure is the
 median of several runs in one process, the garbage collector left as a user has it. *Floor* is what lxml needs to parse
-and serialise the same bytes. *Load* is parsing, both checks of the input (facts table and XSD) and the IR; *convert* is
+and serialize the same bytes. *Load* is parsing, both checks of the input (facts table and XSD) and the IR; *convert* is
 load, the passes, writing, and the check of the output against its XSD."""
 
 

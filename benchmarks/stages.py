@@ -10,7 +10,7 @@ from twinform.compiler.input import urdf as front_end
 from twinform.compiler.input.loading import garbage_collection_paused
 from twinform.compiler.input.parsing import parse
 from twinform.compiler.output import sdf as back_end
-from twinform.compiler.output.emitting import serialised, written_version
+from twinform.compiler.output.emitting import serialized, written_version
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.ir.verify import verify
@@ -67,5 +67,5 @@ def _convert(text: bytes, sdf_version: str, stages: Stages) -> None:
         root = back_end.emit(document, version, {})
     with stages.time("XSD of the output"):
         libxml2_errors(root, "sdf", version)
-    with stages.time("serialise"):
-        serialised(root, document)
+    with stages.time("serialize"):
+        serialized(root, document)

@@ -115,7 +115,7 @@ def test_joint_types_stay_what_they_are() -> None:
     assert all(joint.find("axis/limit/lower") is None and joint.find("axis/limit/upper") is None for joint in endless)
 
 
-def test_colours_named_and_inline_are_written() -> None:
+def test_colors_named_and_inline_are_written() -> None:
     base = _link(_sdf("four_wheels.urdf"), "base_link")
     for visual, color in (("hull", [0.1, 0.25, 0.7, 1]), ("headlight", [1, 1, 0.85, 1])):
         assert _numbers(_one(base, f"visual[@name='{visual}']/material/diffuse").text) == color
@@ -125,7 +125,7 @@ def test_colours_named_and_inline_are_written() -> None:
     assert _numbers(color.get("rgba")) == [0.1, 0.25, 0.7, 1]
 
 
-def test_the_centre_of_mass_keeps_its_place() -> None:
+def test_the_center_of_mass_keeps_its_place() -> None:
     pose = _one(_link(_sdf("four_wheels.urdf"), "base_link"), "inertial/pose")
     assert _numbers(pose.text)[:3] == [-0.04, 0.02, -0.01]
     origin = _one(_link(_urdf_again("four_wheels.urdf"), "base_link"), "inertial/origin")

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import twinform
-from twinform.diagnostics import Diagnostic, Entry, catalogue
+from twinform.diagnostics import Diagnostic, Entry, catalog
 from twinform.testing import Case, cases, pass_cases
 
 _TESTS = Path(__file__).parent
@@ -78,7 +78,7 @@ def _of_conversion(case: Case, version: str | None) -> Iterator[str]:
     yield from _rules(made.diagnostics) | _rules(made.ledger.entries)
 
 
-@pytest.mark.parametrize("rule", sorted(catalogue()))
+@pytest.mark.parametrize("rule", sorted(catalog()))
 def test_a_case_triggers_each_rule(rule: str) -> None:
     triggered = [name for name, rules in _found().items() if rule in rules]
     if rule not in WITHOUT_CASE:
@@ -89,7 +89,7 @@ def test_a_case_triggers_each_rule(rule: str) -> None:
     assert rule in text or rule.upper().replace("-", "_") in text
 
 
-@pytest.mark.parametrize("rule", sorted(set(catalogue()) - set(WITHOUT_CASE)))
+@pytest.mark.parametrize("rule", sorted(set(catalog()) - set(WITHOUT_CASE)))
 def test_a_case_of_the_same_folder_does_not_trigger_it(rule: str) -> None:
     found = _found()
     folders = {str(Path(name).parent) for name, rules in found.items() if rule in rules}
@@ -98,4 +98,4 @@ def test_a_case_of_the_same_folder_does_not_trigger_it(rule: str) -> None:
 
 
 def test_the_table_names_rules_that_there_are() -> None:
-    assert set(WITHOUT_CASE) <= set(catalogue())
+    assert set(WITHOUT_CASE) <= set(catalog())

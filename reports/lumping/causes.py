@@ -30,7 +30,7 @@ def cause_of(difference: Difference, theirs: RobotRow, ours: RobotRow, model: Mo
         return _why_missing(difference, ours) or _massless_above(difference.name, model)
     if _stopped(difference, theirs, ours):
         return STOPPED
-    if difference.kind in {*_POSES, "centre of mass", "inertia", "axis"} and _is_steep(difference, model):
+    if difference.kind in {*_POSES, "center of mass", "inertia", "axis"} and _is_steep(difference, model):
         return SNAPPED
     return ""
 

@@ -74,7 +74,7 @@ def _link(name: str, theirs: LinkRow, ours: LinkRow) -> Iterator[Difference]:
     yield from _numbers("pose", part, _pose(theirs["pose"]), _pose(ours["pose"]))
     yield from _numbers("mass", part, np.array([theirs["mass"]]), np.array([ours["mass"]]))
     if theirs["mass"] or ours["mass"]:
-        yield from _numbers("centre of mass", part, np.array(theirs["centre"][:3]), np.array(ours["centre"][:3]))
+        yield from _numbers("center of mass", part, np.array(theirs["center"][:3]), np.array(ours["center"][:3]))
         yield from _numbers("inertia", part, _tensor(theirs), _tensor(ours))
     yield from _shapes(part, theirs["shapes"], ours["shapes"])
 
@@ -139,8 +139,8 @@ def _pose(numbers: list[float]) -> Matrix:
 
 
 def _tensor(row: LinkRow) -> Matrix:
-    """The inertia about the centre of mass along the axes of the link, kg m^2."""
+    """The inertia about the center of mass along the axes of the link, kg m^2."""
     xx, yy, zz, xy, xz, yz = row["moments"]
     inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    turn = pose_matrix(row["centre"])[:3, :3]
+    turn = pose_matrix(row["center"])[:3, :3]
     return turn @ inertia @ turn.T

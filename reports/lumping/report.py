@@ -22,7 +22,7 @@ _SECONDS = 120
 _ABOUT = """\
 libsdformat lumps fixed joints whenever it reads URDF. Every URDF file of the corpus is read by libsdformat 12, and so
 is the SDF that `lump-fixed-joints{compat=libsdformat}` makes of it. Compared are the names of links, joints, visuals
-and collisions, and, to 1e-9, masses, centres of mass, inertias, poses, axes and limits. Where something differs, its
+and collisions, and, to 1e-9, masses, centers of mass, inertias, poses, axes and limits. Where something differs, its
 cause is a fault of libsdformat that the numbers or the file show; what has no such cause makes the command fail."""
 
 

@@ -1,4 +1,4 @@
-"""The page about the judgements."""
+"""The page about the judgments."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -10,7 +10,7 @@ from twinform.testing.oracles.comparison import TOLERANCE
 
 ABOUT = f"""\
 Every URDF file of the corpus is converted to SDF, and every SDF model that libsdformat 12 takes without an error to
-URDF. Drake reads source and result, and at five joint positions the poses of links, centres of mass, inertias, the mass
+URDF. Drake reads source and result, and at five joint positions the poses of links, centers of mass, inertias, the mass
 matrix and gravity torques are compared, with a tolerance of {TOLERANCE:g} (of the largest number of the kind, where
 that is more than one). Joint limits and damping must be equal, and only massless links may come and go.
 

@@ -58,7 +58,7 @@ class Verdict(StrEnum):
 
     SAME = "same"
     LEDGER = "as the ledger says"
-    COLOURS = "same but for materials"
+    COLORS = "same but for materials"
     DIFFERENT = "different"
     REFUSED = "not converted"
     CRASH = "crash"
@@ -169,7 +169,7 @@ def _compared(file: CorpusFile, name: str, way: Way, text: str, robot: str | Non
     kinds = tuple(dict.fromkeys(f"{each.group}: {_aspect(each.aspect)}" for each in found.differences))
     if found.same:
         return Outcome(name, way, Verdict.SAME, notes=len(found.notes), seconds=seconds)
-    verdict = Verdict.COLOURS if all("/material" in kind for kind in kinds) else Verdict.DIFFERENT
+    verdict = Verdict.COLORS if all("/material" in kind for kind in kinds) else Verdict.DIFFERENT
     cause = found.differences[0].message.replace(found.a, "source").replace(found.b, "result")
     return Outcome(name, way, verdict, cause, kinds, len(found.notes), seconds)
 
@@ -194,7 +194,7 @@ def _outcomes(sample: Sample) -> Iterable[Outcome]:
 
 def _is_fault(outcome: Outcome) -> bool:
     ours = outcome.way is not Way.LUMPED
-    return ours and outcome.verdict in {Verdict.DIFFERENT, Verdict.COLOURS, Verdict.CRASH}
+    return ours and outcome.verdict in {Verdict.DIFFERENT, Verdict.COLORS, Verdict.CRASH}
 
 
 def _totals(outcomes: list[Outcome]) -> str:

@@ -1,1 +1,1 @@
-"""Is the catalogue of plugins right? Checkouts of gz-sim and gz-sensors are given as ARGS."""
+"""Is the catalog of plugins right? Checkouts of gz-sim and gz-sensors are given as ARGS."""

@@ -1,15 +1,15 @@
-"""What differs between the catalogue of systems and sensors and the sources of a release of Gazebo."""
+"""What differs between the catalog of systems and sensors and the sources of a release of Gazebo."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from reports.systems.reading import Read, SystemSource
 from reports.systems.sensors import SensorSource
-from twinform.passes.plugins.catalogue import sensors, systems
+from twinform.passes.plugins.catalog import sensors, systems
 from twinform.passes.plugins.parts import Alternative, Channel, Parameter, PluginKind, SensorKind
 
 _AS_READ = {"topic": "text", "joint": "text", "link": "text", "collision": "text"}
-"""The kind of value that a type of the catalogue is read as, where it is another word."""
+"""The kind of value that a type of the catalog is read as, where it is another word."""
 _ZEROS = {"bool": {"false"}, "number": {"0"}, "integer": {"0"}, "vector": {"0 0 0"}}
 """What is read where an element lacks and no default is given."""
 _STRUCTURE = frozenset({"model", "world", "joint", "link", "sensor"})
@@ -18,7 +18,7 @@ _STRUCTURE = frozenset({"model", "world", "joint", "link", "sensor"})
 
 @dataclass(frozen=True, slots=True, order=True)
 class Difference:
-    """One difference: `what` is the parameter, topic or message; `here` is the catalogue, `there` the source."""
+    """One difference: `what` is the parameter, topic or message; `here` is the catalog, `there` the source."""
 
     owner: str
     kind: str
@@ -39,7 +39,7 @@ def of_systems(sources: Mapping[str, SystemSource], release: str) -> Iterator[Di
     for name in sorted({*shipped} - {*sources}):
         yield Difference(shipped[name].name, "system", "not in the source")
     for name in sorted({*sources} - {*shipped}):
-        yield Difference(name, "system", "not in the catalogue")
+        yield Difference(name, "system", "not in the catalog")
     for name, kind in sorted(shipped.items()):
         if name in sources:
             yield from of_system(kind, sources[name], release)

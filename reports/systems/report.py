@@ -1,4 +1,4 @@
-"""The catalogue against the sources of Gazebo.
+"""The catalog against the sources of Gazebo.
 
 Each input is a checkout of gz-sim (ign-gazebo) or of gz-sensors (ign-sensors) of one release, such as
 `git worktree add ../gz-sim8 gz-sim8` makes it. Nothing of their text is kept: names, types, defaults and topics are
@@ -18,7 +18,7 @@ from reports.harness.sample import Sample
 from reports.systems.judging import Difference, is_of_sim, of_sensors, of_systems
 from reports.systems.reading import systems_in
 from reports.systems.sensors import COMPARED, sensors_in
-from twinform.passes.plugins.catalogue import LATEST, releases, sensors, systems
+from twinform.passes.plugins.catalog import LATEST, releases, sensors, systems
 
 MISSING = "no sources: say ARGS='PATH ...' with checkouts of gz-sim and gz-sensors, one for each release"
 KNOWN = Known.beside(__file__)
@@ -44,15 +44,15 @@ class Checkout:
 
 
 def measure(sample: Sample) -> Findings:
-    """Compare the checkouts with the catalogue.
+    """Compare the checkouts with the catalog.
 
     Raises:
-        SystemExit: there is none of a release in the catalogue.
+        SystemExit: there is none of a release in the catalog.
     """
     checkouts = [checkout(Path(word)) for word in sample.inputs]
     found = differences(checkouts)
     if not found:
-        raise SystemExit("none of these is gz-sim of a release in the catalogue" if checkouts else MISSING)
+        raise SystemExit("none of these is gz-sim of a release in the catalog" if checkouts else MISSING)
     unexplained = [(one, release) for release, many in found.items() for one in many if not why(one)]
     return Findings(
         list(_sections(found, checkouts)),
@@ -124,7 +124,7 @@ def _sections(found: dict[str, list[Difference]], checkouts: list[Checkout]) -> 
         (one.owner, one.kind, one.what, one.here or "-", one.there or "-", ", ".join(names), why(one) or "**?**")
         for one, names in every.items()
     ]
-    head = ["of", "what", "name", "catalogue", "source", "releases", "why"]
+    head = ["of", "what", "name", "catalog", "source", "releases", "why"]
     yield section("Explained differences", table(head, rows))
 
 
@@ -140,4 +140,4 @@ def _cell(owner: str, found: list[Difference]) -> str:
     return str(sum(one.owner == owner for one in found) or "=")
 
 
-REPORT = Report("systems", "The catalogue against the sources of Gazebo", _ABOUT, measure, needs=(), known=KNOWN)
+REPORT = Report("systems", "The catalog against the sources of Gazebo", _ABOUT, measure, needs=(), known=KNOWN)

@@ -15,7 +15,7 @@ from twinform.diagnostics import Diagnostic
 from twinform.testing.oracles import libsdformat
 from twinform.testing.oracles.libsdformat import Reading
 
-_COLOUR = re.compile(r"\x1b\[[0-9;]*m")
+_COLOR = re.compile(r"\x1b\[[0-9;]*m")
 _CONSOLE = re.compile(r"^(?P<word>Error|Warning)(?: \[\w+\.cc:\d+\]|:)\s*(?P<said>.*)")
 _PLACE = re.compile(r"\[/[^\]]*(?:\][^\]]*)*:L\d+\]: ")
 
@@ -104,7 +104,7 @@ def _of_libsdformat(paths: Sequence[Path]) -> Iterator[tuple[Path, Opinion]]:
 
 
 def _opinion(reading: Reading, path: str) -> Opinion:
-    said = [_CONSOLE.match(line) for line in _COLOUR.sub("", reading.console).splitlines()]
+    said = [_CONSOLE.match(line) for line in _COLOR.sub("", reading.console).splitlines()]
     lines = [(found["word"], _PLACE.sub("", found["said"])) for found in said if found]
     errors = tuple(dict.fromkeys(text for word, text in lines if word == "Error"))
     warnings = tuple(dict.fromkeys(text for word, text in lines if word == "Warning"))

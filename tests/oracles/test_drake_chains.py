@@ -38,9 +38,9 @@ def test_universal_screw_and_ball_joints_move_as_their_chains_do(pitch: str):
     urdf = twinform.convert(sdf.encode(), to="urdf").text
     one, other = _plant(sdf, "sdf"), _plant(urdf, "urdf")
     for u, v, turn, roll, pitch_, yaw in np.random.default_rng(1).uniform(-1.2, 1.2, (SAMPLES, 6)):
-        here = _centres(one, {"u": [u, v], "s": [turn], "w": [roll, pitch_, yaw]})
+        here = _centers(one, {"u": [u, v], "s": [turn], "w": [roll, pitch_, yaw]})
         chain = {"u_axis": u, "u": v, "s_slide": turn * PITCHES[pitch], "s": turn, "w_z": yaw, "w_y": pitch_, "w": roll}
-        there = _centres(other, {name: [value] for name, value in chain.items()})
+        there = _centers(other, {name: [value] for name, value in chain.items()})
         for link in "bcd":  # the frames of the links are elsewhere, so the axes of their inertias are compared
             assert np.abs(here[link][0] - there[link][0]).max() < 1e-9
             assert np.abs(here[link][1] - there[link][1]).max() < 1e-9
@@ -86,18 +86,18 @@ def _plant(text: str, kind: str) -> Any:
     return plant
 
 
-def _centres(plant: Any, values: dict[str, list[float]]) -> dict[str, tuple[Any, Any]]:
-    """The centre of mass of each link and its rotation since all joints stood at zero, both in the link `a`."""
+def _centers(plant: Any, values: dict[str, list[float]]) -> dict[str, tuple[Any, Any]]:
+    """The center of mass of each link and its rotation since all joints stood at zero, both in the link `a`."""
     context, context_at_zero = _at(plant, values), plant.CreateDefaultContext()
     root = plant.GetBodyByName("a")
     frames = [plant.GetBodyByName(name) for name in "bcd"]
-    return {body.name(): _centre(plant, body, root, context, context_at_zero) for body in frames}
+    return {body.name(): _center(plant, body, root, context, context_at_zero) for body in frames}
 
 
-def _centre(plant: Any, body: Any, root: Any, context: Any, at_zero: Any) -> tuple[Any, Any]:
+def _center(plant: Any, body: Any, root: Any, context: Any, at_zero: Any) -> tuple[Any, Any]:
     now, before = (_pose(plant, body, root, each) for each in (context, at_zero))
-    centre = now.multiply(body.CalcCenterOfMassInBodyFrame(context))
-    return centre, now.rotation().matrix() @ before.rotation().matrix().T
+    center = now.multiply(body.CalcCenterOfMassInBodyFrame(context))
+    return center, now.rotation().matrix() @ before.rotation().matrix().T
 
 
 def _pose(plant: Any, body: Any, root: Any, context: Any) -> Any:

@@ -1,4 +1,4 @@
-"""libsdformat sees the surfaces and colours that passes have set in URDF."""
+"""libsdformat sees the surfaces and colors that passes have set in URDF."""
 
 import re
 from pathlib import Path

@@ -53,7 +53,7 @@ def weight(document: Document) -> npt.NDArray[np.float64]:
     graph = FrameGraph(model)
     parts = [placed(body_of(link, graph, document.format), place(graph, link.name)) for link in model.links]
     whole = combined(parts)
-    return np.array([whole.mass, *(whole.mass * x for x in whole.centre), *whole.inertia])
+    return np.array([whole.mass, *(whole.mass * x for x in whole.center), *whole.inertia])
 
 
 def place(graph: FrameGraph, name: str) -> Transform:
@@ -72,7 +72,7 @@ def close(one: npt.NDArray[np.float64], other: npt.NDArray[np.float64]) -> bool:
 
 @_SETTINGS
 @given(_MODELS)
-def test_lumping_keeps_mass_centre_inertia_and_every_frame(model: Document) -> None:
+def test_lumping_keeps_mass_center_inertia_and_every_frame(model: Document) -> None:
     names = [link.name for link in model.models[0].links]
     lumped = run(LumpFixedJoints(), model)
     assert close(weight(model), weight(lumped))
@@ -94,7 +94,7 @@ def test_lumping_again_changes_nothing(model: Document) -> None:
 
 @_SETTINGS
 @given(strategies.robots())
-def test_lumping_as_libsdformat_does_keeps_mass_centre_and_inertia(robot: Document) -> None:
+def test_lumping_as_libsdformat_does_keeps_mass_center_and_inertia(robot: Document) -> None:
     lumped = run(LumpFixedJoints(compat="libsdformat"), robot)
     left = {link.name for link in lumped.models[0].links}
     assert close(weight(robot), weight(lumped))

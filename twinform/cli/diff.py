@@ -13,7 +13,7 @@ from twinform.compiler.compare import TOLERANCE, Severity, compare_files
 from twinform.compiler.compare.reporters import REPORTERS, summary, text
 from twinform.diagnostics.reporters import Findings
 
-_COLOURS = {Severity.DIFFERENCE: "red", Severity.NOTE: "cyan"}
+_COLORS = {Severity.DIFFERENCE: "red", Severity.NOTE: "cyan"}
 _PAIR = 2
 
 
@@ -26,7 +26,7 @@ _PAIR = 2
     type=click.FloatRange(min=0),
     default=TOLERANCE,
     show_default=True,
-    help="What share of a value is rounding; of positions and angles, metres and radians.",
+    help="What share of a value is rounding; of positions and angles, meters and radians.",
 )
 @file_options
 @click.pass_context
@@ -61,4 +61,4 @@ def command(
 
 
 def _paint(word: str, severity: Severity) -> str:
-    return word if os.environ.get("NO_COLOR") else click.style(word, fg=_COLOURS[severity], bold=True)
+    return word if os.environ.get("NO_COLOR") else click.style(word, fg=_COLORS[severity], bold=True)

@@ -7,12 +7,12 @@ import click
 from twinform.diagnostics import Severity
 from twinform.diagnostics.reporters import Findings, text
 
-_COLOURS = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.INFO: "cyan"}
+_COLORS = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.INFO: "cyan"}
 
 
 def paint(word: str, severity: Severity) -> str:
-    """The word in its colour. click takes the colour away where the output is no terminal."""
-    return word if os.environ.get("NO_COLOR") else click.style(word, fg=_COLOURS[severity], bold=True)
+    """The word in its color. click takes the color away where the output is no terminal."""
+    return word if os.environ.get("NO_COLOR") else click.style(word, fg=_COLORS[severity], bold=True)
 
 
 def heading(words: str) -> str:

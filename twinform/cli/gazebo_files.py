@@ -35,7 +35,7 @@ def companion_options(command: Command) -> Command:
 
 def version_for(gazebo: str, asked: str | None) -> str:
     """The version of SDF for a release of Gazebo: the newest that it reads, or the one that is asked for."""
-    from twinform.passes.plugins.catalogue import release  # noqa: PLC0415 - few conversions need it
+    from twinform.passes.plugins.catalog import release  # noqa: PLC0415 - few conversions need it
 
     newest = release(gazebo).sdf
     if asked is not None and parse_version(asked) > parse_version(newest):

@@ -1,6 +1,6 @@
 """Findings as values: rules, diagnostics, the ledger, and reporters that only format them."""
 
-from twinform.diagnostics.catalogue import catalogue
+from twinform.diagnostics.catalog import catalog
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.did_you_mean import did_you_mean, nearest_name
 from twinform.diagnostics.ledger import Entry, Fate, Ledger
@@ -25,7 +25,7 @@ __all__ = [
     "Severity",
     "SideFile",
     "Source",
-    "catalogue",
+    "catalog",
     "did_you_mean",
     "nearest_name",
 ]

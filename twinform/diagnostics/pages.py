@@ -3,7 +3,7 @@
 import sys
 from collections.abc import Iterator
 
-from twinform.diagnostics.catalogue import catalogue
+from twinform.diagnostics.catalog import catalog
 from twinform.diagnostics.committed import main
 from twinform.diagnostics.rule import Rule
 
@@ -33,7 +33,7 @@ def sections(rule: Rule) -> Iterator[tuple[str, str]]:
 
 def rules_page() -> str:
     """All rules in Markdown."""
-    return "\n".join([_INTRODUCTION, *(_chapter(rule) for rule in catalogue().values())])
+    return "\n".join([_INTRODUCTION, *(_chapter(rule) for rule in catalog().values())])
 
 
 def _chapter(rule: Rule) -> str:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
 
-from twinform.diagnostics.catalogue import catalogue
+from twinform.diagnostics.catalog import catalog
 from twinform.diagnostics.rule import Rule
 
 GROUP = "twinform.rules"
@@ -31,7 +31,7 @@ def rules() -> dict[str, RegisteredRule]:
     Raises:
         RuleRegistryError: two have one name, or one is not as it should be.
     """
-    return collect_rules(catalogue().values(), entry_points(group=GROUP))
+    return collect_rules(catalog().values(), entry_points(group=GROUP))
 
 
 def collect_rules(own: Iterable[Rule], entries: Iterable[EntryPoint]) -> dict[str, RegisteredRule]:

@@ -12,7 +12,7 @@ from twinform.ir.transform import Transform
 
 @dataclass(frozen=True, slots=True)
 class Bounds:
-    """All points between two corners, in metres."""
+    """All points between two corners, in meters."""
 
     least: Vector3
     greatest: Vector3

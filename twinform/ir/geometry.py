@@ -1,4 +1,4 @@
-"""Shapes. Lengths are in metres, in the frame of the visual or collision that holds them."""
+"""Shapes. Lengths are in meters, in the frame of the visual or collision that holds them."""
 
 from typing import Annotated, Literal
 

@@ -5,7 +5,7 @@ from twinform.ir.pose import Pose
 
 
 class Inertia(Node):
-    """The rotational inertia about the centre of mass, in the axes of the inertial frame, kg m^2."""
+    """The rotational inertia about the center of mass, in the axes of the inertial frame, kg m^2."""
 
     ixx: float | None = None
     ixy: float | None = None
@@ -16,7 +16,7 @@ class Inertia(Node):
 
 
 class Inertial(Node):
-    """The mass (kg) of a link; `pose` puts the centre of mass and the axes of `inertia` in the link frame."""
+    """The mass (kg) of a link; `pose` puts the center of mass and the axes of `inertia` in the link frame."""
 
     pose: Pose | None = None
     mass: float | None = None

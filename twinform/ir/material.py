@@ -11,9 +11,9 @@ class Script(Node):
 
 
 class Material(Node):
-    """The colours and textures of a visual.
+    """The colors and textures of a visual.
 
-    `name`, `color` and `texture` (an image's URI) are URDF's; the light model's four colours, the `script` and the
+    `name`, `color` and `texture` (an image's URI) are URDF's; the light model's four colors, the `script` and the
     metal-rough `albedo_map` (an image's URI) are SDF's.
     """
 

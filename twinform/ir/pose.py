@@ -6,7 +6,7 @@ from twinform.ir.node import Node, Quaternion, Vector3
 class Pose(Node):
     """Where a frame is, in another frame.
 
-    Translation `xyz` in metres; rotation either `rpy` (fixed-axis roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll); in
+    Translation `xyz` in meters; rotation either `rpy` (fixed-axis roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll); in
     radians, or in degrees where `degrees` is true) or `quat_xyzw`. What is `None` was not written and means zero.
     `relative_to` names the frame that the pose is expressed in; where it is `None`, the holder says which.
     `rotation_format` is SDF's attribute, kept because it may be written for rpy too.

@@ -1,4 +1,4 @@
-"""Mass, centre of mass and inertia of shapes that are filled evenly, and of several together."""
+"""Mass, center of mass and inertia of shapes that are filled evenly, and of several together."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -23,10 +23,10 @@ _THINNEST = 1e-70
 
 @dataclass(frozen=True, slots=True)
 class Solid:
-    """A mass in kg, its centre in m, and the inertia in kg m^2 about that centre, in the axes of the same frame."""
+    """A mass in kg, its center in m, and the inertia in kg m^2 about that center, in the axes of the same frame."""
 
     mass: float
-    centre: Vector3
+    center: Vector3
     inertia: Symmetric
 
 
@@ -42,12 +42,12 @@ def solid(shape: ShapeNode | None, density: float) -> Solid | None:
     if shape is None or moments_of is None:
         return None
     lengths, exponent = _in_units(sizes(shape))
-    volume, centre, (xx, yy, zz) = moments_of(*lengths)
+    volume, center, (xx, yy, zz) = moments_of(*lengths)
     significand, of_density = math.frexp(density)
     mass = significand * volume
     of_mass = of_density + 3 * exponent
     inertia = (mass * (yy + zz), mass * (xx + zz), mass * (xx + yy), 0.0, 0.0, 0.0)
-    at = (0.0, 0.0, times_power(centre, exponent))
+    at = (0.0, 0.0, times_power(center, exponent))
     return Solid(times_power(mass, of_mass), at, times_each(inertia, of_mass + 2 * exponent))
 
 
@@ -59,7 +59,7 @@ def _in_units(lengths: Sequence[float]) -> tuple[list[float], int]:
 
 
 _Moments = tuple[float, float, Vector3]
-"""Volume in m^3, height of the centre in m, and the mean of x^2, y^2 and z^2 about the centre, in m^2.
+"""Volume in m^3, height of the center in m, and the mean of x^2, y^2 and z^2 about the center, in m^2.
 
 A moment of inertia is the mass times two of these means: Ixx = m (<y^2> + <z^2>). The moments are those of L. D. Landau
 and E. M. Lifshitz, Mechanics, section 32, problem 2.
@@ -87,14 +87,14 @@ def _cylinder(r: float, h: float) -> _Moments:
 
 
 def _cone(r: float, h: float) -> _Moments:
-    """Radius r, length h: Izz = 3/10 m r^2, Ixx = 3/20 m (r^2 + h^2 / 4), centre h/4 above the base; problem 2 (e)."""
+    """Radius r, length h: Izz = 3/10 m r^2, Ixx = 3/20 m (r^2 + h^2 / 4), center h/4 above the base; problem 2 (e)."""
     return math.pi * r * r * h / 3, -h / 4, (3 / 20 * r * r, 3 / 20 * r * r, 3 / 80 * h * h)
 
 
 def _capsule(r: float, h: float) -> _Moments:
     """A cylinder of radius r and length h, and the halves of a sphere with their flat sides at -h/2 and h/2.
 
-    About its flat side a half sphere has <z^2> = r^2 / 5 as the whole has, and its centre is 3/8 r above: problem 2 (b)
+    About its flat side a half sphere has <z^2> = r^2 / 5 as the whole has, and its center is 3/8 r above: problem 2 (b)
     and the integral of z over it. Moved by h/2, <z^2> is r^2 / 5 + 3/8 r h + h^2 / 4.
     """
     middle, ends = math.pi * r * r * h, 4 / 3 * math.pi * r * r * r
@@ -139,7 +139,7 @@ def written_solid(inertial: Inertial | None, format_: Format) -> Solid:
 
 def placed(one: Solid, at: Transform) -> Solid:
     """A solid seen from the frame that `at` places its own in."""
-    return Solid(one.mass, at.apply(one.centre), turned(one.inertia, at))
+    return Solid(one.mass, at.apply(one.center), turned(one.inertia, at))
 
 
 def turned(inertia: Symmetric, at: Transform) -> Symmetric:
@@ -158,26 +158,26 @@ def turned(inertia: Symmetric, at: Transform) -> Symmetric:
 
 
 def combined(parts: Sequence[Solid]) -> Solid:
-    """Several solids of one frame as one, each inertia moved to the common centre by the parallel axis theorem."""
+    """Several solids of one frame as one, each inertia moved to the common center by the parallel axis theorem."""
     of_mass = common_exponent(part.mass for part in parts)
-    of_place = common_exponent(place for part in parts for place in part.centre)
+    of_place = common_exponent(place for part in parts for place in part.center)
     masses = [times_power(part.mass, -of_mass) for part in parts]
     mass = safe_sum(masses)
     if not mass:
         return NOTHING
-    places = [[times_power(place, -of_place) for place in part.centre] for part in parts]
-    centre = [safe_sum(m * place[i] for m, place in zip(masses, places, strict=True)) / mass for i in range(3)]
-    moved = (_steiner(m, place, centre) for m, place in zip(masses, places, strict=True))
+    places = [[times_power(place, -of_place) for place in part.center] for part in parts]
+    center = [safe_sum(m * place[i] for m, place in zip(masses, places, strict=True)) / mass for i in range(3)]
+    moved = (_steiner(m, place, center) for m, place in zip(masses, places, strict=True))
     added = [[times_power(entry, of_mass + 2 * of_place) for entry in each] for each in moved]
     about = ([a + b for a, b in zip(part.inertia, more, strict=True)] for part, more in zip(parts, added, strict=True))
     xx, yy, zz, xy, xz, yz = (safe_sum(column) for column in zip(*about, strict=True))
-    x, y, z = (times_power(place, of_place) for place in centre)
+    x, y, z = (times_power(place, of_place) for place in center)
     return Solid(times_power(mass, of_mass), (x, y, z), (xx, yy, zz, xy, xz, yz))
 
 
-def _steiner(mass: float, place: Sequence[float], centre: Sequence[float]) -> Symmetric:
-    """What the inertia of a part about another point than its own centre is more: m (d^2 - d d^T)."""
-    x, y, z = (a - b for a, b in zip(place, centre, strict=True))
+def _steiner(mass: float, place: Sequence[float], center: Sequence[float]) -> Symmetric:
+    """What the inertia of a part about another point than its own center is more: m (d^2 - d d^T)."""
+    x, y, z = (a - b for a, b in zip(place, center, strict=True))
     m = mass
     return m * (y * y + z * z), m * (x * x + z * z), m * (x * x + y * y), -m * x * y, -m * x * z, -m * y * z
 
@@ -188,4 +188,4 @@ def with_mass(one: Solid, mass: float) -> Solid:
     factor = new / old if old else 0.0
     xx, yy, zz, xy, xz, yz = (element * factor for element in times_each(one.inertia, -common_exponent(one.inertia)))
     back = of_new - of_old + common_exponent(one.inertia)
-    return Solid(mass, one.centre, times_each((xx, yy, zz, xy, xz, yz), back))
+    return Solid(mass, one.center, times_each((xx, yy, zz, xy, xz, yz), back))

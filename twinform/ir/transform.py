@@ -25,7 +25,7 @@ _DIGITS, _NOISE = 12, 2e-15
 
 @dataclass(frozen=True, slots=True)
 class Transform:
-    """Where one frame is in another: a point p of it is at `rotation` p + `translation` in the other, in metres.
+    """Where one frame is in another: a point p of it is at `rotation` p + `translation` in the other, in meters.
 
     `notation` is the pose that these numbers were written as; composing with the identity keeps it, so that what was
     not moved is written as it was read.

@@ -131,7 +131,7 @@ MUTATIONS: Mapping[str, tuple[type[Node], Change]] = {
         Inertia,
         lambda node: node.model_copy(update={"ixy": (node.ixy or 0.0) + node.ixx * 1e-6}),
     ),
-    "centre of mass": (Inertial, _pushed),
+    "center of mass": (Inertial, _pushed),
     "joint type": (Joint, _other_type),
     "axis": (Joint, _in_axis(_skewed)),
     "lower limit": (Joint, _in_limit("lower", -0.001)),
@@ -156,7 +156,7 @@ MUTATIONS: Mapping[str, tuple[type[Node], Change]] = {
     "radii of an ellipsoid": (Ellipsoid, _by("radii", _longer)),
     "file of a mesh": (Mesh, _set(uri="package://p/other.stl")),
     "scale of a mesh": (Mesh, _set(scale=(0.001, 0.001, 0.0011))),
-    "colour": (Material, _by("color", _paler)),
+    "color": (Material, _by("color", _paler)),
     "gravity": (Link, lambda link: link.model_copy(update={"gravity": not (link.gravity is not False)})),
     "place of a frame": (Frame, _pushed),
     "turn of a frame": (Frame, _turned),
@@ -164,7 +164,7 @@ MUTATIONS: Mapping[str, tuple[type[Node], Change]] = {
 """What kind of node is changed, and how; the first node that can be is."""
 OF_SDF = frozenset({"gravity", "place of a frame", "turn of a frame", "radius of a capsule", "radii of an ellipsoid"})
 """What URDF has no word for."""
-OF_URDF = frozenset({"colour", "place of a joint", "turn of a joint"})
+OF_URDF = frozenset({"color", "place of a joint", "turn of a joint"})
 """In SDF, links stay where they are when only their joint is said at another place."""
 
 

@@ -15,7 +15,7 @@ GOOD = """\
   </link>
 </robot>
 """
-WARNED = '<robot name="one">\n  <link name="base"><colour/></link>\n</robot>\n'
+WARNED = '<robot name="one">\n  <link name="base"><color/></link>\n</robot>\n'
 WRONG = '<robot name="one">\n  <link name="a"/>\n  <joint name="b" type="fixed"><parent link="a"/></joint>\n</robot>\n'
 BROKEN = '<robot name="one">\n  <link name="base">\n</robot>\n'
 

@@ -62,7 +62,7 @@ def test_standard_input(run: Run) -> None:
     assert json.loads(done.stdout) == {"files": [{"path": "<stdin>", "diagnostics": []}]}
 
 
-def test_colour_is_for_terminals_without_no_color(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_color_is_for_terminals_without_no_color(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def output(*, terminal: bool) -> str:
         arguments = ["check", str(folder / "warned.urdf")]
         return CliRunner().invoke(main, arguments, color=terminal).stdout

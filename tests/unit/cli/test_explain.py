@@ -1,13 +1,13 @@
 import pytest
 
-from twinform.diagnostics import catalogue
+from twinform.diagnostics import catalog
 
 from .conftest import Run
 
 HEADINGS = ["What it finds", "Why it matters", "Example", "Better", "References"]
 
 
-@pytest.mark.parametrize("name", catalogue())
+@pytest.mark.parametrize("name", catalog())
 def test_every_rule_has_a_page_with_all_headings(run: Run, name: str) -> None:
     done = run("explain", name)
     assert done.exit_code == 0
@@ -17,7 +17,7 @@ def test_every_rule_has_a_page_with_all_headings(run: Run, name: str) -> None:
 
 
 def test_without_a_rule_all_are_listed(run: Run) -> None:
-    assert [line.split()[0] for line in run("explain").stdout.splitlines()] == list(catalogue())
+    assert [line.split()[0] for line in run("explain").stdout.splitlines()] == list(catalog())
 
 
 def test_an_unknown_rule_exits_2_with_the_nearest_names(run: Run) -> None:

@@ -5,7 +5,7 @@ from click.testing import CliRunner
 
 import twinform
 from twinform.cli import main
-from twinform.passes.plugins.catalogue import releases
+from twinform.passes.plugins.catalog import releases
 from twinform.passes.plugins.sites import plugins_of
 
 ROBOT = """<robot name="r"><link name="base"><inertial><mass value="1"/>

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from twinform.diagnostics import NOWHERE, Diagnostic, Location, Rule, Severity, catalogue
+from twinform.diagnostics import NOWHERE, Diagnostic, Location, Rule, Severity, catalog
 from twinform.diagnostics.reporters import REPORTERS, Findings, text
 
 RULE = Rule(name="odd-value", severity=Severity.ERROR, finds="Odd.", matters="So.", example="3", better="2")
@@ -111,9 +111,9 @@ def sarif(files: list[Findings]) -> dict[str, Any]:
     return run
 
 
-def test_sarif_lists_the_catalogue_and_the_rules_of_others() -> None:
+def test_sarif_lists_the_catalog_and_the_rules_of_others() -> None:
     rules = sarif(FILES)["tool"]["driver"]["rules"]
-    assert [rule["id"] for rule in rules] == sorted([*catalogue(), "odd-value"])
+    assert [rule["id"] for rule in rules] == sorted([*catalog(), "odd-value"])
 
 
 def test_sarif_results_refer_to_rules_and_places() -> None:

@@ -8,7 +8,7 @@ from twinform.ir import Axis, Box, Cone, Format, Limit, Mimic, Node
 from twinform.ir import defaults as ir
 from twinform.ir.sensor import RENAMED_ELEMENTS, SENSOR_ELEMENTS
 from twinform.passes.legalise.urdf_pieces import OF_AN_AXIS
-from twinform.passes.plugins.catalogue import sensors
+from twinform.passes.plugins.catalog import sensors
 from twinform.schemas import Fact, Version, parse_value, parse_version, table
 
 NEWEST = {Format.URDF: (1, 2), Format.SDF: table("sdf").newest}

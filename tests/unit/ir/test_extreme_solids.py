@@ -101,17 +101,17 @@ def test_turned_it_is_the_product_of_the_matrices(one: Solid, quaternion: tuple[
 
 @examples()
 @given(parts=st.lists(SOLIDS, min_size=1, max_size=4))
-def test_together_they_have_the_mass_the_centre_and_the_inertia_of_all(parts: list[Solid]):
+def test_together_they_have_the_mass_the_center_and_the_inertia_of_all(parts: list[Solid]):
     found = combined(parts)
     masses = [Fraction(part.mass) for part in parts]
-    places = [[Fraction(place) for place in part.centre] for part in parts]
+    places = [[Fraction(place) for place in part.center] for part in parts]
     mass = exact_sum(masses)
     assert is_near(found.mass, mass, mass)
-    centre = [exact_sum(m * place[i] for m, place in zip(masses, places, strict=True)) / mass for i in range(3)]
+    center = [exact_sum(m * place[i] for m, place in zip(masses, places, strict=True)) / mass for i in range(3)]
     reach = max((abs(each) for place in places for each in place), default=Fraction(0))
-    assert all(is_near(each, exact, reach) for each, exact in zip(found.centre, centre, strict=True))
+    assert all(is_near(each, exact, reach) for each, exact in zip(found.center, center, strict=True))
     size = mass * reach * reach + max(abs(Fraction(each)) for part in parts for each in part.inertia)
-    away = [[a - b for a, b in zip(place, centre, strict=True)] for place in places]
+    away = [[a - b for a, b in zip(place, center, strict=True)] for place in places]
     for number, (i, j) in enumerate(((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))):
         steiner = (
             m * ((i == j) * exact_sum(each * each for each in d) - d[i] * d[j])

@@ -45,7 +45,7 @@ def summed(extent: tuple[float, float, float], inside: Inside, density: float) -
 
 
 def numbers(one: Solid) -> list[float]:
-    return [one.mass, *one.centre, *one.inertia]
+    return [one.mass, *one.center, *one.inertia]
 
 
 @pytest.mark.parametrize(("shape", "extent", "inside"), SHAPES, ids=lambda value: getattr(value, "kind", ""))
@@ -112,4 +112,4 @@ def test_another_mass_scales_the_inertia():
     assert one
     heavy = with_mass(one, 2 * one.mass)
     assert heavy.inertia[0] == pytest.approx(2 * one.inertia[0])
-    assert heavy.centre == one.centre
+    assert heavy.center == one.center

@@ -78,7 +78,7 @@ def test_rpy_loses_nothing_near_gimbal_lock(away: float, sign: int) -> None:
 
 
 @given(st.tuples(*[st.floats(-1, 1)] * 4).filter(lambda q: math.hypot(*q) > 1e-3), st.floats(0.1, 10))
-def test_a_quaternion_is_normalised(quaternion: tuple[float, float, float, float], scale: float) -> None:
+def test_a_quaternion_is_normalized(quaternion: tuple[float, float, float, float], scale: float) -> None:
     x, y, z, w = quaternion
     one = Transform.from_pose(Pose(quat_xyzw=quaternion))
     other = Transform.from_pose(Pose(quat_xyzw=(x * scale, y * scale, z * scale, w * scale)))

@@ -4,7 +4,7 @@ import pytest
 
 from reports.harness.sample import Sample
 from reports.libsdformat_codes.report import CODES, REPORT, UNSEEN, Row, announced, measure
-from twinform.diagnostics import catalogue
+from twinform.diagnostics import catalog
 
 WITHOUT_CASE = {"unreadable-file"}
 """What no case file can show."""
@@ -14,7 +14,7 @@ WITHOUT_CASE = {"unreadable-file"}
 def test_each_has_rules_with_cases_or_a_reason(row: Row):
     assert row.rules or row.note
     for rule in row.rules:
-        assert rule in catalogue()
+        assert rule in catalog()
         assert announced()[rule] or rule in WITHOUT_CASE
 
 

@@ -8,7 +8,7 @@ from reports.mapping.notes import Note, notes, told
 from reports.mapping.report import REPORT, measure
 from reports.mapping.rows import FORMATS, FormatName, rows, sections, unreachable
 from reports.mapping.targets import field_of, targets
-from twinform.diagnostics.catalogue import catalogue
+from twinform.diagnostics.catalog import catalog
 
 
 def _known(format: FormatName) -> set[str]:
@@ -23,7 +23,7 @@ def test_the_page_is_what_the_generator_writes() -> None:
 def test_a_note_names_elements_rules_and_cases_that_there_are(note: Note) -> None:
     known = {f"{format}:{path}" for format in FORMATS for path in _known(format)}
     assert [each for each in note.about if each not in known] == []
-    assert [rule for rule in note.rules if rule not in catalogue()] == []
+    assert [rule for rule in note.rules if rule not in catalog()] == []
     assert [case for case in note.cases if not (CASES / case).is_file()] == []
 
 

@@ -10,7 +10,7 @@ from reports.systems.judging import of_system, of_systems
 from reports.systems.reading import Read, SystemSource, read_system, systems_in
 from reports.systems.report import checkout, differences, measure
 from reports.systems.sensors import read_sensor, suffixes_in
-from twinform.passes.plugins.catalogue import system
+from twinform.passes.plugins.catalog import system
 
 READINGS: dict[str, tuple[str, dict[str, Read]]] = {
     "a default in the call": ('auto a = _sdf->Get<double>("rate", 10).first;', {"rate": Read({"number"}, {"10"})}),
@@ -132,7 +132,7 @@ def _judged(**parameters: Read) -> set[tuple[str, str, str, str]]:
 SYSTEM = system("apply-joint-force")
 
 
-def test_what_the_catalogue_has_right_is_no_difference() -> None:
+def test_what_the_catalog_has_right_is_no_difference() -> None:
     assert _judged(joint_name=Read({"text"})) == set()
 
 
@@ -154,7 +154,7 @@ def test_what_differs_is_said() -> None:
 
 def test_systems_that_only_one_side_has_are_said() -> None:
     found = {each.key for each in of_systems({"Newest": SystemSource({}, frozenset(), frozenset())}, "harmonic")}
-    assert "Newest system not in the catalogue" in found
+    assert "Newest system not in the catalog" in found
     assert "imu system not in the source" in found
     assert "cpu-lidar system not in the source" not in found
 

@@ -60,7 +60,7 @@ def test_usual_values_are_parsed(row: dict[str, Any], values: dict[str, object],
             parse(text)
 
 
-def test_bounds_of_urdf_colours_are_those_of_vectors() -> None:
+def test_bounds_of_urdf_colors_are_those_of_vectors() -> None:
     parse = quick_parse(Fact("@rgba", type="color4", min=0, max=1, place="rgba"), VALUE_TYPES["urdf"], (1, 0))
     assert parse
     assert parse("0 1 0 1") == (0.0, 1.0, 0.0, 1.0)

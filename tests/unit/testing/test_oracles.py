@@ -65,7 +65,7 @@ CHANGES = {
     "a mass": ('mass value="1"', 'mass value="1.001"', "other numbers"),
     "an inertia": ('ixx="0.03"', 'ixx="0.031"', "other numbers"),
     "a product of inertia": ('ixz="0.001"', 'ixz="0.002"', "other numbers"),
-    "a centre of mass": ('xyz="0 0 -0.4"', 'xyz="0 0.001 -0.4"', "other numbers"),
+    "a center of mass": ('xyz="0 0 -0.4"', 'xyz="0 0.001 -0.4"', "other numbers"),
     "where a joint is": ('xyz="0 0.1 1"', 'xyz="0 0.1 1.001"', "other numbers"),
     "an axis": ('axis xyz="0 1 0"', 'axis xyz="0 -1 0"', "other numbers"),
     "a limit": ('upper="2"', 'upper="2.5"', "swing.upper 2 became 2.5"),

@@ -102,7 +102,7 @@ class _Work:
     def _misfit_of_mass(self, one: Body, other: Body, base: Base) -> int:
         if not one.mass.solid.mass or not other.mass.solid.mass:
             return 0
-        center = self.terms.worst(Point(one.mass.solid.centre), Point(other.mass.solid.centre), base)
+        center = self.terms.worst(Point(one.mass.solid.center), Point(other.mass.solid.center), base)
         tensor = self.terms.worst(Tensor(one.mass.solid.inertia), Tensor(other.mass.solid.inertia), base)
         return bool(center) + bool(tensor)
 

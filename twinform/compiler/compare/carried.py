@@ -1,4 +1,4 @@
-"""What carriers hold counts as said: a robot does not change by travelling in the other format."""
+"""What carriers hold counts as said: a robot does not change by traveling in the other format."""
 
 from collections.abc import Iterator
 from copy import deepcopy

@@ -135,7 +135,7 @@ class _Description:
         return Part("model", name, {**leaves, **inside}, self.reading.place(shell))
 
     def _carried_shells(self) -> Iterator[Part]:
-        """The same of nested models that travelled in URDF."""
+        """The same of nested models that traveled in URDF."""
         for frame in self.model.frames:
             for element in _carried(frame):
                 if element.name == "model":

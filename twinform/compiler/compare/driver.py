@@ -14,7 +14,7 @@ from twinform.compiler.search.uris import SearchPath
 from twinform.schemas import Engine
 
 TOLERANCE = 1e-9
-"""The share of a value, or of a metre or radian where it is smaller than that, up to which a difference is rounding."""
+"""The share of a value, or of a meter or radian where it is smaller than that, up to which a difference is rounding."""
 
 
 def diff(

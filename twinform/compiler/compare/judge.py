@@ -106,7 +106,7 @@ class _Judge:
         one, other = a.solid, b.solid
         self.found.values(subject, "inertial/mass", Numbers((one.mass,), "kg"), Numbers((other.mass,), "kg"), places)
         if one.mass or other.mass:
-            self.found.values(subject, "inertial/center", Point(one.centre), Point(other.centre), places, base)
+            self.found.values(subject, "inertial/center", Point(one.center), Point(other.center), places, base)
             self.found.values(subject, "inertial/inertia", Tensor(one.inertia), Tensor(other.inertia), places, base)
 
     def _joint(self, a: JointView, b: JointView) -> None:
@@ -151,7 +151,7 @@ def _same_kind(a: JointView, b: JointView) -> tuple[Leaves, Leaves]:
 
 
 def _off_axis(a: JointView, b: JointView, base: Base) -> Iterable[Delta]:
-    """How far the second joint is off the axis, or the centre, of the first."""
+    """How far the second joint is off the axis, or the center, of the first."""
     one, other = (Point(each.frame.translation).seen_from(to).xyz for each, to in ((a, base.a), (b, base.b)))
     away = tuple(other[i] - one[i] for i in range(3))
     if a.type in _ABOUT_A_LINE and a.axes:

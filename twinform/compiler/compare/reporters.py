@@ -11,7 +11,7 @@ from twinform.diagnostics import Location
 from twinform.diagnostics.reporters import printable
 
 Paint = Callable[[str, Severity], str]
-"""Gives a word the colour of a severity."""
+"""Gives a word the color of a severity."""
 Reporter = Callable[[Comparison], str]
 
 

@@ -75,7 +75,7 @@ class Numbers(Value):
 
 @dataclass(frozen=True, slots=True)
 class Point(Value):
-    """A point in the model's frame, in metres."""
+    """A point in the model's frame, in meters."""
 
     xyz: Vector3
 

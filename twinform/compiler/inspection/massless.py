@@ -3,7 +3,7 @@
 from twinform.diagnostics import DiagnosticSink, Severity
 from twinform.diagnostics.rules.inertia import MISSING_INERTIAL
 from twinform.ir import Document, Format
-from twinform.passes.analyses.moving_bodies import moving_bodies, neighbours
+from twinform.passes.analyses.moving_bodies import moving_bodies, neighbors
 from twinform.passes.carriers.annotations import find_annotation, is_synthesized
 from twinform.passes.carriers.joint_chains import PART
 
@@ -19,7 +19,7 @@ def report_massless(document: Document, sink: DiagnosticSink) -> None:
                 MISSING_INERTIAL, message, link.location, expected="<inertial>", help=_HELP, severity=Severity.INFO
             )
         return
-    for each in neighbours(document):
+    for each in neighbors(document):
         if any(link.inertial for link in each.child):
             continue
         moved = next(link for link in each.child if link.name == each.joint.child)

@@ -9,7 +9,7 @@ from twinform.ir.transform import Transform
 from twinform.schemas import Fact, XmlElement, format_value, parse_value
 
 TOLERANCE = 1e-9
-"""The share of a number, or of a metre or radian of a pose, up to which a difference is rounding."""
+"""The share of a number, or of a meter or radian of a pose, up to which a difference is rounding."""
 _LEAST = 1e-6
 """Numbers are measured against this at least: what rounding leaves of zero is zero, and the smallest inertia is not."""
 _QUATERNION = 7

@@ -40,7 +40,7 @@ def emit(document: Document, sink: DiagnosticSink, *, fit: bool = False, kept: A
     Where the document was not read in this version, `fit` leaves out what other versions have and this one has not, and
     accounts for it; but not the names that are `kept`, which the files that it was made of had so too.
     """
-    return serialised(valid_tree(document, sink, fit=fit, kept=kept), document)
+    return serialized(valid_tree(document, sink, fit=fit, kept=kept), document)
 
 
 def emit_legal(
@@ -93,7 +93,7 @@ def document_tree(document: Document) -> XmlElement:
     return _BACK_ENDS[document.format](document, written_version(document), named)
 
 
-def serialised(root: XmlElement, document: Document) -> str:
+def serialized(root: XmlElement, document: Document) -> str:
     """The text of a document whose XML this is."""
     default = dict(document.namespaces).get("")
     if default is not None:

@@ -1,4 +1,4 @@
-"""The folders around a file, in which its neighbours are."""
+"""The folders around a file, in which its neighbors are."""
 
 from pathlib import Path
 

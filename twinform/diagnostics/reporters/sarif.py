@@ -6,7 +6,7 @@ from importlib.metadata import version
 from pathlib import Path
 from urllib.parse import quote
 
-from twinform.diagnostics.catalogue import catalogue
+from twinform.diagnostics.catalog import catalog
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.location import Location
 from twinform.diagnostics.reporters.findings import Findings
@@ -17,7 +17,7 @@ _LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: 
 
 
 def sarif(files: Sequence[Findings]) -> str:
-    """A log of one run: all rules of the catalogue, and a result for each finding."""
+    """A log of one run: all rules of the catalog, and a result for each finding."""
     rules = _rules(files)
     order = {name: index for index, name in enumerate(rules)}
     driver = {"name": "twinform", "version": version("twinform"), "rules": [_rule(rule) for rule in rules.values()]}
@@ -27,9 +27,9 @@ def sarif(files: Sequence[Findings]) -> str:
 
 
 def _rules(files: Sequence[Findings]) -> dict[str, Rule]:
-    """The catalogue, and the rules of third-party passes that found something."""
+    """The catalog, and the rules of third-party passes that found something."""
     used = {each.rule.name: each.rule for file in files for each in file.diagnostics}
-    return dict(sorted((used | catalogue()).items()))
+    return dict(sorted((used | catalog()).items()))
 
 
 def _rule(rule: Rule) -> dict[str, object]:

@@ -8,7 +8,7 @@ from twinform.diagnostics.reporters.findings import Findings
 from twinform.diagnostics.rule import Severity
 
 Paint = Callable[[str, Severity], str]
-"""Gives a word the colour of a severity."""
+"""Gives a word the color of a severity."""
 
 
 def text(files: Sequence[Findings], paint: Paint = lambda word, _: word) -> str:

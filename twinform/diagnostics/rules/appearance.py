@@ -13,16 +13,16 @@ UNSET_SURFACE = Rule(
 UNKNOWN_SCRIPT = Rule(
     name="unknown-script",
     severity=Severity.WARNING,
-    finds="A material script of Gazebo Classic whose colours are not known: it is none of Classic's own, or one that "
+    finds="A material script of Gazebo Classic whose colors are not known: it is none of Classic's own, or one that "
     "only a shader paints.",
-    matters="Newer Gazebo has no material scripts: it shows what has no other colour in grey.",
+    matters="Newer Gazebo has no material scripts: it shows what has no other color in grey.",
     example="`<material>MyRobot/Carbon</material>`, `Gazebo/RedTransparent`.",
-    better="Write the colours or the texture.",
+    better="Write the colors or the texture.",
 )
 TEXTURED_SCRIPT = Rule(
     name="textured-script",
     severity=Severity.INFO,
-    finds="A material script of Gazebo Classic that also has an image, of which the colours alone were taken.",
+    finds="A material script of Gazebo Classic that also has an image, of which the colors alone were taken.",
     matters="The image is among Classic's own media, which newer Gazebo does not have.",
     example="`Gazebo/WoodFloor`",
     better="Copy the image beside the model and name it as the albedo map.",
@@ -55,8 +55,8 @@ DROPPED_REFERENCE = Rule(
 PBR_TOO_OLD = Rule(
     name="pbr-too-old",
     severity=Severity.WARNING,
-    finds="A document of SDF before 1.6 whose colours were to become those of PBR.",
-    matters="These versions have no word for it, so the colours stay what they were.",
+    finds="A document of SDF before 1.6 whose colors were to become those of PBR.",
+    matters="These versions have no word for it, so the colors stay what they were.",
     example="`materials{pbr=true}` on `<sdf version='1.5'>`.",
     better="Write a newer version first: `--sdf-version 1.9`, and run the pass on that.",
     references="SDF specification 1.6, `material/pbr`.",

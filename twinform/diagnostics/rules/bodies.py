@@ -23,10 +23,10 @@ BARE_MATERIAL = Rule(
     name="bare-material",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
-    finds="A shared `<material>` of URDF with neither a colour nor a texture.",
+    finds="A shared `<material>` of URDF with neither a color nor a texture.",
     matters="It defines nothing, and urdfdom refuses the whole file for it.",
     example="`<robot ...><material name='blue'/>`",
-    better="Give it a colour, or delete it.",
+    better="Give it a color, or delete it.",
 )
 UNNAMED_MATERIAL = Rule(
     name="unnamed-material",
@@ -41,9 +41,9 @@ UNNAMED_MATERIAL = Rule(
 CONFLICTING_MATERIAL = Rule(
     name="conflicting-material",
     severity=Severity.WARNING,
-    finds="A material of URDF that is defined again with another colour or texture.",
+    finds="A material of URDF that is defined again with another color or texture.",
     matters="Materials are shared by name: urdfdom and libsdformat show the first definition everywhere. Here each "
-    "visual keeps the colour that stands in it.",
+    "visual keeps the color that stands in it.",
     example="Two visuals with a `<material name='paint'>` of their own, one red and one blue.",
     better="Give the second one another name.",
 )

@@ -46,7 +46,7 @@ ANGLE_IN_DEGREES = Rule(
     example="`<origin xyz='0 0 0' rpy='0 0 90'/>`, `<pose>0 0 0 0 0 90</pose>`",
     better="Write radians, 1.570796 for 90 degrees, or in SDF from 1.9 on `<pose degrees='true'>`.",
 )
-UNNORMALISED_QUATERNION = Rule(
+UNNORMALIZED_QUATERNION = Rule(
     name="unnormalised-quaternion",
     severity=Severity.WARNING,
     finds="A quaternion whose length is not 1.",

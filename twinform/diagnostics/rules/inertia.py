@@ -38,7 +38,7 @@ IMPOSSIBLE_INERTIA = Rule(
     matters="No arrangement of mass has such moments. libsdformat refuses the model, even where the sum is only just "
     "exceeded because digits were cut off; physics engines become unstable.",
     example="`<inertia ixx='1' ixy='0' ixz='0' iyy='0.1' iyz='0' izz='0.1'/>`: 1 is more than 0.1 + 0.1.",
-    better="Compute the matrix from the shape and the mass, about the centre of mass and in kg m^2.",
+    better="Compute the matrix from the shape and the mass, about the center of mass and in kg m^2.",
     references="The triangle inequality of the moments of inertia: ixx + iyy - izz = 2 * sum(m * z^2) >= 0.",
 )
 INERTIA_FROM_NOTHING = Rule(
@@ -50,14 +50,14 @@ INERTIA_FROM_NOTHING = Rule(
     better="Add the collisions, or write the mass and the inertia.",
     references="libsdformat: ELEMENT_MISSING",
 )
-DISTANT_CENTRE_OF_MASS = Rule(
+DISTANT_CENTER_OF_MASS = Rule(
     name="distant-centre-of-mass",
     severity=Severity.WARNING,
-    finds="A centre of mass outside of the box around the shapes of its link.",
-    matters="The link swings about a point in the air. Most often the inertial was written in millimetres, or in the "
+    finds="A center of mass outside of the box around the shapes of its link.",
+    matters="The link swings about a point in the air. Most often the inertial was written in millimeters, or in the "
     "frame of the drawing and not of the link.",
     example="`<inertial><origin xyz='0 0 45'/>...` in a link whose collision is 90 mm long.",
-    better="Write the centre of mass in metres, in the link frame.",
+    better="Write the center of mass in meters, in the link frame.",
 )
 IMPLAUSIBLE_DENSITY = Rule(
     name="implausible-density",
@@ -74,9 +74,9 @@ OVERSIZED_INERTIA = Rule(
     severity=Severity.WARNING,
     finds="An inertia that is larger than the mass of the link can have inside of the box around its shapes.",
     matters="No arrangement of the mass within the shapes has such moments, so the link turns as sluggishly as a much "
-    "larger one. Most often they are in g mm^2, or not about the centre of mass.",
+    "larger one. Most often they are in g mm^2, or not about the center of mass.",
     example="`<mass value='0.1'/><inertia ixx='25' iyy='25' izz='25' .../>` for a cube of 10 cm.",
-    better="Write the inertia in kg m^2 about the centre of mass, or let `fill-inertia{replace=all}` compute it.",
+    better="Write the inertia in kg m^2 about the center of mass, or let `fill-inertia{replace=all}` compute it.",
     references="T. Popoviciu 1935: a spread over a length l has a variance of at most l^2 / 4.",
 )
 MASS_RATIO = Rule(
@@ -86,7 +86,7 @@ MASS_RATIO = Rule(
     matters="Solvers that iterate over constraints (ODE, Bullet, PhysX, DART's PGS) converge slowly or not at all: "
     "joints stretch and shake, above all where the lighter body carries the heavier one.",
     example="A wheel hub of 1 g between a wheel of 5 kg and a chassis of 100 kg.",
-    better="Give the light body more of the real mass, or fix it to a neighbour; `split-massless` spreads mass along a "
+    better="Give the light body more of the real mass, or fix it to a neighbor; `split-massless` spreads mass along a "
     "chain. Solvers in reduced coordinates (Drake, MuJoCo) do not mind.",
 )
 FILLED_INERTIA = Rule(

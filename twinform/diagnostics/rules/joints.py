@@ -19,7 +19,7 @@ UNUSED_AXIS = Rule(
     example="`<joint type='fixed'>` with `<axis xyz='0 0 1'/>`; `<axis2>` of a revolute joint.",
     better="Delete it, or correct the type.",
 )
-UNNORMALISED_AXIS = Rule(
+UNNORMALIZED_AXIS = Rule(
     name="unnormalised-axis",
     severity=Severity.INFO,
     finds="A joint axis that is not of length one.",

@@ -6,7 +6,7 @@ SPLIT_MASS = Rule(
     name="split-mass",
     severity=Severity.INFO,
     finds="A body that moves and weighs nothing, and that took a share of the mass of the body which it carries.",
-    matters="At the zero position of the joints mass, centre of mass and inertia of the robot stay exactly what they "
+    matters="At the zero position of the joints mass, center of mass and inertia of the robot stay exactly what they "
     "were. Elsewhere the share moves with the carrier and not with what it carries.",
     example="`split-massless` on the link between the two joints of a pan-tilt head.",
     better="Write the real mass of the part, if it has one.",

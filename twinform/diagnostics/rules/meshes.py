@@ -9,7 +9,7 @@ OPEN_MESH = Rule(
     "which side is outside, or it is flat.",
     matters="What its triangles enclose is not a volume, so a mass and an inertia computed from them mean nothing.",
     example="`fill-inertia` on a link whose collision is the scan of a housing, open at the bottom.",
-    better="Close the mesh in a modelling program, use its convex hull (`fill-inertia{open-meshes=hull}`), or use "
+    better="Close the mesh in a modeling program, use its convex hull (`fill-inertia{open-meshes=hull}`), or use "
     "simple shapes for the collision.",
 )
 UNREADABLE_MESH = Rule(

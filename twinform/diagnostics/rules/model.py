@@ -154,7 +154,7 @@ UNKNOWN_REFERENCE = Rule(
     severity=Severity.WARNING,
     strict=Severity.ERROR,
     finds="A `<gazebo reference='...'>` that names neither a link nor a joint.",
-    matters="libsdformat drops its content without a word: the sensor, friction or colour is simply not there.",
+    matters="libsdformat drops its content without a word: the sensor, friction or color is simply not there.",
     example="`<gazebo reference='bse_link'>` where the link is called `base_link`.",
     better="Correct the name.",
     references="sdformat issue 1372",
@@ -162,10 +162,10 @@ UNKNOWN_REFERENCE = Rule(
 UNKNOWN_MATERIAL = Rule(
     name="unknown-material",
     severity=Severity.WARNING,
-    finds="A visual that names a material which is defined nowhere and says no colour or texture itself.",
-    matters="The visual is drawn in a default colour.",
+    finds="A visual that names a material which is defined nowhere and says no color or texture itself.",
+    matters="The visual is drawn in a default color.",
     example="`<material name='blu'/>` where the material is called `blue`.",
-    better="Correct the name, or write the colour in the visual.",
+    better="Correct the name, or write the color in the visual.",
 )
 EMPTY_MODEL = Rule(
     name="empty-model",

@@ -129,7 +129,7 @@ OUT_OF_RANGE = Rule(
     severity=Severity.WARNING,
     strict=Severity.ERROR,
     finds="A number below the least or above the greatest value that the format allows.",
-    matters="libsdformat refuses some of them (colours above 1, negative friction); simulators replace others by a "
+    matters="libsdformat refuses some of them (colors above 1, negative friction); simulators replace others by a "
     "default or become unstable.",
     example="`<mass value='-1'/>`, `<cylinder radius='-0.1' .../>`.",
     better="Write a value in the range.",

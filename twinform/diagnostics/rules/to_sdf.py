@@ -17,9 +17,9 @@ MATERIAL_NAME = Rule(
     name="material-name",
     severity=Severity.INFO,
     finds="The name of a URDF material, or a shared material that no visual uses.",
-    matters="Materials of SDF have colours but no names.",
+    matters="Materials of SDF have colors but no names.",
     example="`<material name='blue'>`",
-    better="Nothing needs doing: the colours are written into every visual and the name travels in a carrier.",
+    better="Nothing needs doing: the colors are written into every visual and the name travels in a carrier.",
 )
 WORLD_LINK = Rule(
     name="world-link",
@@ -54,7 +54,7 @@ FRAME_LINK = Rule(
     severity=Severity.INFO,
     finds="A link without mass on a fixed joint.",
     matters="SDF has a word for such a thing, `<frame>`; as a link, a simulator would give it a mass of its own.",
-    example="A camera's optical frame, a tool centre point.",
+    example="A camera's optical frame, a tool center point.",
     better="Nothing needs doing: link and joint become frames of the same names, the shapes and sensors move to the "
     "parent at the same place.",
 )

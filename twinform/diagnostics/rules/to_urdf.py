@@ -157,13 +157,13 @@ UNBOUNDED_LIMIT = Rule(
     example="A prismatic joint without `<limit>`; `<effort>-1</effort>`.",
     better="Write the limit.",
 )
-COLOURS = Rule(
+COLORS = Rule(
     name="colours",
     severity=Severity.INFO,
-    finds="Colours of a visual that are more than one colour with alpha.",
-    matters="A URDF material has one colour: the diffuse one.",
+    finds="Colors of a visual that are more than one color with alpha.",
+    matters="A URDF material has one color: the diffuse one.",
     example="`<ambient>` unlike `<diffuse>`, or one of them alone.",
-    better="Nothing needs doing: the colours as they were written travel in a carrier.",
+    better="Nothing needs doing: the colors as they were written travel in a carrier.",
 )
 
 STALE_CARRIER = Rule(

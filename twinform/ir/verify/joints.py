@@ -72,7 +72,7 @@ def _verify_length(joint: Joint, xyz: Vector3, where: Location, sink: Diagnostic
     length = math.hypot(*xyz)
     if abs(length - 1) > _ROUNDING:
         message = f"the axis of joint {joint.name!r} has length {length:.4g}; readers make it 1"
-        sink.report(rules.UNNORMALISED_AXIS, message, where, found=f"{length:.4g}", expected="1")
+        sink.report(rules.UNNORMALIZED_AXIS, message, where, found=f"{length:.4g}", expected="1")
 
 
 def _verify_limit(joint: Joint, limit: Limit, sink: DiagnosticSink) -> None:

@@ -41,4 +41,4 @@ def _length(pose: Pose, length: float, sink: DiagnosticSink) -> None:
         message = f"a quaternion has the length {found}; some readers make it 1, others scale by it"
     else:
         message = "a quaternion has length zero, which is no rotation"
-    sink.report(rules.UNNORMALISED_QUATERNION, message, pose.location, found=found, expected="1")
+    sink.report(rules.UNNORMALIZED_QUATERNION, message, pose.location, found=found, expected="1")

@@ -82,7 +82,7 @@ def _report_materials(model: Model, sink: DiagnosticSink) -> None:
     report_names("material", [material for material in model.materials if material.name], sink)
     for material in model.materials:
         if _is_bare(material):
-            message = f"the shared material {material.name!r} has neither a colour nor a texture"
+            message = f"the shared material {material.name!r} has neither a color nor a texture"
             sink.report(bodies.BARE_MATERIAL, message, material.location, expected="<color> or <texture>")
     _report_unnamed(model, sink)
     defined = {material.name: material for material in model.materials if material.name}

@@ -38,7 +38,7 @@ def map_automatic(model: Model, write: Callable[[Link, Inertial, FrameGraph], Li
 def automatic(
     link: Link, inertial: Inertial, collisions: Iterable[Collision], graph: FrameGraph, meshes: Meshes
 ) -> Solid:
-    """The mass, centre and inertia of a link in its own frame.
+    """The mass, center and inertia of a link in its own frame.
 
     Every collision is filled with its own `<density>`, else with that of the inertial, else with water. A mass that is
     written stays: the inertia is scaled to it. Other readers agree: libsdformat, Link::ResolveAutoInertials.

@@ -34,7 +34,7 @@ class MeshError(Exception):
 class Meshes:
     """The mesh files of a document, each read once. Where `hull`, an open mesh stands for its convex hull.
 
-    Lengths are in metres: COLLADA says its unit, and all other formats are taken to be in metres, as simulators do.
+    Lengths are in meters: COLLADA says its unit, and all other formats are taken to be in meters, as simulators do.
     Like Gazebo and RViz this does not turn a mesh whose file says that another axis than z points up.
     """
 
@@ -56,8 +56,8 @@ class Meshes:
         x, y, z = (times_power(float(at), exponent) for at in with_unit_density["center_mass"])
         rows = [[density * float(entry) + 0.0 for entry in row] for row in with_unit_density["inertia"]]  # never -0
         inertia = (rows[0][0], rows[1][1], rows[2][2], rows[0][1], rows[0][2], rows[1][2])
-        centre = (x + middle[0], y + middle[1], z + middle[2])
-        return Solid(times_power(density * volume, 3 * exponent), centre, times_each(inertia, 5 * exponent))
+        center = (x + middle[0], y + middle[1], z + middle[2])
+        return Solid(times_power(density * volume, 3 * exponent), center, times_each(inertia, 5 * exponent))
 
     def bounds(self, mesh: Mesh) -> tuple[Vector3, Vector3]:
         """The least and the greatest coordinates of the mesh, in the frame of its shape.
@@ -163,7 +163,7 @@ def _read(path: Path, uri: str, submesh: str | None, center: bool) -> _Triangles
 
 
 def _triangles(path: Path, submesh: str | None) -> _Triangles:
-    """The triangles of a file in metres, with vertices merged that are at one place.
+    """The triangles of a file in meters, with vertices merged that are at one place.
 
     Raises:
         Exception: what the reader of the format raises, or ours where nothing is left.
@@ -190,6 +190,6 @@ def _part(trimesh: Any, scene: Any, name: str) -> _Triangles:
 
 
 def _unit(trimesh: Any, geometry: Iterable[Any]) -> float:
-    """The unit of a COLLADA file in metres, which `trimesh` leaves in the notes of its meshes."""
+    """The unit of a COLLADA file in meters, which `trimesh` leaves in the notes of its meshes."""
     said = next((str(each.metadata["units"]) for each in geometry if each.metadata.get("units")), "meters")
     return float(trimesh.units.unit_conversion(said, "meters"))

@@ -13,7 +13,7 @@ Body = tuple[Link, ...]
 """The links that fixed joints hold together, in document order."""
 
 
-class Neighbours(NamedTuple):
+class Neighbors(NamedTuple):
     """A joint that moves, and the two bodies that it connects."""
 
     joint: Joint
@@ -36,7 +36,7 @@ def moving_bodies(document: Document) -> list[Body]:
     return [tuple(body) for root, body in bodies.items() if root != ground]
 
 
-def neighbours(document: Document) -> Iterator[Neighbours]:
+def neighbors(document: Document) -> Iterator[Neighbors]:
     """The joints that move a body, in document order; the parent is empty where the world holds it."""
     grouped, ground, groups = _grouped(document)
     bodies: dict[str, Body] = {root: tuple(body) for root, body in grouped.items()}
@@ -45,7 +45,7 @@ def neighbours(document: Document) -> Iterator[Neighbours]:
             continue
         parent, child = (groups.find(_key(scope, name)) for name in (joint.parent, joint.child))
         if child != ground and child in bodies and (parent == ground or parent in bodies):
-            yield Neighbours(joint, () if parent == ground else bodies[parent], bodies[child])
+            yield Neighbors(joint, () if parent == ground else bodies[parent], bodies[child])
 
 
 def _grouped(document: Document) -> "tuple[dict[str, list[Link]], str, _Groups]":

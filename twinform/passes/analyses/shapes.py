@@ -129,7 +129,7 @@ def inertial_of(found: Solid, written: Inertial | None) -> Inertial:
         update={
             "auto": None,
             "mass": found.mass,
-            "pose": Pose(xyz=found.centre, rpy=ORIGIN) if any(found.centre) else None,
+            "pose": Pose(xyz=found.center, rpy=ORIGIN) if any(found.center) else None,
             "inertia": with_tensor(None, found.inertia),
         }
     )

@@ -1,4 +1,4 @@
-"""The materials of Gazebo Classic as colours."""
+"""The materials of Gazebo Classic as colors."""
 
 import tomllib
 from dataclasses import dataclass
@@ -9,12 +9,12 @@ from twinform.ir import Color
 
 _DATA = "data/classic_materials.toml"
 _WHITE = (1.0, 1.0, 1.0)
-"""What OGRE, whose scripts these are, takes for an ambient or diffuse colour that is not written."""
+"""What OGRE, whose scripts these are, takes for an ambient or diffuse color that is not written."""
 
 
 @dataclass(frozen=True, slots=True)
 class ClassicMaterial:
-    """The colours of a material; `shininess` is the exponent of the highlight, `textures` are file names."""
+    """The colors of a material; `shininess` is the exponent of the highlight, `textures` are file names."""
 
     ambient: Color
     diffuse: Color
@@ -26,7 +26,7 @@ class ClassicMaterial:
 
 @cache
 def classic_materials() -> dict[str, ClassicMaterial]:
-    """Those that have colours or images, by name."""
+    """Those that have colors or images, by name."""
     text = files("twinform.passes.appearance").joinpath(_DATA).read_text(encoding="utf-8")
     rows: dict[str, dict[str, list[float] | list[str] | float]] = tomllib.loads(text)
     return {name: _material(row) for name, row in rows.items() if row}

@@ -19,27 +19,27 @@ _PBR_SINCE = (1, 6)
 
 
 class Materials(Pass):
-    """Turn material scripts of Gazebo Classic into colours, and colours into those of PBR.
+    """Turn material scripts of Gazebo Classic into colors, and colors into those of PBR.
 
     Changes, on links whose name matches `links`:
 
-    1. with `scripts`, in SDF, a `<script>` that names a material of Classic: the colours of it are written instead, but
+    1. with `scripts`, in SDF, a `<script>` that names a material of Classic: the colors of it are written instead, but
        for those that the visual says itself;
     2. with `scripts`, in URDF, the tag `<material>Gazebo/Red</material>` of a `<gazebo>` element, which becomes a
-       `<visual>` with the colours; the materials of URDF itself stay, ROS shows them;
-    3. with `pbr`, materials that have a colour and no `<pbr>`: they get its `metalness` and `roughness`; where that is
+       `<visual>` with the colors; the materials of URDF itself stay, ROS shows them;
+    3. with `pbr`, materials that have a color and no `<pbr>`: they get its `metalness` and `roughness`; where that is
        not given, it comes from the script's highlight: sqrt(2 / (shininess + 2)).
 
     Never touches: materials of URDF, textures, and scripts of others.
-    Diagnostics: `unknown-script` for scripts whose colours are not known, which stay, and `textured-script` for those
+    Diagnostics: `unknown-script` for scripts whose colors are not known, which stay, and `textured-script` for those
     that have an image as well, which newer Gazebo does not bring, and `pbr-too-old` for SDF before 1.6.
     """
 
     name = "materials"
     example: ClassVar[str] = "materials{pbr=true roughness=0.7}"
 
-    scripts: bool = Field(default=True, description="Whether scripts become colours.")
-    pbr: bool = Field(default=False, description="Whether colours become those of PBR.")
+    scripts: bool = Field(default=True, description="Whether scripts become colors.")
+    pbr: bool = Field(default=False, description="Whether colors become those of PBR.")
     metalness: float = Field(default=0.0, ge=0, le=1, description="From 0, paint, to 1, bare metal.")
     roughness: float | None = Field(default=None, ge=0, le=1, description="From 0, a mirror, to 1.")
     links: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only links"))
@@ -47,7 +47,7 @@ class Materials(Pass):
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document with other materials."""
         if self.pbr and not _has_pbr(document):
-            message = f"SDF {document.version} has no PBR, so the colours stay as they are"
+            message = f"SDF {document.version} has no PBR, so the colors stay as they are"
             sink.report(PBR_TOO_OLD, message, document.location, found=document.version, expected="1.6 or newer")
             return self.model_copy(update={"pbr": False}).run(document, sink)
 
@@ -68,13 +68,13 @@ class Materials(Pass):
         if self.scripts and script is not None and script.name:
             found = _known(script.name, script.location, sink)
             if found:
-                material = _coloured(material, found)
+                material = _colored(material, found)
         return self._made_pbr(material, found) if self.pbr else material
 
     def _made_pbr(self, material: Material, script: ClassicMaterial | None) -> Material:
-        """The material with metalness and roughness, if it has a colour and no PBR."""
-        colour = material.diffuse or material.ambient
-        if colour is None or material.albedo_map or any(_is_pbr(part) for part in material.opaque):
+        """The material with metalness and roughness, if it has a color and no PBR."""
+        color = material.diffuse or material.ambient
+        if color is None or material.albedo_map or any(_is_pbr(part) for part in material.opaque):
             return material
         numbers = {"metalness": self.metalness, "roughness": self._roughness(script)}
         parts = (
@@ -91,7 +91,7 @@ class Materials(Pass):
         return min(1.0, math.sqrt(2 / (script.shininess + 2)))
 
     def _extension(self, extension: GazeboExtension, sink: DiagnosticSink) -> GazeboExtension:
-        """A `<gazebo>` element of URDF with the colours of the script that it names."""
+        """A `<gazebo>` element of URDF with the colors of the script that it names."""
         if not self.scripts or not self._is_meant(extension.reference):
             return extension
         return replace_fields(extension, content=tuple(self._tag(element, sink) for element in extension.content))
@@ -103,7 +103,7 @@ class Materials(Pass):
         found = _known(name, element.location, sink)
         if found is None:
             return element
-        material = _coloured(Material(), found)
+        material = _colored(Material(), found)
         made = to_element(self._made_pbr(material, found) if self.pbr else material, "material", "sdf")
         return Element(name="visual", children=(made,), source=element.source)
 
@@ -120,18 +120,16 @@ def _known(name: str, where: Location, sink: DiagnosticSink) -> ClassicMaterial 
     """The material of a script; what is not known of it is noted."""
     found = classic_materials().get(name)
     if found is None:
-        message = f"the colours of the material script {name!r} are not known; it stays"
+        message = f"the colors of the material script {name!r} are not known; it stays"
         sink.report(UNKNOWN_SCRIPT, message, where, found=name)
     elif found.textures:
-        message = (
-            f"of the material script {name!r} the colours are taken, and not its image {', '.join(found.textures)}"
-        )
+        message = f"of the material script {name!r} the colors are taken, and not its image {', '.join(found.textures)}"
         sink.report(TEXTURED_SCRIPT, message, where, found=name)
     return found
 
 
-def _coloured(material: Material, found: ClassicMaterial) -> Material:
-    """The material with the colours of a script, where it says none itself."""
+def _colored(material: Material, found: ClassicMaterial) -> Material:
+    """The material with the colors of a script, where it says none itself."""
     return material.model_copy(
         update={
             "script": None,

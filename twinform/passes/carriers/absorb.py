@@ -141,7 +141,7 @@ def _are_nodes(value: object) -> TypeGuard[tuple[Node, ...]]:
 
 def _inserted(mine: tuple[Node, ...], value: tuple[Node, ...], index: int | None, node: Node) -> tuple[Node, ...]:
     place = len(mine) if index is None else min(index, len(mine))
-    # it stands where its neighbour stands, so that it is written there
+    # it stands where its neighbor stands, so that it is written there
     beside = mine[place] if place < len(mine) else mine[-1] if mine else node
     placed = tuple(one.model_copy(update={"source": beside.source}) for one in value)
     return (*mine[:place], *placed, *mine[place:])

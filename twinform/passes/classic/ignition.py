@@ -3,7 +3,7 @@
 import re
 
 from twinform.ir import Element, Plugin
-from twinform.passes.plugins.catalogue import is_ignition_name, modern_class, modern_file
+from twinform.passes.plugins.catalog import is_ignition_name, modern_class, modern_file
 from twinform.passes.plugins.parts import Release
 
 _NATIVE = 6

@@ -9,7 +9,7 @@ from twinform.ir import Document, Format, Model
 from twinform.passes.classic.deferred_edits import DeferredEdits
 from twinform.passes.classic.emptied import without_emptied
 from twinform.passes.classic.hardware import modern_hardware
-from twinform.passes.classic.looks import in_colours
+from twinform.passes.classic.looks import in_colors
 from twinform.passes.classic.plugins import PluginMigration
 from twinform.passes.classic.reporting import accept, scratch
 from twinform.passes.classic.sensors import SensorMigration
@@ -17,7 +17,7 @@ from twinform.passes.classic.worlds import complete_worlds, report_needs, report
 from twinform.passes.control.carried_elements import declare_carriers
 from twinform.passes.control.ros2_control_from_transmissions import Ros2ControlFromTransmissions
 from twinform.passes.framework.base import Pass
-from twinform.passes.plugins.catalogue import release
+from twinform.passes.plugins.catalog import release
 from twinform.passes.plugins.check_plugins import ReleaseName
 from twinform.passes.plugins.parts import Release
 from twinform.passes.plugins.sites import map_plugins, map_sensors
@@ -44,7 +44,7 @@ class MigrateGazeboClassic(Pass):
     5. names of Ignition become those of Gazebo, but for Fortress, which has them;
     6. models that came with Gazebo Classic are included from Fuel;
     7. worlds get the systems that their sensors need, and all default systems once one is written;
-    8. material scripts become colours, by the pass `materials`;
+    8. material scripts become colors, by the pass `materials`;
     9. SDF that is older is said in the version that the release reads.
 
     Never touches: plugins that are neither of Gazebo Classic nor of gz-sim, and parts of worlds that gz-sim skips; it
@@ -92,7 +92,7 @@ class MigrateGazeboClassic(Pass):
         )
         done = deeds.run(without_emptied(sensed, map_plugins(sensed, migration)))
         done = ship_models(modern_hardware(done, target, sink), sink)
-        done = in_colours(complete_worlds(done, target, sink), sink)
+        done = in_colors(complete_worlds(done, target, sink), sink)
         if done is not document:
             report_needs(done, target, sink)
         report_unread(done, sink)

@@ -19,7 +19,7 @@ from twinform.passes.classic.sensors import SensorMigration
 from twinform.passes.classic.systems import made_systems, unused
 from twinform.passes.classic.tables import MakeRow, Migration, migration_of
 from twinform.passes.classic.topics import RosNames
-from twinform.passes.plugins.catalogue import systems_of_file
+from twinform.passes.plugins.catalog import systems_of_file
 from twinform.passes.plugins.elements import sensor_of
 from twinform.passes.plugins.parts import Release
 from twinform.passes.plugins.sites import Site

@@ -15,7 +15,7 @@ from twinform.passes.classic.reporting import Report, accept, scratch
 from twinform.passes.classic.systems import unused
 from twinform.passes.classic.tables import Migration, SensorRow, migration_of, unread_parts
 from twinform.passes.classic.topics import RosNames
-from twinform.passes.plugins.catalogue import sensors
+from twinform.passes.plugins.catalog import sensors
 from twinform.passes.plugins.elements import sensor_element, sensor_of
 from twinform.passes.plugins.parts import Release
 from twinform.passes.plugins.sites import Site
@@ -150,7 +150,7 @@ def with_frame(element: Element, release: Release) -> Element:
 
 def complete_lens(element: Element) -> Element:
     """A camera of which either all values of the lens are written or none: each has a default of its own."""
-    values = {"fx": focal_length, "fy": focal_length, "cx": _centre_x, "cy": _centre_y}
+    values = {"fx": focal_length, "fy": focal_length, "cx": _center_x, "cy": _center_y}
     for group, prefix in (("intrinsics", ""), ("projection", "p_")):
         path = f"camera/lens/{group}"
         camera = element.find("camera")
@@ -226,9 +226,9 @@ def _is_sensor(element: Element) -> bool:
     return sensor_of(element) is not None
 
 
-def _centre_x(sensor: Element) -> float:
+def _center_x(sensor: Element) -> float:
     return camera_width(sensor) / 2
 
 
-def _centre_y(sensor: Element) -> float:
+def _center_y(sensor: Element) -> float:
     return camera_height(sensor) / 2

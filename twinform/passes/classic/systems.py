@@ -7,7 +7,7 @@ from twinform.passes.classic.element_edits import added
 from twinform.passes.classic.moving import Lost, Moved, truth_of
 from twinform.passes.classic.tables import Migration, SystemRow
 from twinform.passes.classic.topics import RosNames, is_namespace
-from twinform.passes.plugins.catalogue import system
+from twinform.passes.plugins.catalog import system
 from twinform.passes.plugins.parts import PluginKind
 from twinform.passes.plugins.sites import Site
 

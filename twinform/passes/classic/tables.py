@@ -23,7 +23,7 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field
 
 from twinform.ir import Element
-from twinform.passes.plugins.catalogue import modern_file
+from twinform.passes.plugins.catalog import modern_file
 
 _FILES = ("driving.toml", "sensing.toml", "states.toml", "control.toml")
 

@@ -36,7 +36,7 @@ class BalanceInertia(Pass):
     mass is left with some extent along every axis: `thickness`, or the part `margin` of the trace if that is more. It
     runs only where it is asked for: the numbers that come out are possible, not measured.
 
-    Never touches: an inertia that is possible, masses, centres of mass, and inertias that the simulator computes.
+    Never touches: an inertia that is possible, masses, centers of mass, and inertias that the simulator computes.
     Diagnostics: `balanced-inertia` with the change for each link, and `unbalanced-inertia` for links without a positive
     mass and for numbers that are not finite.
     """

@@ -11,7 +11,7 @@ from twinform.ir import Document, Format, Inertial, Link
 from twinform.ir.defaults import MOMENT
 from twinform.ir.verify.inertia import inertia_matrix, report_moments
 from twinform.passes.analyses.meshes import Meshes
-from twinform.passes.analyses.moving_bodies import Body, Neighbours, movable_models, moving_bodies, neighbours
+from twinform.passes.analyses.moving_bodies import Body, Neighbors, movable_models, moving_bodies, neighbors
 from twinform.passes.analyses.shapes import Places
 from twinform.passes.framework.assets import AssetPass
 from twinform.passes.inertia.plausible import Plausible
@@ -29,7 +29,7 @@ class CheckInertia(AssetPass):
     2. `non-positive-mass`: a mass of zero or less;
     3. `indefinite-inertia`: a principal moment of zero or less;
     4. `impossible-inertia`: a principal moment that is larger than the sum of the other two;
-    5. `distant-centre-of-mass`: a centre of mass outside of the box around the link's shapes;
+    5. `distant-centre-of-mass`: a center of mass outside of the box around the link's shapes;
     6. `oversized-inertia`: moments that the mass cannot have within that box;
     7. `implausible-density`: a mass that is too small or too large for the volume of the shapes;
     8. `mass-ratio`, at the joint: two bodies of which one weighs more than `ratio` times as much as the other.
@@ -57,7 +57,7 @@ class CheckInertia(AssetPass):
         default=23000.0, gt=0, description="The greatest plausible density, in kg/m^3; `inf` for none."
     )
     ratio: float = Field(
-        default=100.0, ge=1, description="The greatest ratio of the masses of neighbours; `inf` for any."
+        default=100.0, ge=1, description="The greatest ratio of the masses of neighbors; `inf` for any."
     )
     meshes: bool = Field(
         default=False, description="Whether meshes are looked into as well; it needs `pip install 'twinform[meshes]'`."
@@ -79,7 +79,7 @@ class CheckInertia(AssetPass):
                     _check_inertial(link, link.inertial, document.format, self.eps, sink)
         self._check_shapes(document, {id(link) for body in bodies for link in body}, sink)
         masses = {id(body[0]): _mass(body) for body in bodies}
-        for each in neighbours(document):
+        for each in neighbors(document):
             _check_ratio(each, masses, self.ratio, sink)
         return document
 
@@ -116,7 +116,7 @@ def _check_inertial(link: Link, inertial: Inertial, format_: Format, eps: float,
         report_moments(link, inertial, matrix, eps, sink, least=ROUNDING)
 
 
-def _check_ratio(each: Neighbours, masses: Mapping[int, float], limit: float, sink: DiagnosticSink) -> None:
+def _check_ratio(each: Neighbors, masses: Mapping[int, float], limit: float, sink: DiagnosticSink) -> None:
     """Compare two bodies by their masses, which are known by the identity of their first links."""
     weights = [masses.get(id(body[0]), 0.0) if body else 0.0 for body in (each.parent, each.child)]
     light, heavy = sorted(weights)

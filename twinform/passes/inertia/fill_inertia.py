@@ -31,7 +31,7 @@ class _Filling(NamedTuple):
 
 
 class FillInertia(AssetPass):
-    """Compute mass, centre of mass and inertia of links from their shapes, filled evenly.
+    """Compute mass, center of mass and inertia of links from their shapes, filled evenly.
 
     Changes the `<inertial>` of links whose name matches `links`, which are, by `replace`:
 
@@ -148,7 +148,7 @@ class FillInertia(AssetPass):
 
 def _is_solid(link: Link, whole: Solid, shapes: tuple[PlacedShape, ...], sink: DiagnosticSink) -> bool:
     """Whether the numbers are those of a body: sizes may be zero, or their powers larger or smaller than doubles."""
-    numbers = (whole.mass, *whole.centre, *whole.inertia)
+    numbers = (whole.mass, *whole.center, *whole.inertia)
     if all(map(math.isfinite, numbers)) and min(whole.mass, *whole.inertia[:3]) >= sys.float_info.min:
         return True
     names = ", ".join(one.name for one in shapes)

@@ -55,11 +55,11 @@ class Plausible:
     def _check_reach(self, link: Link, inertial: Inertial, body: Solid, box: Bounds) -> None:
         size = box.size
         slack = _SLACK * max(size)
-        outside = box.distance(body.centre)
+        outside = box.distance(body.center)
         if outside > slack:
-            at = " ".join(f"{part:.4g}" for part in body.centre)
-            message = f"the centre of mass of link {link.name!r}, {at}, is {outside:.4g} m outside of its shapes"
-            self.sink.report(rules.DISTANT_CENTRE_OF_MASS, message, inertial.location, found=at, expected=_words(box))
+            at = " ".join(f"{part:.4g}" for part in body.center)
+            message = f"the center of mass of link {link.name!r}, {at}, is {outside:.4g} m outside of its shapes"
+            self.sink.report(rules.DISTANT_CENTER_OF_MASS, message, inertial.location, found=at, expected=_words(box))
         reaches = ((length + 2 * slack) / 2 for length in size)
         most = (reach * reach * body.mass for reach in reaches)
         spread = zip(_spread(body.inertia), most, _AXES, strict=True)
@@ -86,7 +86,7 @@ class Plausible:
 
 
 def _spread(inertia: Symmetric) -> tuple[float, float, float]:
-    """The second moments of the mass about its centre along x, y and z, in kg m^2."""
+    """The second moments of the mass about its center along x, y and z, in kg m^2."""
     xx, yy, zz, *_ = inertia
     x, y, z = xx / 2, yy / 2, zz / 2  # halved first: the sum of two may be no double
     return y + z - x, x + z - y, x + y - z

@@ -9,7 +9,7 @@ from twinform.diagnostics.rules.massless import SPLIT_MASS, TOKEN_MASS
 from twinform.ir import Document, Format, Joint, Link, Sphere, rewrite
 from twinform.ir.frames import FrameError
 from twinform.ir.solids import NOTHING, solid, with_mass
-from twinform.passes.analyses.moving_bodies import Body, Neighbours, moving_bodies, neighbours
+from twinform.passes.analyses.moving_bodies import Body, Neighbors, moving_bodies, neighbors
 from twinform.passes.framework.base import Pass
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
 from twinform.passes.inertia.masses import Masses
@@ -24,7 +24,7 @@ class SplitMassless(Pass):
     Changes bodies of which no link has a positive mass:
 
     1. a body that carries others by joints: it takes the part `share` of the nearest one with a mass, as if that had
-       been split: with the joints at zero, mass, centre of mass and inertia of the whole robot stay what they were;
+       been split: with the joints at zero, mass, center of mass and inertia of the whole robot stay what they were;
     2. a body that carries nothing of any mass: with `ends=weigh` it gets a ball of `mass` and `radius` at the origin of
        its link, with `ends=fix` the joint that moves it becomes a fixed one, unless others mimic it.
 
@@ -90,10 +90,10 @@ class _Tree:
     """Which body carries which, and by which joints. A body is known by the identity of its first link."""
 
     def __init__(self, document: Document) -> None:
-        self._carried: dict[int, list[Neighbours]] = {}
+        self._carried: dict[int, list[Neighbors]] = {}
         self._moving: dict[int, list[Joint]] = {}
         self._leaders: set[str] = set()
-        for each in neighbours(document):
+        for each in neighbors(document):
             self._moving.setdefault(id(each.child[0]), []).append(each.joint)
             axes = (each.joint.axis, each.joint.axis2)
             self._leaders.update(axis.mimic.joint or "" for axis in axes if axis and axis.mimic)

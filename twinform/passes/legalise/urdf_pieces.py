@@ -59,7 +59,7 @@ def _misfit_of_joint(piece: Opaque, joint: Joint) -> str:
 
 
 def _would_act(element: Element, link: Link) -> bool:
-    """Whether a tag about shapes, which travelled because there were none, would change those of a link."""
+    """Whether a tag about shapes, which traveled because there were none, would change those of a link."""
     tag = LINK_TAGS.get(element.name)
     about_collisions = element.name == "collision" or (tag is not None and tag.target in {"surface", "collision"})
     about_visuals = element.name == "visual" or (tag is not None and tag.target == "visual")

@@ -9,7 +9,7 @@ from twinform.diagnostics import DiagnosticSink, Severity
 from twinform.diagnostics.rules import plugins as rules
 from twinform.ir import Document, Model, Plugin, Sensor, World, replace_node
 from twinform.passes.plugins.base_link import base_link
-from twinform.passes.plugins.catalogue import nearest, releases, system
+from twinform.passes.plugins.catalog import nearest, releases, system
 from twinform.passes.plugins.editing import add_plugin, add_visual_plugin, add_world_plugin
 from twinform.passes.plugins.options import MissingError, content_of, field_of, options_of
 from twinform.passes.plugins.parameters import names_in
@@ -25,7 +25,7 @@ _ODOMETRY_FRAMES = (("frame-id", "child-frame-id"), ("odom-frame", "robot-base-f
 
 
 class AddPlugin(SelectingPass):
-    """Add a system of gz-sim to a model or world, with parameters that are checked against the catalogue.
+    """Add a system of gz-sim to a model or world, with parameters that are checked against the catalog.
 
     Every parameter of the system is an option, called in kebab-case: `left_joint` is `left-joint`, the `link` in
     `left_track` is `left-track-link`. `docs/reference/plugins.md` lists the systems and their options. One that may

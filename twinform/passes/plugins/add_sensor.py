@@ -10,7 +10,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import plugins as rules
 from twinform.ir import Document, Element, Format, Joint, Link, Model, Opaque, Pose, Sensor, replace_node
 from twinform.ir.frames import WORLD
-from twinform.passes.plugins.catalogue import release, releases, sensor
+from twinform.passes.plugins.catalog import release, releases, sensor
 from twinform.passes.plugins.editing import add_sensor
 from twinform.passes.plugins.parts import ReleaseName, SensorKind
 from twinform.passes.plugins.selecting import Fields, SelectingPass

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from twinform.diagnostics import DiagnosticSink, Severity
 from twinform.diagnostics.rules import plugins as rules
 from twinform.ir import Document, Format
-from twinform.passes.plugins.catalogue import ros_message
+from twinform.passes.plugins.catalog import ros_message
 from twinform.passes.plugins.topics import Topic, topics_of
 
 _USUAL = {"odometry": "odom", "joint_state": "joint_states"}

@@ -20,7 +20,7 @@ def _yaml(path: str) -> str:
 class BridgeConfig(SideFilePass):
     """Write the YAML file that ros_gz_bridge needs to carry the topics of sensors and plugins to ROS and back.
 
-    For the clock, each topic that a sensor or a system of the catalogue writes, and each that a system reads, it has
+    For the clock, each topic that a sensor or a system of the catalog writes, and each that a system reads, it has
     the names and messages on both sides and the direction. Names of ROS are short: `cmd_vel`, `odom`, `joint_states`,
     `imu`; with several models each has its own below the model's name. Transforms go to `/tf`.
 

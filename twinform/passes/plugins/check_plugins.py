@@ -8,7 +8,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import plugins as rules
 from twinform.ir import Document, Plugin, Sensor, World
 from twinform.passes.framework.base import Pass
-from twinform.passes.plugins.catalogue import (
+from twinform.passes.plugins.catalog import (
     classic_plugins_of_file,
     is_ignition_name,
     modern_class,

@@ -1,4 +1,4 @@
-"""The notation of the catalogue's tables of plugins.
+"""The notation of the catalog's tables of plugins.
 
     system wheel-slip  file=gz-sim-wheel-slip-system class=gz::sim::systems::WheelSlip scope=model
       wheel         +  element

@@ -4,7 +4,7 @@ import sys
 from collections.abc import Iterable, Iterator
 
 from twinform.diagnostics.committed import main
-from twinform.passes.plugins.catalogue import releases, ros_message, sensors, systems
+from twinform.passes.plugins.catalog import releases, ros_message, sensors, systems
 from twinform.passes.plugins.options import options_of
 from twinform.passes.plugins.parts import Parameter, PluginKind, SensorKind
 from twinform.passes.plugins.sensor_settings import addable, settings_of
@@ -20,7 +20,7 @@ _TIMES = {"1": "needed", "+": "needed, repeats", "?": "", "*": "repeats"}
 
 
 def plugins_page() -> str:
-    """The catalogue in Markdown."""
+    """The catalog in Markdown."""
     settings = [_settings(type_) for type_ in addable()]
     parts = [_INTRODUCTION, _releases(), "# Sensors\n", _sensors(), *settings, "# Systems\n"]
     return "\n".join([*parts, *(_system(kind) for _, kind in sorted(systems().items()))])

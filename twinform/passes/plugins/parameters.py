@@ -7,7 +7,7 @@ from typing import NamedTuple
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import plugins as rules
 from twinform.ir import Element, Model, Plugin
-from twinform.passes.plugins.catalogue import nearest
+from twinform.passes.plugins.catalog import nearest
 from twinform.passes.plugins.parts import Parameter, PluginKind
 from twinform.passes.plugins.values import problem_of
 

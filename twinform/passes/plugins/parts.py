@@ -1,4 +1,4 @@
-"""What the catalogue holds: frozen facts about plugins, sensors and releases."""
+"""What the catalog holds: frozen facts about plugins, sensors and releases."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

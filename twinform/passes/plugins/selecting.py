@@ -9,7 +9,7 @@ from pydantic import ValidationError, create_model
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from twinform.passes.framework.base import Pass
-from twinform.passes.plugins.catalogue import UnknownNameError, nearest
+from twinform.passes.plugins.catalog import UnknownNameError, nearest
 
 Fields = Mapping[str, tuple[Any, Any]]
 """Types and fields of options, by their names in kebab-case."""

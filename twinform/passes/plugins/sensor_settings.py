@@ -12,7 +12,7 @@ from pydantic import Field
 
 from twinform.ir import Element
 from twinform.passes.carriers.carriers import from_xml
-from twinform.passes.plugins.catalogue import sensor, sensors
+from twinform.passes.plugins.catalog import sensor, sensors
 from twinform.schemas import XmlElement, format_value, table
 
 Noise = Literal["none", "typical"]

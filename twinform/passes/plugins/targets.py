@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import plugins as rules
 from twinform.ir import Document, Model, World
-from twinform.passes.plugins.catalogue import nearest
+from twinform.passes.plugins.catalog import nearest
 
 
 def models_of(document: Document) -> Iterator[tuple[str, Model]]:

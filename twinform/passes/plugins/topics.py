@@ -7,7 +7,7 @@ from typing import Literal
 
 from twinform.ir import Document, Element, Plugin, Sensor
 from twinform.ir.node import Node
-from twinform.passes.plugins.catalogue import modern_class, systems_of_file
+from twinform.passes.plugins.catalog import modern_class, systems_of_file
 from twinform.passes.plugins.parts import Channel, PluginKind, Published, SensorKind
 from twinform.passes.plugins.sites import Site, plugins_of, sensors_of
 from twinform.passes.plugins.worlds import kind_of_sensor

@@ -61,7 +61,7 @@ _TYPES: dict[str, tuple[Callable[[str], bool], str]] = {
     "vector": (_has_numbers(3), "three numbers"),
     "numbers": (_has_numbers(), "numbers"),
     "pose": (_has_numbers(6, 7), "a pose: six numbers"),
-    "color": (_has_numbers(3, 4), "a colour: three or four numbers"),
+    "color": (_has_numbers(3, 4), "a color: three or four numbers"),
     "topic": (is_topic, "a topic, without blanks and `@`, `~`, `:=`, `//`"),
     "joint": (_is_said, "the name of a joint"),
     "link": (_is_said, "the name of a link"),

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from twinform.ir import Document, Element, Plugin, Sensor, World
-from twinform.passes.plugins.catalogue import (
+from twinform.passes.plugins.catalog import (
     DEFAULT_SYSTEMS,
     UnknownNameError,
     custom_sensor,

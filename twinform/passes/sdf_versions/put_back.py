@@ -1,4 +1,4 @@
-"""Parts that travelled in carriers come back in a version that has them."""
+"""Parts that traveled in carriers come back in a version that has them."""
 
 from functools import partial
 from typing import ClassVar, TypeVar

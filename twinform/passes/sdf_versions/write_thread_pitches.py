@@ -1,4 +1,4 @@
-"""Since 1.10 a screw says its pitch in metres per turn."""
+"""Since 1.10 a screw says its pitch in meters per turn."""
 
 import math
 from functools import partial

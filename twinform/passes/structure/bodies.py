@@ -18,7 +18,7 @@ _NO_MESHES = Meshes(NO_ASSETS)
 
 
 def body_of(link: Link, graph: FrameGraph, format_: Format, meshes: Meshes = _NO_MESHES) -> Solid:
-    """The mass, centre and inertia of a link in its own frame, with the defaults of the format.
+    """The mass, center and inertia of a link in its own frame, with the defaults of the format.
 
     `meshes` has the files of those that an inertia is computed from.
 
@@ -43,7 +43,7 @@ def with_guests(link: Link, own: Solid, guests: Sequence[Solid], sink: Diagnosti
     if not heavy:
         return link
     whole = combined([own, *heavy])
-    if not all(map(math.isfinite, (whole.mass, *whole.centre, *whole.inertia))):
+    if not all(map(math.isfinite, (whole.mass, *whole.center, *whole.inertia))):
         message = (
             f"the mass and inertia of link {link.name!r} with all that is lumped into it are too large for a double"
         )
@@ -64,6 +64,6 @@ def with_guests(link: Link, own: Solid, guests: Sequence[Solid], sink: Diagnosti
 
 
 def _pose(written: Pose | None, whole: Solid) -> Pose:
-    """The pose of an inertial with another centre of mass; in the link's own frame."""
+    """The pose of an inertial with another center of mass; in the link's own frame."""
     pose = written or Pose(rpy=(0.0, 0.0, 0.0))
-    return pose.model_copy(update={"xyz": whole.centre, "relative_to": None})
+    return pose.model_copy(update={"xyz": whole.center, "relative_to": None})

@@ -15,7 +15,7 @@ from twinform.passes.structure.model_edit import EditContext, ModelEdit
 class LumpFixedJoints(ModelEdit, AssetPass):
     """Put the mass and the shapes of a link on a fixed joint into the link that it is fixed to.
 
-    Changes: 1. mass, centre of mass and inertia of the link above; the axes that its inertia is written in stay, and an
+    Changes: 1. mass, center of mass and inertia of the link above; the axes that its inertia is written in stay, and an
     inertia that SDF leaves to be computed is computed, also from meshes; 2. in SDF the link and its joint become frames
     of their names, and visuals, collisions, sensors and lights move to the link above, posed in the old link's frame,
     each with its own surface; 3. in URDF, which has no frames, the link and its joint stay, without mass; its shapes

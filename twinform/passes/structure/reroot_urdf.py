@@ -12,7 +12,7 @@ from twinform.passes.structure.reversal import ABOUT_A_POINT, TURNING, opposite,
 from twinform.passes.transforms.notation import in_radians
 
 _ON_AXIS = 1e-12
-"""Metres by which a link's origin may be beside an axis that goes through it: what rounding makes of zero."""
+"""Meters by which a link's origin may be beside an axis that goes through it: what rounding makes of zero."""
 
 
 class _Reversed(NamedTuple):

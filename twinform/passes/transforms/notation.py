@@ -63,7 +63,7 @@ OFFSET = "offset"
 
 
 def offset_attributes(offset: Transform) -> dict[str, str | None]:
-    """What the mark says: metres and radians."""
+    """What the mark says: meters and radians."""
     pose = in_radians(offset)
     return {name: format_value(value) for name in ("xyz", "rpy") if (value := getattr(pose, name)) is not None}
 

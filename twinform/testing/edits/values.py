@@ -41,7 +41,7 @@ class _Spot:
 
 
 def change_number(scene: Scene, random: Random) -> Edit | None:
-    """Another number in the place of one: a component of a pose, a mass, a limit, a colour."""
+    """Another number in the place of one: a component of a pose, a mass, a limit, a color."""
     return _numbered("number", scene.own, random)
 
 

@@ -18,7 +18,7 @@ def compare(
 ) -> Verdict:
     """Whether two files are the same robot to a physics engine, and how far apart they are.
 
-    Names, limits, masses, poses of links, centres of mass, inertias, mass matrix and gravity are compared at some sets
+    Names, limits, masses, poses of links, centers of mass, inertias, mass matrix and gravity are compared at some sets
     of joint positions. The engine works in a process of its own.
 
     Args:

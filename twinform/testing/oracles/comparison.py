@@ -14,7 +14,7 @@ from twinform.testing.oracles.verdict import Alike, Verdict
 
 TOLERANCE = 1e-9
 NOTHING = 1000 * TOKEN_MASS
-"""A mass in kg, or a moment in kg m^2, that is none: some tokens of links without mass, some metres from a joint."""
+"""A mass in kg, or a moment in kg m^2, that is none: some tokens of links without mass, some meters from a joint."""
 IN_CHAINS = 10 * CHAIN_MASS
 """The same for robots with chains, which differ by as much: a few links of chains."""
 Part = TypeVar("Part")
@@ -120,7 +120,7 @@ def _scales(samples: Sequence[Sample]) -> Mapping[str, float]:
             pose[:3, 3] for sample in samples for pose in (*sample.poses.values(), *sample.frames.values())
         ],
         "mass": [body.mass for body in bodies],
-        "centre of mass": [body.centre for body in bodies],
+        "center of mass": [body.center for body in bodies],
         "inertia": [body.inertia for body in bodies],
     }
     return {kind: max([1.0, *(float(np.abs(value).max()) for value in each)]) for kind, each in values.items()}
@@ -139,7 +139,7 @@ def _deviations(first: Robot, second: Robot, before: Sample, after: Sample, noth
     for name in _massive(before, nothing) & _massive(after, nothing):
         one, other, where = before.bodies[name], after.bodies[name], f"link {name}"
         yield _Deviation("mass", abs(one.mass - other.mass), where)
-        yield _Deviation("centre of mass", float(np.abs(one.centre - other.centre).max()), where)
+        yield _Deviation("center of mass", float(np.abs(one.center - other.center).max()), where)
         yield _Deviation("inertia", float(np.abs(one.inertia - other.inertia).max()), where)
 
 

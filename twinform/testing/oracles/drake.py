@@ -136,9 +136,9 @@ def _body(context: Any, body: Any, pose: Matrix) -> Body | None:
     inertia = body.CalcSpatialInertiaInBodyFrame(context)
     if not inertia.get_mass() > 0:
         return None
-    centre = inertia.get_com()
-    moments = inertia.Shift(centre).CalcRotationalInertia().CopyToFullMatrix3()
-    return moved(pose, inertia.get_mass(), centre, moments)
+    center = inertia.get_com()
+    moments = inertia.Shift(center).CalcRotationalInertia().CopyToFullMatrix3()
+    return moved(pose, inertia.get_mass(), center, moments)
 
 
 def _pose(plant: Any, context: Any, body: Any) -> Matrix:

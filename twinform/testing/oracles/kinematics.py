@@ -25,12 +25,12 @@ class Motion(Enum):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Link:
-    """A link; `centre` is the pose of its inertia in its frame."""
+    """A link; `center` is the pose of its inertia in its frame."""
 
     name: str
     pose: Matrix
     mass: float
-    centre: Matrix
+    center: Matrix
     inertia: Matrix
 
 
@@ -107,22 +107,22 @@ def _sample(tree: _Tree, back: Matrix, number: int) -> Sample:
     shifts = {name: back @ tree.shift(name, places) for name in tree.links}
     poses = {name: shifts[name] @ link.pose for name, link in tree.links.items()}
     bodies = {
-        name: moved(poses[name] @ link.centre, link.mass, np.zeros(3), link.inertia)
+        name: moved(poses[name] @ link.center, link.mass, np.zeros(3), link.inertia)
         for name, link in tree.links.items()
         if link.mass > 0
     }
     matrix = np.zeros((len(tree.moving), len(tree.moving)))
     forces = np.zeros(len(tree.moving))
     for name, body in bodies.items():
-        turning, sliding = _jacobian(tree, name, body.centre, shifts)
+        turning, sliding = _jacobian(tree, name, body.center, shifts)
         matrix += turning.T @ body.inertia @ turning + body.mass * sliding.T @ sliding
         forces -= body.mass * GRAVITY * sliding[2]
     gravity = {name: float(force) for name, force in zip(tree.moving, forces, strict=True)}
     return Sample(poses, bodies, matrix, gravity)
 
 
-def _jacobian(tree: _Tree, link: str, centre: Matrix, shifts: Mapping[str, Matrix]) -> tuple[Matrix, Matrix]:
-    """How fast a link turns, and its centre of mass moves, for each of the moving joints."""
+def _jacobian(tree: _Tree, link: str, center: Matrix, shifts: Mapping[str, Matrix]) -> tuple[Matrix, Matrix]:
+    """How fast a link turns, and its center of mass moves, for each of the moving joints."""
     turning, sliding = np.zeros((3, len(tree.moving))), np.zeros((3, len(tree.moving)))
     chain = tree.chain(link)
     for column, joint in enumerate(tree.moving.values()):
@@ -133,7 +133,7 @@ def _jacobian(tree: _Tree, link: str, centre: Matrix, shifts: Mapping[str, Matri
         axis = frame[:3, :3] @ joint.axis
         turns = joint.motion is Motion.TURNS
         turning[:, column] = axis if turns else 0.0
-        sliding[:, column] = np.cross(axis, centre - frame[:3, 3]) if turns else axis
+        sliding[:, column] = np.cross(axis, center - frame[:3, 3]) if turns else axis
     return turning, sliding
 
 

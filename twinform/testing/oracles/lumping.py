@@ -30,9 +30,9 @@ def _first(link: str, welds: Mapping[str, str]) -> str:
 def _together(bodies: Iterable[Body]) -> Body:
     parts = list(bodies)
     mass = sum(body.mass for body in parts)
-    centre = np.sum([body.mass * body.centre for body in parts], axis=0) / mass
+    center = np.sum([body.mass * body.center for body in parts], axis=0) / mass
     inertia = np.zeros((3, 3))
     for body in parts:
-        arm = body.centre - centre
+        arm = body.center - center
         inertia += body.inertia + body.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-    return Body(mass, centre, inertia)
+    return Body(mass, center, inertia)

@@ -118,7 +118,7 @@ def _mass_matrix(mujoco: Any, model: Any, data: Any) -> Matrix:
 
 
 def _body(model: Any, data: Any, number: int, back: Matrix) -> Body:
-    # MuJoCo has inertias along their own axes, with the centre of mass as their origin
+    # MuJoCo has inertias along their own axes, with the center of mass as their origin
     inertial = back @ pose(data.ximat[number].reshape(3, 3), data.xipos[number])
     return moved(inertial, float(model.body_mass[number]), np.zeros(3), np.diag(model.body_inertia[number]))
 

@@ -31,10 +31,10 @@ class View:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Body:
-    """The mass of a link in kg, its centre in m, and its inertia about that in kg m2, along the axes of reference."""
+    """The mass of a link in kg, its center in m, and its inertia about that in kg m2, along the axes of reference."""
 
     mass: float
-    centre: Matrix
+    center: Matrix
     inertia: Matrix
 
 
@@ -78,10 +78,10 @@ def limit(value: float) -> float:
     return math.copysign(math.inf, value) if abs(value) > _UNLIMITED else float(value)
 
 
-def moved(pose: Matrix, mass: float, centre: Matrix, inertia: Matrix) -> Body:
-    """The body of a link at a pose, from centre and inertia in the frame of the link."""
+def moved(pose: Matrix, mass: float, center: Matrix, inertia: Matrix) -> Body:
+    """The body of a link at a pose, from center and inertia in the frame of the link."""
     turn = pose[:3, :3]
-    return Body(mass, pose[:3, 3] + turn @ centre, turn @ inertia @ turn.T)
+    return Body(mass, pose[:3, 3] + turn @ center, turn @ inertia @ turn.T)
 
 
 def pose(rotation: Matrix, translation: Matrix) -> Matrix:

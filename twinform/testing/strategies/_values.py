@@ -16,7 +16,7 @@ def numbers(*, min_value: float = -1e3, max_value: float = 1e3) -> st.SearchStra
 
 
 def vectors(*, min_value: float = -10, max_value: float = 10) -> st.SearchStrategy[tuple[float, float, float]]:
-    """Three numbers, in metres or radians as it comes."""
+    """Three numbers, in meters or radians as it comes."""
     each = numbers(min_value=min_value, max_value=max_value)
     return st.tuples(each, each, each)
 

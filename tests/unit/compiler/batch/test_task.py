@@ -14,7 +14,7 @@ from twinform.ir import Document
 from twinform.passes import Pass, Pipeline
 
 GOOD = '<robot name="r"><link name="a"/></robot>'
-WARNED = '<robot name="r">\n<link name="a"><colour/></link></robot>'
+WARNED = '<robot name="r">\n<link name="a"><color/></link></robot>'
 WRONG = '<robot name="r">\n<link name="a"/><link name="a"/></robot>'
 
 
@@ -52,7 +52,7 @@ def test_what_is_denied_is_refused(tmp_path: Path) -> None:
     done = _done(tmp_path, WARNED, Policy(deny=frozenset({"unknown-element"})))
     assert (done.outcome, done.text) == (Outcome.REFUSED, "")
     assert [each["rule"] for each in done.diagnostics] == ["unknown-element"]
-    assert done.message.endswith("r.urdf:2: <colour> is not an element of <link>")
+    assert done.message.endswith("r.urdf:2: <color> is not an element of <link>")
 
 
 @pytest.mark.parametrize(("text", "outcome"), [(WRONG, Outcome.REFUSED), ("<robot", Outcome.UNREADABLE)])

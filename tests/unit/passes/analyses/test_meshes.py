@@ -39,7 +39,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     for kind in FORMATS:
         box.export(folder / f"box.{kind}")
     text = (folder / "box.dae").read_text()
-    (folder / "centimetres.dae").write_text(text.replace("<up_axis>", '<unit name="cm" meter="0.01"/><up_axis>'))
+    (folder / "centimeters.dae").write_text(text.replace("<up_axis>", '<unit name="cm" meter="0.01"/><up_axis>'))
     two = trimesh.Scene({"near": box, "far": box.copy().apply_translation((9, 0, 0))})
     two.export(folder / "two.glb")
     inward = box.copy()
@@ -65,7 +65,7 @@ def meshes(folder: Path, *, hull: bool = False) -> Meshes:
 
 
 def same(one: Solid, other: Solid, exact: float = 1e-12) -> bool:
-    numbers = [(one.mass, *one.centre, *one.inertia), (other.mass, *other.centre, *other.inertia)]
+    numbers = [(one.mass, *one.center, *one.inertia), (other.mass, *other.center, *other.inertia)]
     scale = max(map(abs, numbers[1]))
     return all(abs(a - b) <= exact * scale for a, b in zip(*numbers, strict=True))
 
@@ -97,7 +97,7 @@ def test_a_mesh_that_is_turned_inside_out_is_turned_back(folder: Path) -> None:
 
 
 def test_collada_says_its_unit(folder: Path) -> None:
-    assert meshes(folder).solid(Mesh(uri="centimetres.dae"), 1e6).mass == pytest.approx(6)
+    assert meshes(folder).solid(Mesh(uri="centimeters.dae"), 1e6).mass == pytest.approx(6)
 
 
 def test_a_round_mesh_comes_near_the_ball(folder: Path) -> None:
@@ -112,11 +112,11 @@ def submesh(name: str, center: str = "") -> Mesh:
     return Mesh(uri="two.glb", opaque=(Opaque(element=Element(name="submesh", children=children)),))
 
 
-def test_a_submesh_is_a_part_and_may_be_centred(folder: Path) -> None:
+def test_a_submesh_is_a_part_and_may_be_centered(folder: Path) -> None:
     both = meshes(folder)
     assert both.solid(Mesh(uri="two.glb"), 1).mass == pytest.approx(12)
-    assert both.solid(submesh("far"), 1).centre == pytest.approx((9, 0, 0))
-    assert both.solid(submesh("far", "true"), 1).centre == pytest.approx((0, 0, 0))
+    assert both.solid(submesh("far"), 1).center == pytest.approx((9, 0, 0))
+    assert both.solid(submesh("far", "true"), 1).center == pytest.approx((0, 0, 0))
     with pytest.raises(MeshError, match="no submesh 'third', it has far, near"):
         both.solid(submesh("third"), 1)
 
@@ -160,7 +160,7 @@ def test_a_mesh_far_from_the_origin_turns_as_one_that_is_near(tmp_path: Path, aw
     trimesh.creation.box(bounds=[(away, 0, 0), (away + 1, 2, 4)]).export(tmp_path / "far.obj", digits=17)
     found = Meshes(Folder(tmp_path)).solid(Mesh(uri="far.obj"), 12.0)
     assert found.mass == pytest.approx(96.0)
-    assert found.centre == pytest.approx((away + 0.5, 1.0, 2.0))
+    assert found.center == pytest.approx((away + 0.5, 1.0, 2.0))
     assert found.inertia == pytest.approx((8 * 20, 8 * 17, 8 * 5, 0.0, 0.0, 0.0), abs=1e-9)
 
 

@@ -10,12 +10,12 @@ from twinform.passes import Pass
 from twinform.passes.classic import looks
 
 
-class Recoloured(Pass):
+class Recolored(Pass):
     name: ClassVar[str] = "materials"
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         del sink
-        return document.model_copy(update={"version": "recoloured"})
+        return document.model_copy(update={"version": "recolored"})
 
 
 DOCUMENT = Document(format=Format.URDF)
@@ -23,10 +23,10 @@ DOCUMENT = Document(format=Format.URDF)
 
 def test_the_pass_materials_runs_where_it_is_installed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(looks, "registered_passes", lambda: {"materials": None})
-    monkeypatch.setattr(looks, "find_pass", {"materials": Recoloured}.__getitem__)
-    assert looks.in_colours(DOCUMENT, DiagnosticSink()).version == "recoloured"
+    monkeypatch.setattr(looks, "find_pass", {"materials": Recolored}.__getitem__)
+    assert looks.in_colors(DOCUMENT, DiagnosticSink()).version == "recolored"
 
 
 def test_without_it_looks_stay(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(looks, "registered_passes", dict)
-    assert looks.in_colours(DOCUMENT, DiagnosticSink()) is DOCUMENT
+    assert looks.in_colors(DOCUMENT, DiagnosticSink()) is DOCUMENT

@@ -1,10 +1,10 @@
-"""The tables of plugins against the catalogue: what plugins read has a place, and every place is one that is read."""
+"""The tables of plugins against the catalog: what plugins read has a place, and every place is one that is read."""
 
 import pytest
 
 from twinform.ir import Element
 from twinform.passes.classic.tables import Migration, Move, migration_of, migrations
-from twinform.passes.plugins.catalogue import classic_plugins, modern_file, releases, sensors, system
+from twinform.passes.plugins.catalog import classic_plugins, modern_file, releases, sensors, system
 from twinform.passes.plugins.parts import PluginKind
 
 OF_ROS = {"ros", "robotNamespace", "robot_namespace"}

@@ -107,7 +107,7 @@ def rotation(pose: Pose) -> Any:
 
 
 def expected(parts: list[tuple[Any, Pose]], density: float) -> tuple[float, Any, Any]:
-    """Mass, centre and inertia about it, of shapes at their poses."""
+    """Mass, center and inertia about it, of shapes at their poses."""
     mass, first, second = 0.0, np.zeros(3), np.zeros((3, 3))
     for shape, pose in parts:
         volume, own_first, own_second = moments(shape)
@@ -117,9 +117,9 @@ def expected(parts: list[tuple[Any, Pose]], density: float) -> tuple[float, Any,
         first += density * (turned + volume * move)
         cross = np.outer(turned, move)
         second += density * (turn @ own_second @ turn.T + cross + cross.T + volume * np.outer(move, move))
-    centre = first / mass
-    spread = second - mass * np.outer(centre, centre)
-    return mass, centre, np.trace(spread) * np.eye(3) - spread
+    center = first / mass
+    spread = second - mass * np.outer(center, center)
+    return mass, center, np.trace(spread) * np.eye(3) - spread
 
 
 def link(*parts: tuple[Any, Pose], inertial: Inertial | None = None, name: str = "part") -> Link:
@@ -142,9 +142,9 @@ def numbers(one: Link) -> tuple[float, Any, Any]:
 
 
 def assert_same(found: tuple[float, Any, Any], wanted: tuple[float, Any, Any], reach: float) -> None:
-    mass, centre, inertia = wanted
+    mass, center, inertia = wanted
     assert found[0] == pytest.approx(mass, rel=EXACT)
-    assert np.abs(found[1] - centre).max() <= EXACT * reach
+    assert np.abs(found[1] - center).max() <= EXACT * reach
     assert np.abs(found[2] - inertia).max() <= EXACT * mass * reach**2
 
 

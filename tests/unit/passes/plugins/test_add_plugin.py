@@ -10,7 +10,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.passes import PipelineError, parse_pipeline
 from twinform.passes.plugins.add_plugin import AddPlugin
-from twinform.passes.plugins.catalogue import system, systems
+from twinform.passes.plugins.catalog import system, systems
 from twinform.passes.plugins.check_plugins import CheckPlugins
 from twinform.passes.plugins.options import options_of
 from twinform.passes.plugins.sites import plugins_of

@@ -9,7 +9,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Sensor
 from twinform.passes import PipelineError, parse_pipeline
 from twinform.passes.plugins.add_sensor import AddSensor
-from twinform.passes.plugins.catalogue import sensor, sensors
+from twinform.passes.plugins.catalog import sensor, sensors
 from twinform.passes.plugins.check_plugins import CheckPlugins
 from twinform.passes.plugins.sensor_settings import addable, settings_of
 from twinform.passes.plugins.sites import plugins_of, sensors_of

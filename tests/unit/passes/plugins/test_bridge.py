@@ -10,7 +10,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.passes.plugins.bridge import Bridge, bridge_yaml, bridges
 from twinform.passes.plugins.bridge_config import BridgeConfig
-from twinform.passes.plugins.catalogue import system, systems
+from twinform.passes.plugins.catalog import system, systems
 from twinform.passes.plugins.topics import topics_of
 
 MODEL = """<model name="{name}"><link name="base">{sensors}</link><link name="leg"/>

@@ -1,6 +1,6 @@
 """The notation of the tables of plugins: everything that a row can say, and where it goes."""
 
-from twinform.passes.plugins.catalogue import LATEST, releases
+from twinform.passes.plugins.catalog import LATEST, releases
 from twinform.passes.plugins.notation import read_plugins
 from twinform.passes.plugins.parts import Alternative, Channel, Parameter, PluginKind, Release
 

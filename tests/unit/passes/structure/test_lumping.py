@@ -167,15 +167,15 @@ WEIGHTS = """<mass value="2"/><inertia ixx="1" ixy="0.1" ixz="0.2" iyy="2" iyz="
 
 
 @pytest.mark.parametrize(
-    ("origin", "centre"),
+    ("origin", "center"),
     [("", (0, 0, 0)), ('<origin xyz="1 2 3"/>', (1, 2, 3))],
 )
-def test_a_body_is_what_its_link_says(origin: str, centre: tuple[float, float, float]) -> None:
+def test_a_body_is_what_its_link_says(origin: str, center: tuple[float, float, float]) -> None:
     model = twinform.loads(
         f'<robot name="r"><link name="a"><inertial>{origin}{WEIGHTS}</inertial></link></robot>'
     ).models[0]
     body = body_of(model.links[0], FrameGraph(model), Format.URDF)
-    assert body == Solid(2, centre, (1, 2, 2.5, 0.1, 0.2, 0.3))
+    assert body == Solid(2, center, (1, 2, 2.5, 0.1, 0.2, 0.3))
 
 
 KEPT = """<robot name="r"><link name="a"/><link name="b"/>

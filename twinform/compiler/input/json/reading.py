@@ -13,7 +13,7 @@ from twinform.compiler.input.json.comparing import MOST, differences, plain, rep
 from twinform.compiler.input.json.lines import lines_of
 from twinform.compiler.input.limits import excess_of_names
 from twinform.compiler.input.parsing import refuse_excess
-from twinform.compiler.output.emitting import document_tree, serialised
+from twinform.compiler.output.emitting import document_tree, serialized
 from twinform.compiler.output.json import Data, json_data
 from twinform.diagnostics import DiagnosticSink, Location, Origins, Source
 from twinform.diagnostics.rules import structure
@@ -74,7 +74,7 @@ def read_json(text: bytes, sink: DiagnosticSink) -> JsonSource | None:
     said = plain(data)
     document = Document.model_validate(_with_order({key: said[key] for key in said if key != "$schema"}))
     try:
-        made = serialised(document_tree(document), document)
+        made = serialized(document_tree(document), document)
     except ValueError as error:  # a name that lxml does not take
         _report(sink, f"the document: it cannot be written: {error}")
         return None

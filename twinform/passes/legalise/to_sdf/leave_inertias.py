@@ -81,13 +81,13 @@ def _unpacked(inertial: Inertial) -> Inertial:
 
 
 def _is_the_same(found: Solid, inertial: Inertial) -> bool:
-    """Whether an inertial says the same mass, centre and inertia, whichever way its axes are turned."""
+    """Whether an inertial says the same mass, center and inertia, whichever way its axes are turned."""
     if inertial.mass is None or inertial.inertia is None:
         return False
     said = placed(written_solid(inertial, Format.URDF), Transform.from_pose(inertial.pose))
     return (
         math.isclose(found.mass, said.mass, rel_tol=_CLOSE)
-        and _are_close(found.centre, said.centre, max(1.0, *map(abs, found.centre)))
+        and _are_close(found.center, said.center, max(1.0, *map(abs, found.center)))
         and _are_close(found.inertia, said.inertia, max(map(abs, found.inertia)))
     )
 

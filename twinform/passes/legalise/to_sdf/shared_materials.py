@@ -1,4 +1,4 @@
-"""Materials that are named become colours that are written."""
+"""Materials that are named become colors that are written."""
 
 from functools import lru_cache
 from typing import ClassVar

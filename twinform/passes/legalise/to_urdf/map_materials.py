@@ -1,4 +1,4 @@
-"""A URDF material is one colour, one texture and a name."""
+"""A URDF material is one color, one texture and a name."""
 
 from typing import ClassVar
 
@@ -16,14 +16,14 @@ from twinform.schemas import format_value
 
 
 class MapMaterials(ToUrdfPass):
-    """Say colours and albedo maps as URDF does.
+    """Say colors and albedo maps as URDF does.
 
-    Changes: 1. the diffuse colour, or the ambient one where that is all there is, becomes the colour; both are carried
-    unless they are equal, as URDF's one colour means both; a part beyond 0 or 1 is cut off there; 2. the albedo map
+    Changes: 1. the diffuse color, or the ambient one where that is all there is, becomes the color; both are carried
+    unless they are equal, as URDF's one color means both; a part beyond 0 or 1 is cut off there; 2. the albedo map
     becomes the texture; 3. each such material gets a name, LINK_VISUAL_material, because URDF asks for one; 4. a
     material of Gazebo Classic that all visuals of a link share is its `<material>` tag too.
     Never touches: the other parts of a material, which the last pass carries.
-    Diagnostics: in the ledger `colours` and `sdf-only`.
+    Diagnostics: in the ledger `colors` and `sdf-only`.
     """
 
     name: ClassVar[str] = "map-materials"
@@ -51,7 +51,7 @@ def _map_visual(visual: Visual, link: Link, names: set[str], keeper: Keeper) -> 
     color = material.diffuse or material.ambient
     if color is not None:
         update |= {"color": urdf_color(color), "diffuse": None, "ambient": None}
-        visual = _keep_colours(visual, material, keeper)
+        visual = _keep_colors(visual, material, keeper)
     if material.albedo_map is not None:
         visual, uri = urdf_uri(visual, TEXTURE_SCHEME, material.albedo_map, keeper)
         update |= {"texture": uri, "albedo_map": None}
@@ -62,8 +62,8 @@ def _map_visual(visual: Visual, link: Link, names: set[str], keeper: Keeper) -> 
     return visual.model_copy(update={"material": material.model_copy(update=update)})
 
 
-def _keep_colours(visual: Visual, material: Material, keeper: Keeper) -> Visual:
-    """Carry the colours where they say more than one colour does."""
+def _keep_colors(visual: Visual, material: Material, keeper: Keeper) -> Visual:
+    """Carry the colors where they say more than one color does."""
     written = {"ambient": material.ambient, "diffuse": material.diffuse}
     color = urdf_color(material.diffuse or material.ambient or ())
     others = {
@@ -74,7 +74,7 @@ def _keep_colours(visual: Visual, material: Material, keeper: Keeper) -> Visual:
     if not others:
         return visual
     message = f"visual {visual.name!r} has two colors, or one beyond those of URDF"
-    keeper.account(rules.COLOURS, message, material.location, sum(1 for name in others if written[name]))
+    keeper.account(rules.COLORS, message, material.location, sum(1 for name in others if written[name]))
     return keeper.mark(visual, COLORS, attributes={**others, "of": format_value(color)}, always=True)
 
 

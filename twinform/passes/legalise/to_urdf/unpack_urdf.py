@@ -1,4 +1,4 @@
-"""Parts of URDF that travelled through SDF in carriers stand where they stood."""
+"""Parts of URDF that traveled through SDF in carriers stand where they stood."""
 
 from collections.abc import Callable
 from functools import partial

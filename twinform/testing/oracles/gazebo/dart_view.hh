@@ -10,14 +10,14 @@
 
 namespace dart_view {
 
-// mass in kg, centre of mass in the link frame in m, moments about it in the axes of the link frame in kg m^2
+// mass in kg, center of mass in the link frame in m, moments about it in the axes of the link frame in kg m^2
 inline std::vector<std::string> inertia(const dart::dynamics::BodyNode &body) {
   const auto &inertia = body.getInertia();
   const Eigen::Matrix3d moment = inertia.getMoment();
   Eigen::Matrix<double, 6, 1> moments;
   moments << moment(0, 0), moment(1, 1), moment(2, 2), moment(0, 1), moment(0, 2), moment(1, 2);
   return {json::member("mass", json::number(inertia.getMass())),
-          json::member("centre", json::numbers(inertia.getLocalCOM())),
+          json::member("center", json::numbers(inertia.getLocalCOM())),
           json::member("moments", json::numbers(moments))};
 }
 

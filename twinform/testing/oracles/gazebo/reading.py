@@ -50,7 +50,7 @@ class _JointRow(TypedDict):
 class _LinkRow(TypedDict):
     name: str
     mass: NotRequired[float]
-    centre: NotRequired[list[float]]
+    center: NotRequired[list[float]]
     moments: NotRequired[list[float]]
 
 
@@ -113,7 +113,7 @@ def _outcome(row: Row) -> Outcome:
 
 
 def _link(row: _LinkRow) -> Link:
-    return Link(row["name"], row.get("mass"), tuple(row.get("centre", ())), tuple(row.get("moments", ())))
+    return Link(row["name"], row.get("mass"), tuple(row.get("center", ())), tuple(row.get("moments", ())))
 
 
 def _joint(row: _JointRow) -> Joint:

@@ -30,13 +30,13 @@ class Console:
 class Link:
     """A link, by its name with the names of its models before it; only DART tells its inertia.
 
-    The mass is in kg, the centre of mass in m in the frame of the link, the moments (xx, yy, zz, xy, xz, yz) in kg m^2
-    about the centre of mass, along the axes of the link.
+    The mass is in kg, the center of mass in m in the frame of the link, the moments (xx, yy, zz, xy, xz, yz) in kg m^2
+    about the center of mass, along the axes of the link.
     """
 
     name: str
     mass: float | None = None
-    centre: Numbers = ()
+    center: Numbers = ()
     moments: Numbers = ()
 
 

@@ -34,12 +34,12 @@ class ShapeRow(TypedDict):
 
 
 class LinkRow(TypedDict):
-    """A link: poses are a position and a quaternion, moments are xx, yy, zz, xy, xz, yz about the centre of mass."""
+    """A link: poses are a position and a quaternion, moments are xx, yy, zz, xy, xz, yz about the center of mass."""
 
     name: str
     pose: list[float]
     mass: float
-    centre: list[float]
+    center: list[float]
     moments: list[float]
     shapes: list[ShapeRow]
 

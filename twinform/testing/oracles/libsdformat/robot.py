@@ -44,7 +44,7 @@ def link_of(row: LinkRow) -> Link:
     """A link in the frame of its model."""
     xx, yy, zz, xy, xz, yz = row["moments"]
     inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    return Link(row["name"], pose_matrix(row["pose"]), row["mass"], pose_matrix(row["centre"]), inertia)
+    return Link(row["name"], pose_matrix(row["pose"]), row["mass"], pose_matrix(row["center"]), inertia)
 
 
 def joint_of(row: JointRow) -> Joint:

@@ -66,7 +66,7 @@ void describe_link(const sdf::Link &link, const std::string &scope, const Pose3d
   const auto &mass = inertial.MassMatrix();
   std::cout << "{\"name\": " << json::quoted(scope + link.Name())
             << ", \"pose\": " << written(model * resolved(link.SemanticPose(), "__model__"))
-            << ", \"mass\": " << json::number(mass.Mass()) << ", \"centre\": " << written(inertial.Pose())
+            << ", \"mass\": " << json::number(mass.Mass()) << ", \"center\": " << written(inertial.Pose())
             << ", \"moments\": "
             << numbers(mass.Ixx(), mass.Iyy(), mass.Izz(), mass.Ixy(), mass.Ixz(), mass.Iyz()) << ", \"shapes\": [";
   describe_shapes(link);

@@ -51,7 +51,7 @@ def test_a_part_of_sdf_is_said_in_urdf(text: str, path: str, expected: list[str]
     assert said(convert(text), path) == expected
 
 
-def test_the_frame_of_an_older_pose_is_honoured_and_carried_as_it_was() -> None:
+def test_the_frame_of_an_older_pose_is_honored_and_carried_as_it_was() -> None:
     text = link("<pose>1 0 0 0 0 0</pose>") + link("<pose frame='a'>1 0 0 0 0 0</pose>", "b") + joint("fixed")
     root = convert(text, "1.6")
     assert said(root, "//joint/origin/@xyz | //link[@name='b']/tf:pose/@*") == ["a", "1 0 0"]

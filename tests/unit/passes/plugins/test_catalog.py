@@ -2,8 +2,8 @@ from typing import get_args
 
 import pytest
 
-from twinform.passes.plugins import catalogue
-from twinform.passes.plugins.catalogue import (
+from twinform.passes.plugins import catalog
+from twinform.passes.plugins.catalog import (
     UnknownNameError,
     custom_sensor,
     nearest,
@@ -17,8 +17,8 @@ from twinform.passes.plugins.parts import Parameter, PluginKind, ReleaseName
 
 ALL = [
     *systems().values(),
-    *catalogue.classic_plugins("noetic").values(),
-    *catalogue.classic_plugins("ros2").values(),
+    *catalog.classic_plugins("noetic").values(),
+    *catalog.classic_plugins("ros2").values(),
 ]
 
 
@@ -32,21 +32,21 @@ def test_the_official_tutorials_parameter_is_not_one_and_the_right_one_is_near()
     "spelling", ["gz-sim-imu-system", "libgz-sim-imu-system.so", "libignition-gazebo6-imu-system.so"]
 )
 def test_a_system_is_found_by_every_spelling_of_its_file(spelling: str) -> None:
-    assert [each.name for each in catalogue.systems_of_file(spelling)] == ["imu"]
+    assert [each.name for each in catalog.systems_of_file(spelling)] == ["imu"]
 
 
 def test_one_file_may_hold_several_systems() -> None:
-    assert {each.name for each in catalogue.systems_of_file("gz-sim-thermal-sensor-system")} == {"thermal-sensor"}
-    assert {each.name for each in catalogue.systems_of_file("gz-sim-log-system")} == {"log-record", "log-playback"}
+    assert {each.name for each in catalog.systems_of_file("gz-sim-thermal-sensor-system")} == {"thermal-sensor"}
+    assert {each.name for each in catalog.systems_of_file("gz-sim-log-system")} == {"log-record", "log-playback"}
 
 
 def test_a_class_of_ignition_is_the_one_of_gz() -> None:
-    found = catalogue.system_of_class("ignition::gazebo::systems::DiffDrive")
+    found = catalog.system_of_class("ignition::gazebo::systems::DiffDrive")
     assert found is system("diff-drive")
 
 
 def test_a_plugin_of_gazebo_classic_is_told_apart_by_its_ros() -> None:
-    found = catalogue.classic_plugins_of_file("/opt/ros/lib/libgazebo_ros_diff_drive.so")
+    found = catalog.classic_plugins_of_file("/opt/ros/lib/libgazebo_ros_diff_drive.so")
     assert found["noetic"].parameter("wheelSeparation")
     assert found["ros2"].parameter("wheel_separation")
 
@@ -66,7 +66,7 @@ def test_what_is_unknown_is_an_error_that_says_what_is_near() -> None:
     with pytest.raises(UnknownNameError, match="did you mean diff-drive"):
         system("dif_drive")
     with pytest.raises(UnknownNameError, match="did you mean harmonic"):
-        catalogue.release("harmonik")
+        catalog.release("harmonik")
     with pytest.raises(UnknownNameError, match="there is no sensor"):
         sensor("nose")
 

@@ -1,4 +1,4 @@
-"""The catalogue of gz-sim systems, sensors, releases and of Gazebo Classic's plugins for ROS.
+"""The catalog of gz-sim systems, sensors, releases and of Gazebo Classic's plugins for ROS.
 
 The facts are package data in `data/`, read when they are first asked for. They were taken from the sources of gz-sim 6
 to 10 and its main branch, of gazebo_ros_pkgs, gz_ros2_control and ros_gz_bridge.
@@ -56,7 +56,7 @@ _IGNITION_CLASS = re.compile(r"^(?:::)?(?:ignition::gazebo|gz::sim)(?:::v\d+)?::
 
 
 class UnknownNameError(LookupError):
-    """The catalogue has nothing of this name; the message says what is near."""
+    """The catalog has nothing of this name; the message says what is near."""
 
     def __init__(self, what: str, name: str, known: Iterator[str] | list[str]) -> None:
         listed = list(known)

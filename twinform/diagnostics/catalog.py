@@ -8,7 +8,7 @@ from twinform.diagnostics.rule import Rule
 
 
 @cache
-def catalogue() -> dict[str, Rule]:
+def catalog() -> dict[str, Rule]:
     """Every rule of the compiler, sorted by name.
 
     Raises:

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from twinform.diagnostics import Rule, catalogue
+from twinform.diagnostics import Rule, catalog
 from twinform.diagnostics.pages import rules_page, sections, severity_words
 
 PAGE = Path(__file__).parents[3] / "docs/reference/rules.md"
-RULES = list(catalogue().values())
+RULES = list(catalog().values())
 
 
 @pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.name)
@@ -35,18 +35,18 @@ def test_strict_is_never_milder(rule: Rule) -> None:
 
 
 def test_rules_are_sorted_and_unique() -> None:
-    assert list(catalogue()) == sorted({rule.name for rule in RULES})
+    assert list(catalog()) == sorted({rule.name for rule in RULES})
 
 
 def test_two_rules_of_one_name_are_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    module = import_module("twinform.diagnostics.catalogue")
+    module = import_module("twinform.diagnostics.catalog")
     monkeypatch.setattr(module, "_defined", lambda: [RULES[0], RULES[0]])
     with pytest.raises(ValueError, match=f"two rules are called '{RULES[0].name}'"):
-        catalogue.__wrapped__()
+        catalog.__wrapped__()
 
 
 def test_the_page_has_every_rule_once_in_order() -> None:
-    assert re.findall(r"^## (.*)$", rules_page(), re.MULTILINE) == list(catalogue())
+    assert re.findall(r"^## (.*)$", rules_page(), re.MULTILINE) == list(catalog())
 
 
 def test_the_committed_page_is_up_to_date() -> None:
