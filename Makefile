@@ -84,14 +84,15 @@ fuzz: $(SYNCED) # ten minutes of atheris for each target; docs/evidence/proof.md
 test: $(SYNCED) ## all tests
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal
 
-demo: $(SYNCED) ## the rover to SDF and back, with what is found and what is lost on the way
+demo: $(SYNCED) ## the rover to SDF and back: what is found, what became of its parts, whether it is the same robot
 	mkdir -p $(DEMO)
 	$(BIN)/twinform check examples/rover.urdf
 	$(BIN)/twinform convert examples/rover.urdf --to sdf -o $(DEMO)/rover.sdf --ledger $(DEMO)/rover.sdf.ledger.json
 	$(BIN)/twinform convert $(DEMO)/rover.sdf --to urdf -o $(DEMO)/rover.urdf --ledger $(DEMO)/rover.urdf.ledger.json
-	@echo "-- ledger, URDF to SDF:"; cat $(DEMO)/rover.sdf.ledger.json
-	@echo "-- ledger, SDF to URDF:"; cat $(DEMO)/rover.urdf.ledger.json
-	@echo "-- files:"; ls -1 $(DEMO)/*
+	@echo; $(BIN)/python examples/print_ledger.py $(DEMO)/rover.sdf.ledger.json $(DEMO)/rover.urdf.ledger.json
+	$(BIN)/twinform diff examples/rover.urdf $(DEMO)/rover.sdf
+	$(BIN)/twinform diff examples/rover.urdf $(DEMO)/rover.urdf
+	@echo; echo "The files are in $(DEMO). The command is $(BIN)/twinform; try $(BIN)/twinform --help"
 
 report: $(if $(NAME),$(ORACLES),$(SYNCED)) $(if $(filter readers,$(NAME)),$(READERS)) ## measure, and write a page: NAME=lumping ARGS="--every 50"; which there are without NAME
 	@$(BIN)/python -m reports $(NAME) $(ARGS)
