@@ -19,7 +19,7 @@ from twinform.passes.transforms.notation import OFFSET
 from twinform.testing import oracles
 from twinform.testing.edits.judging import Outcome
 from twinform.testing.oracles.comparison import chained, renamed
-from twinform.testing.oracles.looking import look, versus
+from twinform.testing.oracles.in_process import look, versus
 from twinform.testing.oracles.robot import Robot, View
 from twinform.testing.workers import Failure
 

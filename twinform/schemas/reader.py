@@ -11,12 +11,12 @@ from typing import TypeVar
 from twinform.diagnostics import Source
 from twinform.schemas import messages
 from twinform.schemas.facts import Fact, Table, Version, rows_by_name, table
-from twinform.schemas.keeping import element_data, keep_element, keep_part, locate
+from twinform.schemas.fast_path import GIVE_UP, quick_attributes, quick_parse, quick_pose
 from twinform.schemas.messages import Context
-from twinform.schemas.quick import GIVE_UP, quick_attributes, quick_parse, quick_pose
-from twinform.schemas.remarks import ReadChild, remarked
-from twinform.schemas.stores import Data
+from twinform.schemas.row_findings import ReadChild, with_row_findings
+from twinform.schemas.untyped_parts import element_data, keep_element, keep_part, locate
 from twinform.schemas.value_readers import attribute_reader, text_reader
+from twinform.schemas.value_stores import Data
 from twinform.schemas.values import VALUE_TYPES
 from twinform.schemas.xml import XmlElement, is_blank
 
@@ -169,7 +169,7 @@ class Reader:
         else:
             read = self._own_node(row, row.place)
         has_text = self.table.resolve(row).type is not None
-        return remarked(row, self.version, read, has_text=has_text, keep=keep)
+        return with_row_findings(row, self.version, read, has_text=has_text, keep=keep)
 
     def _inner(self, row: Fact, *, keep: bool) -> Fill:
         if row.reference is None:

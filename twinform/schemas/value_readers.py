@@ -4,9 +4,9 @@ from collections.abc import Callable, Mapping
 
 from twinform.schemas import messages
 from twinform.schemas.facts import Fact, Version
-from twinform.schemas.keeping import keep_part
 from twinform.schemas.messages import Context
-from twinform.schemas.stores import Data, value_check, value_store
+from twinform.schemas.untyped_parts import keep_part
+from twinform.schemas.value_stores import Data, value_check, value_store
 from twinform.schemas.values import ValueType
 from twinform.schemas.xml import XmlElement, is_blank
 

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 from twinform.schemas.facts import Fact, Version
-from twinform.schemas.stores import Data
+from twinform.schemas.value_stores import Data
 from twinform.schemas.values import ValueType
 from twinform.schemas.xml import XmlElement
 
