@@ -6,8 +6,8 @@ from typing import TypeVar
 
 from twinform.ir.document import Format
 from twinform.ir.geometry import Box, Capsule, Cone, Cylinder, Ellipsoid, ShapeNode, Sphere
-from twinform.ir.inertial import Inertia, Inertial
 from twinform.ir.joint import Axis, Limit, Mimic
+from twinform.ir.link import Inertia, Inertial
 from twinform.ir.node import Node, Vector3
 
 AnyNode = TypeVar("AnyNode", bound=Node)

@@ -6,11 +6,10 @@ from typing import Literal
 
 from twinform.diagnostics import NOWHERE, DiagnosticSink, Location, Rule, Source
 from twinform.diagnostics.rules import frames as rules
-from twinform.ir.frame import Frame
 from twinform.ir.joint import Joint
 from twinform.ir.link import Link
 from twinform.ir.model import Include, Model
-from twinform.ir.pose import Pose
+from twinform.ir.pose import Frame, Pose
 from twinform.ir.transform import Transform
 from twinform.ir.world import World
 

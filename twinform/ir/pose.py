@@ -1,4 +1,4 @@
-"""Poses, in the notation in which they were written."""
+"""Poses, in the notation in which they were written, and named frames."""
 
 from twinform.ir.node import Node, Quaternion, Vector3
 
@@ -18,3 +18,14 @@ class Pose(Node):
     degrees: bool | None = None
     rotation_format: str | None = None
     relative_to: str | None = None
+
+
+class Frame(Node):
+    """A frame that moves with what it is attached to: a link, joint, frame or model; the model itself where not given.
+
+    `pose` is in the frame that it names, or else in the one that this is attached to.
+    """
+
+    name: str
+    attached_to: str | None = None
+    pose: Pose | None = None

@@ -8,7 +8,7 @@ from typing import Any
 from twinform.ir.defaults import MASS, MOMENT, sizes
 from twinform.ir.document import Format
 from twinform.ir.geometry import Box, Capsule, Cone, Cylinder, Ellipsoid, ShapeNode, Sphere
-from twinform.ir.inertial import Inertia, Inertial
+from twinform.ir.link import Inertia, Inertial
 from twinform.ir.node import Vector3
 from twinform.ir.principal_moments import Symmetric, times_each
 from twinform.ir.scaling import common_exponent, safe_sum, times_power

@@ -7,8 +7,7 @@ from typing import TypedDict, Unpack
 from twinform.diagnostics import DiagnosticSink, Location, Rule, Severity, nearest_name
 from twinform.diagnostics.rules import structure
 from twinform.schemas.facts import Fact, Version, print_version
-from twinform.schemas.hints import hint_for_attribute, hint_for_element, hint_for_word
-from twinform.schemas.prefixes import dialect_of, words_of
+from twinform.schemas.hints import dialect_of, hint_for_attribute, hint_for_element, hint_for_word, words_of
 from twinform.schemas.xml import Places, XmlElement, path_of
 
 _COLORS = frozenset({"color", "color4"})

@@ -56,7 +56,7 @@ def _after(say: Callable[[Context, XmlElement], None], read: ReadChild) -> ReadC
 
 
 def _aside(read: ReadChild) -> ReadChild:
-    """The same reader for an element that does not concern readers of the robot: its faults are not errors of the robot."""
+    """The same reader for an element outside the robot's description, whose faults are no errors of the robot."""
 
     def read_aside(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
         before, context.aside = context.aside, True

@@ -2,7 +2,6 @@
 
 from twinform.compiler.batch.driver import Batch, batch
 from twinform.compiler.batch.files import PATTERNS, FolderError
-from twinform.compiler.batch.record import Outcome, Record
-from twinform.compiler.batch.report import report, summary
+from twinform.compiler.batch.record import Outcome, Record, report, summary
 
 __all__ = ["PATTERNS", "Batch", "FolderError", "Outcome", "Record", "batch", "report", "summary"]

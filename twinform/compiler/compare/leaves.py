@@ -4,8 +4,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 from twinform.compiler.compare.robot import Leaf
-from twinform.compiler.compare.typed import typed_value
-from twinform.compiler.compare.values import Numbers, Place, Value, Words
+from twinform.compiler.compare.values import Numbers, Place, Value, Words, typed_value
 from twinform.diagnostics import Location
 from twinform.ir import Pose
 from twinform.ir.transform import Transform

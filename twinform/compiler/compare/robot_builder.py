@@ -6,7 +6,7 @@ from functools import partial
 
 from twinform.compiler.compare.joint_values import joint_leaves
 from twinform.compiler.compare.leaves import THERE
-from twinform.compiler.compare.reading import PartReader
+from twinform.compiler.compare.part_reader import PartReader
 from twinform.compiler.compare.robot import Body, JointView, Leaf, Mass, NamedFrame, Part, Robot
 from twinform.diagnostics import Origins
 from twinform.ir import Axis, Element, Format, Frame, Inertial, Joint, Link, Model, Node, Pose, Vector3

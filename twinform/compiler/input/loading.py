@@ -18,6 +18,7 @@ from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.gazebo_extensions import check_extensions
 from twinform.compiler.input.limits import excess_of_json
 from twinform.compiler.input.options import Input, LoadOptions, LoadResult, expanded_name, name_of_input
+from twinform.compiler.input.parser_quirks import report_split_values, report_tabbed_numbers
 from twinform.compiler.input.parsing import (
     UnreadableError,
     parse,
@@ -25,8 +26,6 @@ from twinform.compiler.input.parsing import (
     refuse_excess,
     strip_default_namespace,
 )
-from twinform.compiler.input.split_values import report_split_values
-from twinform.compiler.input.tabbed_numbers import report_tabbed_numbers
 from twinform.compiler.input.unexpanded_xacro import report_unexpanded
 from twinform.compiler.search.uris import SearchPath
 from twinform.diagnostics import DiagnosticSink, Location

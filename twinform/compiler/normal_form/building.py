@@ -4,8 +4,7 @@ from functools import cache
 
 from twinform.compiler.compare.values import Numbers, Place, Value, Words
 from twinform.compiler.normal_form.gazebo import POOLED, Path, extension_rows, tag_paths, tag_value
-from twinform.compiler.normal_form.part import TEXT, Key, Part, text_of
-from twinform.compiler.normal_form.pooling import add_once, pool, tag_part
+from twinform.compiler.normal_form.part import TEXT, Key, Part, add_once, pool, tag_part, text_of
 from twinform.compiler.normal_form.values import (
     NOWHERE_ELSE,
     literally,

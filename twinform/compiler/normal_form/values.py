@@ -2,8 +2,7 @@
 
 import math
 
-from twinform.compiler.compare.typed import typed_value
-from twinform.compiler.compare.values import Flag, Numbers, Place, Value, Words, gaps
+from twinform.compiler.compare.values import Flag, Numbers, Place, Value, Words, gaps, typed_value
 from twinform.ir import Pose
 from twinform.ir.transform import Transform
 from twinform.schemas import Fact, XmlElement, format_value, parse_value

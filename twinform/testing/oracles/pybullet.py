@@ -15,8 +15,19 @@ from typing import Any, NamedTuple
 import numpy as np
 from lxml import etree
 
-from twinform.testing.oracles.robot import GRAVITY, Body, Matrix, Robot, Sample, View, inverse, limit, moved, pose
-from twinform.testing.oracles.sampling import position
+from twinform.testing.oracles.robot import (
+    GRAVITY,
+    Body,
+    Matrix,
+    Robot,
+    Sample,
+    View,
+    inverse,
+    limit,
+    moved,
+    pose,
+    position,
+)
 from twinform.testing.oracles.shapes import without_shapes
 
 _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")

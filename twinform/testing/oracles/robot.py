@@ -1,6 +1,7 @@
-"""A robot as an engine sees it: names, limits, and numbers at some joint positions."""
+"""A robot as an engine sees it: names, limits, and numbers at sampled joint positions."""
 
 import math
+import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -95,3 +96,16 @@ def inverse(motion: Matrix) -> Matrix:
     """The way back of a pose."""
     back = motion[:3, :3].T
     return pose(back, -back @ motion[:3, 3])
+
+
+def position(joint: str, number: int) -> float:
+    """The position in rad or m of a joint in the sample of a number; in the first, all are at zero.
+
+    By name only: a limit that differs is one finding, not another position of the whole robot.
+    """
+    return 0.0 if number == 0 else spread(f"{joint}/{number}")
+
+
+def spread(name: str) -> float:
+    """A number from -1 to 1 that belongs to a name."""
+    return 2 * float(np.random.default_rng(zlib.crc32(name.encode())).uniform()) - 1

@@ -1,4 +1,4 @@
-"""Nodes of the IR as parts: every value in them with its kind, its place in the file and its default."""
+"""Reads nodes of the IR as parts: every value in them with its kind, its line in the file and its default."""
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
@@ -51,7 +51,7 @@ _IGNORED_LIMITS = frozenset({"limit/@lower", "limit/@upper"})
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
+class PartReader:
     """How the nodes of one model are read: which frames there are, and where in which file a line was written."""
 
     resolve: Resolve
