@@ -1,4 +1,4 @@
-"""Where everything is: the frames of a model or world, and what they are relative to."""
+"""The frame graph: resolves poses of a model or world through the frames that they are relative to."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -35,7 +35,7 @@ class FrameError(Exception):
         self.found = found
 
     def report(self, sink: DiagnosticSink) -> None:
-        """Say it as a diagnostic."""
+        """Report it as a diagnostic."""
         sink.report(self.rule, self.message, self.location, found=self.found)
 
 

@@ -1,4 +1,4 @@
-"""Robots and other things."""
+"""Models: links, joints, frames and nested models."""
 
 from typing import Self
 

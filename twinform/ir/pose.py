@@ -8,7 +8,7 @@ class Pose(Node):
 
     Translation `xyz` in meters; rotation either `rpy` (fixed-axis roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll); in
     radians, or in degrees where `degrees` is true) or `quat_xyzw`. What is `None` was not written and means zero.
-    `relative_to` names the frame that the pose is expressed in; where it is `None`, the holder says which.
+    `relative_to` names the frame that the pose is expressed in; where it is `None`, it is that of the holder.
     `rotation_format` is SDF's attribute, kept because it may be written for rpy too.
     """
 

@@ -32,7 +32,7 @@ class Material(Node):
 
 
 class Surface(Node):
-    """Contact parameters of a collision: the part of SDF's `surface` that the `<gazebo>` tags of URDF can say.
+    """Contact parameters of a collision: the part of SDF's `surface` that the `<gazebo>` tags of URDF have.
 
     `mu`, `mu2`: Coulomb friction along and across `fdir1` (a direction in the collision frame); `slip1`, `slip2`: force
     dependent slip (m/(N s)); `kp`, `kd`: stiffness (N/m) and damping (N s/m) of the contact; `max_vel`: the fastest

@@ -5,7 +5,7 @@ from twinform.schemas.messages import Context
 from twinform.schemas.packaged import json_schema_text, schema_text
 from twinform.schemas.reader import Reader, reader
 from twinform.schemas.untyped_parts import element_data
-from twinform.schemas.validator import Engine, SchemaError, gate, libxml2_errors, refusals, xmlschema_errors
+from twinform.schemas.validator import Engine, SchemaError, libxml2_errors, refusals, validate, xmlschema_errors
 from twinform.schemas.values import format_value, parse_value
 from twinform.schemas.writer import LAST_LINE, Writer, element_xml, in_order, writer
 from twinform.schemas.xml import XmlElement, declared_namespaces, path_of, undeclared_namespace, undeclared_prefix
@@ -25,7 +25,7 @@ __all__ = [
     "element_data",
     "element_xml",
     "format_value",
-    "gate",
+    "validate",
     "in_order",
     "json_schema_text",
     "libxml2_errors",

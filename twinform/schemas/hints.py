@@ -45,12 +45,12 @@ _SAME = {
     "translational": "prismatic",
     "weld": "fixed",
 }
-"""Words of other tools, and what they are called here."""
+"""Names in other tools, and what they are called here."""
 _MOST_PARENTS = 3
 
 
 def hint_for_word(word: str, known: Collection[str]) -> str | None:
-    """For a word that is none of those that a value may be."""
+    """For a value that is none of the allowed ones."""
     same = _SAME.get(word.lower())
     return f"did you mean {same!r}?" if same in known else did_you_mean(word, known)
 

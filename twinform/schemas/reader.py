@@ -1,6 +1,6 @@
-"""From XML to plain dicts in the shape of the IR: closures built once for each format and version from its facts.
+"""The schema reader, from XML to dicts in the shape of the IR: closures built once for each format and version.
 
-Reading is also the table pass: structure, cardinality, versions and values are checked on the way, and what has no
+It validates while it reads: structure, cardinality, versions and values are checked on the way, and what has no
 typed field is kept as opaque parts. The dicts hold IR field names and know nothing of the IR's classes.
 """
 
@@ -241,7 +241,7 @@ class Reader:
                 holder.setdefault(inner, []).append(data)
             elif len(data) > 1:
                 holder[inner] = data
-            else:  # it says nothing, so the field stays unwritten
+            else:  # it is empty, so the field stays unwritten
                 keep_element(child, node, at, context)
 
         return read

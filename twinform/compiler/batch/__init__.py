@@ -1,4 +1,4 @@
-"""A folder of models into another format: every model by itself, and nothing that was done is done again."""
+"""Batch conversion of a folder of models: each in its own process, and resumable."""
 
 from twinform.compiler.batch.driver import Batch, batch
 from twinform.compiler.batch.files import PATTERNS, FolderError

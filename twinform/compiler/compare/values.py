@@ -217,7 +217,7 @@ _WITH_ALPHA = 4
 def typed_value(type: str | None, text: str, format: str = "sdf", unit: str = "") -> Value | None:
     """A text as a truth or as numbers, where its type has such; None where the type is only text.
 
-    What is not of its type is the words that it says.
+    What is not of its type is kept as text.
     """
     if type != "bool" and type not in NUMBERS and type not in COLORS:
         return None

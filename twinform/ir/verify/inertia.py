@@ -1,4 +1,4 @@
-"""Masses and inertias that no body has."""
+"""Verifies masses and inertias: no real body has a negative or unbalanced one."""
 
 import math
 

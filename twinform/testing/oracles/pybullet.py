@@ -34,7 +34,7 @@ _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
 class _Joint(NamedTuple):
-    """What PyBullet says of a joint."""
+    """The joint info of PyBullet."""
 
     number: int
     name: bytes

@@ -18,7 +18,7 @@ _UNLIMITED = 1e15
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """How to look at a model: other `names` for some joints, and the link that poses and gravity are relative to.
+    """Options for reading a model: other `names` for some joints, and the link that poses and gravity are relative to.
 
     Joints that are `still` stay at zero and are none of the robot's. Without a `reference`, or where the model does not
     have it, that is the world if something is joined to it, else the root.
@@ -58,8 +58,8 @@ class Sample:
 class Robot:
     """What one engine sees in one file.
 
-    `joints` are those with one degree of freedom, and stand where the samples say; `others` are those with more, and
-    screws, and stand at zero. `welds` say which link is fixed to which. `lumped` is true where the
+    `joints` are those with one degree of freedom, and stand where the samples are; `others` are those with more, and
+    screws, and stand at zero. `welds` tell which link is fixed to which. `lumped` is true where the
     engine weighs such links together, so that only the first of them has a body.
     """
 
@@ -93,7 +93,7 @@ def pose(rotation: Matrix, translation: Matrix) -> Matrix:
 
 
 def inverse(motion: Matrix) -> Matrix:
-    """The way back of a pose."""
+    """The inverse of a pose."""
     back = motion[:3, :3].T
     return pose(back, -back @ motion[:3, 3])
 
