@@ -25,7 +25,6 @@ __all__ = [
     "element_data",
     "element_xml",
     "format_value",
-    "validate",
     "in_order",
     "json_schema_text",
     "libxml2_errors",
@@ -40,6 +39,7 @@ __all__ = [
     "table",
     "undeclared_namespace",
     "undeclared_prefix",
+    "validate",
     "writer",
     "xmlschema_errors",
 ]

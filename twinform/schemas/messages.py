@@ -43,7 +43,7 @@ class Context:
     `tolerated` holds the elements, and the attributes and texts of elements, that are reported and kept although the
     schema does not have them: the XSD validation sees the document without them. `#text` is the text in an element,
     `#tail` the one that follows it. `replaced` holds the words of other versions: the attribute or text that one stands
-    in, and a value for the XSD validation in its place. `outside` lists elements and attributes of other versions. `aside`
+    in, and a value for the validation in its place. `outside` lists elements and attributes of other versions. `aside`
     is true inside of what the readers of the robot itself skip: nothing there is an error. `declared` says whether the
     version is the file's own word; where it is not, an old word is nothing to warn of. `header` holds what the root
     element says about the document rather than about its node.

@@ -97,7 +97,7 @@ def _flat(name: str | None) -> str:
 
 
 def _is_in_loop(found: Difference, edited: EditedFile) -> bool:
-    """Whether it is about joints, in a robot with loops: annotations give names, which choose the joints of the tree."""
+    """Whether it is about joints, in a robot with loops: annotations give names, which select joints of the tree."""
     return found.group in {"joint", "kinematics", "frame"} and edited.root.find("gazebo/joint") is not None
 
 
