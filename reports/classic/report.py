@@ -17,10 +17,10 @@ from reports.harness.sample import Sample
 from tests.corpus.examine import rules_of
 from tests.corpus.files import CorpusFile, Kind, corpus_files
 from twinform.compiler.audit import audit
+from twinform.compiler.workers import Failure
 from twinform.diagnostics import Diagnostic, Fate, Severity
 from twinform.diagnostics.rules import classic as rules
 from twinform.diagnostics.rules import plugins as plugin_rules
-from twinform.testing.workers import Failure
 
 KNOWN = Known.beside(__file__)
 PIPELINE = "migrate-gazebo-classic{release=harmonic controllers=controllers.yaml},check-plugins{release=harmonic}"

@@ -15,7 +15,7 @@ from tests.corpus.examine import Examined, examine
 from tests.corpus.examine_xacro import Expanded, examine_xacro
 from tests.corpus.files import CorpusFile, Kind, corpus_files, xacro_files
 from tests.corpus.there_and_back import MOST_ROBOTS, SDF_VERSION
-from twinform.testing.workers import Failure
+from twinform.compiler.workers import Failure
 
 KNOWN = Known.beside(__file__)
 MOST_SHOWN = 40

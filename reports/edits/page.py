@@ -14,14 +14,14 @@ from reports.harness.pages import listing, section, table
 from reports.harness.sample import Sample
 from reports.oracle.judging import DRAKE
 from tests.corpus.files import ROOT
+from twinform.compiler.workers import Failure
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.transforms.notation import OFFSET
 from twinform.testing import oracles
 from twinform.testing.edits.judging import Outcome
 from twinform.testing.oracles.comparison import chained, renamed
-from twinform.testing.oracles.looking import look, versus
+from twinform.testing.oracles.in_process import look, versus
 from twinform.testing.oracles.robot import Robot, View
-from twinform.testing.workers import Failure
 
 KNOWN = Known(Path(__file__).with_name("known.toml"), fits=lambda text, pattern: re.search(pattern, text))
 _TOLERANCE = 1e-9

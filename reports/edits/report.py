@@ -10,8 +10,8 @@ from reports.harness.drawing import drawn
 from reports.harness.files import kept
 from reports.harness.report import Findings, Report
 from reports.harness.sample import Sample
+from twinform.compiler.workers import Failure
 from twinform.testing import strategies
-from twinform.testing.workers import Failure
 
 _SECONDS = 300
 _EDITS = {True: 24, False: 9}

@@ -23,10 +23,10 @@ from reports.harness.sample import Sample, is_good
 from tests.corpus.examine import rules_of
 from tests.corpus.files import CorpusFile, Kind
 from tests.corpus.there_and_back import robots
+from twinform.compiler.workers import Failure
 from twinform.testing.oracles.libsdformat.library import RobotRow, describe
 from twinform.testing.oracles.libsdformat.robot import pose_matrix
 from twinform.testing.oracles.robot import Matrix
-from twinform.testing.workers import Failure
 
 KNOWN = Known.beside(__file__)
 CUT_OFF = 1e-5

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Protocol, TypeVar
 
 from tests.corpus.files import CorpusFile, Kind, corpus_files, models
-from twinform.testing.workers import Failure
-from twinform.testing.workers import run as run_in_processes
+from twinform.compiler.workers import Failure
+from twinform.compiler.workers import run as run_in_processes
 
 
 class Named(Protocol):

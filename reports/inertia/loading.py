@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from twinform.testing.workers import Failure, run
+from twinform.compiler.workers import Failure, run
 
 Words = tuple[str, ...]
 """What an engine complains of; nothing where it loads the file and is content."""

@@ -14,8 +14,8 @@ from reports.lumping.causes import CAUSES, cause_of
 from reports.lumping.differences import Difference, differences
 from reports.lumping.motion import MODES, Moved, moved
 from tests.corpus.files import CorpusFile, Kind
+from twinform.compiler.workers import Failure
 from twinform.testing.oracles.libsdformat.library import describe
-from twinform.testing.workers import Failure
 
 PASSES = "lump-fixed-joints{compat=libsdformat}"
 _SECONDS = 120

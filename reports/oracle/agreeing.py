@@ -9,9 +9,9 @@ import twinform
 from reports.harness.sample import Sample
 from reports.oracle.judging import DRAKE, OUT, Direction, Outcome, cause
 from tests.corpus.files import CORPUS
+from twinform.compiler.workers import Failure
 from twinform.testing import oracles
-from twinform.testing.oracles.looking import compared, look
-from twinform.testing.workers import Failure
+from twinform.testing.oracles.in_process import compared, look
 
 LIBSDFORMAT = "libsdformat"
 URDF_ONLY = ("pinocchio", "mujoco", "pybullet")

@@ -10,7 +10,7 @@ from reports.harness import files
 from reports.harness.files import kept
 from tests.corpus.files import CorpusFile, Kind
 from twinform.testing import oracles
-from twinform.testing.oracles.looking import look, versus
+from twinform.testing.oracles.in_process import look, versus
 from twinform.testing.oracles.robot import Robot
 
 OUT = files.OUT / "oracle"

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from reports.harness.sample import Sample, in_turn
 from reports.oracle.judging import DRAKE, Direction, Outcome, Verdict, cause
 from tests.corpus.files import CORPUS
+from twinform.compiler.workers import Failure
 from twinform.testing import oracles
 from twinform.testing.oracles.dynamics import moved_alike
-from twinform.testing.workers import Failure
 
 WAYS = (Direction.TO_SDF_11, Direction.TO_URDF)
 WANTED = 20

@@ -16,8 +16,8 @@ from reports.oracle.others import KNOWN, agreement_section, explained, motion_se
 from reports.oracle.page import ABOUT, Reader, counts, sections
 from tests.corpus.files import CorpusFile, Kind, corpus_files
 from tests.oracles import known, urdfdom
+from twinform.compiler.workers import Failure
 from twinform.testing.oracles import libsdformat
-from twinform.testing.workers import Failure
 
 LEAST = {Direction.TO_SDF_9: 150, Direction.TO_URDF: 60}
 """So many corpus files must come out as the same robot."""

@@ -15,7 +15,7 @@ from reports.harness.sample import Sample
 from reports.probes.values import Part, XmlElement, lost, parsed
 from tests.corpus.files import SHARED
 from twinform.testing import oracles
-from twinform.testing.oracles.looking import compared
+from twinform.testing.oracles.in_process import compared
 
 PROBES = SHARED / "reference" / "probes" / "urdf"
 MISSING = "there are no probes in reference/probes/urdf; TWINFORM_SHARED says where that is"

@@ -19,7 +19,7 @@ from tests.corpus.files import CorpusFile, Kind
 from tests.corpus.there_and_back import robots
 from twinform.compiler.audit import audit
 from twinform.compiler.compare.comparison import Difference
-from twinform.testing.workers import Failure
+from twinform.compiler.workers import Failure
 
 KNOWN = Known.beside(__file__)
 CUT_OFF = 1e-5

@@ -9,7 +9,7 @@ from reports.oracle.judging import DRAKE
 from tests.corpus.files import CorpusFile
 from tests.corpus.versions import NEWEST
 from twinform.testing import oracles
-from twinform.testing.oracles.looking import look, versus
+from twinform.testing.oracles.in_process import look, versus
 from twinform.testing.oracles.robot import Robot
 
 VERSIONS = ("1.11", "1.6")

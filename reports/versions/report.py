@@ -15,8 +15,8 @@ from reports.versions.judging import Comparison, judge
 from tests.corpus.examine import rules_of
 from tests.corpus.files import CORPUS, SHARED, CorpusFile, Kind, corpus_files
 from tests.corpus.versions import NEWEST, Trip, there_and_back, upgraded_difference
+from twinform.compiler.workers import Failure
 from twinform.testing import oracles
-from twinform.testing.workers import Failure
 
 PAIRS = SHARED / "reference" / "pairs.csv"
 KNOWN = Known.beside(__file__)

@@ -16,9 +16,9 @@ from reports.harness.report import Findings, Report
 from reports.harness.sample import Sample
 from reports.worlds.judging import Loaded, Outcome, Together, judge
 from tests.corpus.files import CORPUS, Kind
+from twinform.compiler.workers import Failure
 from twinform.ir import Box, Cylinder, Sphere
 from twinform.testing import strategies
-from twinform.testing.workers import Failure
 
 KNOWN = Known.beside(__file__)
 GENERATED = 150

@@ -10,7 +10,7 @@ from reports.harness.report import UNEXPLAINED, Findings, Report
 from reports.harness.sample import Sample
 from tests.corpus.expressions import Evaluated, evaluated, expressions
 from tests.corpus.plain_xacro import Compared, Verdict, compare, users_of_xacro
-from twinform.testing.workers import Failure
+from twinform.compiler.workers import Failure
 
 KNOWN = Known.beside(__file__)
 _ABOUT = """\

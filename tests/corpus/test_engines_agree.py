@@ -14,11 +14,11 @@ from twinform.schemas import (
     Context,
     Version,
     XmlElement,
-    gate,
     libxml2_errors,
     parse_version,
     reader,
     table,
+    validate,
     xmlschema_errors,
 )
 
@@ -53,7 +53,7 @@ def _disagreement(file: CorpusFile) -> str | None:
     names = not _names_clash(root, name, version)
     if (default and names) is bool(normative):
         return f"{file.name}: {default=}, {names=}, {normative[:1]}"
-    gate(root, context)
+    validate(root, context)
     if any(found.rule is structure.SCHEMA_DISAGREEMENT for found in context.sink.diagnostics):
         return f"{file.name}: {context.sink.diagnostics[-1].message}"
     return None

@@ -13,8 +13,8 @@ from tests.corpus.files import ROOT
 from tests.profile import DEEP
 from twinform.testing import oracles
 from twinform.testing.oracles import libsdformat
+from twinform.testing.oracles.in_process import look
 from twinform.testing.oracles.libsdformat.library import describe
-from twinform.testing.oracles.looking import look
 from twinform.testing.oracles.robot import Matrix, Sample, inverse
 
 _EXAMPLES = [ROOT / "examples" / f"{name}.urdf" for name in ("arm", "four_wheels", "gripper", "rover")]

@@ -62,7 +62,7 @@ class _Commands(click.Group):
         except (click.ClickException, click.exceptions.Exit, click.Abort, OSError):
             raise
         except Exception as error:
-            from twinform.cli.fault import end_with  # noqa: PLC0415 - it seldom happens
+            from twinform.cli.instrumentation import end_with  # noqa: PLC0415 - it seldom happens
 
             end_with(error, ctx)
             raise

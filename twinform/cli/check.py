@@ -11,7 +11,7 @@ from twinform.cli.findings import notes_option, show
 from twinform.cli.inputs import InputOptions, inputs, load_options_of, reading_options
 from twinform.cli.policy import policy_of, policy_options
 from twinform.cli.request import pipeline_option
-from twinform.compiler import LoadOptions, LoadResult, LookingError, expand, inspect, read
+from twinform.compiler import LoadOptions, LoadResult, ReadOnlyPassError, expand, inspect, read
 from twinform.diagnostics import Severity
 from twinform.diagnostics.reporters import REPORTERS, Findings
 from twinform.passes import PassError, Pipeline
@@ -70,7 +70,7 @@ def command(
 def _inspected(loaded: LoadResult, load_options: LoadOptions, passes: Pipeline) -> LoadResult:
     try:
         return inspect(loaded, load_options, passes)
-    except LookingError as error:
+    except ReadOnlyPassError as error:
         raise click.UsageError(str(error)) from error
     except PassError as error:
         raise Unusable(str(error)) from error

@@ -1,4 +1,4 @@
-"""How a command ends when it could not do its work."""
+"""Exit codes, and the exception that ends a command with a message."""
 
 import click
 

@@ -1,4 +1,4 @@
-"""Findings on a terminal."""
+"""Prints findings on a terminal, in color where it has any."""
 
 import os
 

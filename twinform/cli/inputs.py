@@ -72,7 +72,7 @@ def load_options_of(arguments: Mapping[str, str], input_options: InputOptions) -
 
 
 def inputs(words: Sequence[str]) -> tuple[list[Source], dict[str, str]]:
-    """The files among the words of a command line, and the `name:=value` arguments for those that are xacro.
+    """The files among the arguments of a command line, and the `name:=value` arguments for those that are xacro.
 
     Raises:
         click.UsageError: there are no files, or arguments that nothing takes.

@@ -1,4 +1,4 @@
-"""How a user looks over the shoulder of passes: the options, and what they print on stderr."""
+"""Options that observe passes (dump the IR, changes, times), and what they and a failed pass print on stderr."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 
 import click
 
+from twinform.cli.failure import UNUSABLE
 from twinform.passes import CombinedInstrumentation, PassError, PassInstrumentation
 from twinform.passes.framework.hooks import Dumps, PrintChanges, Statistics, table
 
@@ -112,3 +113,10 @@ def show_fault(error: PassError, name: str, folder: Path | None = None) -> None:
         click.echo(f"    nothing could be written that makes it come again: {reason}", err=True)
     else:
         click.echo(f"    to see it again: twinform reproduce {click.format_filename(path)}", err=True)
+
+
+def end_with(error: Exception, ctx: click.Context) -> None:
+    """End the command where a pass failed that nobody asked for; return for any other exception."""
+    if isinstance(error, PassError):
+        show_fault(error, f"twinform {ctx.invoked_subcommand}")
+        ctx.exit(UNUSABLE)

@@ -1,4 +1,4 @@
-"""What one call writes: nothing over an input or another output, and all of it or nothing."""
+"""Output files of a command: never over an input or another output, and all of them or none."""
 
 from collections.abc import Hashable, Iterable, Sequence
 from contextlib import suppress

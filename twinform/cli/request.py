@@ -1,4 +1,4 @@
-"""What a file is to become: options that several commands share."""
+"""Options of a conversion that several commands share: target format, version, passes."""
 
 from collections.abc import Callable
 from typing import Any, TypeVar

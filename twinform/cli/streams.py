@@ -1,4 +1,4 @@
-"""Standard output that cannot be written: full, closed, or with nobody who reads it any more."""
+"""Standard output that cannot be written: disk full, closed, or a broken pipe."""
 
 import errno
 import os

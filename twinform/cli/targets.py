@@ -1,4 +1,4 @@
-"""What each input of a conversion becomes, and where it is written."""
+"""The target format and output path of each input of a conversion."""
 
 import os
 from collections import Counter
@@ -81,7 +81,7 @@ def _target(word: str | None) -> Target | None:
 
 
 def _other_format(source: Source) -> Target:
-    """The format that the source is not in; where nothing tells its format, the compiler will say why."""
+    """The format that the source is not in; where nothing tells its format, the compiler reports why."""
     if source.format == "json":
         raise click.UsageError(f"{source.name} is a JSON document, which can become either format: give --to")
     return _OTHER.get(source.format or "urdf", "sdf")

@@ -6,7 +6,7 @@ from twinform.compiler.dumping import dump, dumps
 from twinform.compiler.errors import CompileError
 from twinform.compiler.includes.expanding import expand
 from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, load, loads, read
-from twinform.compiler.inspection import LookingError, inspect
+from twinform.compiler.inspection import ReadOnlyPassError, inspect
 from twinform.compiler.output.files import write_all_atomically, write_atomically
 from twinform.compiler.request import DEFAULT_SDF_VERSION, URDF_VERSIONS, ConversionRequest, Language, UrdfVersion
 from twinform.compiler.search.uris import SearchPath, UriError
@@ -22,7 +22,7 @@ __all__ = [
     "Language",
     "LoadOptions",
     "LoadResult",
-    "LookingError",
+    "ReadOnlyPassError",
     "SearchPath",
     "Split",
     "UrdfVersion",

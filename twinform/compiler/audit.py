@@ -1,4 +1,4 @@
-"""A count of what became of every element and attribute of a source, by an instrument that knows no conversion.
+"""Conversion audit: counts what became of every element and attribute of a source, without the converter's code.
 
 It reads two trees and the ledger, and nothing of how the one was made of the other. Each part of the source gets one
 fate: that of the entry of the ledger that covers its place, if there is one; *carried* if what it says stands in our
@@ -20,14 +20,14 @@ from twinform.schemas import XmlElement, path_of
 
 _OURS = f"{{{NAMESPACE}}}"
 _COMPUTED = frozenset({"pose", "origin", "xyz", "rpy", "axis", "inertia", "ixx", "ixy", "ixz", "iyy", "iyz", "izz"})
-"""Elements and attributes whose numbers depend on the frame that they are said in."""
+"""Elements and attributes whose numbers depend on the frame that they are expressed in."""
 _SHAPE_NAME = re.compile(r"(.+)_(?:visual|collision)(?:_\d+)?")
 _MATERIAL = re.compile(r"(.+)_material(?:_\d+)?")
 _SCHEME = re.compile(r"\b[a-z]+://")
 _SAID_BY = {"frame": "fixed"}
 """Elements of one format whose being there says a word of the other: a frame stands for a fixed joint."""
 _SAID_BY_NOT = {"turnGravityOff": {"0.0": "1.0", "1.0": "0.0"}}
-"""Truths of one format that the other says by their opposites."""
+"""Booleans of one format that the other writes by their opposites."""
 _SAID_AS = {"revolute": "continuous", "continuous": "revolute"}
 """Words that the other format may say by another one: a joint that turns without an end."""
 _TRUTHS = {"true": "1.0", "yes": "1.0", "false": "0.0", "no": "0.0"}
@@ -165,7 +165,7 @@ def _local(name: str) -> str:
 
 
 def _words_of(result: XmlElement) -> tuple[frozenset[str], frozenset[str]]:
-    """What the result says in our own namespace, and what outside of it."""
+    """The values of the result in our own namespace, and those outside of it."""
     inside: set[str] = set()
     outside: set[str] = set()
     stack = [(result, outside)]

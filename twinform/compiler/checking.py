@@ -1,4 +1,4 @@
-"""`check`: read a file, say everything that is wrong with it, and run passes that only look."""
+"""`check`: read a file, report everything that is wrong with it, and run read-only passes."""
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -32,7 +32,7 @@ def check(
     it. `passes` are run on a model without errors, for what they find.
 
     Raises:
-        LookingError: a pass would change the model.
+        ReadOnlyPassError: a pass would change the model.
         PassError: a pass is at fault.
         PipelineError: `passes` is not a pipeline.
     """

@@ -1,4 +1,4 @@
-"""The way of the data: load, the user's passes, legalisation, back end."""
+"""The conversion pipeline: load, the user's passes, legalisation, back end."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -24,7 +24,7 @@ from twinform.schemas import Engine, XmlElement, table
 
 @dataclass(frozen=True, slots=True)
 class Conversion:
-    """What `convert` made: the text, the document that it says, and what was found and lost on the way.
+    """What `convert` made: the text, its document, the diagnostics and the ledger.
 
     `source` is the XML that it was made from, for those who count: `twinform.compiler.audit`. `companions` are files
     that passes made to lie beside the text.
@@ -142,18 +142,18 @@ def _wanted(document: Document | None, request: ConversionRequest) -> Callable[[
 
 
 def has_mixed_words(loaded: LoadResult) -> bool:
-    """Whether files have words that their version does not have, or frames where those have no meaning yet."""
+    """Whether files have elements that their version does not have, or frames where those have no meaning yet."""
     early = loaded.document is not None and has_early_frames(loaded.document)
     return loaded.mixed or bool(mixed_words(loaded)) or early
 
 
 def mixed_words(loaded: LoadResult) -> frozenset[str]:
-    """The words in files that the versions of these do not have."""
+    """Elements and attributes in files that the versions of these do not have."""
     return frozenset(each.found for each in loaded.diagnostics if _is_outside_version(each) and each.found)
 
 
 def _is_outside_version(found: Diagnostic) -> bool:
-    """Whether it is a word that the version of the file does not have; that of SDF in an extension of URDF is open."""
+    """Whether the version of the file does not have the part; the version of SDF in an extension of URDF is open."""
     path = found.location.path
     return found.rule is OUTSIDE_VERSION and not (
         path.startswith("/robot") and ("/gazebo[" in path or "/gazebo/" in path)
@@ -208,8 +208,8 @@ def written(
 ) -> tuple[Document, str]:
     """What a document becomes, and its text.
 
-    One that was put together from several files has words that are `kept` although its version does not have them: the
-    files had them too. It is None where there was one file.
+    One that was put together from several files has elements that are `kept` although its version does not have
+    them: the files had them too. It is None where there was one file.
     """
     document = request.selection(document).run(document, sink, instrumentation=instrumentation)
     if sink.has_errors:

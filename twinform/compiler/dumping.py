@@ -19,7 +19,7 @@ def dumps(document: Document, *, to: Written | None = None) -> str:
     """The text of a document in its own format, or as JSON where `to` asks for it.
 
     Raises:
-        CompileError: its format cannot say it; what is wrong is in the diagnostics.
+        CompileError: its format cannot express it; what is wrong is in the diagnostics.
         ValueError: `to` is the other format, for which there is `convert`.
     """
     if to not in {None, "json", document.format.value}:
@@ -44,7 +44,7 @@ def dump(document: Document, path: str | Path, *, to: Written | None = None) -> 
     """Write a document into a file, all of it or nothing; a name that ends in `.json` asks for JSON.
 
     Raises:
-        CompileError: its format cannot say it; what is wrong is in the diagnostics.
+        CompileError: its format cannot express it; what is wrong is in the diagnostics.
         OSError: the file cannot be written.
         ValueError: the name is that of a file of the other format, for which there is `convert`.
     """

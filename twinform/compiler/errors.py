@@ -1,4 +1,4 @@
-"""The one exception of the compiler's public face."""
+"""The exception of the compiler's public API."""
 
 from twinform.diagnostics import Diagnostic
 
@@ -6,7 +6,7 @@ from twinform.diagnostics import Diagnostic
 class CompileError(Exception):
     """A document could not be read or compiled.
 
-    `diagnostics` say why; `unreadable` says that it is no robot model at all.
+    `diagnostics` have the reasons; `unreadable` is true where it is no robot model at all.
     """
 
     def __init__(self, diagnostics: tuple[Diagnostic, ...], *, unreadable: bool = False) -> None:

@@ -1,4 +1,4 @@
-"""What a file that was made of another one says otherwise than that one: chains of joints, names and numbers."""
+"""Chains of joints that fold back, and the names and numbers that change with them in a reverse conversion."""
 
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
@@ -31,7 +31,7 @@ _NAMED = ("link", "joint", "frame", "model", "visual", "collision")
 
 @dataclass(frozen=True, slots=True)
 class Folded:
-    """What a result says otherwise, because the source says by marks that it was made of it.
+    """What a result has otherwise, because annotations in the source tell what it was made of.
 
     `there` has the tag, name and type of each part of the result, and `named` tag and name; `parts` are the names of
     what is gone from it, `followers` the joints that mimic in it, and `ends` those that chains have become.
@@ -60,7 +60,7 @@ class Folded:
         return cls(there, named, frozenset(gone | set(_made_names(source, result, named))), followers, ends)
 
     def says(self, element: XmlElement, attribute: str | None) -> bool:
-        """Whether the result says a part of the source otherwise, such as by a joint that stands for more than one."""
+        """Whether the result expresses a part of the source otherwise, such as by one joint for several."""
         if attribute == "type" and element.tag == "joint":
             return self._is_end(element)
         if _is_made_number(element, attribute) or any(map(self.is_gone, (element, *element.iterancestors()))):
@@ -80,7 +80,7 @@ class Folded:
         return (tag, name) in self.named
 
     def _is_end(self, joint: XmlElement) -> bool:
-        """Whether a joint has the type in the result that its mark says."""
+        """Whether a joint has the type in the result that its annotation names."""
         kinds = [mark.get("type") for mark in joint.findall(_CHAIN)]
         kinds += [mark.get("value") for mark in joint.findall(_URDF) if mark.get("attribute") == "type"]
         if not kinds:

@@ -1,4 +1,4 @@
-"""What a model needs beside its own file to be run in Gazebo: a world, and the configuration of the bridge to ROS."""
+"""Files to run a model in Gazebo: a world around it, and the configuration of ros_gz_bridge."""
 
 from importlib import resources
 
@@ -27,7 +27,7 @@ _EQUATOR = (
     ("elevation", "0"),
     ("heading_deg", "0"),
 )
-"""A place on earth, for receivers of satellites: any other one is as good as long as nobody says which."""
+"""A place on earth, for receivers of satellites: any other one is as good as long as none is given."""
 
 
 def bridge_text(document: Document, release: str, sink: DiagnosticSink, world: str | None = None) -> str:
@@ -38,7 +38,7 @@ def bridge_text(document: Document, release: str, sink: DiagnosticSink, world: s
 def world_text(document: Document, release: str, sink: DiagnosticSink, name: str) -> str:
     """An SDF file with a world that holds the model of a document, so that it runs by itself.
 
-    The model stands on the ground, if it says no pose and its collisions say how deep they reach.
+    The model stands on the ground, if it has no pose and its collisions show how deep they reach.
     The world has light, ground, the systems that gz-sim adds to worlds without any, and those that the sensors and
     plugins need.
     """

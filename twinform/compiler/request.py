@@ -1,4 +1,4 @@
-"""What a conversion is asked for."""
+"""The request of a conversion: target format, version, passes and options."""
 
 from dataclasses import dataclass, field
 from typing import Literal, get_args
@@ -14,14 +14,14 @@ Language = Literal["sdf", "urdf", "json"]
 UrdfVersion = Literal["1.0", "1.1", "1.2"]
 URDF_VERSIONS: tuple[UrdfVersion, ...] = get_args(UrdfVersion)
 DEFAULT_SDF_VERSION = "1.11"
-"""The version of Gazebo Harmonic, the newest long-term release, and the first that can say `mimic`."""
+"""The version of Gazebo Harmonic, the newest long-term release, and the first that has `mimic`."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ConversionRequest:
     """What a conversion is asked for; `passes` are the user's, and `assets` the files beside the source.
 
-    `mixed` says that the source has words that its version does not have.
+    `mixed` means that the source has elements that its version does not have.
     """
 
     to: Language

@@ -1,4 +1,4 @@
-"""A pool of processes in which a job may crash or hang without harm to the others."""
+"""A process pool in which a job may crash or hang without harm to the others."""
 
 import multiprocessing
 import os
@@ -28,7 +28,7 @@ class Failure:
 
 @dataclass(frozen=True, slots=True)
 class _Ready:
-    """The first thing that a process says: from now on the time of its job counts."""
+    """The first message of a process: from now on the time of its job counts."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,7 +126,7 @@ def _work(workers: list[_Worker[Job, Result]], waiting: list[Job]) -> Iterator[t
 
 
 def _with_news(busy: list[_Worker[Job, Result]]) -> list[_Worker[Job, Result]]:
-    """The workers that have something to say, have died, or are past their time."""
+    """The workers that have sent something, have died, or are past their time."""
     patience = max(0.0, min(worker.deadline for worker in busy) - time.monotonic())
     spoken = wait([worker.pipe for worker in busy], patience)
     return [worker for worker in busy if worker.pipe in spoken or worker.deadline <= time.monotonic()]

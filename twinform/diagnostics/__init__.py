@@ -4,12 +4,10 @@ from twinform.diagnostics.catalog import catalog
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.did_you_mean import did_you_mean, nearest_name
 from twinform.diagnostics.ledger import Entry, Fate, Ledger
-from twinform.diagnostics.location import NOWHERE, Location, Source
-from twinform.diagnostics.origins import Origins
+from twinform.diagnostics.location import NOWHERE, Location, Origins, Source
 from twinform.diagnostics.policy import Policy
 from twinform.diagnostics.rule import Rule, Severity
-from twinform.diagnostics.side_file import SideFile
-from twinform.diagnostics.sink import DiagnosticSink
+from twinform.diagnostics.sink import DiagnosticSink, SideFile
 
 __all__ = [
     "NOWHERE",

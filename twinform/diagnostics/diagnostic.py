@@ -1,4 +1,4 @@
-"""A finding, as a value."""
+"""`Diagnostic`: a finding as a value."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""Did you mean: the known name that is nearest to one that is not known, as the help of a finding."""
+"""Did you mean: suggests the known name that is nearest to one that is not known, as the help of a finding."""
 
 from collections.abc import Callable, Iterable
 from difflib import SequenceMatcher
@@ -21,7 +21,7 @@ def did_you_mean(name: str, known: Iterable[str | None]) -> str | None:
 
 
 def nearest_name(name: str, known: Iterable[str | None], alike: float = _ALIKE) -> str | None:
-    """The known name that was probably meant: capitals and what stands between words count least, then letters.
+    """The known name that was probably meant: capitals and separators count least, then letters.
 
     `alike` is how much of the two has to be the same, from 0 to 1. The order of what is known does not matter.
     """

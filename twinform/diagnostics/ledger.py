@@ -1,4 +1,4 @@
-"""The account of what a conversion could not say in the target's own words."""
+"""The ledger: what a conversion could not express exactly in the target format, and what became of it."""
 
 import json
 from collections.abc import Iterable
@@ -10,7 +10,7 @@ from twinform.diagnostics.rule import Rule
 
 
 class Fate(StrEnum):
-    """What became of an element or attribute that the target has no exact word for."""
+    """What became of an element or attribute that the target has no exact form of."""
 
     CARRIED = "carried"
     APPROXIMATED = "approximated"

@@ -1,6 +1,9 @@
-"""Where a thing was written."""
+"""Source locations: file, line and XML path, also through the expansion of xacro and includes."""
 
-from typing import NamedTuple
+from bisect import bisect_right
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import NamedTuple, Self
 
 
 class Location(NamedTuple):
@@ -56,3 +59,25 @@ class Source(NamedTuple):
     def location(self) -> Location:
         """The same as a location."""
         return Location(self.file, self.line, self.path)
+
+
+@dataclass(frozen=True, slots=True)
+class Origins:
+    """For each line of an expanded text that starts an element, the file and line that the element was written on."""
+
+    lines: tuple[int, ...] = ()
+    places: tuple[Location, ...] = ()
+
+    @classmethod
+    def of(cls, pairs: Iterable[tuple[int, Location]]) -> Self:
+        """From lines and places in any order; the first of a line counts."""
+        first: dict[int, Location] = {}
+        for line, place in pairs:
+            first.setdefault(line, place)
+        ordered = sorted(first.items())
+        return cls(tuple(line for line, _ in ordered), tuple(place for _, place in ordered))
+
+    def place(self, line: int) -> Location | None:
+        """Where the element was written that stands on a line or, where none starts there, on the last one before."""
+        index = bisect_right(self.lines, line) - 1
+        return self.places[index] if index >= 0 else None

@@ -4,7 +4,7 @@ import sys
 from collections.abc import Iterator
 
 from twinform.diagnostics.catalog import catalog
-from twinform.diagnostics.committed import main
+from twinform.diagnostics.generated_files import main
 from twinform.diagnostics.rule import Rule
 
 _INTRODUCTION = """\

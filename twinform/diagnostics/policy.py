@@ -1,4 +1,4 @@
-"""Which findings a project allows, and which it treats as errors."""
+"""Policy of a project: rules that it allows, and rules that it treats as errors."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace

@@ -1,14 +1,21 @@
-"""What a stage of the compiler writes its findings into."""
+"""The sink into which each stage of the compiler writes diagnostics, ledger entries and side files."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.ledger import Entry, Fate
-from twinform.diagnostics.location import NOWHERE, Location
-from twinform.diagnostics.origins import Origins
+from twinform.diagnostics.location import NOWHERE, Location, Origins
 from twinform.diagnostics.rule import Rule, Severity
-from twinform.diagnostics.side_file import SideFile
+
+
+class SideFile(NamedTuple):
+    """The path of such a file below the folder of the result, and its text. Whoever writes the result writes it."""
+
+    path: str
+    text: str
+
 
 MOST = 1000  # a hostile file can hold a hundred thousand mistakes; nobody reads past the first thousand
 LONGEST = 2000

@@ -3,7 +3,6 @@
 from twinform.ir.document import Document, Format
 from twinform.ir.element import Element, Opaque
 from twinform.ir.extension import GazeboExtension
-from twinform.ir.frame import Frame
 from twinform.ir.geometry import (
     Box,
     Capsule,
@@ -20,22 +19,19 @@ from twinform.ir.geometry import (
     Shape,
     Sphere,
 )
-from twinform.ir.inertial import Inertia, Inertial
 from twinform.ir.joint import Axis, Dynamics, Joint, JointType, Limit, Mimic
 from twinform.ir.light import Light
-from twinform.ir.link import Link
-from twinform.ir.material import Material, Script
+from twinform.ir.link import Inertia, Inertial, Link
 from twinform.ir.model import Include, Model
 from twinform.ir.node import Color, Node, Quaternion, Vector3
 from twinform.ir.opaque_inside import holds_opaque, untyped_elements
 from twinform.ir.plugin import Plugin
-from twinform.ir.pose import Pose
+from twinform.ir.pose import Frame, Pose
 from twinform.ir.references import IN_MODELS, ReferenceChange, ReferenceKind, map_references
 from twinform.ir.rewrite import map_children, replace_fields, replace_node, rewrite
 from twinform.ir.sensor import Sensor
-from twinform.ir.surface import Surface
 from twinform.ir.tree import children_of, count_parts, node_fields, node_values, walk
-from twinform.ir.visual import Collision, Visual
+from twinform.ir.visual import Collision, Material, Script, Surface, Visual
 from twinform.ir.world import World
 
 __all__ = [

@@ -1,4 +1,4 @@
-"""What differs between two states of one document: by node and field, for people who look over a pass's shoulder.
+"""Changes between two states of one document, by node and field: what a pass did.
 
 Nodes are matched by their names; those that are left by what they say, which finds what was only renamed; and those
 without a name at last by their order. Parts that are one object

@@ -1,4 +1,4 @@
-"""What each format means where nothing is written. A test holds all of it to the facts tables."""
+"""Default values of both formats. A test holds all of it to the facts tables."""
 
 import math
 from collections.abc import Mapping
@@ -6,8 +6,8 @@ from typing import TypeVar
 
 from twinform.ir.document import Format
 from twinform.ir.geometry import Box, Capsule, Cone, Cylinder, Ellipsoid, ShapeNode, Sphere
-from twinform.ir.inertial import Inertia, Inertial
 from twinform.ir.joint import Axis, Limit, Mimic
+from twinform.ir.link import Inertia, Inertial
 from twinform.ir.node import Node, Vector3
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -34,13 +34,13 @@ MASS: Mapping[Format, float | None] = {Format.URDF: None, Format.SDF: 1.0}
 MOMENT: Mapping[Format, float | None] = {Format.URDF: None, Format.SDF: 1.0}
 """Of inertia about each axis, in kg m^2; products are zero."""
 INERTIAL = Inertial(mass=1.0, inertia=Inertia(ixx=1.0, ixy=0.0, ixz=0.0, iyy=1.0, iyz=0.0, izz=1.0))
-"""What a link of SDF weighs that says nothing about it."""
+"""The mass of a link of SDF that has none written."""
 DENSITY = 1000.0
 """In kg/m^3, of a collision of SDF: that of water."""
 BODY: Mapping[str, bool] = {"gravity": True, "enable_wind": False, "kinematic": False}
-"""What a link of SDF says of its body."""
+"""The fields of a link of SDF about its body."""
 FORCE_TORQUE: Mapping[str, str] = {"frame": "child", "measure_direction": "child_to_parent"}
-"""What a `<force_torque>` says of the sensor in a joint."""
+"""The fields of a `<force_torque>` sensor in a joint."""
 
 SIZES: Mapping[type[Node], Mapping[str, float | Vector3]] = {
     Box: {"size": (1.0, 1.0, 1.0)},
@@ -54,7 +54,7 @@ SIZES: Mapping[type[Node], Mapping[str, float | Vector3]] = {
 
 
 def filled(node: AnyNode, values: Mapping[str, object]) -> AnyNode:
-    """The node with these values in the fields that say nothing; the same one where there are none."""
+    """The node with these values in the fields that are not written; the same one where there are none."""
     missing = {name: value for name, value in values.items() if getattr(node, name) is None}
     return node.model_copy(update=missing) if missing else node
 

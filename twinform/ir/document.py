@@ -1,4 +1,4 @@
-"""A whole file."""
+"""`Document`: a whole file, URDF or SDF."""
 
 from enum import StrEnum
 
@@ -18,7 +18,7 @@ class Format(StrEnum):
 class Document(Node):
     """All that one file holds, in the terms of `format`.
 
-    `version` is what the file says; `None` where it says nothing. `namespaces` are the prefixes that it declares.
+    `version` is that of the file; `None` where it has none. `namespaces` are the prefixes that it declares.
     """
 
     format: Format

@@ -1,4 +1,4 @@
-"""XML that the IR keeps as it is."""
+"""Untyped XML elements, which the IR keeps as they are."""
 
 from collections.abc import Iterator
 from typing import Self

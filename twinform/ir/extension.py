@@ -5,7 +5,7 @@ from twinform.ir.node import Node
 
 
 class GazeboExtension(Node):
-    """What URDF cannot say itself and Gazebo reads, for the link or joint `reference`; without one, for the model."""
+    """What URDF has no elements for and Gazebo reads, for the link or joint `reference`; without one, for the model."""
 
     reference: str | None = None
     content: tuple[Element, ...] = ()

@@ -1,4 +1,4 @@
-"""Where everything is: the frames of a model or world, and what they are relative to."""
+"""The frame graph: resolves poses of a model or world through the frames that they are relative to."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -6,11 +6,10 @@ from typing import Literal
 
 from twinform.diagnostics import NOWHERE, DiagnosticSink, Location, Rule, Source
 from twinform.diagnostics.rules import frames as rules
-from twinform.ir.frame import Frame
 from twinform.ir.joint import Joint
 from twinform.ir.link import Link
 from twinform.ir.model import Include, Model
-from twinform.ir.pose import Pose
+from twinform.ir.pose import Frame, Pose
 from twinform.ir.transform import Transform
 from twinform.ir.world import World
 
@@ -36,7 +35,7 @@ class FrameError(Exception):
         self.found = found
 
     def report(self, sink: DiagnosticSink) -> None:
-        """Say it as a diagnostic."""
+        """Report it as a diagnostic."""
         sink.report(self.rule, self.message, self.location, found=self.found)
 
 

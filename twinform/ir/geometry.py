@@ -82,7 +82,7 @@ class Mesh(ShapeNode):
 
 
 class Empty(ShapeNode):
-    """No shape, said explicitly."""
+    """No shape, written explicitly."""
 
     kind: Literal["empty"] = "empty"
 

@@ -1,4 +1,4 @@
-"""What connects links."""
+"""Joints: axes, limits, dynamics and mimic."""
 
 from typing import Literal
 

@@ -1,15 +1,14 @@
-"""Robots and other things."""
+"""Models: links, joints, frames and nested models."""
 
 from typing import Self
 
 from twinform.ir.extension import GazeboExtension
-from twinform.ir.frame import Frame
 from twinform.ir.joint import Joint
 from twinform.ir.link import Link
-from twinform.ir.material import Material
 from twinform.ir.node import Node
 from twinform.ir.plugin import Plugin
-from twinform.ir.pose import Pose
+from twinform.ir.pose import Frame, Pose
+from twinform.ir.visual import Material
 
 
 class Include(Node):

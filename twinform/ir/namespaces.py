@@ -1,4 +1,4 @@
-"""The prefixes of documents that become one."""
+"""Merges the namespace prefixes of documents that become one."""
 
 from collections.abc import Iterable
 

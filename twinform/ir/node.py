@@ -1,4 +1,4 @@
-"""What every node of the IR has."""
+"""`Node`: the base class of the IR."""
 
 from collections.abc import Mapping
 from typing import Annotated
@@ -19,7 +19,7 @@ Color = Annotated[tuple[float, ...], Field(min_length=3, max_length=4)]
 class Node(Sourced):
     """A part of a model. A field that is `None` was not written; a default is never filled in.
 
-    `opaque` holds what has no typed field. `spelling` says how values were written that have several spellings (`1` for
+    `opaque` holds what has no typed field. `spelling` has how values were written that have several spellings (`1` for
     `true`); like `source`, it takes no part in equality.
     """
 

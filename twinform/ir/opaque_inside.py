@@ -1,4 +1,4 @@
-"""Whether anything untyped is inside a node, found once for each: most passes that look for it need not walk there."""
+"""Whether a subtree has untyped parts: cached, so that passes which look for them skip the others."""
 
 from collections.abc import Iterator
 from typing import Any

@@ -1,4 +1,4 @@
-"""Code that a simulator loads with a model."""
+"""Plugins: code that a simulator loads with a model."""
 
 from twinform.ir.element import Element
 from twinform.ir.node import Node

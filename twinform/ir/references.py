@@ -7,16 +7,15 @@ from typing import Literal, TypeVar
 
 from twinform.ir.document import Format
 from twinform.ir.extension import GazeboExtension
-from twinform.ir.frame import Frame
 from twinform.ir.joint import Axis, Joint, Mimic
 from twinform.ir.link import Link
-from twinform.ir.material import Material
 from twinform.ir.model import Include, Model
 from twinform.ir.node import Node
-from twinform.ir.pose import Pose
+from twinform.ir.pose import Frame, Pose
 from twinform.ir.rewrite import map_children
 from twinform.ir.sensor import Sensor
 from twinform.ir.tree import classes_below, classes_in, node_fields
+from twinform.ir.visual import Material
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 

@@ -8,7 +8,7 @@ from typing import Any
 from twinform.ir.defaults import MASS, MOMENT, sizes
 from twinform.ir.document import Format
 from twinform.ir.geometry import Box, Capsule, Cone, Cylinder, Ellipsoid, ShapeNode, Sphere
-from twinform.ir.inertial import Inertia, Inertial
+from twinform.ir.link import Inertia, Inertial
 from twinform.ir.node import Vector3
 from twinform.ir.principal_moments import Symmetric, times_each
 from twinform.ir.scaling import common_exponent, safe_sum, times_power
@@ -131,7 +131,7 @@ def with_tensor(inertia: Inertia | None, elements: Symmetric) -> Inertia:
 
 
 def written_solid(inertial: Inertial | None, format_: Format) -> Solid:
-    """What an inertial says, in its own frame, with the defaults of the format; nothing weighs nothing in URDF."""
+    """The solid of an inertial, in its own frame, with the defaults of the format; in URDF no inertial has no mass."""
     written = inertial or Inertial()
     mass = MASS[format_] if written.mass is None else written.mass
     return Solid(mass or 0.0, ORIGIN, tensor(written.inertia, MOMENT[format_] or 0.0))

@@ -1,4 +1,4 @@
-"""Parts that know where they were written."""
+"""Base class of parts with a source location."""
 
 from collections.abc import Mapping
 from functools import cache

@@ -20,7 +20,7 @@ _TINY, _HUGE = 1e-290, 1e300
 """Between these, the length of a quaternion has all its digits."""
 
 _DIGITS, _NOISE = 12, 2e-15
-"""Numbers that people write have at most so many digits behind the point; composing some of them errs by less."""
+"""Hand-written numbers have at most so many digits behind the point; composing some of them errs by less."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +37,7 @@ class Transform:
 
     @classmethod
     def from_pose(cls, pose: Pose | None) -> Self:
-        """The transform that a pose says; its frame (`relative_to`) is not looked at."""
+        """The transform of a pose; its frame (`relative_to`) is ignored."""
         if pose is None:
             return cls()
         return cls(_plus_zero(pose.xyz or _ORIGIN), _rotation(pose), pose)

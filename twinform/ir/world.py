@@ -1,11 +1,11 @@
 """Worlds."""
 
-from twinform.ir.frame import Frame
 from twinform.ir.joint import Joint
 from twinform.ir.light import Light
 from twinform.ir.model import Include, Model
 from twinform.ir.node import Node, Vector3
 from twinform.ir.plugin import Plugin
+from twinform.ir.pose import Frame
 
 
 class World(Node):

@@ -1,4 +1,4 @@
-"""What the schemas say to people of an element or attribute: its meaning, unit, default and versions."""
+"""Documentation texts in the schemas: an element's or attribute's meaning, unit, default and versions."""
 
 from collections.abc import Iterable, Sequence
 
@@ -16,7 +16,7 @@ class Documentation:
         self.texts = meanings(facts.format)
 
     def of(self, path: Path, row: Fact, like: Sequence[Fact] = ()) -> str:
-        """What is said of a row; `like` are all rows of its name, one for each group of versions."""
+        """The documentation of a row; `like` are all rows of its name, one for each group of versions."""
         said = [self.texts.get(path, "")]
         if row.unit is not None:
             said.append(f"Unit: {_UNIT_WORDS.get(row.unit, row.unit)}.")
@@ -29,7 +29,7 @@ class Documentation:
         return " ".join(filter(None, said))
 
     def of_definition(self, name: str) -> str:
-        """What is said of a definition, wherever it is used."""
+        """The documentation of a definition, wherever it is used."""
         return self.texts.get((name,), "")
 
     def _range(self, row: Fact) -> Iterable[str]:

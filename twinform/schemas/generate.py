@@ -24,7 +24,7 @@ def generated() -> Iterator[tuple[Path, str]]:
 
 
 def stale() -> list[Path]:
-    """The files that do not hold what the facts say."""
+    """The files that are not up to date with the facts."""
     return [file for file, text in generated() if not file.is_file() or file.read_text(encoding="utf-8") != text]
 
 

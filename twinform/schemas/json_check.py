@@ -1,4 +1,4 @@
-"""Checks JSON documents against their published schema: the part of JSON Schema that it uses, with words for people."""
+"""Checks JSON documents against their published schema, with readable messages: the part of JSON Schema it uses."""
 
 import json
 import re
@@ -70,7 +70,7 @@ class _Check:
             tasks += [each for each in reversed(found) if isinstance(each, _Task)]
 
     def _look(self, task: _Task) -> "Iterator[Fault | _Task]":
-        """What there is to say of a value alone, and what in it is to be looked at; nothing where its type is wrong."""
+        """The faults of a value alone, and what in it is still to be checked; nothing where its type is wrong."""
         value, schema, path = task
         if len(path) > _DEEPEST:
             yield Fault(path, f"is deeper than {_DEEPEST} levels")

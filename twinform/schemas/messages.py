@@ -1,4 +1,4 @@
-"""The words of the table pass: one function for each finding, so that the hot path holds none of them."""
+"""Diagnostics of the schema reader: one function for each, apart from the hot path."""
 
 from collections.abc import Collection
 from dataclasses import dataclass, field
@@ -7,8 +7,7 @@ from typing import TypedDict, Unpack
 from twinform.diagnostics import DiagnosticSink, Location, Rule, Severity, nearest_name
 from twinform.diagnostics.rules import structure
 from twinform.schemas.facts import Fact, Version, print_version
-from twinform.schemas.hints import hint_for_attribute, hint_for_element, hint_for_word
-from twinform.schemas.prefixes import dialect_of, words_of
+from twinform.schemas.hints import dialect_of, hint_for_attribute, hint_for_element, hint_for_word, words_of
 from twinform.schemas.xml import Places, XmlElement, path_of
 
 _COLORS = frozenset({"color", "color4"})
@@ -39,12 +38,12 @@ class Details(TypedDict, total=False):
 
 @dataclass(slots=True)
 class Context:
-    """One run of the table pass over one document.
+    """One run of the schema reader over one document.
 
     `tolerated` holds the elements, and the attributes and texts of elements, that are reported and kept although the
-    schema does not have them: the gate looks at the document without them. `#text` is the text in an element,
+    schema does not have them: the XSD validation sees the document without them. `#text` is the text in an element,
     `#tail` the one that follows it. `replaced` holds the words of other versions: the attribute or text that one stands
-    in, and a word that the gate sees in its place. `outside` lists elements and attributes of other versions. `aside`
+    in, and a value for the validation in its place. `outside` lists elements and attributes of other versions. `aside`
     is true inside of what the readers of the robot itself skip: nothing there is an error. `declared` says whether the
     version is the file's own word; where it is not, an old word is nothing to warn of. `header` holds what the root
     element says about the document rather than about its node.

@@ -1,6 +1,6 @@
-"""From XML to plain dicts in the shape of the IR: closures built once for each format and version from its facts.
+"""The schema reader, from XML to dicts in the shape of the IR: closures built once for each format and version.
 
-Reading is also the table pass: structure, cardinality, versions and values are checked on the way, and what has no
+It validates while it reads: structure, cardinality, versions and values are checked on the way, and what has no
 typed field is kept as opaque parts. The dicts hold IR field names and know nothing of the IR's classes.
 """
 
@@ -11,12 +11,12 @@ from typing import TypeVar
 from twinform.diagnostics import Source
 from twinform.schemas import messages
 from twinform.schemas.facts import Fact, Table, Version, rows_by_name, table
-from twinform.schemas.keeping import element_data, keep_element, keep_part, locate
+from twinform.schemas.fast_path import GIVE_UP, quick_attributes, quick_parse, quick_pose
 from twinform.schemas.messages import Context
-from twinform.schemas.quick import GIVE_UP, quick_attributes, quick_parse, quick_pose
-from twinform.schemas.remarks import ReadChild, remarked
-from twinform.schemas.stores import Data
+from twinform.schemas.row_findings import ReadChild, with_row_findings
+from twinform.schemas.untyped_parts import element_data, keep_element, keep_part, locate
 from twinform.schemas.value_readers import attribute_reader, text_reader
+from twinform.schemas.value_stores import Data
 from twinform.schemas.values import VALUE_TYPES
 from twinform.schemas.xml import XmlElement, is_blank
 
@@ -169,7 +169,7 @@ class Reader:
         else:
             read = self._own_node(row, row.place)
         has_text = self.table.resolve(row).type is not None
-        return remarked(row, self.version, read, has_text=has_text, keep=keep)
+        return with_row_findings(row, self.version, read, has_text=has_text, keep=keep)
 
     def _inner(self, row: Fact, *, keep: bool) -> Fill:
         if row.reference is None:
@@ -241,7 +241,7 @@ class Reader:
                 holder.setdefault(inner, []).append(data)
             elif len(data) > 1:
                 holder[inner] = data
-            else:  # it says nothing, so the field stays unwritten
+            else:  # it is empty, so the field stays unwritten
                 keep_element(child, node, at, context)
 
         return read

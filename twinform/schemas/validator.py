@@ -1,6 +1,6 @@
-"""The XSD engines, and the gate that no document passes without the consent of its schema.
+"""XSD validation, with libxml2 or xmlschema.
 
-The table pass has read the document before and said in words whatever is wrong with it. The schema's verdict is asked
+The schema reader has read the document before and reported whatever is wrong with it. The schema's verdict is asked
 for as well because the two are independent readings of the same facts: where they differ, one of them is wrong.
 """
 
@@ -38,8 +38,8 @@ _FAULTS = frozenset(
         structure.DIALECT.name,
     }
 )
-"""Findings of the table pass that leave nothing to take out of the document, and that the schema refuses as well; a
-dialect does where it is a word in a list."""
+"""Findings of the schema reader that leave nothing to take out of the document, and that the schema refuses as well; a
+dialect does where it is a value in a list."""
 
 
 _CROWDED = etree.XPath("descendant::*[4001] and (*[2001] or descendant::*/*[2001])")
@@ -53,13 +53,13 @@ class SchemaError(NamedTuple):
     message: str
 
 
-def gate(
+def validate(
     root: XmlElement, context: Context, engine: Engine = "libxml2", errors: list[SchemaError] | None = None
 ) -> None:
-    """Report whatever the schema refuses and the table pass, which has filled the context, did not speak of.
+    """Report whatever the schema refuses and the schema reader, which has filled the context, did not report.
 
-    `errors` is what the engine says of the tree, where it was asked already. Duplicate and dangling names, and what
-    only assertions say, which the normative schema alone looks for, are the business of later checks.
+    `errors` are those of the engine for the tree, where it was asked already. Duplicate and dangling names, and what
+    only assertions find, which the normative schema alone looks for, are left to later checks.
     """
     if errors is None:
         errors = refusals(root, context, engine)
@@ -136,14 +136,14 @@ def _xmlschema_schema(format_: str, version: Version, *, names: bool, assertions
 
 
 def refusals(root: XmlElement, context: Context, engine: Engine) -> list[SchemaError]:
-    """What an engine says of a tree."""
+    """The errors of an engine for a tree."""
     if engine == "xmlschema":
         return xmlschema_errors(root, context.format, context.version, names=False)
     return libxml2_errors(root, context.format, context.version)
 
 
 def _lines_with_faults(context: Context) -> set[int]:
-    """The lines of the elements that the table pass found a fault in."""
+    """The lines of the elements that the schema reader found a fault in."""
     lines = {found.location.line for found in context.sink.diagnostics if found.rule.name in _FAULTS}
     # a copy of a tree loses the lines past 65,535, so where there are faults an error without a line may be one of them
     return lines | {0} if lines else lines

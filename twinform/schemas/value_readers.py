@@ -1,12 +1,12 @@
-"""Readers of values: what an attribute or a text says, checked, and put where it belongs."""
+"""Readers of attribute values and texts: parsed, checked, and stored in the field of the IR."""
 
 from collections.abc import Callable, Mapping
 
 from twinform.schemas import messages
 from twinform.schemas.facts import Fact, Version
-from twinform.schemas.keeping import keep_part
 from twinform.schemas.messages import Context
-from twinform.schemas.stores import Data, value_check, value_store
+from twinform.schemas.untyped_parts import keep_part
+from twinform.schemas.value_stores import Data, value_check, value_store
 from twinform.schemas.values import ValueType
 from twinform.schemas.xml import XmlElement, is_blank
 
@@ -15,7 +15,7 @@ Types = Mapping[str, ValueType]
 ReadAttribute = Callable[[XmlElement, str, Data, str, Context], None]
 """Reads an attribute: (element, text, node, path from the node, context)"""
 ReadText = Callable[[XmlElement, Data, str, Context], bool]
-"""Reads the text of an element: (element, node, path from the node, context); it says whether there was any"""
+"""Reads the text of an element: (element, node, path from the node, context); it returns whether there was any"""
 
 
 def attribute_reader(row: Fact, types: Types, version: Version, *, keep: bool) -> ReadAttribute:
@@ -46,7 +46,7 @@ def attribute_reader(row: Fact, types: Types, version: Version, *, keep: bool) -
 
 
 def text_reader(row: Fact, types: Types, place: str | None, *, keep: bool) -> ReadText:
-    """The reader of an element's text; it says whether there was any. Blank text means the default."""
+    """The reader of an element's text; it returns whether there was any. Blank text means the default."""
     value_type = types[row.type or "string"]
     parse, check, is_string, needed = value_type.parse, value_check(row), row.type == "string", row.needs_text
     store = value_store(row, place) if keep and place else None
@@ -56,7 +56,7 @@ def text_reader(row: Fact, types: Types, place: str | None, *, keep: bool) -> Re
         text = element.text or ""
         if is_string:
             text = text.strip(" \t\r\n")
-            # an empty parameter of URDF is a word like others
+            # an empty parameter of URDF is a value like others
             if expected and not text and context.format == "sdf":
                 messages.blank_value(context, element, value_type.expected)
         elif is_blank(text):

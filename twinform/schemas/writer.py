@@ -1,4 +1,4 @@
-"""From the IR to XML: closures built once for each format and version from the same facts as the reader's.
+"""The schema writer, from the IR to XML: closures built once for each format and version from the reader's facts.
 
 A writer writes what the node says, in the order of the facts, and decides nothing. It knows nodes only by the names of
 their fields. Children that came from a file keep the order that they had in it.
@@ -193,7 +193,7 @@ class Writer:
         return write
 
     def _own_node(self, row: Fact) -> WriteValue:
-        """The writer of a child node that may be there once. One that says nothing in this format is not written."""
+        """The writer of a child node that may be there once. One that is empty in this format is not written."""
         name, inner = row.name, self._inner(row)
 
         def write(child: Any, _: Any, element: XmlElement) -> None:

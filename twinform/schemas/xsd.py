@@ -77,7 +77,7 @@ class _Generator:
         return strict if self.normative else f"{strict} How often elements may stand is for the XSD 1.1 to say."
 
     def _fill(self, fact: Fact, complex_type: XmlElement, path: Path) -> None:
-        """Say in a complex type what an element holds. `path` also tells apart the names of the keys on the way."""
+        """Declare in a complex type what an element holds. `path` also tells apart the names of the keys on the way."""
         holder = complex_type
         if fact.type:
             holder = self.values.extension(fact, complex_type)
@@ -99,7 +99,7 @@ class _Generator:
         allow_attributes(holder, "##any" if fact.any or self.lenient else "##other")
 
     def _words(self, row: Fact, holder: Fact, path: Path) -> str:
-        """What is said of a row to people."""
+        """The documentation of a row."""
         return self.documentation.of(path, row, [each for each in holder.rows if each.name == row.name])
 
     def _children(self, fact: Fact, complex_type: XmlElement, path: Path) -> None:

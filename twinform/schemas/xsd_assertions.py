@@ -1,6 +1,6 @@
-"""Assertions of the XSD 1.1 schemas: what readers refuse, or cannot simulate, and no type or count can say.
+"""Assertions of the XSD 1.1 schemas: what readers refuse, or cannot simulate, and no type or count can express.
 
-The table pass and the rules on models say the same in words, so the gate asks for them no more than for keys.
+The schema reader and the rules on models report the same, so validation checks them no more than keys.
 """
 
 from collections.abc import Iterator
@@ -17,7 +17,7 @@ _NO_SCOPED_NAME = "not(contains(@name, '::'))"
 _RESERVED_SINCE = (1, 7)
 _SCOPED_SINCE = (1, 8)
 _NAMED = frozenset({"world", "model", "link", "joint", "frame", "visual", "collision", "sensor", "light"})
-"""Definitions of SDF whose names libsdformat looks at."""
+"""Definitions of SDF whose names libsdformat checks."""
 
 _MOVED = (
     "joint or actuator or passive_joint or leftActuator or rightActuator or flexJoint or rollJoint or gap_joint or "
@@ -36,7 +36,7 @@ _SHAPES = ("geometry", "_shape")
 
 
 def declare_assertions(facts: Table, version: Version, fact: Fact, complex_type: XmlElement, path: Path) -> None:
-    """Say at the end of a complex type what must hold for the element of a row."""
+    """Add to the end of a complex type what must hold for the element of a row."""
     for test in _tests(facts, version, fact, path):
         xs(complex_type, "assert", test=test)
 

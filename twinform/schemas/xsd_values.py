@@ -22,7 +22,7 @@ _BOOL = "[tT][rR][uU][eE]|[fF][aA][lL][sS][eE]|0|1"
 
 @dataclass(frozen=True, slots=True)
 class Words:
-    """Text of so many words of one pattern."""
+    """Text of so many tokens of one pattern."""
 
     pattern: str
     least: int = 1
@@ -114,7 +114,7 @@ class Values:
             xs(blank, "length", value="0")
 
     def _enum(self, row: Fact) -> tuple[str, ...]:
-        """The words of an enumeration; in a lenient schema also those of dialects and of other versions."""
+        """The values of an enumeration; in a lenient schema also those of dialects and of other versions."""
         others = (*(word for word, _ in row.also), *row.elsewhere) if self.lenient else ()
         return (*row.enum, *others)
 

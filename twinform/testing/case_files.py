@@ -1,4 +1,4 @@
-"""Cases as data: a model file that says itself what the compiler should find in it.
+"""Test cases as data: a model file whose comments have the diagnostics that are expected in it.
 
 A comment `<!-- expect: severity rule-name -->` stands on the line that the finding is reported at; several of them may
 stand there. Findings of severity `info` need not be listed, but those that are must be there; errors and warnings must

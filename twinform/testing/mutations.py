@@ -163,9 +163,9 @@ MUTATIONS: Mapping[str, tuple[type[Node], Change]] = {
 }
 """What kind of node is changed, and how; the first node that can be is."""
 OF_SDF = frozenset({"gravity", "place of a frame", "turn of a frame", "radius of a capsule", "radii of an ellipsoid"})
-"""What URDF has no word for."""
+"""What URDF has no element for."""
 OF_URDF = frozenset({"color", "place of a joint", "turn of a joint"})
-"""In SDF, links stay where they are when only their joint is said at another place."""
+"""In SDF, links stay where they are when only their joint is written at another place."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""Cases of passes as data: a model that says itself which pipeline runs over it and what that finds.
+"""Test cases of passes as data: a model file with the pipeline to run and the expected diagnostics.
 
 A comment `<!-- passes: PIPELINE -->` names the passes; what `case_files.py` says of `expect` holds here for what they
 report and what is found in the source. They run in the folder of the file, where relative paths begin. Beside
@@ -41,7 +41,7 @@ class PassCase(Case):
 
     @property
     def rules(self) -> frozenset[str]:
-        """Every rule that has something to say, be it a finding or an entry of the ledger."""
+        """Every rule that was reported, be it by a finding or an entry of the ledger."""
         said: tuple[Diagnostic | Entry, ...] = self._made.diagnostics
         if isinstance(self._made, Conversion):
             said = (*said, *self._made.ledger.entries)

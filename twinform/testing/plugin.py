@@ -77,10 +77,10 @@ class CheckItem(_ModelItem):
 
 
 class RoundTripItem(_ModelItem):
-    """Whether the file comes home from the other format as it was."""
+    """Whether the file is restored by a round trip through the other format."""
 
     def runtest(self) -> None:
-        """Convert it there and back."""
+        """Convert it to the other format and back."""
         from twinform import load  # noqa: PLC0415 - as above
         from twinform.testing.properties import assert_round_trip  # noqa: PLC0415 - as above
 

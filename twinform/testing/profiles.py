@@ -1,4 +1,4 @@
-"""How deep Hypothesis looks, by name: `settings.load_profile("twinform-deep")`."""
+"""Hypothesis profiles, by how deep they search: `settings.load_profile("twinform-deep")`."""
 
 import sys
 

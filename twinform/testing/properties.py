@@ -35,7 +35,7 @@ def assert_valid(model: Model, *, strict: bool = False) -> Document:
 
 
 def assert_round_trip(model: Model, *, via: Language | None = None, sdf_version: str | None = None) -> None:
-    """There and back: written and read it is the same document; through the other format the same robot and words.
+    """Round trips: written and read it is the same document; through the other format the same robot and texts.
 
     Through the other format, every name, attribute and text that is not the spelling of a default is back, and nothing
     else has come along: `twinform.normal_form`. `sdf_version` is the version of SDF to go through.

@@ -1,4 +1,4 @@
-"""There and back: what of a robot goes to the other format, how it comes home, and what is not as it was."""
+"""Round trips through the other format: conversion, reverse conversion, and what is not restored."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ ANOTHER_ROBOT = "another robot"
 
 
 class Astray(NamedTuple):
-    """One thing that is not as it was. `kind` is that of a discrepancy of normal forms, or says that the robot differs.
+    """One thing that is not as it was. `kind` is that of a discrepancy of normal forms, or of a robot that differs.
 
     `path` is its XPath in the source, or where that has nothing of the kind in what came back.
     """
@@ -35,7 +35,7 @@ class Astray(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class RoundTrip:
-    """A robot that is taken to the other format and home again: `text` is what has to come back."""
+    """A robot for a round trip through the other format: `text` is what has to be restored."""
 
     text: bytes
     format: Format
@@ -45,7 +45,7 @@ class RoundTrip:
     def of(
         cls, source: Path | bytes, document: Document, *, model: str | None = None, paths: Iterable[str | Path] = ()
     ) -> Self:
-        """That of a file or text which says `document`; of several models in it, of the one of this name.
+        """That of a file or text with the content `document`; of several models in it, of the one of this name.
 
         What has to come back is all of it. Where there is more than one model in it, that is the model alone, and the
         model has what it includes in it, since URDF has neither worlds nor includes.
@@ -57,7 +57,7 @@ class RoundTrip:
         return cls(emit(alone, DiagnosticSink()).encode(), alone.format, alone.version)
 
     def back(self, there: str) -> str:
-        """What comes home of a text in the other format, in the version that the robot went in.
+        """The reverse conversion of a text in the other format, in the version that the robot went in.
 
         Raises:
             CompileError: it is refused.
@@ -68,7 +68,7 @@ class RoundTrip:
         return convert(there.encode(), to="sdf", sdf_version=known).text
 
     def astray(self, back: str) -> Iterator[Astray]:
-        """What is not as it was: the robot, its first difference, or words of the file."""
+        """What is not as it was: the robot, its first difference, or texts of the file."""
         found = diff(self.text, back.encode()).differences
         if found:
             yield Astray(ANOTHER_ROBOT, found[0].a.location.path or found[0].b.location.path, found[0].message)

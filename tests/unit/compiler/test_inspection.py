@@ -6,7 +6,7 @@ from typing import ClassVar
 import pytest
 
 import twinform
-from twinform.compiler import LookingError
+from twinform.compiler import ReadOnlyPassError
 from twinform.diagnostics import Diagnostic, DiagnosticSink
 from twinform.diagnostics.rules.limits import EMPTY_RANGE
 from twinform.ir import Document
@@ -131,7 +131,7 @@ def test_passes_that_do_more_are_refused(passes: str, why: str | None) -> None:
         with pytest.raises(PipelineError):
             twinform.check(MOVING.encode(), passes=passes)
         return
-    with pytest.raises(LookingError, match=why):
+    with pytest.raises(ReadOnlyPassError, match=why):
         twinform.check(MOVING.encode(), passes=passes)
 
 

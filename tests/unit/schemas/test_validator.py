@@ -1,4 +1,4 @@
-"""The gate: silent about what the table pass said, loud about what it did not."""
+"""XSD validation: silent about what the schema reader reported, loud about what it did not."""
 
 import subprocess
 import sys
@@ -16,9 +16,9 @@ from twinform.schemas import (
     SchemaError,
     Version,
     XmlElement,
-    gate,
     libxml2_errors,
     reader,
+    validate,
     validator,
     xmlschema_errors,
 )
@@ -96,7 +96,7 @@ def test_the_gate_agrees_with_the_table_pass(what: str, engine: Engine, strict: 
     root = etree.fromstring(text)
     context = _read(name, root, strict=strict)
     said = list(context.sink.diagnostics)
-    gate(root, context, engine)
+    validate(root, context, engine)
     assert context.sink.diagnostics == said
 
 
@@ -106,7 +106,7 @@ def test_the_gate_leaves_the_tree_alone(what: str, engine: Engine):
     name, text = DOCUMENTS[what]
     root = etree.fromstring(text)
     before = etree.tostring(root)
-    gate(root, _read(name, root), engine)
+    validate(root, _read(name, root), engine)
     assert etree.tostring(root) == before
 
 
@@ -114,7 +114,7 @@ def test_the_gate_leaves_the_tree_alone(what: str, engine: Engine):
 def test_what_the_table_pass_did_not_speak_of_is_a_disagreement(engine: Engine):
     root = etree.fromstring("<robot name='r'>\n<link name='a'/>\n<links/>\n<link name='b' mass='1'/></robot>")
     silent = _context("urdf")
-    gate(root, silent, engine)
+    validate(root, silent, engine)
     assert 3 in _of_two_minds(silent) or 1 in _of_two_minds(silent)
     assert 4 in _of_two_minds(silent) or engine == "libxml2"  # libxml2 passes over the siblings of an unknown child
     assert silent.sink.has_errors
@@ -126,7 +126,7 @@ def test_faults_are_found_again_by_their_lines(engine: Engine, blank_lines: int)
     start = "\n" * blank_lines
     root = etree.fromstring(f"<robot name='r'>{start}\n<links/>\n<link name='a'><visual/></link>\n<link/></robot>")
     context = _read("urdf", root)
-    gate(root, context, engine)
+    validate(root, context, engine)
     assert _of_two_minds(context) == []
 
 
@@ -136,7 +136,7 @@ def test_a_fault_explains_only_its_own_element(engine: Engine):
     root = etree.fromstring(text)
     context = _read("urdf", root)
     context.tolerated.clear()  # as if the table pass had not seen the mass
-    gate(root, context, engine)
+    validate(root, context, engine)
     assert _of_two_minds(context) == [4]
 
 
@@ -149,7 +149,7 @@ def test_a_valid_document_is_asked_about_once(monkeypatch: pytest.MonkeyPatch):
 
     monkeypatch.setattr(validator, "libxml2_errors", count)
     root = etree.fromstring(DOCUMENTS["nothing"][1])
-    gate(root, _read("urdf", root))
+    validate(root, _read("urdf", root))
     assert asked == [root]
 
 

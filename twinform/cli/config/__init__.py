@@ -1,4 +1,4 @@
-"""What a project sets for itself, in `twinform.toml` or under `[tool.twinform]` in `pyproject.toml`."""
+"""Project configuration: settings in `twinform.toml` or under `[tool.twinform]` in `pyproject.toml`."""
 
 from twinform.cli.config.errors import ConfigError
 from twinform.cli.config.options import config_options, settings_of

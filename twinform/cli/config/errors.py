@@ -1,4 +1,4 @@
-"""How a configuration can be wrong."""
+"""The error of a configuration file that is wrong."""
 
 from pathlib import Path
 
@@ -8,7 +8,7 @@ _SECTION = "tool.twinform"
 
 
 class ConfigError(Unusable):
-    """A configuration is wrong: says the file, the line where it is known, and the key."""
+    """A configuration is wrong: names the file, the line where it is known, and the key."""
 
     def __init__(self, file: Path, problem: str, *, key: str = "", line: int | None = None) -> None:
         key = f"{_SECTION}{'.' if key else ''}{key}" if file.name == "pyproject.toml" and line is None else key

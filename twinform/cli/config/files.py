@@ -43,7 +43,7 @@ def _project(start: Path) -> Iterator[Path]:
 
 
 def _look(path: Path) -> Table | None:
-    """What a file on the way up says, if it says anything for us. Another project's faults are not our business."""
+    """The settings of a file on the way up, if it has any for twinform; other tools' faults do not count."""
     if path.name == _SHARED and b"twinform" not in _bytes(path):
         return None
     return section(path)

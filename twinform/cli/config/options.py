@@ -19,7 +19,7 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 _KEY = f"{__name__}.project"
 _TRUSTED = f"{__name__}.trusted"
 _DEFAULTS = ("sdf_version", "urdf_version", "strict", "carriers", "passes", "check_passes")
-"""Settings that are what an option is where the command line says nothing."""
+"""Settings that are what an option is where the command line has none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +51,7 @@ class Project:
 
         Raises:
             UnknownPipelineError: there is none.
-            ConfigError: what the file says is no pipeline, or none that may come from it.
+            ConfigError: the text in the file is no pipeline, or none that may come from it.
         """
         return self.confined(self.names(name), f"pipelines.{name}")
 

@@ -14,10 +14,10 @@ class NamedPipelines:
     """Called with a name, gives its pipeline. A pipeline may name others, but not itself."""
 
     def __init__(self, path: Path, raw: Mapping[str, object]) -> None:
-        """`raw` has what the file at `path` says of each.
+        """`raw` has the text of each in the file at `path`.
 
         Raises:
-            ConfigError: a name cannot be said as `@NAME`.
+            ConfigError: a name cannot be written as `@NAME`.
         """
         self.path, self.raw = path, raw
         self._open: list[str] = []
@@ -31,7 +31,7 @@ class NamedPipelines:
 
         Raises:
             UnknownPipelineError: there is none, or it is needed for itself.
-            ConfigError: what the file says is no pipeline.
+            ConfigError: the text in the file is no pipeline.
         """
         if name not in self.raw:
             raise UnknownPipelineError(f"no pipeline is called {name} in {self.path}{nearest(name, list(self.raw))}")

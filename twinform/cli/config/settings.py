@@ -1,4 +1,4 @@
-"""What can be set."""
+"""The settings that a configuration file can have."""
 
 import os
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""How far a configuration is trusted: what it may read and write where nobody has said `--trust-config`.
+"""How far a configuration is trusted: what it may read and write without `--trust-config`.
 
 Whoever calls the command may not have written the configuration that is found: it may have come with a download, or lie
 in a folder that others write into. So it names no folder or file outside of its own folder, and a pass that makes a

@@ -1,4 +1,4 @@
-"""The run over all models of a folder. No model is opened here: that is done in the processes that may die."""
+"""Runs a batch over all models of a folder. No model is opened here, only in worker processes, which may crash."""
 
 import json
 from collections.abc import Iterator, Mapping
@@ -44,7 +44,7 @@ class Batch:
 
     @property
     def digest(self) -> str:
-        """What tells orders apart: all that has a say in the results besides the model."""
+        """What tells requests apart: all that the results depend on besides the model."""
         request, load_options = self.request, self.load_options
         asked: list[object] = [
             version("twinform"),
@@ -79,7 +79,7 @@ class Batch:
 
 @dataclass(frozen=True, slots=True)
 class _Job:
-    """A model before the work on it; `known` is what earlier runs say of it."""
+    """A model before the work on it; `known` is its record from earlier runs."""
 
     name: PurePosixPath
     blank: Record

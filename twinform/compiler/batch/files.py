@@ -68,7 +68,7 @@ def _folded(path: PurePosixPath) -> str:
 
 
 def alone(path: Path, content: bytes) -> bool:
-    """Whether a model is surely made of this file alone, so that its digest says whether anything has changed.
+    """Whether a model is surely made of this file alone, so that its digest shows whether anything has changed.
 
     An automatic inertia is computed from meshes; in UTF-16, which has zero bytes, nothing is looked for.
     """

@@ -1,4 +1,4 @@
-"""What is known of earlier runs: a line of JSON for each model that was worked on, the last one counts."""
+"""The manifest of earlier runs: a line of JSON for each converted model, of which the last one counts."""
 
 import errno
 import hashlib

@@ -1,4 +1,4 @@
-"""Where the results of a batch go, and which of these places are taken: by a model, another result, or a device."""
+"""Output paths of a batch, and which of them are taken by a model, another result, or a device."""
 
 import os
 from collections import Counter

@@ -1,4 +1,4 @@
-"""The work on one model, in a process of its own: only there the model is opened."""
+"""The conversion of one model of a batch, in a process of its own."""
 
 from dataclasses import dataclass, field, replace
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""From which frame the contents of a link are seen, so that what moved above it is found once.
+"""Frame alignment: from which frame a link's contents are compared, so that a moved parent is reported once.
 
 A file may put the frame of a link anywhere: on its joint, as URDF does, or elsewhere. So contents are compared in a
 frame that both files have: that of the joint that carries the link. Where that joint is not at the same place in both,

@@ -1,4 +1,4 @@
-"""What carriers hold counts as said: a robot does not change by traveling in the other format."""
+"""Values in carriers count as if they were written in the file: conversion does not change a robot."""
 
 from collections.abc import Iterator
 from copy import deepcopy
@@ -11,11 +11,11 @@ from twinform.schemas import Fact, XmlElement, table
 
 _CARRIER = {name: f"{{{NAMESPACE}}}{name}" for name in ("sdf", "urdf", "version")}
 _OF_THE_FILE = frozenset({"pose", "version"})
-"""What says how the other file wrote it, and not what it says."""
+"""How the other file spelled a value, which is not the value."""
 
 
 def unpack_sdf(element: XmlElement, fact: Fact) -> None:
-    """Put what carriers of SDF hold into their places in the tree, where nothing is said instead; it is marked."""
+    """Put what carriers of SDF hold into their places in the tree, where nothing is written instead; it is marked."""
     for carrier in list(element.iter(_CARRIER["sdf"], _CARRIER["version"])):
         parent = carrier.getparent()
         if parent is None or _is_in_carrier(carrier) or carrier.get("instead") or carrier.get("without"):

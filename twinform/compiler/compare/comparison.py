@@ -7,7 +7,7 @@ from twinform.diagnostics import NOWHERE, Location
 
 
 class Severity(StrEnum):
-    """A `difference` makes two robots different; a `note` says that the same thing is said in another way."""
+    """A `difference` makes two robots different; a `note` is on the same thing, written in another way."""
 
     DIFFERENCE = "difference"
     NOTE = "note"
@@ -15,7 +15,7 @@ class Severity(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Side:
-    """What one file says: the value as text, in SI units, or None where it says nothing; and where."""
+    """The value in one file, as text in SI units, or None where it has none; and where."""
 
     text: str | None = None
     location: Location = NOWHERE
@@ -65,5 +65,5 @@ class Comparison:
 
     @property
     def notes(self) -> tuple[Difference, ...]:
-        """What is said in different ways, and is the same."""
+        """What is written in different ways, and is the same."""
         return tuple(item for item in self.items if item.severity is Severity.NOTE)

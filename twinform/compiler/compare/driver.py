@@ -3,10 +3,10 @@
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
+from twinform.compiler.compare.canonical_sdf import Robots, read_robots
+from twinform.compiler.compare.compare_robots import compare_robots
 from twinform.compiler.compare.comparison import Comparison, Difference
 from twinform.compiler.compare.findings import Findings, Subject, Terms
-from twinform.compiler.compare.judge import compare_robots
-from twinform.compiler.compare.language import Robots, read_robots
 from twinform.compiler.compare.robot import Robot
 from twinform.compiler.errors import CompileError
 from twinform.compiler.input.loading import Input, LoadOptions, garbage_collection_paused, name_of_input

@@ -1,4 +1,4 @@
-"""Collects what differs, and decides how much it weighs."""
+"""Collects the differences of two robots, and decides on their severity."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -102,7 +102,7 @@ class Findings:
         only: Format | None = None,
         carried: bool = False,
     ) -> None:
-        """Add what only one of the robots has; a note where the other's format has no word for it."""
+        """Add what only one of the robots has; a note where the other's format has no element for it."""
         terms = self.terms
         here, other = (terms.a, terms.format_b) if in_a else (terms.b, terms.format_a)
         name = f"{aspect} of {subject}" if aspect else str(subject)

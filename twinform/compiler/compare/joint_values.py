@@ -1,4 +1,4 @@
-"""What the numbers of joints mean: which of them count for a type, in which unit, and where they are infinite."""
+"""The values of joints by type: which of them count, in which unit, and where limits are infinite."""
 
 import math
 from collections.abc import Mapping

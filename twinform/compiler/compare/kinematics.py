@@ -1,4 +1,4 @@
-"""Where every link is when the joints move: forward kinematics of both robots at the same joint positions."""
+"""Forward kinematics of both robots at the same joint positions."""
 
 import math
 import zlib

@@ -4,8 +4,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 from twinform.compiler.compare.robot import Leaf
-from twinform.compiler.compare.typed import typed_value
-from twinform.compiler.compare.values import Numbers, Place, Value, Words
+from twinform.compiler.compare.values import Numbers, Place, Value, Words, typed_value
 from twinform.diagnostics import Location
 from twinform.ir import Pose
 from twinform.ir.transform import Transform
@@ -19,12 +18,12 @@ CARRIED = f"{{{NAMESPACE}}}carried"
 """The attribute of elements that came out of a carrier."""
 _OURS = f"{{{NAMESPACE}}}"
 _SAYS_BY_BEING_THERE = frozenset({"geometry", "material", "mimic"})
-"""Containers that mean something without a word in them; which shape is in a geometry is a value of it."""
+"""Containers that mean something when they are empty; which shape is in a geometry is a value of it."""
 _WITHOUT_MEANING = frozenset({"frame"})
-"""Elements of older versions that no reader looks at."""
+"""Elements of older versions that no reader uses."""
 _POSES = frozenset({"pose", "inertial_pose"})
 THERE = Words("there")
-"""What says that a thing is there at all."""
+"""The value that states that a thing is there at all."""
 
 Resolve = Callable[[Pose, Transform], Transform]
 """Where a pose is in the model, which is in a frame that is there unless it names another: (pose, frame)"""
@@ -110,7 +109,7 @@ class Walk:
             self.enter(child, fact, here, f"{path}/", carried=carried)
 
     def _put(self, path: str, value: Value, default: Value | None, *, carried: bool) -> None:
-        """Of what is said twice, the first counts."""
+        """Of what is written twice, the first counts."""
         self.found.setdefault(path, Leaf(value, default, self.where(path), carried=carried))
 
 

@@ -1,4 +1,4 @@
-"""Links that one file has and the other has made a part of the link that they are fixed to.
+"""Lumped links: links of one file that the other has merged into the link that they are fixed to.
 
 libsdformat does so with every fixed joint of URDF. Nothing of the robot changes by it: mass and inertia add up, and
 what the link shows and touches with stays where it is.

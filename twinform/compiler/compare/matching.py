@@ -1,4 +1,4 @@
-"""Which part of one robot is which of the other: by name, and shapes, whose names mean little, by what they are."""
+"""Matches the parts of two robots: by name, and shapes, whose names mean little, by their geometry."""
 
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator
@@ -137,7 +137,7 @@ def _shape(part: Part) -> object:
 
 
 def is_same(a: Part, b: Part, terms: Terms, base: Base) -> bool:
-    """Whether two parts say the same but for their names."""
+    """Whether two parts are equal but for their names."""
     found = Findings(terms)
     compare_leaves(found, Subject("", ""), a.leaves, b.leaves, base, carried=a.carried or b.carried)
     return not found.items

@@ -18,7 +18,7 @@ from twinform.ir.transform import Transform
 class Leaf:
     """A value and what it is where it is not written.
 
-    `only` is the format that alone has a word for it. What is `carried` is there for this compiler alone.
+    `only` is the one format that has an element for it. What is `carried` is there for this compiler alone.
     """
 
     value: Value

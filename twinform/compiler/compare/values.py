@@ -9,7 +9,7 @@ from twinform.ir import Vector3
 from twinform.ir.principal_moments import Symmetric
 from twinform.ir.solids import ELEMENTS, turned
 from twinform.ir.transform import Transform
-from twinform.schemas import format_value
+from twinform.schemas import format_value, parse_value
 
 _DIGITS = 10
 
@@ -207,3 +207,29 @@ def _row(values: Sequence[float]) -> str:
 def _number(value: float) -> str:
     """To ten digits; zeros that rounding left are zeros."""
     return f"{0.0 if abs(value) < 1e-15 else value:.{_DIGITS}g}"
+
+
+NUMBERS = frozenset({"double", "int", "uint", "vector3", "vector2d", "vector2i", "quaternion", "time"})
+COLORS = frozenset({"color", "color4"})
+_WITH_ALPHA = 4
+
+
+def typed_value(type: str | None, text: str, format: str = "sdf", unit: str = "") -> Value | None:
+    """A text as a truth or as numbers, where its type has such; None where the type is only text.
+
+    What is not of its type is kept as text.
+    """
+    if type != "bool" and type not in NUMBERS and type not in COLORS:
+        return None
+    try:
+        parsed = parse_value(type, text, format)
+    except ValueError:
+        return Words(text)
+    if isinstance(parsed, bool):
+        return Flag(parsed)
+    numbers = tuple(map(float, text.split())) if isinstance(parsed, tuple) else (float(str(parsed)),)
+    return Numbers(_with_alpha(numbers) if type in COLORS else numbers, unit)
+
+
+def _with_alpha(color: tuple[float, ...]) -> tuple[float, ...]:
+    return color if len(color) == _WITH_ALPHA else (*color, 1.0)

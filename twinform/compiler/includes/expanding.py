@@ -1,4 +1,4 @@
-"""Reading the files that includes name, for `passes/includes`, which puts them in their place."""
+"""Reads the files that includes name, for `passes/includes`, which puts them in their place."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -72,7 +72,7 @@ def expand(
 
 
 def _verify(document: Document, sink: DiagnosticSink) -> None:
-    """What only shows when all is in one place; the rest was said when the files were read."""
+    """Verify what only shows when all is in one place; the rest was reported when the files were read."""
     found = DiagnosticSink(sink.file, sink.strict)
     verify(document, found)
     seen = set(sink.diagnostics)
@@ -150,7 +150,7 @@ class _Reader:
         return usual if usual.is_file() else None
 
     def _file(self, include: Include, path: Path, around: Document, above: tuple[Path, ...]) -> _File | None:
-        """An included file, expanded; None where it cannot be, which the notes then say."""
+        """An included file, expanded; None where it cannot be, which the diagnostics then report."""
         real = path.resolve()
         if not path.is_file():
             message = f"{include.uri!r} is {str(path)!r}, which is no file"

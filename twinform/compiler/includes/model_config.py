@@ -1,4 +1,4 @@
-"""The model.config of a folder: which of its SDF files is the model."""
+"""Reads the model.config of a folder: which of its SDF files is the model."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -28,7 +28,7 @@ def manifest(folder: Path) -> Path | None:
 def model_file(config: Path, asked: Version | None, sink: DiagnosticSink) -> Path | None:
     """The newest SDF file that a model.config names and that is not newer than asked, or else the newest.
 
-    None where it names none that can be read; the notes then say why.
+    None where it names none that can be read; the diagnostics then tell why.
     """
     own = DiagnosticSink(file=str(config), strict=sink.strict)
     try:

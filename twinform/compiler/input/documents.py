@@ -12,7 +12,7 @@ from twinform.ir.verify import verify
 
 
 def check_document(document: Document, sink: DiagnosticSink) -> LoadResult:
-    """Say everything that is wrong with a document, as if it were a file: it is, once it is written."""
+    """Report everything that is wrong with a document, as if it were a file: it is, once it is written."""
     try:
         tree = document_tree(document)
     except (ValueError, IndexError) as error:  # a name that is none in XML; no model at all

@@ -73,7 +73,7 @@ def _chosen(found: list[XmlElement], place: str | None) -> list[XmlElement]:
 
 
 def line_of_text(root: XmlElement, where: Location, text: str) -> int:
-    """The line of the first part in what a location leads to that says this text; 0 where there is none."""
+    """The line of the first part in what a location leads to that has this text; 0 where there is none."""
     start = _found(root, where, _Children())
     if start is None:
         return 0

@@ -1,11 +1,11 @@
-"""What is wrong in the `<gazebo>` elements of a URDF file."""
+"""Checks the `<gazebo>` elements of a URDF file."""
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 
 
 def check_extensions(document: Document, sink: DiagnosticSink) -> None:
-    """Fold them as a conversion would, only to see what it has to say."""
+    """Fold them as a conversion would, only for its diagnostics."""
     if not any(model.extensions for model in document.models):
         return
     from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo  # noqa: PLC0415 - most files have none

@@ -1,4 +1,4 @@
-"""How large a file may be: far more than any robot needs, far less than fills a memory.
+"""Size limits for input: far more than any robot needs, far less than fills the memory.
 
 What is counted here is counted in the bytes, before there is a tree, since the tree is what fills the memory.
 """

@@ -1,4 +1,4 @@
-"""From text to a verified document: parse, read, gate, build the IR."""
+"""Loads a file into a verified document: parse, read by the schema, validate with the XSD, build the IR."""
 
 import gc
 import re
@@ -18,6 +18,7 @@ from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.gazebo_extensions import check_extensions
 from twinform.compiler.input.limits import excess_of_json
 from twinform.compiler.input.options import Input, LoadOptions, LoadResult, expanded_name, name_of_input
+from twinform.compiler.input.parser_quirks import report_split_values, report_tabbed_numbers
 from twinform.compiler.input.parsing import (
     UnreadableError,
     parse,
@@ -25,8 +26,6 @@ from twinform.compiler.input.parsing import (
     refuse_excess,
     strip_default_namespace,
 )
-from twinform.compiler.input.split_values import report_split_values
-from twinform.compiler.input.tabbed_numbers import report_tabbed_numbers
 from twinform.compiler.input.unexpanded_xacro import report_unexpanded
 from twinform.compiler.search.uris import SearchPath
 from twinform.diagnostics import DiagnosticSink, Location
@@ -40,12 +39,12 @@ from twinform.schemas import (
     Version,
     XmlElement,
     declared_namespaces,
-    gate,
     parse_version,
     print_version,
     refusals,
     table,
     undeclared_prefix,
+    validate,
 )
 
 _ROOTS: dict[str, tuple[str, Callable[[XmlElement, Context], Mapping[str, Any]]]] = {
@@ -68,7 +67,7 @@ _WITHOUT_VERSION = {"urdf": (1, 0)}
 
 
 def read(source: Input, load_options: LoadOptions, *, name: str = "") -> LoadResult:
-    """Read a file, the bytes of one or a document, and say what is wrong with it; `name` stands for it in findings."""
+    """Read a file, the bytes of one or a document, and report what is wrong; `name` stands for it in findings."""
     sink = DiagnosticSink(file=name or name_of_input(source), strict=load_options.strict)
     with garbage_collection_paused():
         if isinstance(source, Document):
@@ -200,7 +199,7 @@ def read_document(text: bytes, sink: DiagnosticSink, engine: Engine) -> tuple[Do
     context.simple = context.clean and _is_plain(text, sink)
     data = lower(root, context)
     if errors:
-        gate(root, context, engine, errors)
+        validate(root, context, engine, errors)
     data = {**data, "namespaces": _namespaces(root, namespace, inside=_declares_inside(root, text, sink))}
     if sink.has_errors:
         return _verify_what_is_there(data, sink), root
@@ -230,7 +229,7 @@ def read_tree(text: bytes, sink: DiagnosticSink) -> tuple[XmlElement, str | None
 def lower_tree(root: XmlElement, sink: DiagnosticSink, *, valid: bool = False) -> Document:
     """The document of a tree that we have written ourselves; errors in the notes where it is not valid after all.
 
-    `valid` says that its schema has seen it already.
+    `valid` means that the XSD has accepted it already.
     """
     format_, lower = _ROOTS[str(root.tag)]
     context = Context(sink, sink.file, format_, declared_version(root, format_, sink))
@@ -238,7 +237,7 @@ def lower_tree(root: XmlElement, sink: DiagnosticSink, *, valid: bool = False) -
     context.clean = not errors
     data = lower(root, context)
     if errors:
-        gate(root, context, "libxml2", errors)
+        validate(root, context, "libxml2", errors)
     return Document.model_validate({**data, "namespaces": _namespaces(root, None)})
 
 
@@ -258,7 +257,7 @@ def _verify_what_is_there(data: Mapping[str, Any], sink: DiagnosticSink) -> Docu
 
 
 def declared_version(root: XmlElement, format_: str, sink: DiagnosticSink) -> Version:
-    """The version that the table pass goes by: the declared one where the format has it, else the newest."""
+    """The version that the schema reader goes by: the declared one where the format has it, else the newest."""
     facts, declared = table(format_), root.get("version")
     if declared is None and format_ in _WITHOUT_VERSION:
         return _WITHOUT_VERSION[format_]

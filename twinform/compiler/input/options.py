@@ -1,4 +1,4 @@
-"""What is read, how, and what is found: the words that all of the compiler has for it."""
+"""`LoadOptions` and `LoadResult`: how a file is read, and what was found in it."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -17,7 +17,7 @@ Input = str | Path | bytes | Document
 class LoadOptions:
     """How files are read.
 
-    `search` are the folders for URIs, `arguments` those of xacro. `xacro` says which files are expanded: by default
+    `search` are the folders for URIs, `arguments` those of xacro. `xacro` selects which files are expanded: by default
     those whose name ends so, all where it is true, and none where it is false.
     """
 
@@ -30,7 +30,7 @@ class LoadOptions:
 
 @dataclass(frozen=True, slots=True)
 class LoadResult:
-    """What `check` found. `unreadable` says that there is no model at all: no file, no XML, or another format.
+    """What `check` found. `unreadable` means that there is no model at all: no file, no XML, or another format.
 
     The document may be there in spite of errors; `accepted` says whether it has any. `tree` is the XML that it came
     from, and `origins` lead from its lines to where they were written if it was expanded. Where includes were expanded,

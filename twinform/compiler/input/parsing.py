@@ -34,7 +34,7 @@ _UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 
 class UnreadableError(Exception):
-    """There is no tree; the notes say why."""
+    """There is no tree; the diagnostics tell why."""
 
 
 def read_bytes(path: Path, sink: DiagnosticSink) -> bytes:

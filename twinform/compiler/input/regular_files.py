@@ -1,4 +1,4 @@
-"""Reading files that may be no files: pipes, devices and sockets are told from files before anybody waits for them."""
+"""Reads regular files only: pipes, devices and sockets are refused before a read could block."""
 
 import errno
 import os

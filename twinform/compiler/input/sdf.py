@@ -1,4 +1,4 @@
-"""SDF to IR."""
+"""SDF front end: from an `<sdf>` tree to the data of the IR."""
 
 from collections.abc import Mapping
 from typing import Any

@@ -1,4 +1,4 @@
-"""Files of xacro that are not called so: macros and `${...}` that nobody will expand."""
+"""Detects xacro in files that are not named so: macros and `${...}` that nobody will expand."""
 
 from collections.abc import Iterator
 

@@ -1,4 +1,4 @@
-"""URDF to IR."""
+"""URDF front end: from a `<robot>` tree to the data of the IR."""
 
 from collections.abc import Mapping
 from typing import Any

@@ -1,4 +1,4 @@
-"""Text that is not quite XML: what can be mended without any doubt, and what to tell the author of the rest."""
+"""XML recovery: repairs malformed XML where the meaning is certain, and reports the rest."""
 
 import re
 from collections.abc import Iterable
@@ -14,7 +14,7 @@ REPAIRS = {
 """What libxml2 recovers from without any doubt about the tree, and what the author should do instead."""
 
 LIMITS = "elements are more than 256 deep, a text has more than 10 MB, or entities make more of it than they are"
-"""What libxml2 refuses whatever it says."""
+"""What libxml2 refuses whatever its content is."""
 
 LOST_BRACKET = "write <?xml, with the '<', at the beginning"
 

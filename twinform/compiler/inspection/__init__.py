@@ -1,4 +1,4 @@
-"""What `check` looks at beyond what makes a document valid: named files, driven joints, mass of moving links, passes.
+"""Checks of `twinform check` beyond validity: named files, driven joints, mass of moving links, read-only passes.
 
 A conversion asks none of this; the passes that it runs say what becomes of such parts.
 """
@@ -10,20 +10,20 @@ from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.loading import LoadOptions, LoadResult
 from twinform.compiler.inspection.contact_sensors import report_contact_sensors
 from twinform.compiler.inspection.driven_joints import report_driven_joints
-from twinform.compiler.inspection.looking import LookingError, look
 from twinform.compiler.inspection.massless import report_massless
 from twinform.compiler.inspection.named_files import report_named_files
+from twinform.compiler.inspection.read_only_passes import ReadOnlyPassError, run_read_only
 from twinform.diagnostics import Diagnostic, DiagnosticSink
 from twinform.passes import Pipeline
 
-__all__ = ["LookingError", "inspect"]
+__all__ = ["ReadOnlyPassError", "inspect"]
 
 
 def inspect(loaded: LoadResult, load_options: LoadOptions, passes: Pipeline | None = None) -> LoadResult:
-    """The same with what is found in a document that was read; `passes` look at one that has no error.
+    """The same with what is found in a document that was read; `passes` are run on one that has no error.
 
     Raises:
-        LookingError: a pass would change the document.
+        ReadOnlyPassError: a pass would change the document.
         PassError: a pass is at fault.
     """
     document = loaded.document
@@ -40,7 +40,7 @@ def inspect(loaded: LoadResult, load_options: LoadOptions, passes: Pipeline | No
     whole.extend_new(_placed(sink, loaded))
     if passes and loaded.accepted:
         found = DiagnosticSink(file, load_options.strict)
-        look(document, passes, found, Path(loaded.path), load_options)
+        run_read_only(document, passes, found, Path(loaded.path), load_options)
         whole.extend_new(_placed(found, loaded))
     ordered = sorted(whole.diagnostics, key=lambda each: each.location.line)
     return replace(loaded, diagnostics=tuple(ordered))

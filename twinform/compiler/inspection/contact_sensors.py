@@ -1,4 +1,4 @@
-"""Contact sensors in the `<gazebo>` elements of URDF that look at a collision which is not there."""
+"""Contact sensors in the `<gazebo>` elements of URDF that name a collision which is not there."""
 
 from twinform.diagnostics import DiagnosticSink, did_you_mean
 from twinform.diagnostics.rules.bodies import UNKNOWN_COLLISION

@@ -11,7 +11,7 @@ from twinform.passes.control.carried_elements import elements
 _HOLDERS = ("transmission", "ros2_control")
 _JOINTS = ("joint", "passive_joint")
 _WITH_JOINT = frozenset({*_JOINTS, "gap_joint", "simulated_actuated_joint", "flexJoint", "rollJoint"})
-"""What in a transmission says which joint it drives; the last four are those of the PR2."""
+"""The elements of a transmission that name the joint it drives; the last four are those of the PR2."""
 
 
 def report_driven_joints(document: Document, sink: DiagnosticSink) -> None:

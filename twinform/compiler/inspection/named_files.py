@@ -1,4 +1,4 @@
-"""Files that a model names: meshes, textures and includes that are nowhere, and paths that only Windows reads."""
+"""Missing files that a model names: meshes, textures and includes, and paths that only Windows reads."""
 
 from collections import defaultdict
 from collections.abc import Iterable

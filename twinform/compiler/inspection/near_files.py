@@ -1,4 +1,4 @@
-"""Files that are called nearly like one that is missing: capitals, slips, another folder."""
+"""Suggestions for a missing file: files of nearly the same name (capitals, slips, another folder)."""
 
 import os
 from collections.abc import Iterator

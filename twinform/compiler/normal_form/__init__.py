@@ -1,4 +1,4 @@
-"""The normal form of a file: what is left of its XML when everything that may be spelled otherwise is out of the way.
+"""The normal form of a file: its XML without the differences of spelling that mean nothing.
 
 Two files with equal normal forms say the same in the same words. *There and back*, from one format to the other and
 home again, means that the robot is the same (`twinform.diff`), and that the normal form is: every name, attribute and

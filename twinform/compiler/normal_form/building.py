@@ -1,11 +1,10 @@
-"""XML trees as parts of a normal form, by the facts table of a format in a version."""
+"""Builds a normal form from an XML tree, by the facts table of a format in a version."""
 
 from functools import cache
 
 from twinform.compiler.compare.values import Numbers, Place, Value, Words
 from twinform.compiler.normal_form.gazebo import POOLED, Path, extension_rows, tag_paths, tag_value
-from twinform.compiler.normal_form.part import TEXT, Key, Part, text_of
-from twinform.compiler.normal_form.pooling import add_once, pool, tag_part
+from twinform.compiler.normal_form.part import TEXT, Key, Part, add_once, pool, tag_part, text_of
 from twinform.compiler.normal_form.values import (
     NOWHERE_ELSE,
     literally,
@@ -23,12 +22,12 @@ _SAYS_BY_BEING_THERE = {
     "urdf": frozenset({"limit", "material"}),
     "sdf": frozenset({"geometry", "material", "pbr", "metal"}),
 }
-"""Containers that are optional, and mean something without a word in them."""
+"""Containers that are optional, and mean something when they are empty."""
 _HAS_TO_BE_THERE = frozenset({("material", "name")})
 """Attributes that may be empty but not left out: urdfdom refuses a material without a name."""
 _MODEL = "model"
 _CANONICAL = "@canonical_link"
-"""The link that the frame of a model in SDF is attached to: without a word, the first one."""
+"""The link that the frame of a model in SDF is attached to: the first one where it is not written."""
 _POSED_IN_MODEL = frozenset({"link", "model"})
 """What is posed in the frame of the model around it, if its pose names no other."""
 _FRAMES = frozenset({"parent", "child", "@attached_to", "@relative_to", "@expressed_in"})
@@ -106,7 +105,7 @@ class Builder:
             made.values[TEXT] = value
 
     def _value(self, text: str, row: Fact) -> Value | None:
-        """What a text says, if that is no default; where there may be no text, the empty one is as good as none."""
+        """The value of a text, if that is no default; where there may be no text, the empty one is as good as none."""
         value = value_of(text, row, self.format)
         if row.default is not None:
             return None if self._is_default(value, row) else value
@@ -137,7 +136,7 @@ class Builder:
             made.children[key] = part
 
     def _may_be_left_out(self, row: Fact) -> bool:
-        """Whether an element in which only defaults were says the same as none."""
+        """Whether an element in which only defaults were means the same as none."""
         fact = self.table.resolve(row)
         if row.count != "?" or row.kind:
             return False
@@ -233,7 +232,7 @@ def _is_endless(value: Value, like: Value) -> bool:
 
 
 def _place(made: Part, where: Transform | None) -> None:
-    """Take in a pose as the place that it says; what is none stays as it is written."""
+    """Take in a pose as the place that it means; what is none stays as it is written."""
     if where is None:
         return
     values = made.values

@@ -1,4 +1,4 @@
-"""What is in one normal form and not in the other."""
+"""Compares two normal forms: what is in one and not in the other."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -30,7 +30,7 @@ class Kind(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Discrepancy:
-    """One thing that the source says and the file that came back does not, or the other way round."""
+    """A value that the source has and the file from the round trip has not, or the other way round."""
 
     kind: Kind
     source: Side
@@ -43,7 +43,7 @@ class Discrepancy:
 
     @property
     def message(self) -> str:
-        """It in words."""
+        """The discrepancy as text."""
         where = self.location
         place = f"{where.file}:{where.line}: {where.path}"
         if self.kind is Kind.MISSING:

@@ -17,7 +17,7 @@ _FORMATS = {"robot": "urdf", "sdf": "sdf"}
 
 @dataclass(frozen=True, slots=True)
 class NormalForm:
-    """What a file says, as a tree of parts. `file` is its name, for those who want to look."""
+    """The content of a file as a tree of parts; `file` is its name."""
 
     root: Part
     file: str = ""

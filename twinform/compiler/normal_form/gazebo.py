@@ -1,4 +1,4 @@
-"""The content of URDF's `<gazebo>`: tags of its own, and beside them what SDF has in links, joints and models."""
+"""The content of URDF's `<gazebo>`: tags of its own, and elements of SDF's links, joints and models."""
 
 from collections.abc import Iterator
 from functools import cache
@@ -12,7 +12,7 @@ _TAGS = MODEL_TAGS | JOINT_TAGS | LINK_TAGS
 _HOLDERS = ("model", "joint", "link")
 """What a reference leads to. Where two of them have a child of one tag, it is of the same kind."""
 _FIELDS = frozenset({"gravity", "self_collide"})
-"""Truths of a link in SDF that tags say too."""
+"""Booleans of a link in SDF that tags set too."""
 _MATERIAL = "material"
 POOLED = frozenset({"visual", "collision", "axis", "physics"})
 """Elements that add to what is there: all visuals and collisions of the link, the axis and physics of the joint."""
@@ -23,7 +23,7 @@ _DAMPING: tuple[Path, ...] = (("velocity_decay", "linear"), ("velocity_decay", "
 
 
 def tag_value(element: XmlElement) -> tuple[str, Value] | None:
-    """What one of the extension's own tags says, as a text or an attribute, and the name of the field that it sets.
+    """The value of one of the extension's own tags, as a text or an attribute, and the name of the field that it sets.
 
     None where it is none of them. A field of SDF that has a tag of its own is as good as that tag.
     """
@@ -40,7 +40,7 @@ def tag_value(element: XmlElement) -> tuple[str, Value] | None:
 
 
 def tag_paths(element: XmlElement) -> tuple[Path, ...]:
-    """Where SDF says what one of the extension's own tags does, if that is not at the top of a link, joint or model."""
+    """Where SDF has what one of the extension's own tags sets, if that is not at the top of a link, joint or model."""
     tag = None if len(element) else _TAGS.get(str(element.tag))
     if tag is None:
         return ()

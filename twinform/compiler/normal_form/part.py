@@ -1,10 +1,11 @@
-"""The parts of a normal form."""
+"""The elements of a normal form, and how repeated `<gazebo>` elements are merged into one."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from twinform.compiler.compare.values import Value
+from twinform.compiler.normal_form.values import literally
 from twinform.schemas import XmlElement
 
 TEXT = ""
@@ -21,7 +22,7 @@ class Key(NamedTuple):
 
 @dataclass(slots=True)
 class Part:
-    """An element, and what it says that is no default.
+    """An element with its values that are not the default.
 
     `values` are those of its attributes (`@name`), its text (`TEXT`) and its pose (`pose`). Where it is
     `ordered`, the order of its children counts.
@@ -53,3 +54,37 @@ def _pieces(element: XmlElement) -> Iterator[str]:
     yield (element.text or "").strip()
     for child in element:
         yield (child.tail or "").strip()
+
+
+def tag_part(tag: XmlElement, value: Value | None) -> Part:
+    """A tag of an extension: its value, and attributes that mean nothing."""
+    values = {f"@{name}": literally(str(text)) for name, text in tag.items() if name != "value"}
+    return Part(tag, values=values if value is None else {**values, TEXT: value})
+
+
+def add_once(made: Part, tag: str, part: Part) -> None:
+    """Add a part unless an equal one is there: repetitions of some tags mean nothing."""
+    if not any(one.values == part.values for key, one in made.children.items() if key.tag == tag):
+        made.children[_free_key(made, tag, "")] = part
+
+
+def pool(made: Part, tag: str, part: Part) -> None:
+    """Take in one of several elements that add to one thing, such as two `<collision>`."""
+    key = Key(tag, "", 1)
+    mine = made.children.get(key)
+    if mine is None:
+        if not part.says_nothing:
+            made.children[key] = part
+        return
+    mine.values = {**part.values, **mine.values}
+    for inner, child in part.children.items():
+        if inner.name:
+            mine.children[_free_key(mine, inner.tag, inner.name)] = child
+        elif child.children:
+            pool(mine, inner.tag, child)
+        else:
+            add_once(mine, inner.tag, child)
+
+
+def _free_key(made: Part, tag: str, name: str) -> Key:
+    return Key(tag, name, 1 + sum(1 for key in made.children if (key.tag, key.name) == (tag, name)))

@@ -1,9 +1,8 @@
-"""The values of a normal form: what an attribute, a text or a pose says, however it is spelled."""
+"""The values of a normal form: what an attribute, a text or a pose means, however it is spelled."""
 
 import math
 
-from twinform.compiler.compare.typed import typed_value
-from twinform.compiler.compare.values import Flag, Numbers, Place, Value, Words, gaps
+from twinform.compiler.compare.values import Flag, Numbers, Place, Value, Words, gaps, typed_value
 from twinform.ir import Pose
 from twinform.ir.transform import Transform
 from twinform.schemas import Fact, XmlElement, format_value, parse_value
@@ -38,7 +37,7 @@ def _same_numbers(one: tuple[float, ...], other: tuple[float, ...]) -> bool:
 
 
 def value_of(text: str, row: Fact, format: str) -> Value:
-    """What a text says, by its type."""
+    """The value of a text, by its type."""
     return typed_value(row.type, text, format) or Words(text)
 
 
@@ -52,7 +51,7 @@ def parsed_value(parsed: object) -> Value:
 
 
 def literally(text: str) -> Value:
-    """A text of which nobody knows what it means: its words."""
+    """A text of unknown meaning: with single blanks."""
     return Words(" ".join(text.split()))
 
 

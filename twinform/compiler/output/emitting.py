@@ -18,13 +18,13 @@ from twinform.schemas import (
     Context,
     Version,
     XmlElement,
-    gate,
     libxml2_errors,
     parse_version,
     path_of,
     print_version,
     reader,
     table,
+    validate,
 )
 
 _NAMED = re.compile(r"\[@name='([^']*)'\]")
@@ -69,7 +69,7 @@ def emit_legal(
 def valid_tree(
     document: Document, sink: DiagnosticSink, *, fit: bool = False, kept: AbstractSet[str] = frozenset()
 ) -> XmlElement:
-    """The XML of a document, validated; `emit` says how."""
+    """The XML of a document, made by `emit` and validated."""
     root = document_tree(document)
     found = DiagnosticSink(file=sink.file)
     _validate(root, document.format, written_version(document), found, kept=kept if fit else None)
@@ -117,7 +117,7 @@ def written_version(document: Document) -> Version:
 def _validate(
     root: XmlElement, format_: Format, version: Version, sink: DiagnosticSink, *, kept: AbstractSet[str] | None
 ) -> None:
-    """The gate behind the back end. The table pass looks only where the XSD refuses: at what came in as unknown.
+    """XSD validation of the output. The schema reader runs only where the XSD refuses: on what came in as unknown.
 
     What the version does not have is left out, but for the names that are kept; all of it stays where `kept` is None.
     """
@@ -127,14 +127,14 @@ def _validate(
     found = DiagnosticSink(file=sink.file)
     context = Context(found, sink.file, format_, version)
     reader(format_, version).read(root, context)
-    gate(root, context, errors=errors)
+    validate(root, context, errors=errors)
     if kept is not None:
         _leave_out(context, kept, sink)
     sink.extend(diagnostic for diagnostic in found.diagnostics if diagnostic.is_error)
 
 
 def _leave_out(context: Context, kept: AbstractSet[str], sink: DiagnosticSink) -> None:
-    """Take what the version does not have out of the tree that the table pass has looked at."""
+    """Take what the version does not have out of the tree that the schema reader has read."""
     version = f"{context.format.upper()} {print_version(context.version)}"
     for element, fact in context.outside:
         if fact.name in kept:

@@ -1,4 +1,4 @@
-"""Writing files so that no reader ever sees half of one, and all of several or none."""
+"""Atomic file output: no reader sees half a file, and of several files all are written or none."""
 
 import errno
 import os
@@ -137,7 +137,7 @@ def _write_into(path: Path, text: str) -> None:
 
 @contextmanager
 def _named_after(path: Path) -> Generator[None]:
-    """Say which file an error is about: a failed write does not know, and a temporary file is nobody's business."""
+    """Name the file that an error is about: a failed write does not know, and that of a temporary file helps nobody."""
     try:
         yield
     except OSError as error:

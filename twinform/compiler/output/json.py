@@ -17,7 +17,7 @@ _ROOTS: dict[Format, type[Node]] = {Format.URDF: Model, Format.SDF: Document}
 
 
 def json_text(document: Document, sink: DiagnosticSink) -> str:
-    """The JSON text of a document, and errors in the notes where its format cannot say it."""
+    """The JSON text of a document, and errors in the diagnostics where its format cannot express it."""
     data = json_data(document)
     for fault in json_faults(data):
         path = "/".join(map(str, fault.path))
@@ -62,7 +62,7 @@ def _order(node: Node, format_: Format) -> list[str]:
 
 
 def _leave_out_places(model: Data) -> None:
-    """In URDF, a joint is posed in its parent link and a link in its joint, so there is no word for that."""
+    """In URDF, a joint is posed in its parent link and a link in its joint, so there is no attribute for that."""
     for joint in model.get("joints", ()):
         _leave_out(joint, "relative_to")
     for link in model.get("links", ()):

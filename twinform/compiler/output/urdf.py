@@ -1,4 +1,4 @@
-"""IR to URDF."""
+"""URDF back end: from the IR to a `<robot>` tree."""
 
 from lxml import etree
 

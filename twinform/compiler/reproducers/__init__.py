@@ -1,1 +1,1 @@
-"""Files that make the fault of a pass come again, for `twinform reproduce`."""
+"""Reproducers: files to run a failed pass again, for `twinform reproduce`."""

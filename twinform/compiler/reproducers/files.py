@@ -1,4 +1,4 @@
-"""Files that make the fault of a pass come again: written where a pass fails, read by `twinform reproduce`."""
+"""Reproducer files: written where a pass fails, read by `twinform reproduce`."""
 
 import re
 import tempfile
@@ -17,14 +17,14 @@ _MOST = 1000
 
 
 def write_reproducer(error: PassError, source: str, folder: Path | None = None) -> Path:
-    """Write what makes the fault come again, and say where.
+    """Write a reproducer, and return its path.
 
     It goes into the folder, or the current one; where that cannot be written, into the one for temporary files. Nothing
     is overwritten.
 
     Raises:
         OSError: it cannot be written.
-        TypeError: the pass has an option that the text of a pipeline cannot say.
+        TypeError: the pass has an option that the text of a pipeline cannot express.
         ValueError: what the pass was given is no document of the IR.
     """
     text = Reproducer.of(error, source, __version__).to_json()

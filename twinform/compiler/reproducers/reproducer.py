@@ -1,4 +1,4 @@
-"""The fault of a pass as data: the pass, its options and the document that it was given, so that it comes again.
+"""A reproducer of a failed pass as data: the pass, its options and the document that it was given.
 
 The document is the JSON of the IR, which has no lines and spellings of the source; where the fault needs those, `again`
 says that it does not come again from the document alone.
@@ -24,7 +24,7 @@ Fault = Literal["exception", "invalid document"]
 
 
 class Reproducer(BaseModel):
-    """What has to be known. `again` says whether the fault came again from it when this was made."""
+    """What has to be known. `again` is true where the fault came again from it when this was made."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -43,7 +43,7 @@ class Reproducer(BaseModel):
         """From a fault that has come up; `source` names the file that was compiled, `version` is our own.
 
         Raises:
-            TypeError: the pass has an option that the text of a pipeline cannot say.
+            TypeError: the pass has an option that the text of a pipeline cannot express.
             ValueError: what the pass was given is no document of the IR.
         """
         found = cls(

@@ -1,1 +1,1 @@
-"""Where the files are that a model names: URIs, ROS packages, Gazebo Fuel, the folders around a file."""
+"""Finds the files that a model names: URIs, ROS packages, Gazebo Fuel, the folders around a file."""

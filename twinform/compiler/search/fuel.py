@@ -1,4 +1,4 @@
-"""Models of Gazebo Fuel that are on this machine already."""
+"""Gazebo Fuel models in the local cache."""
 
 import re
 from collections.abc import Iterable, Iterator, Mapping

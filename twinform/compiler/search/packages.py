@@ -1,4 +1,4 @@
-"""ROS packages: folders with a package.xml that says their name."""
+"""ROS packages: folders with a package.xml that has their name."""
 
 import os
 from collections.abc import Iterator

@@ -1,11 +1,11 @@
-"""The folders around a file, in which its neighbors are."""
+"""Search roots: the folders around a file, in which its neighbors are."""
 
 from pathlib import Path
 
 _HIGHEST = 6
 """So many folders up: a file in `ws/src/repository/package/urdf/parts` still sees the workspace's sources."""
 TOPS = (".git", ".hg")
-"""What marks the top of a repository: a folder or, in a worktree or submodule, a file."""
+"""What is at the top of a repository: a folder or, in a worktree or submodule, a file."""
 
 
 def folders_around(file: Path) -> tuple[Path, ...]:
@@ -22,5 +22,5 @@ def folders_around(file: Path) -> tuple[Path, ...]:
 
 
 def _above(folder: Path, real: Path) -> Path:
-    """The folder above, in the words in which the file was named as long as they last."""
+    """The folder above, by the path by which the file was named as far as that goes."""
     return folder.parent if folder.name not in {"", ".."} else real.parent

@@ -1,4 +1,4 @@
-"""Where the files are that a model names by URI."""
+"""Resolves the URIs of a model to files."""
 
 import os
 from collections.abc import Iterable, Iterator, Mapping

@@ -1,4 +1,4 @@
-"""A world taken apart: a file for each of its models, and one that includes them."""
+"""Splits a world: a file for each of its models, and one that includes them."""
 
 from twinform.compiler.splitting.worlds import Split, split
 

@@ -1,4 +1,4 @@
-"""What Gazebo's own reader of URDF, libsdformat, would refuse, leave out or rename in a robot that came from SDF.
+"""Checks what Gazebo's reader of URDF, libsdformat, would refuse, leave out or rename in a robot that came from SDF.
 
 It lumps links that are fixed to each other, leaves out what then has no mass, with all that hangs from it, and refuses
 floating joints; the rules are those of its `parser_urdf.cc`, tried on libsdformat 12 and 17.

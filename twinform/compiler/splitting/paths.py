@@ -1,4 +1,4 @@
-"""Relative paths of a world that is split: said from the folder that its files go to, and found from there."""
+"""Relative paths of a world that is split, rewritten for the folder that its files go to."""
 
 import os
 import re
@@ -15,13 +15,13 @@ from twinform.passes.framework.assets import AssetError
 from twinform.passes.transforms.uris import map_uris
 
 _ABSOLUTE = re.compile(r"[A-Za-z][\w+.-]*:|/|__")
-"""A scheme, a path from the root, or a word such as `__default__`."""
+"""A scheme, a path from the root, or a keyword such as `__default__`."""
 _FILE = "file://"
 
 
 @dataclass(frozen=True, slots=True)
 class MovedAssets:
-    """The files that a document names whose relative paths were said anew: found by both spellings."""
+    """The files that a document names whose relative paths were rewritten: found by both spellings."""
 
     source: LocalAssets
     before: dict[str, str] = field(default_factory=dict[str, str])
@@ -93,7 +93,7 @@ def _found(path: str, source: LocalAssets) -> Path | None:
 
 
 def _report(path: str, where: Location, sink: DiagnosticSink, reported: set[str]) -> None:
-    """Say once of each path that it is left alone."""
+    """Report once of each path that it is left alone."""
     if path not in reported:
         reported.add(path)
         rest = "so it stays as it is: a path from the folder of the source, not of the result"

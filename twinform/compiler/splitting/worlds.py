@@ -1,4 +1,4 @@
-"""A world as a file for each of its models, URDF where Gazebo reads that as the same robot, and one that includes them.
+"""Splits a world into files of its models, URDF where Gazebo reads that as the same robot, and one that includes them.
 
 Gazebo reads an included URDF with a converter of its own, which loses what `gazebo_urdf.py` lists. A model that
 would lose something stays SDF, and a warning says why.
@@ -114,7 +114,7 @@ def _inside_models(document: Document | None) -> Callable[[Include], bool]:
 
 @dataclass(frozen=True, slots=True)
 class _Urdf:
-    """A model as URDF: its text, its root, where that is in the frame of the model, and what was said on the way."""
+    """A model as URDF: its text, its root, where that is in the frame of the model, and its diagnostics."""
 
     text: str
     root_name: str
@@ -127,7 +127,7 @@ class _Files:
     """The files of one split.
 
     `name` is that of the file around the models. Where the document was put together from several files, `kept` are
-    the words that it has and its version does not, as these files do.
+    the elements that it has and its version does not, as these files do.
     """
 
     request: ConversionRequest
@@ -161,7 +161,7 @@ class _Files:
                 yield model.name, model.name if made.root.is_identity else f"{model.name}::{made.root_name}"
 
     def _choose(self, document: Document, models: tuple[Model, ...], named: Mapping[str, frozenset[str]]) -> None:
-        """Make URDF of the models of which Gazebo makes the same robots, and say of the others why they stay SDF."""
+        """Make URDF of the models of which Gazebo makes the same robots, and report of the others why they stay SDF."""
         for model in models if self.request.to == "urdf" else ():
             made, why = self._as_urdf(document, model, named.get(model.name, frozenset()))
             if made is None:

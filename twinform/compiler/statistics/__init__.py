@@ -1,4 +1,4 @@
-"""What a model is made of, in numbers."""
+"""Statistics of models: counts, sizes, masses and the cost of meshes."""
 
 from twinform.compiler.statistics.driver import FileStatistics, WorldStatistics, measure
 from twinform.compiler.statistics.meshes import MeshCost

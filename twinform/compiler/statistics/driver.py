@@ -1,4 +1,4 @@
-"""The numbers of a file: of each model in it."""
+"""Collects the statistics of each model of a file."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -37,7 +37,7 @@ class FileStatistics:
 
 
 def measure(loaded: LoadResult, document: Document, search: SearchPath, *, meshes: bool = True) -> FileStatistics:
-    """Count what a file holds. `meshes` says whether to look into mesh files, which `search` finds."""
+    """Count what a file holds. `meshes` selects whether to read mesh files, which `search` finds."""
     beside = Path(loaded.path)
     whole = _spoken(document, LocalAssets(search, beside) if meshes else NO_ASSETS)
     files = MeshFiles(search, beside, meshes)
@@ -66,7 +66,7 @@ def measure(loaded: LoadResult, document: Document, search: SearchPath, *, meshe
 
 
 def _spoken(document: Document, assets: Assets) -> Document:
-    """The document with what its `<gazebo>` elements say and what its readers compute in their places."""
+    """The document with what its `<gazebo>` elements have and what its readers compute in their places."""
     sink = DiagnosticSink()
     if document.format is Format.URDF:
         from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo  # noqa: PLC0415 - SDF does not need it
@@ -74,6 +74,6 @@ def _spoken(document: Document, assets: Assets) -> Document:
         return Pipeline((FoldGazebo(),)).run(document, sink)
     if not any(isinstance(node, Link) and node.inertial and node.inertial.auto for node in walk(document)):
         return document
-    from twinform.passes.sdf_versions.write_inertias import WriteInertias  # noqa: PLC0415 - likewise
+    from twinform.passes.sdf_versions.write_inertias import WriteInertias  # noqa: PLC0415 - few files have these
 
     return Pipeline((WriteInertias(version="1.10"),)).with_files(assets).run(document, sink)

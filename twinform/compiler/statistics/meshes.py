@@ -1,4 +1,4 @@
-"""What meshes cost: the bytes of their files, and the triangles that have to be drawn or to be tested for contact.
+"""The cost of meshes: the bytes of their files, and the triangles that have to be drawn or to be tested for contact.
 
 `trimesh` counts the triangles; without it, only the bytes are known.
 """
@@ -18,7 +18,7 @@ from twinform.passes.analyses.mesh_files import EXTRA, READ, READERS, RefusedMes
 class MeshCost:
     """One mesh file of a model: how often it is drawn and how often it touches, and what one of it costs.
 
-    `bytes` and `triangles` are None where they are not known; `problem` says why.
+    `bytes` and `triangles` are None where they are not known; `problem` is the reason.
     """
 
     uri: str

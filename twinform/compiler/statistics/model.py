@@ -1,4 +1,4 @@
-"""The numbers of one model."""
+"""The statistics of one model."""
 
 from collections import Counter
 from collections.abc import Iterable
@@ -15,8 +15,8 @@ class ModelStatistics:
     """What a model and those nested in it are made of.
 
     `dof` are the ways in which its joints move by themselves: those that mimic others do not count, nor does a base
-    that floats; each of the `loops` takes some away, as many as its geometry says. `depth` is the most joints between a
-    root and a link. `mass` is in kg; in it are `masses_assumed`, links of SDF that say none and weigh 1 kg, and not in
+    that floats; each of the `loops` takes away as many as its geometry does. `depth` is the most joints between a
+    root and a link. `mass` is in kg; in it are `masses_assumed`, links of SDF without one, which weigh 1 kg, and not in
     it `masses_unknown`, links whose mass is to be computed from shapes that nothing can be computed from. Shapes,
     sensors and plugins are counted by kind, type and file name.
     """
@@ -82,5 +82,5 @@ def _kind(shaped: Visual | Collision) -> str:
 
 
 def _sorted(words: Iterable[str]) -> dict[str, int]:
-    """How often each word is there, by name."""
+    """How often each name is there, by name."""
     return dict(sorted(Counter(words).items()))

@@ -1,4 +1,4 @@
-"""The numbers as text and as JSON."""
+"""Reports statistics as text and as JSON."""
 
 import json as jsonlib
 from collections.abc import Callable, Iterator, Mapping, Sequence

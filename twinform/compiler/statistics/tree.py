@@ -1,4 +1,4 @@
-"""How the links of a model hang together, counted."""
+"""Counts of the kinematic tree: roots, loops, depth."""
 
 from collections.abc import Iterator
 from typing import NamedTuple

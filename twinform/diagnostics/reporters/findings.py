@@ -1,4 +1,4 @@
-"""What a reporter is given."""
+"""The findings of files, as reporters are given them."""
 
 from collections.abc import Sequence
 from typing import NamedTuple, Protocol

@@ -13,7 +13,7 @@ from twinform.ir.verify.urdf import verify_robot
 __all__ = ["verify", "verify_again"]
 
 _OF_SDF = (UNKNOWN_COLLISION, UNKNOWN_GRIPPER_LINK)
-"""What may be said in the `<gazebo>` elements of URDF about names that are there only in SDF."""
+"""References in the `<gazebo>` elements of URDF that may name what is there only in SDF."""
 
 
 def verify(document: Document, sink: DiagnosticSink) -> None:

@@ -1,11 +1,10 @@
-"""Masses and inertias that no body has."""
+"""Verifies masses and inertias: no real body has a negative or unbalanced one."""
 
 import math
 
 from twinform.diagnostics import DiagnosticSink, Location, Rule, Severity
 from twinform.diagnostics.rules import inertia as rules
-from twinform.ir.inertial import Inertia, Inertial
-from twinform.ir.link import Link
+from twinform.ir.link import Inertia, Inertial, Link
 from twinform.ir.principal_moments import Symmetric, principal_moments, relative_moments
 from twinform.ir.solids import tensor
 from twinform.ir.verify.poses import verify_rotation

@@ -1,4 +1,4 @@
-"""What a joint says of itself: its ends, its axes, their limits, and whom it mimics."""
+"""Verifies joints: parent and child, axes, limits and mimic."""
 
 import math
 from collections.abc import Iterable

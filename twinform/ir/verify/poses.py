@@ -1,4 +1,4 @@
-"""Rotations that nobody means: angles in degrees where radians are read, quaternions that are not of length one."""
+"""Verifies rotations for likely mistakes: angles in degrees where radians are read, quaternions not of length one."""
 
 import math
 

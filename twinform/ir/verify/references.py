@@ -5,12 +5,11 @@ from collections.abc import Iterable
 from twinform.diagnostics import DiagnosticSink, Rule, Severity, did_you_mean
 from twinform.diagnostics.rules import frames as rules
 from twinform.diagnostics.rules import model as joints
-from twinform.ir.frame import Frame
 from twinform.ir.joint import Joint
 from twinform.ir.light import Light
 from twinform.ir.link import Link
 from twinform.ir.model import Include, Model
-from twinform.ir.pose import Pose
+from twinform.ir.pose import Frame, Pose
 from twinform.ir.sensor import Sensor
 from twinform.ir.sourced import Sourced
 from twinform.ir.verify.poses import verify_rotation

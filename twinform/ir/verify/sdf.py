@@ -27,7 +27,7 @@ _BEFORE_FRAMES = frozenset({"1.2", "1.3", "1.4", "1.5", "1.6"})
 _BEFORE_SCOPES = _BEFORE_FRAMES | {"1.7"}
 """Versions in which a name may have `::` in it."""
 _ALONE = frozenset({"model", "light"})
-"""What may stand once at the top of a file from 1.8 on; the table pass reports a second one and keeps it as it is."""
+"""What may stand once at the top of a file from 1.8 on; the schema reader reports a second one and keeps it."""
 
 
 def verify_sdf(document: Document, sink: DiagnosticSink) -> None:

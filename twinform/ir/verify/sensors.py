@@ -1,4 +1,4 @@
-"""Sensors and grippers of SDF: whether they are what they say, and whether what they name is there."""
+"""Verifies sensors and grippers of SDF: their types, and references to what is not there."""
 
 from collections.abc import Callable, Iterator
 
@@ -15,7 +15,7 @@ _DEFAULT = "__default__"
 
 
 def verify_sensors(link: Link, model: Model, sink: DiagnosticSink) -> None:
-    """Report sensors of a link that are not what they say."""
+    """Report sensors of a link whose parameters are not those of their type."""
     for sensor in link.sensors:
         _verify_content(sensor, sink)
         if sensor.type == "force_torque":

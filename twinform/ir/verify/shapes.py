@@ -1,4 +1,4 @@
-"""Visuals and collisions: whether there is a shape, and whether one can see or touch it."""
+"""Verifies visuals and collisions: whether there is a shape, and whether it has a size."""
 
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import bodies as rules

@@ -1,4 +1,4 @@
-"""How links hang together: which joints give a link a second parent, and which go round in a circle."""
+"""Verifies the kinematic tree: joints that give a link a second parent, and cycles."""
 
 from collections.abc import Iterable
 

@@ -7,7 +7,6 @@ from twinform.diagnostics.rules import bodies
 from twinform.diagnostics.rules import joints as joint_rules
 from twinform.diagnostics.rules import model as rules
 from twinform.ir.joint import Joint
-from twinform.ir.material import Material
 from twinform.ir.model import Model
 from twinform.ir.node import Node
 from twinform.ir.verify.inertia import verify_inertial
@@ -16,6 +15,7 @@ from twinform.ir.verify.names import report_names, report_unprintable
 from twinform.ir.verify.poses import verify_rotation
 from twinform.ir.verify.shapes import verify_shapes
 from twinform.ir.verify.tree import report_loops
+from twinform.ir.visual import Material
 
 
 def verify_robot(model: Model, sink: DiagnosticSink, *, optional: bool) -> None:

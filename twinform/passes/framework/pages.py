@@ -7,7 +7,7 @@ from inspect import cleandoc
 from types import NoneType, UnionType
 from typing import Annotated, Literal, NamedTuple, Union, cast, get_args, get_origin
 
-from twinform.diagnostics.committed import main
+from twinform.diagnostics.generated_files import main
 from twinform.passes.framework.base import Pass
 from twinform.passes.framework.options import option_value
 from twinform.passes.framework.registry import OWN, registered_passes

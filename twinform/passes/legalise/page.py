@@ -4,7 +4,7 @@ import sys
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from twinform.diagnostics.committed import main
+from twinform.diagnostics.generated_files import main
 from twinform.ir import Format
 from twinform.passes.framework.base import Pass
 from twinform.passes.framework.pages import summary

@@ -3,7 +3,7 @@
 import sys
 from collections.abc import Iterable, Iterator
 
-from twinform.diagnostics.committed import main
+from twinform.diagnostics.generated_files import main
 from twinform.passes.plugins.catalog import releases, ros_message, sensors, systems
 from twinform.passes.plugins.options import options_of
 from twinform.passes.plugins.parts import Parameter, PluginKind, SensorKind

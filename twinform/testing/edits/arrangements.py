@@ -1,4 +1,4 @@
-"""Edits that put something elsewhere: order, another link, a copy; and edits that say nothing: white space."""
+"""Edits that put something elsewhere: order, another link, a copy; and edits without a meaning: white space."""
 
 import copy
 from random import Random
@@ -78,7 +78,7 @@ def _siblings(element: XmlElement) -> int:
 
 
 def _is_order_free(element: XmlElement) -> bool:
-    """Whether the order says nothing: not so inside plugins and the like."""
+    """Whether the order means nothing: not so inside plugins and the like."""
     tags = {str(each.tag) for each in element.iterancestors()}
     return not tags & {"plugin", "gazebo", "ros2_control", "transmission"}
 

@@ -1,4 +1,4 @@
-"""An edited file as those read it who do not know our carriers, and what its marks say."""
+"""An edited file as readers see it that do not know our carriers, and what its annotations mean."""
 
 from collections.abc import Mapping
 from functools import cached_property
@@ -25,14 +25,14 @@ class EditedFile:
 
     @cached_property
     def named(self) -> XmlElement:
-        """The tree with the names that marks tell."""
+        """The tree with the names that annotations give."""
         root = etree.fromstring(self.text)
         _give_names_back(root)
         return root
 
     @cached_property
     def plain(self) -> XmlElement:
-        """The tree without anything in our namespace, under the names that marks tell."""
+        """The tree without anything in our namespace, under the names that annotations give."""
         root = etree.fromstring(self.text)
         _give_names_back(root)
         for element in list(root.iter(etree.Element)):
@@ -85,7 +85,7 @@ def scoped_name(holder: XmlElement | None) -> str:
 
 
 def end(joint: XmlElement, tag: str) -> str:
-    """The link at an end of a joint; empty where none is said."""
+    """The link at an end of a joint; empty where none is written."""
     found = joint.find(tag)
     return (found.get("link") or (found.text or "").strip()) if found is not None else ""
 

@@ -1,4 +1,4 @@
-"""Does an edit win? What a file says after an edit, against what it is converted to.
+"""Judges edits: compares an edited file with what it is converted to. The edit has to win.
 
 A converted file is edited and converted on. The robot of the edited file and that of the result have to be the same
 twice: as `twinform diff` reads the edited file, and as somebody reads it who does not know our carriers, since nothing
@@ -39,8 +39,8 @@ class Outcome(StrEnum):
 class Verdict:
     """What became of an edited file: the differences that the edit brought, or the rules that refuse it.
 
-    `result` is what it was converted to, None where it was not; `explained` says why differences to the file without
-    carriers do not count, if there are any.
+    `result` is what it was converted to, None where it was not; `explained` has the reasons why differences to the
+    file without carriers do not count, if there are any.
     """
 
     outcome: Outcome
@@ -98,7 +98,7 @@ def judge(
     file = EditedFile(edited)
     try:
         said, read = _compared(file, made.text)
-    except Exception as error:  # noqa: BLE001 - likewise; a result that cannot be read is no result
+    except Exception as error:  # noqa: BLE001 - a result that cannot be read is no result
         return Verdict(fault, (f"not compared: {type(error).__name__}: {error}",), warned, made.text)
     found = [each.message for each in said if _key(each) not in before.differing]
     news_plainly = [each for each in read if plain_key(each) not in before.differing_plainly]

@@ -40,7 +40,7 @@ def plain_key(found: Difference) -> tuple[str | None, ...]:
 
 
 def _value(text: str) -> str:
-    """What was said, without names and without the unit, which changes with the type of a joint."""
+    """What was reported, without names and without the unit, which changes with the type of a joint."""
     return _UNIT.sub("", _NAME.sub("", text))
 
 

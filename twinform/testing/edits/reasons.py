@@ -1,4 +1,4 @@
-"""Why a difference to the file without its carriers does not count: what only a mark or a carrier can say."""
+"""Why a difference to the file without its carriers does not count: what only annotations or carriers express."""
 
 from collections.abc import Callable
 
@@ -6,9 +6,9 @@ from twinform.compiler.compare import Difference
 from twinform.testing.edits.edited_file import OURS, EditedFile, end, scoped_name
 
 _BEYOND_URDF = frozenset({"axis/initial_position"})
-"""What SDF says of a joint, and no word of URDF."""
+"""What SDF has of a joint, and URDF has no element for."""
 _COLORS = frozenset({"ambient", "diffuse", "script"})
-"""What SDF says of a material, and URDF too."""
+"""What SDF has of a material, and URDF too."""
 
 
 def reason(found: Difference, edited: EditedFile) -> str | None:
@@ -97,7 +97,7 @@ def _flat(name: str | None) -> str:
 
 
 def _is_in_loop(found: Difference, edited: EditedFile) -> bool:
-    """Whether it is about joints, in a robot with loops: marks give names, and these choose the joints of the tree."""
+    """Whether it is about joints, in a robot with loops: annotations give names, which select joints of the tree."""
     return found.group in {"joint", "kinematics", "frame"} and edited.root.find("gazebo/joint") is not None
 
 
@@ -140,7 +140,7 @@ def _is_in_held(found: Difference, edited: EditedFile) -> bool:
 
 
 def _may_follow(found: Difference, edited: EditedFile) -> bool:
-    """Whether it is how the robot moves, where a mark says that a joint follows another one."""
+    """Whether it is how the robot moves, where an annotation tells that a joint follows another one."""
     mimics = edited.root.iter(f"{OURS}version")
     return found.group == "kinematics" and any(mark.find("mimic") is not None for mark in mimics)
 
@@ -153,14 +153,14 @@ def _moves_alike(found: Difference, edited: EditedFile) -> bool:
 
 
 def _is_empty_link(found: Difference, edited: EditedFile) -> bool:
-    """Whether it is a link that says nothing but its name: URDF has to have one, so it is made."""
+    """Whether it is a link that has nothing but its name: URDF has to have one, so it is made."""
     if found.group != "link" or found.aspect or found.b.text is not None:
         return False
     return all(not len(each) for each in edited.plain.iter("link") if each.get("name") == found.name)
 
 
 def _is_beyond_urdf(found: Difference, edited: EditedFile) -> bool:
-    """Whether it is a word of SDF that URDF does not have, or a material that has nothing but such words."""
+    """Whether it is an element of SDF that URDF does not have, or a material of such elements only."""
     if edited.root.tag != "robot":
         return False
     if found.group == "link" and found.aspect.startswith("visual ") and found.aspect.endswith("/material"):
@@ -185,4 +185,4 @@ _REASONS: dict[str, Callable[[Difference, EditedFile], bool]] = {
     "a joint has another name in the other format, which a link has here": _is_named_otherwise,
     "a carrier says what URDF has no word for": _is_beyond_urdf,
 }
-"""Differences that the file has without its carriers because URDF cannot say it, by their reason."""
+"""Differences that the file has without its carriers because URDF cannot express it, by their reason."""

@@ -1,4 +1,4 @@
-"""A robot file as somebody sees it who edits it: which elements are its links, joints and other parts."""
+"""The elements of a robot file that edits are drawn from: its links, joints and other parts."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

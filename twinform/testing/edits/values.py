@@ -1,4 +1,4 @@
-"""Edits of one value: a number, a word out of a few, a file name."""
+"""Edits of one value: a number, an enumerated value, a file name."""
 
 import re
 from collections.abc import Iterator
@@ -51,7 +51,7 @@ def change_carried_number(scene: Scene, random: Random) -> Edit | None:
 
 
 def change_type(scene: Scene, random: Random) -> Edit | None:
-    """A joint of another type, with all that it says besides."""
+    """A joint of another type, with all else that it has."""
     if not scene.joints:
         return None
     joint = random.choice(scene.joints)

@@ -9,8 +9,8 @@
 Engines come with `pip install 'twinform[oracles]'`, and are imported when they are asked.
 """
 
-from twinform.testing.oracles.asking import compare, simulate
 from twinform.testing.oracles.engines import ENGINES, Engine, available
+from twinform.testing.oracles.isolated import compare, simulate
 from twinform.testing.oracles.verdict import Alike, EngineMissingError, OracleError, UnreadableError, Verdict
 
 __all__ = [

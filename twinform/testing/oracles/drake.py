@@ -8,8 +8,19 @@ from typing import Any
 
 import numpy as np
 
-from twinform.testing.oracles.robot import GRAVITY, WORLD, Body, Matrix, Robot, Sample, View, inverse, limit, moved
-from twinform.testing.oracles.sampling import position
+from twinform.testing.oracles.robot import (
+    GRAVITY,
+    WORLD,
+    Body,
+    Matrix,
+    Robot,
+    Sample,
+    View,
+    inverse,
+    limit,
+    moved,
+    position,
+)
 
 Parts = dict[str, Any]
 """Drake's bodies or joints by name."""

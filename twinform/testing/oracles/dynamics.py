@@ -16,9 +16,8 @@ import numpy as np
 
 from twinform.testing.oracles import drake
 from twinform.testing.oracles.comparison import IN_CHAINS, chained, renamed
-from twinform.testing.oracles.looking import look
-from twinform.testing.oracles.robot import Matrix, View
-from twinform.testing.oracles.sampling import spread
+from twinform.testing.oracles.in_process import look
+from twinform.testing.oracles.robot import Matrix, View, spread
 from twinform.testing.oracles.verdict import Alike, UnreadableError, Verdict
 
 TOLERANCE = 1e-6

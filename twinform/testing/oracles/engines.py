@@ -21,7 +21,7 @@ _COARSE_URDF = {".urdf": _COARSE}
 class Engine:
     """An engine: its formats by suffix, with the tolerance that its numbers allow, and what it `needs`.
 
-    `module` has the `read` that looks at a file with it; nothing of the engine is imported before that.
+    `module` has the `read` for files; nothing of the engine is imported before that.
     """
 
     name: str

@@ -10,8 +10,7 @@ from enum import Enum, auto
 
 import numpy as np
 
-from twinform.testing.oracles.robot import GRAVITY, WORLD, Matrix, Robot, Sample, View, inverse, moved
-from twinform.testing.oracles.sampling import position
+from twinform.testing.oracles.robot import GRAVITY, WORLD, Matrix, Robot, Sample, View, inverse, moved, position
 
 
 class Motion(Enum):

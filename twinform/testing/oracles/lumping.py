@@ -1,4 +1,4 @@
-"""Links weighed together with those that are fixed to them, which is how some engines see every robot."""
+"""Lumped links: masses summed with the links that are fixed to them, as some engines do."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace

@@ -22,8 +22,8 @@ from twinform.testing.oracles.robot import (
     limit,
     moved,
     pose,
+    position,
 )
-from twinform.testing.oracles.sampling import position
 from twinform.testing.oracles.shapes import root_link, without_shapes
 
 Numbers = dict[str, int]

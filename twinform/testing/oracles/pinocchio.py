@@ -9,8 +9,19 @@ from typing import Any
 
 import numpy as np
 
-from twinform.testing.oracles.robot import GRAVITY, WORLD, Body, Matrix, Robot, Sample, View, inverse, limit, moved
-from twinform.testing.oracles.sampling import position
+from twinform.testing.oracles.robot import (
+    GRAVITY,
+    WORLD,
+    Body,
+    Matrix,
+    Robot,
+    Sample,
+    View,
+    inverse,
+    limit,
+    moved,
+    position,
+)
 
 Joints = dict[str, Any]
 """Pinocchio's joints with one degree of freedom, by name."""

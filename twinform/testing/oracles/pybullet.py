@@ -15,15 +15,26 @@ from typing import Any, NamedTuple
 import numpy as np
 from lxml import etree
 
-from twinform.testing.oracles.robot import GRAVITY, Body, Matrix, Robot, Sample, View, inverse, limit, moved, pose
-from twinform.testing.oracles.sampling import position
+from twinform.testing.oracles.robot import (
+    GRAVITY,
+    Body,
+    Matrix,
+    Robot,
+    Sample,
+    View,
+    inverse,
+    limit,
+    moved,
+    pose,
+    position,
+)
 from twinform.testing.oracles.shapes import without_shapes
 
 _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
 class _Joint(NamedTuple):
-    """What PyBullet says of a joint."""
+    """The joint info of PyBullet."""
 
     number: int
     name: bytes

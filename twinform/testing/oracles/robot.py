@@ -1,6 +1,7 @@
-"""A robot as an engine sees it: names, limits, and numbers at some joint positions."""
+"""A robot as an engine sees it: names, limits, and numbers at sampled joint positions."""
 
 import math
+import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -17,7 +18,7 @@ _UNLIMITED = 1e15
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """How to look at a model: other `names` for some joints, and the link that poses and gravity are relative to.
+    """Options for reading a model: other `names` for some joints, and the link that poses and gravity are relative to.
 
     Joints that are `still` stay at zero and are none of the robot's. Without a `reference`, or where the model does not
     have it, that is the world if something is joined to it, else the root.
@@ -57,8 +58,8 @@ class Sample:
 class Robot:
     """What one engine sees in one file.
 
-    `joints` are those with one degree of freedom, and stand where the samples say; `others` are those with more, and
-    screws, and stand at zero. `welds` say which link is fixed to which. `lumped` is true where the
+    `joints` are those with one degree of freedom, and stand where the samples are; `others` are those with more, and
+    screws, and stand at zero. `welds` tell which link is fixed to which. `lumped` is true where the
     engine weighs such links together, so that only the first of them has a body.
     """
 
@@ -92,6 +93,19 @@ def pose(rotation: Matrix, translation: Matrix) -> Matrix:
 
 
 def inverse(motion: Matrix) -> Matrix:
-    """The way back of a pose."""
+    """The inverse of a pose."""
     back = motion[:3, :3].T
     return pose(back, -back @ motion[:3, 3])
+
+
+def position(joint: str, number: int) -> float:
+    """The position in rad or m of a joint in the sample of a number; in the first, all are at zero.
+
+    By name only: a limit that differs is one finding, not another position of the whole robot.
+    """
+    return 0.0 if number == 0 else spread(f"{joint}/{number}")
+
+
+def spread(name: str) -> float:
+    """A number from -1 to 1 that belongs to a name."""
+    return 2 * float(np.random.default_rng(zlib.crc32(name.encode())).uniform()) - 1

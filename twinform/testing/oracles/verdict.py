@@ -1,4 +1,4 @@
-"""What an engine says of two models, and what keeps it from saying anything."""
+"""The verdict of an engine on two models, and the errors that keep it from one."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -22,8 +22,8 @@ class Alike(StrEnum):
 class Verdict:
     """Whether two models are the same robot; `bool(verdict)` is true where they are.
 
-    `deviation` is the largest difference that was found, and `of` says in what. Numbers above one are measured
-    against the largest of their kind. `cause` says why two models are not the same.
+    `deviation` is the largest difference that was found, and `of` is in what. Numbers above one are measured
+    against the largest of their kind. `cause` is why two models are not the same.
     """
 
     engine: str

@@ -6,11 +6,9 @@ Arguments are keyword-only and say what is valid; one that nothing can fulfil ra
 """
 
 from twinform.testing.strategies._bodies import geometries, inertials, links
-from twinform.testing.strategies._documents import xml_documents
-from twinform.testing.strategies._edits import edited_files, edits
+from twinform.testing.strategies._edits import edited_files, edits, mutations, xml_documents
 from twinform.testing.strategies._joints import joints
 from twinform.testing.strategies._models import robots, sdf_models, worlds
-from twinform.testing.strategies._mutations import mutations
 from twinform.testing.strategies._values import numbers, poses, vectors
 
 __all__ = [

@@ -1,4 +1,4 @@
-"""What a link is made of: masses, shapes, and links themselves."""
+"""Strategies for links, their masses and shapes."""
 
 from typing import Any
 
@@ -96,5 +96,5 @@ def _named(kind: str) -> Any:
 
 
 def links(*, format: Format | str = Format.URDF, name: str = "link") -> st.SearchStrategy[Link]:
-    """Links of a name, with or without mass and shapes, as the format can say them."""
+    """Links of a name, with or without mass and shapes, as the format can have them."""
     return bodies(Format(format)).map(lambda body: Link(name=name, **body))

@@ -1,6 +1,7 @@
-"""Edits of converted files, as people make them."""
+"""Strategies for edits of converted files, mutations of models, and XML documents that a schema accepts."""
 
 from random import Random
+from typing import Literal
 
 from hypothesis import strategies as st
 
@@ -8,8 +9,11 @@ from twinform.compiler import convert
 from twinform.compiler.output.emitting import emit
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format
+from twinform.schemas import table
+from twinform.testing.documents import document
 from twinform.testing.edits import Edit, draw_edits
 from twinform.testing.edits.drawing import MOST
+from twinform.testing.mutations import MUTATIONS, OF_SDF, OF_URDF, Mutation
 from twinform.testing.strategies._models import robots, sdf_models
 
 EditedFile = tuple[bytes, tuple[Edit, ...]]
@@ -45,3 +49,26 @@ def edited_files(
 
     drawn = models if models is not None else robots(max_links=4) | sdf_models(max_links=4)
     return drawn.map(convert_).flatmap(edit)
+
+
+def mutations(*, format: Format | str | None = None) -> st.SearchStrategy[Mutation]:
+    """Changes that make another robot: each takes a document and gives the changed one, or None if it has no place."""
+    foreign = {None: frozenset[str](), Format.URDF: OF_SDF, Format.SDF: OF_URDF}[Format(format) if format else None]
+    return st.sampled_from([Mutation(name) for name in MUTATIONS if name not in foreign])
+
+
+def xml_documents(*, format: Literal["urdf", "sdf"] = "sdf", version: str | None = None) -> st.SearchStrategy[bytes]:
+    """Documents that the schema of a version accepts, of any version where none is given.
+
+    They have all elements and attributes of the format, with values that fit; names need not refer to anything, so
+    that such a document need not be a model.
+    """
+    versions = table(format).versions
+    if version is not None and version not in versions:
+        raise ValueError(f"{format} has no version {version!r}; it has {', '.join(versions)}")
+
+    def make(random: Random, chosen: str) -> bytes:
+        return document(random, format, chosen)
+
+    chosen = st.sampled_from(versions) if version is None else st.just(version)
+    return st.builds(make, st.randoms(use_true_random=False), chosen)

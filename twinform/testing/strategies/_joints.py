@@ -28,7 +28,7 @@ def axes() -> st.SearchStrategy[Axis]:
 def movements(
     *, types: tuple[JointType, ...] | None = None, with_none: bool = False
 ) -> st.SearchStrategy[dict[str, Any]]:
-    """What a joint of SDF says about how it moves; nothing at all where there is none."""
+    """The axis elements of a joint of SDF; nothing at all where there is none."""
     axis, pitch = axes(), numbers(min_value=0.1, max_value=3)
     one, two = {"axis": axis}, {"axis": axis, "axis2": axis}
     fields: dict[str, dict[str, st.SearchStrategy[Any]]] = {

@@ -13,7 +13,7 @@ _MOST = 1000
 _PRESENT = 7
 """To each segment that is absent."""
 _NEWEST_WORDS = "1.8"
-"""The oldest version of SDF that says frames as these models do."""
+"""The oldest version of SDF that has frames as these models do."""
 
 
 def robots(

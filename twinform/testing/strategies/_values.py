@@ -27,7 +27,7 @@ def maybe(strategy: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
 
 
 def poses(*, whole: bool = False) -> st.SearchStrategy[Pose]:
-    """Poses of roll, pitch and yaw that say something; `whole` ones say both parts, as SDF must."""
+    """Poses of roll, pitch and yaw that are not empty; `whole` ones have both parts, as SDF must."""
     if whole:
         return st.builds(Pose, xyz=vectors(), rpy=vectors(min_value=-3.2, max_value=3.2))
     parts = st.tuples(maybe(vectors()), maybe(vectors(min_value=-3.2, max_value=3.2)))

@@ -1,4 +1,4 @@
-"""Documents as JSON, read: from JSON to the text of the format that it is in. See `docs/reference/json.md`."""
+"""JSON input: from JSON to the text of the format that the document is in. See `docs/reference/json.md`."""
 
 from twinform.compiler.input.json.comparing import compare_documents
 from twinform.compiler.input.json.reading import JsonSource, read_json

@@ -1,4 +1,4 @@
-"""Whether a document is what its text is read as: what a format cannot say is an error, and never just left out."""
+"""Compares a JSON document with what its text is read as: what the format cannot express is an error."""
 
 import json
 from collections.abc import Iterable, Iterator
@@ -20,7 +20,7 @@ _UNKNOWN = object()
 
 
 class Missed(NamedTuple):
-    """A place where a document says something else than the text that was made of it."""
+    """A place where a document differs from the text that was made of it."""
 
     path: JsonPath
     mine: Any
@@ -28,7 +28,7 @@ class Missed(NamedTuple):
 
 
 def compare_documents(document: Document, again: Document | None, sink: DiagnosticSink) -> None:
-    """Report what of a document its format cannot say: `again` is what its text would be read as, if it has any."""
+    """Report what of a document its format cannot express: `again` is what its text would be read as, if it has any."""
     data = plain(json_data(document))
     for fault in islice(json_faults(data), MOST):
         name = "/".join(map(str, fault.path))
@@ -57,7 +57,7 @@ def _nearest(node: Node, path: JsonPath) -> Node:
 
 
 def report_missed(missed: Missed, format_: str, where: Location, sink: DiagnosticSink) -> None:
-    """Say that a document cannot be said as it is."""
+    """Report that a document cannot be expressed as it is."""
     name = "/".join(map(str, missed.path))
     became = "leaves it out" if missed.theirs is _UNKNOWN else f"has {_shown(missed.theirs)} there"
     said = "nothing" if missed.mine is _UNKNOWN else _shown(missed.mine)
@@ -67,7 +67,7 @@ def report_missed(missed: Missed, format_: str, where: Location, sink: Diagnosti
 
 
 def plain(data: Any) -> Any:
-    """The same without fields that say nothing."""
+    """The same without empty fields."""
     if is_array(data):
         return [plain(each) for each in data]
     if not is_object(data):
@@ -77,7 +77,7 @@ def plain(data: Any) -> Any:
 
 
 def differences(mine: Any, theirs: Any, path: JsonPath) -> Iterator[Missed]:
-    """The places where two documents say something else."""
+    """The places where two documents differ."""
     if is_object(mine) and is_object(theirs):
         for name in [*mine, *(name for name in theirs if name not in mine)]:
             if name == "opaque":

@@ -5,12 +5,12 @@ back as it was is an error.
 """
 
 import json
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from twinform.compiler.input.json.comparing import MOST, differences, plain, report_missed
-from twinform.compiler.input.json.lines import lines_of
 from twinform.compiler.input.limits import excess_of_names
 from twinform.compiler.input.parsing import refuse_excess
 from twinform.compiler.output.emitting import document_tree, serialized
@@ -139,3 +139,33 @@ def _places(node: Node, path: JsonPath) -> Iterator[tuple[int, JsonPath]]:
         else:
             for index, child in enumerate(value):
                 yield from _places(child, (*path, name, index))
+
+
+_TOKEN = re.compile(r'"(?:[^"\\]|\\.)*"|[{}\[\],:]|[^\s{}\[\],:"]+')
+
+
+def lines_of(text: str) -> dict[JsonPath, int]:
+    """The line of every value of a JSON text, by the names and places that lead to it."""
+    found: dict[JsonPath, int] = {}
+    path: list[str | int] = []
+    line, seen, names = 1, 0, False
+    for token in _TOKEN.finditer(text):
+        line, seen, word = line + text.count("\n", seen, token.start()), token.start(), token[0]
+        match word:
+            case "}" | "]":
+                path.pop()
+                names = False
+            case ":":
+                names = False
+            case "," if isinstance(path[-1], int):
+                path[-1] += 1
+            case ",":
+                names = True
+            case _ if names:
+                path[-1] = json.loads(word)
+            case _:
+                found[tuple(path)] = line
+                names = word == "{"
+                if word in "{[":
+                    path.append("" if names else 0)
+    return found

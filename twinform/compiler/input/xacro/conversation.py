@@ -1,4 +1,4 @@
-"""The conversation with the process that expands xacro: a task, questions and answers, and what came of it."""
+"""Protocol with the process that expands xacro, on the compiler's side: a task, questions and answers, a result."""
 
 import json
 import os
@@ -68,7 +68,7 @@ class _Conversation:
         return cls(path, search, files)
 
     def hold(self, process: subprocess.Popen[bytes], task: Mapping[str, object]) -> dict[str, Any]:
-        """Give the task and answer, until the process says what became of it."""
+        """Give the task and answer, until the process sends the result."""
         to_worker, from_worker = process.stdin, process.stdout
         message, content = task, b""
         try:

@@ -1,4 +1,4 @@
-"""From a xacro file to the text that it expands to, and where its lines come from."""
+"""Expands a xacro file to text, with the origin of each line."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -30,7 +30,7 @@ def expand(path: Path, arguments: Mapping[str, str], search: SearchPath, sink: D
     """The text of a xacro file.
 
     Raises:
-        UnreadableError: it cannot be expanded; the notes say why.
+        UnreadableError: it cannot be expanded; the diagnostics tell why.
     """
     if not path.is_file():
         sink.report(reading.UNREADABLE_FILE, "cannot read the file: there is none of this name")

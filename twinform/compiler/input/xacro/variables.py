@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from twinform.compiler.input.xacro.files import OutsideError
 
 _WORDS = frozenset({"auth", "cert", "cookie", "dsn", "jwt", "key", "keys", "login", "pass", "pat", "private", "pwd"})
-"""Words that make a secret of a variable which has them between its underscores."""
+"""Parts of a name, between underscores, that make the variable a secret."""
 _PARTS = ("apikey", "authorization", "credential", "passphrase", "passwd", "password", "secret", "session", "token")
 """Letters that make a secret of it anywhere in its name."""
 _FOLDERS = frozenset({"PWD", "OLDPWD"})
@@ -15,7 +15,7 @@ _PASSWORD = re.compile(r"://[^/\s]*:[^/\s]*@")
 
 
 def variable(name: str, environment: Mapping[str, str]) -> str | None:
-    """What an environment variable says; None where there is none.
+    """The value of an environment variable; None where there is none.
 
     Raises:
         OutsideError: by its name it is a secret, or there is a password in it.

@@ -1,4 +1,4 @@
-"""What can be otherwise in two simulations, and how far apart numbers may be."""
+"""The kinds of differences between two simulations, and their tolerances."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""libsdformat 12, the reference parser of SDF: what it says of files, and the robot that it sees in one."""
+"""libsdformat 12, the reference parser of SDF: its messages on files, and the robot that it sees in one."""
 
 from twinform.testing.oracles.libsdformat.library import MISSING, Reading, available, judge
 

@@ -1,4 +1,4 @@
-"""What libsdformat 12, the reference parser of SDF, says of a file."""
+"""The messages of libsdformat 12, the reference parser of SDF, on a file."""
 
 import json
 import os
@@ -139,7 +139,7 @@ def describe(path: Path) -> RobotRow:
 
 
 def models_of(path: Path, folders: Iterable[Path] = ()) -> tuple[Reading, list[RobotRow]]:
-    """What is said of a file, and all models of it, those of its worlds too; none where it is not read.
+    """The messages on a file, and all models of it, those of its worlds too; none where it is not read.
 
     Includes are looked up beside the file, and then in the folders.
     """

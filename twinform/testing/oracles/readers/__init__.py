@@ -1,4 +1,4 @@
-"""Other programs' readers of URDF and SDF: whether they take a file, and what they say of it.
+"""Other programs' readers of URDF and SDF: whether they accept a file, and their messages on it.
 
 They are asked whether something changes for them: a file with carriers has to be for each what it is without them.
 """

@@ -9,7 +9,7 @@ from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.testing.oracles.readers.library import Reader, Reading
 
 MENTIONS = {"drake": "Ignoring unsupported SDFormat element", "urdf_parser_py": "Unknown tag"}
-"""How a reader says that it skips what it does not know."""
+"""The message of a reader that it skips what it does not know."""
 
 
 class Effect(StrEnum):

@@ -25,7 +25,7 @@ _NPM = f"npm install urdf-loader three jsdom, with their node_modules in {NODE_M
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """Whether a reader takes a file, why not, and everything that it says of it."""
+    """Whether a reader accepts a file, why not, and all its messages on it."""
 
     error: str
     said: str
@@ -70,7 +70,7 @@ class Reader:
 
 
 def _lasting(text: str, path: Path) -> str:
-    """What a reader says, without what would be otherwise the next time."""
+    """The messages of a reader, without what changes from run to run."""
     plain = (
         _COLOR.sub("", text).replace(str(path), "FILE").replace(path.name, "FILE").replace(str(path.parent), "FOLDER")
     )

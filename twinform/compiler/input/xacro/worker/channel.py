@@ -44,7 +44,7 @@ class Compiler(Protocol):
         ...
 
     def environment(self, name: str) -> str | None:
-        """What an environment variable says; None where there is none of this name.
+        """The value of an environment variable; None where there is none of this name.
 
         Raises:
             NotFoundError: it must not be read.
@@ -75,7 +75,7 @@ class Channel:
             os.dup2(nothing, descriptor)
 
     def send(self, message: dict[str, Any]) -> None:
-        """Say something."""
+        """Show a text."""
         self.outgoing.write(json.dumps(message).encode() + b"\n")
         self.outgoing.flush()
 
@@ -109,5 +109,5 @@ class Channel:
         return self._ask({"match": pattern})["paths"]
 
     def environment(self, name: str) -> str | None:
-        """Ask what an environment variable says."""
+        """Ask for the value of an environment variable."""
         return self._ask({"environment": name})["value"]

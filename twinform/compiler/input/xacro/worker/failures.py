@@ -1,4 +1,4 @@
-"""What stopped an expansion, in words."""
+"""Error messages of a failed expansion."""
 
 from typing import Any
 
@@ -13,7 +13,7 @@ class TimeUpError(Exception):
 
 
 def words(error: BaseException) -> dict[str, str]:
-    """What an exception says, and the macros through which it came."""
+    """The message of an exception, and the macros through which it came."""
     cause = _cause(error)
     match cause:
         case RecursionError():

@@ -1,4 +1,4 @@
-"""XML trees of `minidom` whose elements know the file and line in which they were written."""
+"""Source locations in `minidom` trees: elements that know their file and line."""
 
 from collections.abc import Iterator
 from typing import Any

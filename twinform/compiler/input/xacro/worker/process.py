@@ -1,4 +1,4 @@
-"""The task of the process: one file is expanded, and what became of it is said."""
+"""The task of the process: expand one file and send the result."""
 
 import io
 import sys
@@ -52,7 +52,7 @@ class _Remarks(io.StringIO):
 
 
 def run(compiler: Compiler, confine: Callable[[], object] = confine) -> dict[str, Any]:
-    """Do the task that the compiler gives, and say what became of it."""
+    """Do the task that the compiler gives, and send the result."""
     task = compiler.receive()
     try:
         expander = Expander(compiler, task["file"])

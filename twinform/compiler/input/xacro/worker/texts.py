@@ -14,7 +14,7 @@ _PART = re.compile(
 
 
 class Texts:
-    """Evaluates texts; `failure` makes the exception of xacro that says in which expression it went wrong."""
+    """Evaluates texts; `failure` makes the exception of xacro that names the expression at fault."""
 
     def __init__(
         self,

@@ -1,4 +1,4 @@
-"""How much an expression may ask for: steps, and the sizes of numbers, texts and collections.
+"""Resource budget of an expression: steps, and the sizes of numbers, texts and collections.
 
 Steps are counted for all expressions of a file together, and what makes something large pays for its size. So nothing
 that is built from small parts, such as a power of a power or a list of lists of itself, gets far.

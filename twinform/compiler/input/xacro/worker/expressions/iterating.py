@@ -1,4 +1,4 @@
-"""Going through values: each item costs a step, and nothing is gone through that might not end."""
+"""Iteration over values: each item costs a step, and only what surely ends can be iterated over."""
 
 from collections.abc import Iterator
 

@@ -1,4 +1,4 @@
-"""What stands behind a dot: members of namespaces, items of dictionaries of data files, and methods; nothing else."""
+"""Attribute access in expressions: members of namespaces, items of dictionaries of data files, and methods."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""What an expression may consist of: a list of what is allowed, held against its whole syntax tree before it runs."""
+"""Allowed syntax of expressions: a list that the whole syntax tree is checked against before it runs."""
 
 import ast
 from collections.abc import Mapping

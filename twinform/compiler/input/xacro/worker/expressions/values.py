@@ -1,4 +1,4 @@
-"""What expressions work with: plain values of Python, functions that are offered, and names behind a dot."""
+"""The values of expressions: plain values of Python, functions that are offered, and names behind a dot."""
 
 from collections.abc import Callable, Iterator, Mapping
 from datetime import date, datetime, time

@@ -1,10 +1,10 @@
-"""What has no typed field: parts as they were written, with where they stood."""
+"""Elements, attributes and texts that have no typed field: kept as they were written, with their position."""
 
 from collections.abc import Callable
 
 from twinform.diagnostics import Source
 from twinform.schemas.messages import Context
-from twinform.schemas.stores import Data
+from twinform.schemas.value_stores import Data
 from twinform.schemas.xml import XmlElement
 
 locate: Callable[[type[Source], tuple[object, ...]], Source] = tuple.__new__  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] - typeshed leaves the items open

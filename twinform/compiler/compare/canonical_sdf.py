@@ -1,12 +1,12 @@
-"""Two files in one language: the robots of a document, said in the words of the newest SDF."""
+"""The robots of a URDF or SDF file in the syntax of the newest SDF version, in which they are compared."""
 
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from twinform.compiler.compare.describe import describe
 from twinform.compiler.compare.robot import Robot
+from twinform.compiler.compare.robot_builder import build_robot
 from twinform.compiler.errors import CompileError
 from twinform.compiler.includes.expanding import expand
 from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, read
@@ -64,21 +64,21 @@ def _robots(
     loaded: LoadResult, document: Document, model: str | None, sink: DiagnosticSink, assets: Assets
 ) -> Iterator[tuple[str, Robot]]:
     """Each robot by its name, with its world's where several are called so."""
-    said = Pipeline(_into_words_of_sdf(document)).with_files(assets).run(document, sink)
+    canonical = Pipeline(_to_newest_sdf(document)).with_files(assets).run(document, sink)
     if sink.has_errors:
         return
     if document.format is Format.SDF:  # names that a model of URDF had, as far as these are unlike others
-        said = RestoreNames(to=Format.URDF, unique=True).run(said, DiagnosticSink())
-    names = list(dict.fromkeys(one.full_name for one in candidates(said)))
-    called = Counter(one.model.name for one in candidates(said))
+        canonical = RestoreNames(to=Format.URDF, unique=True).run(canonical, DiagnosticSink())
+    names = list(dict.fromkeys(one.full_name for one in candidates(canonical)))
+    called = Counter(one.model.name for one in candidates(canonical))
     for name in [None] if len(names) == 1 else names if model is None else [model]:
-        chosen = SelectModel(model=name).run(said, sink)
+        chosen = SelectModel(model=name).run(canonical, sink)
         if sink.has_errors:
             return
         chosen = UniqueNames().run(chosen, DiagnosticSink())  # before 1.7 a joint and a link could share theirs
         chosen = chosen.model_copy(update={"models": tuple(map(_comparable, chosen.models))})
         source = document.models[0] if document.format is Format.URDF else chosen.models[0]
-        robot = describe(chosen.models[0], source, document.format, loaded.origins)
+        robot = build_robot(chosen.models[0], source, document.format, loaded.origins)
         yield (robot.name if called[robot.name] == 1 or name is None else name), robot
 
 
@@ -87,7 +87,7 @@ def _comparable(model: Model) -> Model:
     return without_tokens(without_loose_floating(model))
 
 
-def _into_words_of_sdf(document: Document) -> tuple[Pass, ...]:
+def _to_newest_sdf(document: Document) -> tuple[Pass, ...]:
     newest = table("sdf").versions[-1]
     if document.format is Format.URDF:
         return to_sdf(newest, carriers=True, scopes=False)

@@ -1,4 +1,4 @@
-"""What happens to a value once it is parsed: it is checked against its bounds and put where the IR has it."""
+"""Stores parsed values: checked against their bounds and put into the field of the IR."""
 
 from collections.abc import Callable
 from typing import Any

@@ -1,4 +1,4 @@
-"""Passes that only look: run by `check` for what they find."""
+"""Read-only passes: run by `check` for the diagnostics that they report."""
 
 from pathlib import Path
 
@@ -10,15 +10,17 @@ from twinform.ir import Document
 from twinform.passes import Pass, Pipeline, SideFilePass
 
 
-class LookingError(Exception):
-    """A pass does more than look."""
+class ReadOnlyPassError(Exception):
+    """A pass that should be read-only changes the document or makes a file."""
 
 
-def look(document: Document, passes: Pipeline, sink: DiagnosticSink, path: Path, load_options: LoadOptions) -> None:
+def run_read_only(
+    document: Document, passes: Pipeline, sink: DiagnosticSink, path: Path, load_options: LoadOptions
+) -> None:
     """Run passes on a document for what they report.
 
     Raises:
-        LookingError: one of them changes the document, or makes a file.
+        ReadOnlyPassError: one of them changes the document, or makes a file.
         PassError: one of them is at fault.
     """
     lent = passes.with_files(LocalAssets(load_options.search, path), OtherDocuments(load_options, str(path)).read)
@@ -29,5 +31,5 @@ def look(document: Document, passes: Pipeline, sink: DiagnosticSink, path: Path,
             raise _refusal(step, "changes the model")
 
 
-def _refusal(step: Pass, what: str) -> LookingError:
-    return LookingError(f"the pass {step.name} {what}, and check only looks; run it with convert --passes")
+def _refusal(step: Pass, what: str) -> ReadOnlyPassError:
+    return ReadOnlyPassError(f"the pass {step.name} {what}, and check only looks; run it with convert --passes")

@@ -7,7 +7,7 @@ from lxml import etree
 
 from twinform.diagnostics import DiagnosticSink, Source
 from twinform.schemas import Context, Fact
-from twinform.schemas.stores import value_check, value_store
+from twinform.schemas.value_stores import value_check, value_store
 
 LATE = Fact("@mode", since=(1, 5), enum=("late", "slow"))
 GONE = Fact("@mode", until=(1, 0), enum=("gone", "slow"))

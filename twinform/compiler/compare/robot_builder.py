@@ -1,4 +1,4 @@
-"""From a model in the words of the newest SDF to the robot that it is."""
+"""Builds the robot that is compared from a model in the syntax of the newest SDF version."""
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
@@ -6,7 +6,7 @@ from functools import partial
 
 from twinform.compiler.compare.joint_values import joint_leaves
 from twinform.compiler.compare.leaves import THERE
-from twinform.compiler.compare.reading import Reading
+from twinform.compiler.compare.part_reader import PartReader
 from twinform.compiler.compare.robot import Body, JointView, Leaf, Mass, NamedFrame, Part, Robot
 from twinform.diagnostics import Origins
 from twinform.ir import Axis, Element, Format, Frame, Inertial, Joint, Link, Model, Node, Pose, Vector3
@@ -23,11 +23,11 @@ _WITHOUT_AXIS = frozenset({"fixed", "ball"})
 _WITH_TWO = frozenset({"universal", "revolute2", "gearbox"})
 
 
-def describe(model: Model, source: Model, format: Format, origins: Mapping[str, Origins]) -> Robot:
+def build_robot(model: Model, source: Model, format: Format, origins: Mapping[str, Origins]) -> Robot:
     """The robot of a model; `source` is the model as the file has it."""
     shells: list[tuple[Frame, Model]] = []
     model = _without_made_root(flatten(model, lambda frame, shell: _noted(shells, frame, shell)))
-    return _Description(model, format, origins).robot(source, shells)
+    return _RobotBuilder(model, format, origins).robot(source, shells)
 
 
 def _noted(shells: list[tuple[Frame, Model]], frame: Frame, shell: Model) -> Frame:
@@ -48,19 +48,19 @@ def _without_made_root(model: Model) -> Model:
     return model.model_copy(update={"links": (), "frames": tuple(frames), "canonical_link": None})
 
 
-class _Description:
-    """One model on the way to be a robot."""
+class _RobotBuilder:
+    """The robot of one model."""
 
     def __init__(self, model: Model, format: Format, origins: Mapping[str, Origins]) -> None:
         self.model = model
         self.format = format
         self.graph = FrameGraph(model)
-        self.reading = Reading(partial(_resolve, self.graph), origins)
+        self.reader = PartReader(partial(_resolve, self.graph), origins)
 
     def robot(self, source: Model, shells: Iterable[tuple[Frame, Model]]) -> Robot:
         """All of it."""
         model, identity = self.model, Transform()
-        leaves, parts = self.reading.parts(model, identity)
+        leaves, parts = self.reader.parts(model, identity)
         inner = [*(self._shell(shell, frame.name) for frame, shell in shells), *self._carried_shells()]
         of_urdf = source if self.format is Format.URDF else Model(name="")
         return Robot(
@@ -73,24 +73,24 @@ class _Description:
             models=frozenset(part.name for part in inner),
             leaves=leaves,
             parts=(*parts, *inner),
-            where=self.reading.place(model),
+            where=self.reader.place(model),
         )
 
     def _body(self, link: Link) -> Body:
         frame = self.graph.pose(link.name, MODEL, base="model")
-        leaves, parts = self.reading.parts(link, frame)
+        leaves, parts = self.reader.parts(link, frame)
         mass = self._mass(link.inertial, link.name)
-        return Body(link.name, frame, mass, leaves, parts, self.reading.place(link))
+        return Body(link.name, frame, mass, leaves, parts, self.reader.place(link))
 
     def _mass(self, inertial: Inertial | None, link: str) -> Mass:
         inertial = inertial or Inertial()
         pose = self.graph.resolve(inertial.pose, link, MODEL, base="model")
         solid = placed(written_solid(inertial, Format.SDF), pose)
-        return Mass(solid, bool(inertial.auto), self.reading.place(inertial))
+        return Mass(solid, bool(inertial.auto), self.reader.place(inertial))
 
     def _joint(self, joint: Joint) -> JointView:
         frame = self.graph.pose(joint.name, MODEL, kind="joint", base="model")
-        leaves, parts = self.reading.parts(joint, frame)
+        leaves, parts = self.reader.parts(joint, frame)
         return JointView(
             joint.name,
             joint.type,
@@ -100,7 +100,7 @@ class _Description:
             tuple(self._axes(joint, frame)),
             joint_leaves(joint, leaves),
             parts,
-            self.reading.place(joint),
+            self.reader.place(joint),
         )
 
     def _end(self, name: str | None) -> str:
@@ -124,22 +124,22 @@ class _Description:
             self.graph.pose(frame.name, MODEL, kind="frame", base="model"),
             was_link=any(link.name == frame.name for link in source.links),
             was_joint=any(joint.name == frame.name for joint in source.joints),
-            where=self.reading.place(frame),
+            where=self.reader.place(frame),
         )
 
     def _shell(self, shell: Model, name: str) -> Part:
-        """What a nested model says, but for its links, joints and frames."""
-        leaves, parts = self.reading.parts(shell, Transform())
+        """A nested model without its links, joints and frames."""
+        leaves, parts = self.reader.parts(shell, Transform())
         inside = {f"{part.kind}[{part.name}]": Leaf(THERE, where=part.where) for part in parts}
         inside |= {f"{part.kind}[{part.name}]/{path}": leaf for part in parts for path, leaf in part.leaves.items()}
-        return Part("model", name, {**leaves, **inside}, self.reading.place(shell))
+        return Part("model", name, {**leaves, **inside}, self.reader.place(shell))
 
     def _carried_shells(self) -> Iterator[Part]:
         """The same of nested models that traveled in URDF."""
         for frame in self.model.frames:
             for element in _carried(frame):
                 if element.name == "model":
-                    part = self.reading.element(element_xml(element), "model", self.reading.place(frame), Transform())
+                    part = self.reader.element(element_xml(element), "model", self.reader.place(frame), Transform())
                     yield Part("model", frame.name, part.leaves, part.where, carried=True)
 
 

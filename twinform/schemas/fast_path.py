@@ -1,4 +1,4 @@
-"""The short way through an element in which nothing is unusual, which is nearly every one.
+"""Fast path of the schema reader, for an element in which nothing is unusual, which is nearly every one.
 
 It is for documents that the schema has accepted and that have no namespaces: there, an element that the facts give no
 children has none. Everything here may give up: it then says so, has done nothing, and the reader takes the long way,
@@ -9,13 +9,13 @@ from collections.abc import Callable
 from typing import Any
 
 from twinform.schemas.facts import Fact, Version
-from twinform.schemas.stores import Data
+from twinform.schemas.value_stores import Data
 from twinform.schemas.values import ValueType
 from twinform.schemas.xml import XmlElement
 
 Parse = Callable[[Any], Any]
 Quick = Callable[[XmlElement, Data], bool]
-"""Reads an element into the dict of its node and says whether it did: (element, node)"""
+"""Reads an element into the dict of its node and returns whether it did: (element, node)"""
 
 GIVE_UP = (ValueError, KeyError, TypeError)
 """What a quick parser raises: bad text, an unknown name, no text at all."""
@@ -25,7 +25,7 @@ _BOOLS: dict[str, bool] = {"true": True, "false": False}
 
 
 def quick_parse(row: Fact, types: dict[str, ValueType], version: Version) -> Parse | None:
-    """A parser that gives up on every value that needs a word, or None where the row itself is unusual."""
+    """A parser that gives up on every value that needs a diagnostic, or None where the row itself is unusual."""
     place = row.place
     if (
         not place

@@ -1,4 +1,4 @@
-"""Nodes of the IR as parts: every value in them with its kind, its place in the file and its default."""
+"""Reads nodes of the IR as parts: every value in them with its kind, its line in the file and its default."""
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
@@ -43,15 +43,15 @@ _NOTHING = Element(name="nothing")
 _FLOATING = f"{{{NAMESPACE}}}{FLOATING}"
 """A joint of URDF that is none in SDF."""
 _NOT_OF_THE_ROBOT = frozenset({"material", "gazebo", "link", "inertial", "mass", "origin", "name", "type"})
-"""What URDF's carriers hold that says how the file is written, or that the model says in words of SDF."""
+"""What URDF's carriers hold that is about how the file is written, or that the model has in SDF syntax."""
 _NEW_WORDS = {**RENAMED_ELEMENTS, "gpu_ray": "gpu_lidar"}
 """Types of sensors, and elements with their parameters, that have two names; readers take one for the other."""
 _IGNORED_LIMITS = frozenset({"limit/@lower", "limit/@upper"})
-"""Of a continuous joint; those of others are said in words of SDF."""
+"""Of a continuous joint; those of others are in SDF syntax."""
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
+class PartReader:
     """How the nodes of one model are read: which frames there are, and where in which file a line was written."""
 
     resolve: Resolve
@@ -68,7 +68,7 @@ class Reading:
         return place._replace(path=location.path) if place else location
 
     def parts(self, node: Link | Joint | Model, frame: Transform) -> tuple[Leaves, tuple[Part, ...]]:
-        """What a node says of itself, and the parts in it; poses are relative to its frame."""
+        """The values of a node itself, and the parts in it; poses are relative to its frame."""
         fields = _PARTS[type(node)]
         tag = type(node).__name__.lower()
         parts = [self._part(child, fields[name], frame) for name in fields for child in getattr(node, name)]
@@ -126,7 +126,7 @@ class Reading:
         return walk.found, inner
 
     def _of_urdf(self, xml: XmlElement, node: Node) -> tuple[dict[str, Leaf], list[Part]]:
-        """What only URDF has a word for, which SDF holds in carriers: leaves, and named parts of the model."""
+        """What only URDF has elements for, which SDF holds in carriers: leaves, and named parts of the model."""
         where = self.place(node)
         leaves: dict[str, Leaf] = {}
         parts: list[Part] = []
@@ -195,7 +195,7 @@ def _old_name(node: Joint | Frame) -> str | None:
 
 
 def _is_idle(at: str, piece: XmlElement, joint: Joint) -> bool:
-    """Whether it is about an axis that the joint does not have, or says itself."""
+    """Whether it is about an axis that the joint does not have, or has itself."""
     if piece.tag not in OF_AN_AXIS:
         return False
     return joint.axis is None or joint.type == "fixed" or (not at and joint.type not in WITHOUT_AXIS)
@@ -232,7 +232,7 @@ def _xml(node: Node, tag: str) -> XmlElement:
 
 
 def _in_new_words(sensor: XmlElement) -> None:
-    """Say what has an old and a new name, such as a scan of `<ray>` and of `<lidar>`, in the new one."""
+    """Rename what has an old and a new name, such as a scan of `<ray>` and of `<lidar>`, to the new one."""
     kind = sensor.get("type")
     if kind in _NEW_WORDS:
         sensor.set("type", _NEW_WORDS[kind])

@@ -1,4 +1,4 @@
-"""Looking at files with an engine in this process, which an engine may take down; `asking.py` has a process for it."""
+"""Reading and comparing files with an engine in this process, which it may crash; `isolated.py` starts one for it."""
 
 from importlib import import_module
 from pathlib import Path

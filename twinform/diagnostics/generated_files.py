@@ -1,4 +1,4 @@
-"""Files that are generated and committed: write one, or check that it is as the generator would write it."""
+"""Command line of generators: write a generated file, or check that the committed one is up to date."""
 
 import argparse
 import sys

@@ -1,4 +1,4 @@
-"""The comparison of two robots, part by part."""
+"""Compares two robots part by part: links, masses, joints, frames and placement."""
 
 import math
 from collections.abc import Callable, Iterable, Mapping
@@ -25,10 +25,10 @@ _ABOUT_A_POINT = frozenset({"ball", "universal", "revolute2"})
 
 def compare_robots(a: Robot, b: Robot, terms: Terms, *, several: bool) -> tuple[Difference, ...]:
     """Everything in which two robots differ; where they are two of `several`, their place among these counts."""
-    return _Judge(lump(a, b), terms, several=several).run()
+    return _Comparer(lump(a, b), terms, several=several).run()
 
 
-class _Judge:
+class _Comparer:
     def __init__(self, lumped: Lumped, terms: Terms, *, several: bool) -> None:
         self.a, self.b, self.lumped = lumped.a, lumped.b, lumped
         self.terms = terms

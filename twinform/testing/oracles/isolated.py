@@ -1,4 +1,4 @@
-"""The question that users ask: are these two files the same robot?"""
+"""Comparison and simulation of two files with a physics engine, in a process of its own that may crash."""
 
 from os import PathLike
 from pathlib import Path
@@ -23,7 +23,7 @@ def compare(
 
     Args:
         a: URDF or SDF, as the engine reads it.
-        b: likewise.
+        b: URDF or SDF, as the engine reads it.
         engine: a name of `ENGINES`.
         other: the engine for `b`, where it is another one.
         lumped: weigh links together that are fixed to each other, as some engines do anyway.
@@ -33,14 +33,14 @@ def compare(
         UnreadableError: an engine cannot read its file.
         ValueError: there is no such engine.
     """
-    from twinform.testing.oracles import looking  # noqa: PLC0415 - numpy, which is in the extra `oracles`
+    from twinform.testing.oracles import in_process  # noqa: PLC0415 - numpy, which is in the extra `oracles`
 
     engines = (engine, other or engine)
     for name in engines:
         required(name)
     first, second = Path(a).resolve(), Path(b).resolve()
     try:
-        return call(looking.compared, first, second, engines, lumped)
+        return call(in_process.compared, first, second, engines, lumped)
     except ChildDiedError:
         raise _culprit(first, second, engines) from None
 
@@ -50,7 +50,7 @@ def simulate(a: str | PathLike[str], b: str | PathLike[str], *, seconds: float =
 
     Args:
         a: URDF or SDF.
-        b: likewise.
+        b: URDF or SDF.
         seconds: for how long.
 
     Raises:
@@ -69,10 +69,10 @@ def simulate(a: str | PathLike[str], b: str | PathLike[str], *, seconds: float =
 
 def _culprit(first: Path, second: Path, engines: tuple[str, str]) -> UnreadableError:
     """The file on which an engine ends its process."""
-    from twinform.testing.oracles import looking  # noqa: PLC0415 - as above
+    from twinform.testing.oracles import in_process  # noqa: PLC0415 - as above
 
     try:
-        call(looking.look, first, engines[0])
+        call(in_process.look, first, engines[0])
     except ChildDiedError as died:
         return UnreadableError(engines[0], first, str(died))
     return UnreadableError(engines[1], second, "it ends the process")

@@ -7,7 +7,7 @@ import pytest
 from lxml import etree
 
 from twinform.schemas import Fact
-from twinform.schemas.quick import GIVE_UP, quick_attributes, quick_parse, quick_pose
+from twinform.schemas.fast_path import GIVE_UP, quick_attributes, quick_parse, quick_pose
 from twinform.schemas.values import VALUE_TYPES
 
 TYPES = VALUE_TYPES["sdf"]

@@ -1,20 +1,20 @@
-"""Readers of children that are remarkable by their row alone: the same readers, with a word about the element first."""
+"""Diagnostics that the facts row of an element calls for: deprecated, of another version, of a dialect."""
 
 from collections.abc import Callable
 
 from twinform.schemas import messages
 from twinform.schemas.facts import Fact, Version
-from twinform.schemas.keeping import keep_element
 from twinform.schemas.messages import Context
-from twinform.schemas.stores import Data
+from twinform.schemas.untyped_parts import keep_element
+from twinform.schemas.value_stores import Data
 from twinform.schemas.xml import XmlElement, is_blank
 
 ReadChild = Callable[[XmlElement, Data, str, int, Context], None]
 """Reads a child: (child, node, path from the node to the parent, place among its like, context)"""
 
 
-def remarked(row: Fact, version: Version, read: ReadChild, *, has_text: bool, keep: bool) -> ReadChild:
-    """The reader of a child in a version, with what there is to say about every such child.
+def with_row_findings(row: Fact, version: Version, read: ReadChild, *, has_text: bool, keep: bool) -> ReadChild:
+    """The reader of a child in a version, with the diagnostics of every such child.
 
     `has_text` says whether its element has text by the facts, and `keep` whether what has no field is kept.
     """
@@ -46,7 +46,7 @@ def _unless_another(read: ReadChild, *, keep: bool) -> ReadChild:
 
 
 def _after(say: Callable[[Context, XmlElement], None], read: ReadChild) -> ReadChild:
-    """The same reader, after a word about the child."""
+    """The same reader, after a diagnostic about the child."""
 
     def read_after(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
         say(context, child)
@@ -56,7 +56,7 @@ def _after(say: Callable[[Context, XmlElement], None], read: ReadChild) -> ReadC
 
 
 def _aside(read: ReadChild) -> ReadChild:
-    """The same reader for an element that is no business of those who read the robot: its faults are theirs alone."""
+    """The same reader for an element outside the robot's description, whose faults are no errors of the robot."""
 
     def read_aside(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
         before, context.aside = context.aside, True
