@@ -4,7 +4,6 @@ from twinform.passes.framework.assets import NO_ASSETS, AssetError, AssetPass, A
 from twinform.passes.framework.base import Pass
 from twinform.passes.framework.errors import BrokenPassError, FailedPassError, PassError
 from twinform.passes.framework.instrumentation import CombinedInstrumentation, PassInstrumentation
-from twinform.passes.framework.named import Names, UnknownPipelineError
 from twinform.passes.framework.other_documents import DocumentPass, DocumentReader
 from twinform.passes.framework.pipeline import Pipeline, Verifier
 from twinform.passes.framework.registry import (
@@ -18,7 +17,7 @@ from twinform.passes.framework.registry import (
 )
 from twinform.passes.framework.side_files import CompanionPath, SideFilePass
 from twinform.passes.framework.syntax import PipelineError
-from twinform.passes.framework.text import parse_pipeline
+from twinform.passes.framework.text import Names, UnknownPipelineError, parse_pipeline
 
 __all__ = [
     "GROUP",

@@ -13,7 +13,7 @@ from twinform.cli.config.pipelines import NamedPipelines
 from twinform.cli.config.settings import Settings, parse_settings
 from twinform.cli.config.trust import confined, require_inside
 from twinform.passes import Pipeline
-from twinform.passes.framework.named import Names, no_names
+from twinform.passes.framework.text import Names, no_names
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 _KEY = f"{__name__}.project"

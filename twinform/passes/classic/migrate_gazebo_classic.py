@@ -7,9 +7,7 @@ from pydantic import Field
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.ir import Document, Format, Model
 from twinform.passes.classic.deferred_edits import DeferredEdits
-from twinform.passes.classic.emptied import without_emptied
-from twinform.passes.classic.hardware import modern_hardware
-from twinform.passes.classic.looks import in_colors
+from twinform.passes.classic.document_edits import in_colors, modern_hardware, without_emptied
 from twinform.passes.classic.plugins import PluginMigration
 from twinform.passes.classic.reporting import accept, scratch
 from twinform.passes.classic.sensors import SensorMigration

@@ -5,16 +5,13 @@ from dataclasses import dataclass
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import classic as rules
-from twinform.ir import Axis, Format, Joint, Mimic, Model, Plugin
+from twinform.ir import Axis, Element, Format, Joint, Mimic, Model, Plugin
 from twinform.ir.defaults import multiplier
-from twinform.ir.element import Element
-from twinform.passes.classic.caveats import reasons_to_look
 from twinform.passes.classic.deferred_edits import DeferredEdits
 from twinform.passes.classic.ignition import modern_plugin
 from twinform.passes.classic.link_pose import OtherQuantityError, offset_of
-from twinform.passes.classic.measuring import with_measures
 from twinform.passes.classic.moving import Lost, Moved
-from twinform.passes.classic.reporting import Report, accept, scratch
+from twinform.passes.classic.reporting import Report, accept, reasons_to_look, scratch
 from twinform.passes.classic.sensors import SensorMigration
 from twinform.passes.classic.systems import made_systems, unused
 from twinform.passes.classic.tables import MakeRow, Migration, migration_of
@@ -23,6 +20,8 @@ from twinform.passes.plugins.catalog import systems_of_file
 from twinform.passes.plugins.elements import sensor_of
 from twinform.passes.plugins.parts import Release
 from twinform.passes.plugins.sites import Site
+from twinform.passes.plugins.wheels import MEASURES, Measured, NotMeasuredError
+from twinform.schemas import format_value
 
 
 @dataclass(frozen=True, slots=True)
@@ -189,3 +188,22 @@ def _looks_built(plugin: Plugin) -> bool:
     """Whether it is called like a library: what is not may be a name that a program looks up itself."""
     name = plugin.filename or ""
     return name.startswith("lib") or name.endswith((".so", ".dll", ".dylib"))
+
+
+def with_measures(plugin: Plugin, system: str, model: Model, format_: Format) -> tuple[Plugin, list[str]]:
+    """The plugin with the sizes that its system can read off the model, and why the others are missing."""
+    written: dict[str, tuple[str, ...]] = {}
+    for child in plugin.content:
+        option = child.name.replace("_", "-")
+        written[option] = (*written.get(option, ()), child.text or "")
+    measured = Measured(model, format_, lambda option: written.get(option, ()))
+    found: list[Element] = []
+    missing: list[str] = []
+    for name, measure in MEASURES[system].items():
+        if name.replace("_", "-") in written:
+            continue
+        try:
+            found.append(Element(name=name, text=format_value(measure(measured))))
+        except NotMeasuredError as error:
+            missing.append(f"it needs <{name}>, which cannot be read off the model: {error}")
+    return plugin.model_copy(update={"content": (*plugin.content, *found)}), missing

@@ -1,12 +1,13 @@
-"""What is said about a plugin, and what the ledger has of it."""
+"""Reports on migrated plugins: diagnostics, ledger entries, and what the author has to check."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from twinform.diagnostics import DiagnosticSink, Fate, Location
 from twinform.diagnostics.rules import classic as rules
 from twinform.ir import Element, Plugin
-from twinform.passes.classic.moving import Lost
+from twinform.passes.classic.moving import Lost, truth_of
+from twinform.passes.classic.tables import Caveat, Migration
 from twinform.passes.plugins.elements import plugin_element
 from twinform.passes.plugins.sites import Site
 
@@ -93,3 +94,19 @@ class Report:
 
     def _place(self, parameter: Element) -> Location:
         return parameter.location if parameter.source else self.where
+
+
+def reasons_to_look(migration: Migration, plugin: Plugin, sensor: str | None = None) -> Iterator[str]:
+    """What the author has to write beside a migrated plugin, and to know of it; `sensor` is the type it became."""
+    if migration.geometry:
+        yield migration.geometry
+    for caveat in migration.caveats:
+        if caveat.type in {None, sensor} and _applies(caveat, plugin):
+            yield caveat.says
+
+
+def _applies(caveat: Caveat, plugin: Plugin) -> bool:
+    written = {child.name: child.text or "" for child in plugin.content}
+    if any(name in written for name in caveat.unless):
+        return False
+    return not caveat.where or any(truth_of(written.get(name, "")) for name in caveat.where)

@@ -8,10 +8,9 @@ from twinform.diagnostics import DiagnosticSink, Fate, Location
 from twinform.diagnostics.rules import classic as rules
 from twinform.ir import Element, Plugin, Sensor
 from twinform.ir.sensor import RENAMED_ELEMENTS
-from twinform.passes.classic.caveats import reasons_to_look
 from twinform.passes.classic.element_edits import text_at, with_text
 from twinform.passes.classic.moving import Lost, Moved, camera_height, camera_width, focal_length
-from twinform.passes.classic.reporting import Report, accept, scratch
+from twinform.passes.classic.reporting import Report, accept, reasons_to_look, scratch
 from twinform.passes.classic.systems import unused
 from twinform.passes.classic.tables import Migration, SensorRow, migration_of, unread_parts
 from twinform.passes.classic.topics import RosNames

@@ -1,4 +1,4 @@
-"""What a pass is."""
+"""Base classes of passes: over a document, and over its models one by one."""
 
 from abc import ABC, abstractmethod
 from typing import ClassVar
@@ -6,7 +6,7 @@ from typing import ClassVar
 from pydantic import BaseModel, ConfigDict
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Document
+from twinform.ir import Document, Model, replace_fields
 
 
 class Pass(BaseModel, ABC):
@@ -36,3 +36,15 @@ class Pass(BaseModel, ABC):
     @abstractmethod
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document after the pass; the one that came in where nothing changes."""
+
+
+class ModelPass(Pass):
+    """A pass that looks at the root-level models one by one."""
+
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
+        """The document with every model passed through."""
+        return replace_fields(document, models=tuple(self.run_model(model, sink) for model in document.models))
+
+    @abstractmethod
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
+        """The model after the pass."""

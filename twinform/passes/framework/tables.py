@@ -18,10 +18,10 @@ from collections.abc import Iterator, Mapping
 from typing import cast
 
 from twinform.passes.framework.base import Pass
-from twinform.passes.framework.named import Names, UnknownPipelineError, no_names
 from twinform.passes.framework.options import OptionError, build, chosen
 from twinform.passes.framework.pipeline import Pipeline
 from twinform.passes.framework.syntax import KEY, Scalar, Value
+from twinform.passes.framework.text import Names, UnknownPipelineError, no_names
 
 _NAME = "pass"
 Table = dict[str, object]

@@ -1,12 +1,24 @@
-"""Pipelines as text. The grammar is in `syntax.py`; here names find their passes."""
+"""Pipelines as text: parsing one, and the named pipelines that `@NAME` refers to. The grammar is in `syntax.py`."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 from twinform.passes.framework.base import Pass
-from twinform.passes.framework.named import Names, UnknownPipelineError, no_names
 from twinform.passes.framework.options import OptionError, build
 from twinform.passes.framework.pipeline import Pipeline
 from twinform.passes.framework.syntax import Call, PipelineError, Reference, parse_calls
+
+
+class UnknownPipelineError(LookupError):
+    """No pipeline has this name; the message is for users."""
+
+
+Names = Callable[[str], Pipeline]
+"""The pipeline of a name. Raises `UnknownPipelineError` where there is none."""
+
+
+def no_names(name: str) -> Pipeline:
+    """Knows no names."""
+    raise UnknownPipelineError(f"no pipeline is called {name}: no configuration names any")
 
 
 def parse_pipeline(text: str, *, names: Names = no_names, kinds: Mapping[str, type[Pass]] | None = None) -> Pipeline:

@@ -15,8 +15,7 @@ from twinform.ir.solids import with_tensor
 from twinform.ir.verify.inertia import inertia_matrix
 from twinform.passes.framework.base import Pass
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
-from twinform.passes.inertia.nearest import distance, nearest_possible, second_moments
-from twinform.passes.inertia.possible import has_mass
+from twinform.passes.inertia.physical_consistency import distance, has_mass, nearest_possible, second_moments
 
 _NOTHING_MUCH = 1e-3
 """A change of so small a part of an inertia is that of digits which were cut off, and no news."""

@@ -14,8 +14,8 @@ from twinform.passes.analyses.meshes import Meshes
 from twinform.passes.analyses.moving_bodies import Body, Neighbors, movable_models, moving_bodies, neighbors
 from twinform.passes.analyses.shapes import Places
 from twinform.passes.framework.assets import AssetPass
+from twinform.passes.inertia.physical_consistency import DIGITS, ROUNDING
 from twinform.passes.inertia.plausible import Plausible
-from twinform.passes.inertia.possible import DIGITS, ROUNDING
 
 
 class CheckInertia(AssetPass):

@@ -17,7 +17,7 @@ from twinform.passes.analyses.moving_bodies import movable_models, moving_bodies
 from twinform.passes.analyses.shapes import Kind, NoSolidError, PlacedShape, Places, inertial_of, solid_of
 from twinform.passes.framework.assets import AssetPass
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
-from twinform.passes.inertia.possible import has_mass, is_possible
+from twinform.passes.inertia.physical_consistency import has_mass, is_possible
 
 _AMOUNTS = ("density", "mass", "total_mass")
 

@@ -16,7 +16,7 @@ from twinform.ir.verify.inertia import inertia_matrix
 from twinform.passes.analyses.meshes import Meshes
 from twinform.passes.analyses.shapes import NoSolidError, PlacedShape, Places, bounds_of, solid_of, united_bounds
 from twinform.passes.framework.assets import NO_ASSETS
-from twinform.passes.inertia.possible import has_mass
+from twinform.passes.inertia.physical_consistency import has_mass
 
 _SLACK = 0.01
 """How far a mass may reach out of its shapes, as a part of their size: shapes are drawn by eye."""

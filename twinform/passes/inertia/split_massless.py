@@ -13,7 +13,7 @@ from twinform.passes.analyses.moving_bodies import Body, Neighbors, moving_bodie
 from twinform.passes.framework.base import Pass
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
 from twinform.passes.inertia.masses import Masses
-from twinform.passes.inertia.possible import has_mass
+from twinform.passes.inertia.physical_consistency import has_mass
 
 
 class SplitMassless(Pass):

@@ -8,7 +8,7 @@ from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Document, Format, Model, Node, Opaque, holds_opaque, map_children
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, SOURCE, has_ours, is_carrier, is_memory
 from twinform.passes.carriers.provenance import came_from, without_provenance
-from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.framework.base import ModelPass
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 

@@ -15,7 +15,7 @@ from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Element, Format, Frame, Joint, Link, Model
 from twinform.passes.carriers.annotations import AnyNode, find_annotation, with_annotation, without_annotation
 from twinform.passes.carriers.provenance import came_from, wrote_scopes
-from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.framework.base import ModelPass
 from twinform.passes.structure.renaming import renamed_model
 from twinform.passes.structure.scopes import Part, scope_of
 from twinform.passes.transforms.notation import NESTED

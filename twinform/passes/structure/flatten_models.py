@@ -12,7 +12,7 @@ from twinform.ir import Document, Format, Frame, Link, Model, World
 from twinform.ir.frames import MODEL, FrameGraph
 from twinform.passes.carriers.annotations import without_synthesized
 from twinform.passes.structure.model_edit import EditContext, ModelEdit
-from twinform.passes.structure.renaming import renamed_model, with_followed
+from twinform.passes.structure.renaming import renamed_in_world, renamed_model, with_followed
 from twinform.passes.structure.scopes import Part, Scope, report_clashes, scope_of
 from twinform.passes.transforms.flattening import flatten
 from twinform.passes.transforms.joint_ends import report_self_joint, resolve_ends
@@ -81,12 +81,11 @@ class FlattenModels(ModelEdit):
 
     def in_world(self, before: World, after: World) -> World:
         """The world, whose joints and frames follow."""
-        from twinform.passes.structure.world_names import followed  # noqa: PLC0415 - most files have no world
 
         def scope(model: Model) -> Scope:
             return self._scope(flatten(model, _plain) if model.models else model, model)
 
-        return followed(before, after, scope, self.model)
+        return renamed_in_world(before, after, scope, self.model)
 
 
 def _plain(frame: Frame, shell: Model) -> Frame:

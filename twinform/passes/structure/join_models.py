@@ -12,7 +12,6 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import without_annotation
 from twinform.passes.carriers.provenance import FROM
 from twinform.passes.includes.merge import merge_into_model
-from twinform.passes.structure.root_links import without_world
 from twinform.passes.transforms.notation import OFFSET, POSE
 
 
@@ -157,3 +156,13 @@ def _own_blocks(there: tuple[Opaque, ...], more: tuple[Opaque, ...], prefix: str
         else:
             made.append(part)
     return made
+
+
+def without_world(model: Model) -> Model:
+    """The model without what fixes it to the world: in URDF a root link `world` that is nothing else, and the joint."""
+    held = [joint for joint in model.joints if joint.parent == WORLD]
+    if not held or any(joint.type != "fixed" for joint in held) or len(held) > 1:
+        return model
+    joints = tuple(joint for joint in model.joints if joint is not held[0])
+    links = tuple(link for link in model.links if link.name != WORLD)
+    return model.model_copy(update={"joints": joints, "links": links})

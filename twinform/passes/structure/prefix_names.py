@@ -6,7 +6,7 @@ from pydantic import Field
 
 from twinform.ir import Model, World
 from twinform.passes.structure.model_edit import EditContext, ModelEdit
-from twinform.passes.structure.renaming import renamed_model
+from twinform.passes.structure.renaming import renamed_in_world, renamed_model
 from twinform.passes.structure.scopes import Part, report_clashes, scope_of
 
 
@@ -36,9 +36,7 @@ class PrefixNames(ModelEdit):
 
     def in_world(self, before: World, after: World) -> World:
         """The world, whose joints and frames follow."""
-        from twinform.passes.structure.world_names import followed  # noqa: PLC0415 - most files have no world
-
-        return followed(before, after, lambda model: scope_of(model, self._choose, deep=False), self.model)
+        return renamed_in_world(before, after, lambda model: scope_of(model, self._choose, deep=False), self.model)
 
     def _choose(self, part: Part, name: str) -> str:
         del part

@@ -9,7 +9,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import edits as rules
 from twinform.ir import Document, Model, World
 from twinform.passes.structure.model_edit import EditContext, ModelEdit
-from twinform.passes.structure.renaming import renamed_model
+from twinform.passes.structure.renaming import renamed_in_world, renamed_model
 from twinform.passes.structure.scopes import Part, every_name, report_clashes, scope_of
 
 PartName = Literal["link", "joint", "frame", "model"]
@@ -99,9 +99,7 @@ class Rename(ModelEdit):
 
     def in_world(self, before: World, after: World) -> World:
         """The world, whose joints and frames follow."""
-        from twinform.passes.structure.world_names import followed  # noqa: PLC0415 - most files have no world
-
-        return followed(before, after, lambda model: scope_of(model, self._choose), self.model)
+        return renamed_in_world(before, after, lambda model: scope_of(model, self._choose), self.model)
 
     def _choose(self, part: Part, name: str) -> str:
         if part not in self.kinds:

@@ -1,6 +1,7 @@
 """Every reference to a part follows when the part gets another name."""
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -148,3 +149,13 @@ def _changed(node: Changed, update: dict[str, object]) -> Changed:
     values = node.__dict__
     different = {name: value for name, value in update.items() if value != values[name]}
     return node.model_copy(update=different) if different else node
+
+
+def renamed_in_world(before: World, after: World, scope: Callable[[Model], Scope], only: str | None) -> World:
+    """The world after its models were renamed, with its own joints, frames and the like following them.
+
+    `before` has the models by their old names; `only` names the one model that was renamed, if it is one alone.
+    """
+    inner = {model.name: scope(model) for model in before.models if only in (None, model.name)}
+    own: dict[str, dict[str, str]] = {part: {} for part in ("link", "joint", "frame", "model")}
+    return with_followed(after, Scope("", own, inner), Format.SDF, DiagnosticSink())

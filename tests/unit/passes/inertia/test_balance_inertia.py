@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from twinform.ir.principal_moments import Symmetric, principal_axes
 from twinform.passes import parse_pipeline
-from twinform.passes.inertia.nearest import nearest_moments, nearest_possible, second_moments
+from twinform.passes.inertia.physical_consistency import nearest_moments, nearest_possible, second_moments
 
 NUMBERS = st.floats(-10, 10)
 MATRICES = st.tuples(*[NUMBERS] * 6)

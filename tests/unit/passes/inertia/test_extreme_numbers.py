@@ -12,7 +12,7 @@ import twinform
 from tests.exact import MAGNITUDES, NUMBERS
 from tests.profile import examples
 from twinform.ir.principal_moments import Symmetric, relative_moments
-from twinform.passes.inertia.nearest import nearest_possible
+from twinform.passes.inertia.physical_consistency import nearest_possible
 
 ROBOT = """\
 <robot name="r">

@@ -9,7 +9,7 @@ from twinform.ir import Format, Inertia, Inertial, Link, Model
 from twinform.passes.carriers.annotations import with_annotation
 from twinform.passes.carriers.provenance import came_from
 from twinform.passes.carriers.token_mass import MOMENTS, TOKEN, TOKEN_MASS, TOKEN_MOMENT
-from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_sdf.frame_links import is_massless
 
 _NO_INERTIA = Inertia(ixx=0.0, ixy=0.0, ixz=0.0, iyy=0.0, iyz=0.0, izz=0.0)

@@ -4,7 +4,7 @@ from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Model, Pose, rewrite
-from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.framework.base import ModelPass
 
 _QUATERNION = "quat_xyzw"
 

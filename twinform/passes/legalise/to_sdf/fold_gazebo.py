@@ -12,8 +12,8 @@ from twinform.passes.carriers.annotations import EXTENSION, with_annotation
 from twinform.passes.carriers.carriers import DANGLING, OVERRULED, Attributes, pack
 from twinform.passes.carriers.material_annotations import with_look
 from twinform.passes.carriers.provenance import came_from
-from twinform.passes.legalise.model_pass import ModelPass
-from twinform.passes.legalise.to_sdf.gazebo_content import read_content
+from twinform.passes.framework.base import ModelPass
+from twinform.passes.legalise.to_sdf.gazebo_content import read_content, with_axis, with_mass
 from twinform.passes.legalise.to_sdf.gazebo_fields import (
     set_collision,
     set_joint_fields,
@@ -22,7 +22,6 @@ from twinform.passes.legalise.to_sdf.gazebo_fields import (
     set_visual,
 )
 from twinform.passes.legalise.to_sdf.gazebo_merging import merge, written
-from twinform.passes.legalise.to_sdf.gazebo_parts import with_axis, with_mass
 from twinform.passes.legalise.to_sdf.gazebo_sorting import Blob, Sorter, is_part_of_axis, lacks_shapes, place_of
 from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
 

@@ -8,7 +8,7 @@ from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Axis, Joint, Link, Model
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.joint_chains import CHAIN, PART, TWO_AXES, chain_type
-from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_sdf.chains import Chain, Neighbors, StaleChainError, find_chain, folded
 
 AnyPart = TypeVar("AnyPart", Joint, Link)

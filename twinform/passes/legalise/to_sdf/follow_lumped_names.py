@@ -6,7 +6,7 @@ from twinform.diagnostics import DiagnosticSink, Fate, Source
 from twinform.diagnostics.rules import to_sdf as rules
 from twinform.ir import Collision, Format, GazeboExtension, Model
 from twinform.passes.carriers.lumped_names import Followed, followed, mentions_collisions
-from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_sdf.name_shapes import name_all
 from twinform.passes.structure.model_edit import EditContext
 

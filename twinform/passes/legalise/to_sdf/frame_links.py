@@ -16,7 +16,7 @@ from twinform.passes.carriers.annotations import (
 )
 from twinform.passes.carriers.carriers import carry, is_ours, to_element
 from twinform.passes.carriers.provenance import came_from
-from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_sdf.name_shapes import name_all
 from twinform.passes.transforms.notation import FRAME, LINK, OFFSET, read_offset
 

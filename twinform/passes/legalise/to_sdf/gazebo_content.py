@@ -1,4 +1,4 @@
-"""What stands in `<gazebo>` elements as plain SDF, read at the place that they refer to."""
+"""SDF content of `<gazebo>` elements, read as the links, joints and shapes that they refer to."""
 
 from collections.abc import Iterable
 from dataclasses import replace
@@ -7,9 +7,11 @@ from typing import Any
 from lxml import etree
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Collision, GazeboExtension, Joint, Link, Model, Node, Visual
+from twinform.ir import Axis, Collision, Format, GazeboExtension, Joint, Link, Model, Node, Visual
+from twinform.ir.defaults import INERTIAL, direction, with_range
 from twinform.schemas import Context, element_xml, reader, table
 
+_HAS_AXIS = frozenset({"revolute", "continuous", "prismatic", "screw"})
 _REQUIRED = {"joint": {"type": "fixed"}}
 _REQUIRED_CHILDREN = {"joint": ("parent", "child")}
 _NODES: dict[str, type[Node]] = {"link": Link, "joint": Joint, "model": Model, "visual": Visual, "collision": Collision}
@@ -48,3 +50,17 @@ def _report(found: DiagnosticSink, step: str, reference: str, sink: DiagnosticSi
         path = each.location.path.replace(step, own, 1)
         where = each.location._replace(path=path)
         sink.extend([replace(each, location=where)])
+
+
+def with_mass(link: Link) -> Link:
+    """A link that says nothing about its mass has 1 kg in SDF; in URDF it has none."""
+    return link if link.inertial is not None else link.model_copy(update={"inertial": INERTIAL})
+
+
+def with_axis(joint: Joint) -> Joint:
+    """An axis that is not written is z in SDF and x in URDF; a limit that is not written is none at all, or zero."""
+    if joint.type not in _HAS_AXIS:
+        return joint
+    axis = joint.axis or Axis()
+    update = {"xyz": direction(axis, Format.SDF), "limit": axis.limit and with_range(axis.limit, Format.SDF)}
+    return joint.model_copy(update={"axis": axis.model_copy(update=update)})

@@ -9,7 +9,7 @@ from twinform.ir.defaults import AXIS, with_range
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import is_synthesized, mark_synthesized
 from twinform.passes.carriers.carriers import NAMESPACE, carry, to_element
-from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_sdf.planar import planar_chain
 from twinform.passes.legalise.to_sdf.unique_names import free_name
 from twinform.passes.legalise.urdf_pieces import OF_AN_AXIS

@@ -17,7 +17,7 @@ from twinform.passes.carriers.annotations import find_annotation, without_annota
 from twinform.passes.carriers.carriers import is_carrier, unpack
 from twinform.passes.carriers.sdf_versions import Terms
 from twinform.passes.framework.assets import AssetPass
-from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.framework.base import ModelPass
 from twinform.schemas import parse_version, table
 
 _SINCE = (1, 11)

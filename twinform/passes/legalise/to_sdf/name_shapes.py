@@ -9,7 +9,7 @@ from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import to_sdf
 from twinform.ir import Collision, Link, Model, Visual, replace_fields
 from twinform.passes.carriers.annotations import with_annotation
-from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.names import NAME
 
 Shape = TypeVar("Shape", Visual, Collision)

@@ -25,7 +25,7 @@ from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.annotations import SYNTHESIZED, find_annotation, is_synthesized, without_annotation
 from twinform.passes.carriers.provenance import came_from
 from twinform.passes.carriers.token_mass import has_token_mass
-from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_urdf.express_axes import OLD_WORD
 from twinform.passes.transforms.element_poses import ElementPoses
 from twinform.passes.transforms.joint_ends import ENDS

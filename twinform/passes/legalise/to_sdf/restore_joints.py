@@ -8,7 +8,7 @@ from twinform.ir import Axis, Format, Joint, Limit, Model
 from twinform.ir.defaults import UNLIMITED
 from twinform.passes.carriers.annotations import SYNTHESIZED, find_annotation, without_annotation
 from twinform.passes.carriers.provenance import came_from
-from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_sdf.mimic_references import with_reference
 from twinform.passes.legalise.to_urdf.map_joints import CONTINUOUS, MIMIC
 

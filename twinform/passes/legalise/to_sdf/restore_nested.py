@@ -12,7 +12,7 @@ from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.provenance import wrote_scopes
 from twinform.passes.carriers.sdf_versions import Terms
-from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.names import renamed
 from twinform.passes.legalise.to_sdf.restore_frames import SCOPE
 from twinform.passes.sdf_versions.nest_models import nest

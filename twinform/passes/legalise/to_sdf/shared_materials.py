@@ -9,7 +9,7 @@ from twinform.ir import Link, Material, Model, Opaque, Visual, count_parts
 from twinform.passes.carriers.annotations import annotation
 from twinform.passes.carriers.carriers import pack, to_element
 from twinform.passes.carriers.material_annotations import MATERIAL, SHARED_MATERIAL, material_name
-from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.framework.base import ModelPass
 
 
 class SharedMaterials(ModelPass):

@@ -6,7 +6,7 @@ from typing import ClassVar, TypeVar
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import to_sdf
 from twinform.ir import Format, Joint, Link, Model, ReferenceKind, map_references
-from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.names import with_old_name
 
 Named = TypeVar("Named", Link, Joint, Model)

@@ -11,7 +11,7 @@ from twinform.passes.carriers.annotations import find_annotation, without_annota
 from twinform.passes.carriers.carriers import is_carrier, is_memory, unpack
 from twinform.passes.carriers.material_annotations import COLORS, SCRIPTS
 from twinform.passes.carriers.sdf_versions import Terms
-from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.framework.base import ModelPass
 from twinform.passes.transforms.urdf_color import urdf_color
 from twinform.schemas import parse_version, table
 

@@ -7,7 +7,7 @@ from twinform.diagnostics.rules import to_sdf
 from twinform.ir import Joint, Link, Model, Opaque, count_parts
 from twinform.passes.carriers.annotations import find_annotation
 from twinform.passes.carriers.carriers import carry, is_carrier, to_element, unpack
-from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.framework.base import ModelPass
 from twinform.passes.transforms.notation import BODY
 
 

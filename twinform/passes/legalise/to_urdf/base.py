@@ -1,13 +1,65 @@
-"""The shape of the passes on the way to URDF."""
+"""Base class of the passes from SDF to URDF, and how they keep what URDF cannot express."""
 
 from abc import abstractmethod
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import TypeVar
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Document, Format, Model, replace_fields
+from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule
+from twinform.ir import Document, Format, Model, Node, Opaque, replace_fields
 from twinform.ir.frames import FrameError
+from twinform.passes.carriers.annotations import with_annotation
+from twinform.passes.carriers.carriers import Attributes, carry
 from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.base import Pass
-from twinform.passes.legalise.to_urdf.keeper import Keeper
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+
+@dataclass(frozen=True, slots=True)
+class Keeper:
+    """Where the parts go in one run. A model that came from URDF goes back there: how SDF wrote it need not travel."""
+
+    sink: DiagnosticSink
+    carriers: bool
+    back: bool = False
+
+    def keep(
+        self,
+        node: AnyNode,
+        pieces: Iterable[Opaque],
+        rule: Rule,
+        message: str,
+        location: Location,
+        weight: int | None = None,
+        about: Attributes = (),
+    ) -> AnyNode:
+        """The node with the pieces in carriers, and an entry in the ledger; the weight is the pieces' by default.
+
+        `about` are more attributes of the carriers.
+        """
+        listed = tuple(pieces)
+        if not listed:
+            return node
+        total = sum(piece.weight for piece in listed) if weight is None else weight
+        self.account(rule, message, location, total)
+        return carry(node, listed, "sdf", about) if self.carriers else node
+
+    def account(self, rule: Rule, message: str, location: Location, weight: int) -> None:
+        """An entry in the ledger for what marks keep."""
+        self.sink.account(Fate.CARRIED if self.carriers else Fate.DROPPED, rule, message, location, weight)
+
+    def mark(
+        self,
+        node: AnyNode,
+        kind: str,
+        *,
+        text: str | None = None,
+        attributes: Mapping[str, str | None] | None = None,
+        always: bool = False,
+    ) -> AnyNode:
+        """The node with a mark on how SDF wrote it; if it came from URDF, only with what is more (`always`)."""
+        return with_annotation(node, kind, text, attributes) if self.carriers and (always or not self.back) else node
 
 
 class ToUrdfPass(Pass):

@@ -7,9 +7,8 @@ from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Joint, Link, Model, count_parts
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.passes.carriers.annotations import EXTENSION, find_annotation, mark_synthesized, without_annotation
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass
+from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 from twinform.passes.legalise.to_urdf.cut_joints import cut_joints
-from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.passes.transforms.nodes import unique_name
 
 

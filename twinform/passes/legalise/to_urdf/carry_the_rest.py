@@ -10,7 +10,7 @@ from twinform.passes.carriers.annotations import without_synthesized
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, has_ours
 from twinform.passes.carriers.provenance import came_from, with_provenance, without_provenance
 from twinform.passes.framework.base import Pass
-from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.legalise.to_urdf.base import Keeper
 from twinform.passes.legalise.to_urdf.map_geometry import UrdfVersion
 from twinform.passes.legalise.to_urdf.remainder import Words, take_remainder, urdf_words
 from twinform.passes.transforms.notation import BODY

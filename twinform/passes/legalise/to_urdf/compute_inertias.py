@@ -15,8 +15,7 @@ from twinform.passes.analyses.automatic_inertias import (
 )
 from twinform.passes.analyses.meshes import Meshes
 from twinform.passes.framework.assets import AssetPass
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 
 
 class ComputeInertias(ToUrdfPass, AssetPass):

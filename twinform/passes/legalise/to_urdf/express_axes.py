@@ -7,8 +7,7 @@ from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Axis, Format, Joint, Model
 from twinform.ir.defaults import AXIS, direction, filled
 from twinform.ir.frames import MODEL, FrameGraph
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 
 _AXES = {
     **dict.fromkeys(("revolute", "continuous", "prismatic", "screw"), ("axis",)),

@@ -9,8 +9,7 @@ from twinform.ir import Dynamics, Element, GazeboExtension, Joint, Link, Model, 
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import is_synthesized
 from twinform.passes.carriers.carriers import SECOND, to_element
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
 from twinform.schemas import format_value, table
 

@@ -5,8 +5,7 @@ from typing import ClassVar
 from twinform.ir import Inertia, Link, Model, replace_fields
 from twinform.ir.defaults import INERTIAL, filled
 from twinform.ir.solids import ELEMENTS
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 
 _ELEMENTS = {name: getattr(INERTIAL.inertia, name) for name in ELEMENTS}
 

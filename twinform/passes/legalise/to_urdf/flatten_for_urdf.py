@@ -8,8 +8,7 @@ from twinform.ir import Format, Frame, Model, Opaque, count_parts
 from twinform.passes.carriers.annotations import with_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, to_element
 from twinform.passes.legalise.names import Names, renamed, with_old_names
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 from twinform.passes.transforms.flattening import flatten
 from twinform.passes.transforms.nodes import unique_name
 from twinform.passes.transforms.notation import NESTED, POSE, pose_attributes

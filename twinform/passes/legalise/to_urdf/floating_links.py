@@ -8,7 +8,7 @@ from twinform.ir.frames import WORLD, FrameError, FrameGraph
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.carriers import carry
 from twinform.passes.legalise.to_sdf.joints import FLOATING
-from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.legalise.to_urdf.base import Keeper
 
 
 def with_floating_joints(model: Model, keeper: Keeper) -> Model:

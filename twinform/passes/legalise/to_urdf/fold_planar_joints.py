@@ -8,8 +8,7 @@ from twinform.ir import Joint, Limit, Link, Model, Opaque
 from twinform.passes.carriers.annotations import SYNTHESIZED, is_synthesized, without_annotation
 from twinform.passes.carriers.carriers import is_carrier, unpack
 from twinform.passes.legalise.to_sdf.planar import planar_chain
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 
 AnyPart = TypeVar("AnyPart", Joint, Link)
 

@@ -18,8 +18,7 @@ from twinform.ir import (
     count_parts,
 )
 from twinform.ir.defaults import SIZES, filled
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 from twinform.passes.legalise.to_urdf.urdf_uris import urdf_uri
 from twinform.passes.transforms.nodes import piece
 from twinform.passes.transforms.uri_schemes import MESH_SCHEME

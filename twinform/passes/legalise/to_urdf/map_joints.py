@@ -9,8 +9,7 @@ from twinform.diagnostics.rules import to_sdf as shared_rules
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Axis, Joint, Limit, Mimic, Model, Node
 from twinform.ir.defaults import UNLIMITED, multiplier
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 from twinform.passes.legalise.to_urdf.map_geometry import UrdfVersion
 from twinform.passes.legalise.urdf_pieces import BALLS
 from twinform.passes.transforms.nodes import text_piece

@@ -4,8 +4,7 @@ from typing import ClassVar
 
 from twinform.ir import Collision, Element, GazeboExtension, Link, Model, Surface
 from twinform.passes.carriers.carriers import to_element
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 from twinform.schemas import format_value
 
 _TAGS = {

@@ -11,8 +11,7 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import annotation, find_annotation, is_synthesized
 from twinform.passes.carriers.joint_chains import part_of
 from twinform.passes.legalise.names import NAME, SCOPED_NAME
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 from twinform.passes.transforms.element_poses import ElementPoses
 from twinform.passes.transforms.joint_ends import ENDS
 from twinform.passes.transforms.notation import FRAME, OFFSET, POSE, in_radians, offset_attributes, pose_attributes

@@ -5,8 +5,7 @@ from typing import ClassVar
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Joint, Model
 from twinform.ir.frames import WORLD, FrameGraph
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 from twinform.passes.transforms.joint_ends import ENDS, named_ends, report_self_joint, resolve_ends
 
 

@@ -7,9 +7,8 @@ from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Collision, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass
+from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 from twinform.passes.legalise.to_urdf.floating_links import with_floating_joints
-from twinform.passes.legalise.to_urdf.keeper import Keeper
 from twinform.passes.transforms.notation import LINK
 
 Placed = TypeVar("Placed", Visual, Collision, Sensor, Light)

@@ -6,7 +6,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Element, GazeboExtension, Model
 from twinform.passes.carriers.lumped_names import has_marks, restored
-from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_sdf.follow_lumped_names import names_of_libsdformat
 
 

@@ -7,8 +7,7 @@ from twinform.ir import Element, GazeboExtension, Link, Material, Model, Visual,
 from twinform.passes.carriers.annotations import without_annotation
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.material_annotations import LOOK, look_of
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 from twinform.passes.legalise.to_urdf.remainder import take_remainder, urdf_words
 from twinform.passes.transforms.gazebo_tags import LINK_TAGS
 

@@ -6,8 +6,7 @@ from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Frame, Joint, Link, Model, Pose, count_parts
 from twinform.ir.frames import MODEL, FrameGraph
 from twinform.passes.carriers.annotations import SYNTHESIZED, is_synthesized, mark_synthesized, without_annotation
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass
-from twinform.passes.legalise.to_urdf.keeper import Keeper
+from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 from twinform.passes.transforms.nodes import unique_name
 from twinform.passes.transforms.notation import FRAME, POSE, pose_attributes
 

@@ -9,7 +9,7 @@ from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Link, Model, Node, Opaque, holds_opaque, map_children, rewrite
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.carriers import is_carrier, is_dangling, is_overruled, unpack
-from twinform.passes.legalise.model_pass import ModelPass
+from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_urdf.overruled_tags import with_overruled
 from twinform.passes.legalise.urdf_pieces import misfit
 

@@ -7,7 +7,7 @@ import pytest
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format
 from twinform.passes import Pass
-from twinform.passes.classic import looks
+from twinform.passes.classic import document_edits
 
 
 class Recolored(Pass):
@@ -22,11 +22,11 @@ DOCUMENT = Document(format=Format.URDF)
 
 
 def test_the_pass_materials_runs_where_it_is_installed(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(looks, "registered_passes", lambda: {"materials": None})
-    monkeypatch.setattr(looks, "find_pass", {"materials": Recolored}.__getitem__)
-    assert looks.in_colors(DOCUMENT, DiagnosticSink()).version == "recolored"
+    monkeypatch.setattr(document_edits, "registered_passes", lambda: {"materials": None})
+    monkeypatch.setattr(document_edits, "find_pass", {"materials": Recolored}.__getitem__)
+    assert document_edits.in_colors(DOCUMENT, DiagnosticSink()).version == "recolored"
 
 
 def test_without_it_looks_stay(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(looks, "registered_passes", dict)
-    assert looks.in_colors(DOCUMENT, DiagnosticSink()) is DOCUMENT
+    monkeypatch.setattr(document_edits, "registered_passes", dict)
+    assert document_edits.in_colors(DOCUMENT, DiagnosticSink()) is DOCUMENT
