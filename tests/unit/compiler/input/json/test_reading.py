@@ -171,7 +171,7 @@ WRONG: dict[str, tuple[object, list[tuple[int, str, str]]]] = {
             (
                 19,
                 "models/0/plugins/0/content/0/text",
-                'SDF cannot say " 1 "; a file of it has "1" there',
+                'SDF cannot express " 1 "; a file in that format has "1" there',
             )
         ],
     ),
