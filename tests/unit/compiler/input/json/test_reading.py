@@ -147,8 +147,8 @@ WRONG: dict[str, tuple[object, list[tuple[int, str, str]]]] = {
                 11,
                 "models/0/opaque",
                 (
-                    'URDF cannot say [{"attribute": ["a", "1"]}, {"attribute": ["a", "2"]}]; '
-                    'a file of it has [{"attribute": ["a", "2"]}] there'
+                    'URDF cannot express [{"attribute": ["a", "1"]}, {"attribute": ["a", "2"]}]; '
+                    'a file in that format has [{"attribute": ["a", "2"]}] there'
                 ),
             )
         ],
