@@ -28,7 +28,7 @@ from twinform.compiler.batch import PATTERNS, Batch, FolderError, Outcome, Recor
     metavar="SECONDS",
     default=60.0,
     show_default=True,
-    help="How long a model may take.",
+    help="The time limit for one model.",
 )
 @click.option(
     "--pattern",

@@ -26,7 +26,7 @@ _PAIR = 2
     type=click.FloatRange(min=0),
     default=TOLERANCE,
     show_default=True,
-    help="What share of a value is rounding; of positions and angles, meters and radians.",
+    help="The relative difference that counts as rounding; absolute for positions (m) and angles (rad).",
 )
 @file_options
 @click.pass_context

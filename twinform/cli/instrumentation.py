@@ -26,7 +26,7 @@ _OPTIONS = (
         "--reproducers",
         type=click.Path(file_okay=False, path_type=Path),
         metavar="DIR",
-        help="Where to write what makes the fault of a pass come again; else the current folder.",
+        help="Where to write a reproducer when a pass fails; else the current folder.",
     ),
 )
 

@@ -52,7 +52,9 @@ _OPTIONS = (
         help="Passes to run, such as 'check-inertia', or @NAME for one that the configuration names.",
     ),
     click.option(
-        "--carriers/--no-carriers", default=True, help="Whether to keep in our namespace what the target lacks."
+        "--carriers/--no-carriers",
+        default=True,
+        help="Whether to keep what the target lacks in elements of tf:.",
     ),
 )
 

@@ -19,9 +19,7 @@ from twinform.schemas.xsd import lenient_schema_text
     default="1.0",
     help="The version of XML Schema; 1.0 is what editors and libxml2 read, 1.1 says more.",
 )
-@click.option(
-    "--lenient", is_flag=True, help="Let the words of dialects and of other versions pass, and names that nobody knows."
-)
+@click.option("--lenient", is_flag=True, help="Accept elements of dialects and of other versions, and unknown names.")
 @click.option(
     "-o",
     "--output",

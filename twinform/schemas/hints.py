@@ -25,8 +25,8 @@ _INSTEAD = {
     ("sdf", "texture"): "SDF writes <pbr><metal><albedo_map>",
     ("sdf", "robot"): "SDF writes <model>",
     ("sdf", "gazebo"): "SDF needs no <gazebo>: what is in it stands in the link, joint or model itself",
-    ("sdf", "transmission"): "it is URDF's; in SDF a plugin drives the joints",
-    ("sdf", "safety_controller"): "it is URDF's; SDF has <limit> in <axis>",
+    ("sdf", "transmission"): "it is an element of URDF; in SDF a plugin drives the joints",
+    ("sdf", "safety_controller"): "it is an element of URDF; SDF has <limit> in <axis>",
 }
 """What to write instead of an element of the other format."""
 _SAME = {
@@ -63,7 +63,7 @@ def hint_for_element(format_: str, name: str, known: Collection[str], attributes
         _INSTEAD.get((format_, name))
         or did_you_mean(name, known)
         or _elsewhere(format_, name)
-        or (f"it is {_other(format_).upper()}" if name in _parents(_other(format_)) else None)
+        or (f"it is an element of {_other(format_).upper()}" if name in _parents(_other(format_)) else None)
     )
 
 

@@ -125,9 +125,9 @@ def word_outside_version(context: Context, element: XmlElement, fact: Fact, word
 
 def _when(context: Context, fact: Fact) -> str:
     """When a part came or went, for one that is not in the declared version."""
-    when = f"came with {context.format.upper()} {print_version(fact.since)}"
+    when = f"was added in {context.format.upper()} {print_version(fact.since)}"
     if fact.until < context.version:
-        when = f"went after {context.format.upper()} {print_version(fact.until)}"
+        when = f"was removed after {context.format.upper()} {print_version(fact.until)}"
     return f"{when}; the file declares {print_version(context.version)}" if context.declared else when
 
 
@@ -143,7 +143,7 @@ def missing_attribute(context: Context, element: XmlElement, fact: Fact) -> None
     if not fact.expected:
         context.report(structure.MISSING_ATTRIBUTE, element, message, expected=fact.name)
         return
-    meant = "the element says nothing" if fact.default is None else f"{fact.default!r} is meant"
+    meant = "the element has no effect" if fact.default is None else f"{fact.default!r} is assumed"
     context.report(structure.DEFAULTED_ATTRIBUTE, element, f"{message}; without it, {meant}", expected=fact.name)
 
 
@@ -151,11 +151,11 @@ _DIALECTS = {
     "bullet": "Bullet reads it",
     "drake": "Drake reads it",
     "gazebo": "Gazebo reads it",
-    "exporter": "exporters write it, and nobody reads it",
+    "exporter": "exporters write it, and no known program reads it",
     "isaac": "Isaac Gym reads it",
     "mujoco": "MuJoCo reads it",
     "nasa": "NASA's tools read it",
-    "old": "it was proposed in the early days of ROS, and hardly anybody reads it",
+    "old": "it was proposed in the early days of ROS, and few programs read it",
     "pal": "PAL Robotics' controllers read it",
 }
 
@@ -216,7 +216,7 @@ def _check_word(context: Context, element: XmlElement, name: str, step: str = ""
     subject = f"'{prefix}:{word}'" if step else f"<{prefix}:{word}>"
     near = nearest_name(word, words_of(prefix)) if _is_shown(context) else None
     hint = f"did you mean '{prefix}:{near}'?" if near else None
-    message = f"{subject} is not a word of {prefix.capitalize()}'s"
+    message = f"{prefix.capitalize()} does not read {subject}"
     _report_prefixed(context, rule, element, message, step, found=f"{prefix}:{word}", help=hint)
 
 
@@ -250,7 +250,7 @@ def repeated(context: Context, element: XmlElement) -> None:
     context.tolerated.append((element, None))
     parent = element.getparent()
     holder = "its parent" if parent is None else f"<{parent.tag}>"
-    context.report(structure.REPEATED_ELEMENT, element, f"<{element.tag}> stands again in {holder}")
+    context.report(structure.REPEATED_ELEMENT, element, f"<{element.tag}> occurs more than once in {holder}")
 
 
 def invalid_value(context: Context, element: XmlElement, step: str, text: str, expected: str) -> None:
@@ -276,7 +276,7 @@ def mixed_rotation(context: Context, element: XmlElement, count: int) -> None:
     notation, degrees = element.get("rotation_format"), element.get("degrees")
     context.structural -= 1  # an XSD does not see it
     if notation == "quat_xyzw" and count == 7:
-        message = f"<{element.tag}> is a quaternion and has the attribute 'degrees' {degrees!r}"
+        message = f"<{element.tag}> is a quaternion, which cannot have the attribute degrees={degrees!r}"
         context.report(structure.INVALID_VALUE, element, message, "@degrees", found=degrees)
         return
     need = "seven numbers" if notation == "quat_xyzw" else "six numbers, or the attribute rotation_format='quat_xyzw'"
@@ -299,7 +299,7 @@ def stray_text(context: Context, element: XmlElement, text: str, after: XmlEleme
     """Text where only elements belong: at the beginning of an element, or after one of its children."""
     context.tolerated.append((element, "#text") if after is None else (after, "#tail"))
     shown = " ".join(text.split())[:40]
-    context.report(structure.STRAY_TEXT, element, f"text {shown!r} in <{element.tag}>", found=shown)
+    context.report(structure.STRAY_TEXT, element, f"text {shown!r} does not belong in <{element.tag}>", found=shown)
 
 
 def _is_shown(context: Context) -> bool:

@@ -116,7 +116,7 @@ def test_a_file_of_xacro_that_is_not_called_so_is_expanded_where_one_asks(run: R
     )
     done = run("check", robot)
     assert done.exit_code == 1
-    assert "help: name it .xacro, or pass --xacro" in done.stdout
+    assert "help: give the file the suffix .xacro, or pass --xacro" in done.stdout
     assert run("check", "--xacro", robot).exit_code == 0
     assert '<link name="2right"/>' in run("convert", "--xacro", robot, "side:=right", "--to", "urdf").stdout
     assert run("check", robot, "side:=right").exit_code == 2

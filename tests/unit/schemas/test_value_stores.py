@@ -93,7 +93,7 @@ POSES: list[tuple[str, int, tuple[str, str, str | None] | None]] = [
         (
             f"{QUATERNION} degrees='{word}'",
             7,
-            ("/a/@degrees", f"<a> is a quaternion and has the attribute 'degrees' '{word}'", None),
+            ("/a/@degrees", f"<a> is a quaternion, which cannot have the attribute degrees='{word}'", None),
         )
         for word in ("true", "1", " True ")
     ),

@@ -37,7 +37,7 @@ def test_model_files_are_tests_where_somebody_does(repository: Path) -> None:
     assert "urdf/good.urdf::check PASSED" in said
     assert "urdf/good.urdf::round-trip PASSED" in said
     assert "urdf/bad.urdf::check FAILED" in said
-    assert "bad.urdf:2: error: link 'a' is there twice [duplicate-name]" in said
+    assert "bad.urdf:2: error: link 'a' is defined twice [duplicate-name]" in said
     assert "Traceback" not in said
 
 

@@ -108,7 +108,7 @@ class Findings:
         name = f"{aspect} of {subject}" if aspect else str(subject)
         message, severity = f"{name} is only in {here}", Severity.DIFFERENCE
         if only is not None and other is not only:
-            message, severity = f"{name} is only in {here}: {other.upper()} has no word for it", Severity.NOTE
+            message, severity = f"{name} is only in {here}: {other.upper()} cannot express it", Severity.NOTE
         if carried:
             message = f"{name} is only in {here}, where it travels unseen by other readers"
         said = Side(what, where)

@@ -7,7 +7,7 @@ from twinform.diagnostics.rules import xacro as rules
 from twinform.schemas import XmlElement
 from twinform.schemas.xml import path_of
 
-_HELP = "name it .xacro, or pass --xacro"
+_HELP = "give the file the suffix .xacro, or pass --xacro"
 _SETTINGS = frozenset({"ros2_control", "transmission"})
 """What is neither the robot nor becomes a part of it in Gazebo: expressions there are for whoever reads it."""
 
@@ -25,7 +25,7 @@ def report_unexpanded(root: XmlElement, sink: DiagnosticSink) -> None:
     if expressions:
         element, text = expressions[0]
         shown = text if len(text) <= 60 else text[:57] + "..."
-        message = f"{shown!r} is an expression of xacro, as in {_count(len(expressions), 'element')}, and not expanded"
+        message = f"xacro expressions in {_count(len(expressions), 'element')} are not expanded: {shown!r}"
         where = Location(line=element.sourceline or 0, path=path_of(element))
         sink.report(rules.UNEXPANDED_XACRO, message, where, found=shown, help=_HELP, severity=severity)
 

@@ -29,6 +29,6 @@ def _report(model: Model, sink: DiagnosticSink) -> None:
 
 
 def _report_one(sensor: Element, collision: Element, name: str, own: set[str], sink: DiagnosticSink) -> None:
-    message = f"contact sensor {sensor.get('name')!r} looks at the collision {name!r}, which does not exist"
+    message = f"contact sensor {sensor.get('name')!r} names the collision {name!r}, which does not exist"
     hint = did_you_mean(name.rpartition("::")[2], own)
     sink.report(UNKNOWN_COLLISION, message, collision.location, found=name, help=hint)

@@ -21,7 +21,7 @@ def json_text(document: Document, sink: DiagnosticSink) -> str:
     data = json_data(document)
     for fault in json_faults(data):
         path = "/".join(map(str, fault.path))
-        message = f"{path or 'the document'}: {fault.message}; {document.format.upper()} cannot say it"
+        message = f"{path or 'the document'}: {fault.message}; {document.format.upper()} cannot express it"
         sink.report(structure.INVALID_VALUE, message, Location(path=path), found=fault.found, expected=fault.expected)
     return json.dumps({"$schema": JSON_IDENTIFIER, **data}, indent=2, ensure_ascii=False) + "\n"
 

@@ -96,5 +96,5 @@ def _report(path: str, where: Location, sink: DiagnosticSink, reported: set[str]
     """Report once of each path that it is left alone."""
     if path not in reported:
         reported.add(path)
-        rest = "so it stays as it is: a path from the folder of the source, not of the result"
+        rest = "so it is left unchanged; it is relative to the folder of the source, not of the result"
         sink.report(MISSING_FILE, f"{path!r} leads to no file, {rest}", where, found=path)

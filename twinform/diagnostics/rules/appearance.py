@@ -30,9 +30,9 @@ TEXTURED_SCRIPT = Rule(
 UNMAPPED_URI = Rule(
     name="unmapped-uri",
     severity=Severity.WARNING,
-    finds="A URI that `rewrite-uris` cannot say in the scheme that was asked for: its file is not found, or it lies "
+    finds="A URI that `rewrite-uris` cannot write in the scheme that was asked for: its file is not found, or it lies "
     "in no package or model.",
-    matters="It stays as it is, and who reads the file will look for it in the old way.",
+    matters="The URI is left unchanged, so readers look for the file by its old URI.",
     example="`file:///home/me/arm.dae` to `package://`, where no folder above has a package.xml.",
     better="Say where files are with `--path DIR`, or name the folder: `roots=['arm=/home/me']`.",
 )
@@ -48,15 +48,15 @@ DROPPED_REFERENCE = Rule(
     name="dropped-reference",
     severity=Severity.WARNING,
     finds="A plugin that names something which `drop` has taken out.",
-    matters="What it refers to is gone: the plugin will not find it, and few say so.",
+    matters="The plugin will not find what it names, and few plugins report that.",
     example="`<plugin ...><sensor_name>lidar</sensor_name>` after `drop{sensors=lidar}`.",
     better="Drop the plugin as well, or correct its parameter.",
 )
 PBR_TOO_OLD = Rule(
     name="pbr-too-old",
     severity=Severity.WARNING,
-    finds="A document of SDF before 1.6 whose colors were to become those of PBR.",
-    matters="These versions have no word for it, so the colors stay what they were.",
+    finds="A document of SDF before 1.6 whose colors were to become PBR materials.",
+    matters="These versions have no PBR materials, so the colors are left unchanged.",
     example="`materials{pbr=true}` on `<sdf version='1.5'>`.",
     better="Write a newer version first: `--sdf-version 1.9`, and run the pass on that.",
     references="SDF specification 1.6, `material/pbr`.",

@@ -61,12 +61,12 @@ MISPLACED_SENSOR = Rule(
     finds="A sensor of force and torque on a link.",
     matters="It measures what a joint transmits; Gazebo ignores it on a link.",
     example="`<link name='tool'><sensor name='ft' type='force_torque'/></link>`",
-    better="Put it into the joint.",
+    better="Move it into the joint.",
 )
 UNKNOWN_COLLISION = Rule(
     name="unknown-collision",
     severity=Severity.WARNING,
-    finds="A contact sensor that looks at a collision which does not exist.",
+    finds="A contact sensor that names a collision which does not exist.",
     matters="It never reports a contact, and no reader says why.",
     example="`<contact><collision>foot</collision></contact>` where the collision is called `foot_collision`.",
     better="Correct the name.",

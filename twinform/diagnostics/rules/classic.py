@@ -17,7 +17,7 @@ MIGRATED_PLUGIN = Rule(
 PLUGIN_WITHOUT_COUNTERPART = Rule(
     name="plugin-without-counterpart",
     severity=Severity.WARNING,
-    finds="A plugin of Gazebo Classic that nothing in gz-sim stands for here, with the reason.",
+    finds="A plugin of Gazebo Classic that has no counterpart in gz-sim, with the reason.",
     matters="gz-sim cannot load it. It is left out, or stays with the option `keep`.",
     example="`libgazebo_ros_vacuum_gripper.so`",
     better="Port it to a system of gz-sim, or do what the reason says.",
@@ -26,7 +26,7 @@ PLUGIN_WITHOUT_COUNTERPART = Rule(
 PARAMETER_WITHOUT_COUNTERPART = Rule(
     name="parameter-without-counterpart",
     severity=Severity.WARNING,
-    finds="A parameter of a migrated plugin that goes nowhere, with the reason.",
+    finds="A parameter of a migrated plugin that gz-sim has no counterpart for, with the reason.",
     matters="What it asked for does not happen any more, or happens in another way.",
     example="`<covariance_x>` of `libgazebo_ros_planar_move.so`",
     better="Do what the reason says, or leave the parameter out of the source.",
@@ -36,7 +36,8 @@ UNKNOWN_PLUGIN = Rule(
     name="unknown-plugin",
     severity=Severity.WARNING,
     finds="A plugin that is neither of Gazebo Classic nor of gz-sim, nor of a package that is known here.",
-    matters="It may be for either. It stays as it is; one that was built for Gazebo Classic does not load in gz-sim.",
+    matters="It may be for either, and is kept unchanged; one that was built for Gazebo Classic does not load in "
+    "gz-sim.",
     example="`<plugin name='mine' filename='libmy_plugin.so'/>`",
     better="Port it if it is for Gazebo Classic.",
 )
@@ -53,7 +54,7 @@ SENSOR_WITHOUT_COUNTERPART = Rule(
     name="sensor-without-counterpart",
     severity=Severity.WARNING,
     finds="A sensor of a type that the release of gz-sim does not simulate.",
-    matters="It stays in the file, and measures nothing.",
+    matters="It is kept in the file, but measures nothing.",
     example="`<sensor type='sonar'>`",
     better="Use a sensor that comes near; the message names one.",
     references=_REFERENCES,
@@ -62,7 +63,7 @@ UNREAD_WORLD_PART = Rule(
     name="unread-world-part",
     severity=Severity.WARNING,
     finds="A part of a world that Gazebo Classic reads and gz-sim does not.",
-    matters="It stays in the file and does nothing.",
+    matters="It is kept in the file, but has no effect.",
     example="`<physics><ode>`, `<scene><fog>`, `<population>`",
     better="Leave it out, or do what the reason says.",
     references=_REFERENCES,
@@ -81,7 +82,7 @@ IGNITION_NAME = Rule(
     finds="A name from when Gazebo was called Ignition.",
     matters="gz-sim still reads most of these names with a warning, and will not for ever.",
     example="`libignition-gazebo-imu-system.so`, `ignition::gazebo::systems::Imu`",
-    better="Nothing needs doing; the names are those of now.",
+    better="Nothing needs doing; the current names are written.",
 )
 INCOMPLETE_MIGRATION = Rule(
     name="incomplete-migration",

@@ -6,8 +6,8 @@ CONVERTED_TRANSMISSION = Rule(
     name="converted-transmission",
     severity=Severity.INFO,
     finds="A transmission of ROS 1 that became a part of a `<ros2_control>` system.",
-    matters="ROS 2 reads transmissions only inside of `<ros2_control>`. Interfaces and reduction are the same; "
-    "the words for them are not.",
+    matters="ROS 2 reads transmissions only inside of `<ros2_control>`. Interfaces and reduction are "
+    "the same; the elements for them are not.",
     example="`<transmission>` with `hardware_interface/EffortJointInterface`.",
     better="Nothing needs doing. `keep=true` leaves the transmission in place for programs of ROS 1.",
     references="ros2_control, `hardware_interface` and `transmission_interface`.",
@@ -15,8 +15,8 @@ CONVERTED_TRANSMISSION = Rule(
 UNCONVERTED_TRANSMISSION = Rule(
     name="unconverted-transmission",
     severity=Severity.WARNING,
-    finds="A transmission that stays as it is, with the reason: its joint is missing, cannot move or is in a "
-    "`<ros2_control>` already, or other programs read parts of it that ROS 2 has no word for.",
+    finds="A transmission that is not converted, with the reason: its joint is missing, cannot move or is in a "
+    "`<ros2_control>` already, or other programs read parts of it that ROS 2 does not have.",
     matters="ROS 2 does not see it; controllers for its joint find no interface.",
     example="A transmission of joint `hip` in a robot without such a joint; `<drake:rotor_inertia>` in an actuator.",
     better="Correct the name of the joint, or leave the transmission out.",
@@ -44,14 +44,15 @@ CONVERTED_ROS2_CONTROL = Rule(
     name="converted-ros2-control",
     severity=Severity.INFO,
     finds="A `<ros2_control>` whose joints became transmissions of ROS 1.",
-    matters="ROS 1 reads no `<ros2_control>`. The interfaces and the reductions are the same; the words are not.",
+    matters="ROS 1 reads no `<ros2_control>`. The interfaces and the reductions are the same; the elements are not.",
     example="`<ros2_control name='arm' type='system'>` with joints.",
     better="Nothing needs doing. `keep=true` leaves it in place for programs of ROS 2.",
 )
 UNSAYABLE_IN_TRANSMISSIONS = Rule(
     name="unsayable-in-transmissions",
     severity=Severity.WARNING,
-    finds="A part of `<ros2_control>` that ROS 1 has no word for: hardware and its parameters, limits of interfaces, "
+    finds="A part of `<ros2_control>` that ROS 1 has no equivalent of: hardware and its parameters, limits of "
+    "interfaces, "
     "sensors, inputs and outputs.",
     matters="In ROS 1 the driver is a program that is started beside the robot, with parameters of its own.",
     example="`<command_interface name='position'><param name='min'>-1</param></command_interface>`",

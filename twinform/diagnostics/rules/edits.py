@@ -6,7 +6,7 @@ NAME_CLASH = Rule(
     name="name-clash",
     severity=Severity.ERROR,
     finds="Two things that a pass would give one name.",
-    matters="Links, joints and frames are found by their names; with two of one name, nobody knows which is meant.",
+    matters="Links, joints and frames are found by their names; with two of one name a reference is ambiguous.",
     example="`rename{names='left_arm=arm'}` on a robot that has another link called `arm`.",
     better="Choose another name, or a prefix that nothing has yet.",
     references="SDF specification, names of siblings; URDF: links and joints are unique by name.",
@@ -22,34 +22,35 @@ UNKNOWN_NAME = Rule(
 UNFOLLOWED_NAME = Rule(
     name="unfollowed-name",
     severity=Severity.INFO,
-    finds="A text or attribute that is the old name of something that was renamed, in a place of which nobody knows "
-    "that it names a link or a joint.",
+    finds="A text or attribute that is the old name of something that was renamed, where it is not "
+    "known whether it refers to it.",
     matters="It may be a reference that now leads nowhere, or only a label that looks like one.",
     example="`<cameraName>wrist</cameraName>` in a plugin, after the link `wrist` was renamed.",
-    better="Look at it, and change it by hand where it is a reference.",
+    better="Check it, and change it by hand where it is a reference.",
 )
 LINK_NOT_LUMPED = Rule(
     name="link-not-lumped",
     severity=Severity.INFO,
     finds="A link on a fixed joint that stays a body of its own, and why: a sensor on the joint, a plugin that names "
     "the link, other gravity than its parent has, a loop of fixed joints.",
-    matters="Lumped, it would not be the same robot any more.",
+    matters="Lumping it would change what the robot does.",
     example="A force and torque sensor on the joint between wrist and gripper.",
     better="Nothing has to be done. Remove what holds the link, if it is not needed.",
 )
 SHAPES_NOT_MOVED = Rule(
     name="shapes-not-moved",
     severity=Severity.INFO,
-    finds="Shapes that stay with a link although its mass went to the parent, because `<gazebo>` tags say other "
-    "friction or materials of the two links.",
-    matters="In URDF such a tag is about all shapes of a link, so that in one link they would all be alike.",
+    finds="Shapes that stay with a link although its mass went to the parent, because `<gazebo>` tags set other "
+    "friction or materials for the two links.",
+    matters="In URDF such a tag applies to all shapes of a link, so in one link they would all be alike.",
     example="`<gazebo reference='foot'><mu1>0.9</mu1></gazebo>`, with another `mu1` for the shank.",
     better="Nothing has to be done: readers put the shapes where the link is. In SDF every shape has its own surface.",
 )
 LUMPED_AWAY = Rule(
     name="lumped-away",
     severity=Severity.WARNING,
-    finds="What the way of libsdformat to lump fixed joints loses: extensions of a joint that goes, surfaces and "
+    finds="What is lost when fixed joints are lumped as libsdformat does it: extensions of a joint that goes, "
+    "surfaces and "
     "materials that would mix with those of the parent.",
     matters="It is lost in Gazebo too, silently; a force and torque sensor is the usual victim.",
     example="`<gazebo reference='fixed_joint'><sensor type='force_torque'>`.",
@@ -59,8 +60,8 @@ LUMPED_AWAY = Rule(
 NOT_FOR_FORMAT = Rule(
     name="not-for-format",
     severity=Severity.WARNING,
-    finds="A pass, or an option of it, that means nothing in the format of the document.",
-    matters="The document stays as it is, which may not be what was wanted.",
+    finds="A pass, or an option of it, that has no effect in the format of the document.",
+    matters="The document is left unchanged, which may not be what was wanted.",
     example="`lump-fixed-joints{compat=libsdformat}` on an SDF file: libsdformat lumps joints of URDF only.",
     better="Leave the option out, or run the pass on the other format.",
 )
@@ -92,16 +93,16 @@ UNREAD_DOCUMENT = Rule(
 NESTED_SETTING = Rule(
     name="nested-setting",
     severity=Severity.WARNING,
-    finds="Something that a nested model says of itself as a whole and the model around it says differently.",
-    matters="Flattened, there is one model, and what it says holds for all of it.",
+    finds="A setting of a nested model as a whole that differs from that of the model around it.",
+    matters="After flattening there is one model, and its setting applies to all of it.",
     example="A nested model with `<static>true</static>` in one that moves.",
-    better="Say it of the outer model, fix what shall stand still to the world, or leave the model nested.",
+    better="Set it in the outer model, fix what has to stand still to the world, or leave the model nested.",
 )
 RAISED_VERSION = Rule(
     name="raised-version",
     severity=Severity.INFO,
-    finds="An SDF file of a version before 1.8 that a pass on the structure of models has read in the words of 1.8.",
-    matters="Frames between any two parts of a model can be said since then; the result has that version.",
+    finds="An SDF file of a version before 1.8 that a pass on the structure of models has upgraded to SDF 1.8.",
+    matters="Since 1.8, frames can be placed between any two parts of a model; the result has that version.",
     example="`lump-fixed-joints` on a file of SDF 1.4.",
     better="Nothing has to be done; `--sdf-version` writes an older one again.",
 )

@@ -34,14 +34,15 @@ MISSING_MODEL_CONFIG = Rule(
     severity=Severity.WARNING,
     strict=Severity.ERROR,
     finds="An included folder with a `model.sdf` and no `model.config` beside it.",
-    matters="`model.sdf` is what is meant, and is taken; Gazebo refuses the folder.",
+    matters="`model.sdf` is read instead; Gazebo refuses the folder.",
     example="`<uri>model://crate</uri>` where the folder `crate` has only `model.sdf`.",
     better="Write a model.config that names it, or include the file: `model://crate/model.sdf`.",
 )
 MISSING_FILE = Rule(
     name="missing-file",
     severity=Severity.WARNING,
-    finds="A mesh, texture or included model whose file is nowhere. Nothing is said of packages and models that are "
+    finds="A mesh, texture or included model whose file is not found. Nothing is reported about packages and models "
+    "that are "
     "not on this machine at all: they may be installed where the robot is.",
     matters="The part cannot be seen or touched, or the file is refused.",
     example="`<mesh filename='package://arm/meshes/Elbow.STL'/>` where the file is called `elbow.stl`.",

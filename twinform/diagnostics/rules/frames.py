@@ -42,7 +42,7 @@ ANGLE_IN_DEGREES = Rule(
     name="angle-in-degrees",
     severity=Severity.WARNING,
     finds="A roll, pitch or yaw of more than two turns, where radians are read.",
-    matters="The part is turned by something that looks like chance: 90 radians are 14 turns and 117 degrees.",
+    matters="The part gets a quite different angle: 90 radians are 14 turns and 117 degrees.",
     example="`<origin xyz='0 0 0' rpy='0 0 90'/>`, `<pose>0 0 0 0 0 90</pose>`",
     better="Write radians, 1.570796 for 90 degrees, or in SDF from 1.9 on `<pose degrees='true'>`.",
 )

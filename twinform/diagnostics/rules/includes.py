@@ -21,7 +21,7 @@ TOO_MANY_INCLUDES = Rule(
 INCLUDE_WITHOUT_MODEL = Rule(
     name="include-without-model",
     severity=Severity.ERROR,
-    finds="An included file that has nothing that could stand in the place of the include.",
+    finds="An included file that contains no model, or nothing that is allowed where the include is.",
     matters="A model would be missing from the robot or the world.",
     example="A file with a `<world>`; a light that is included into a model.",
     better="Include a file with one model; into a world also one with a light or an actor.",
@@ -46,7 +46,7 @@ PLACEMENT_WITHOUT_POSE = Rule(
     name="placement-without-pose",
     severity=Severity.ERROR,
     finds="An include with a `placement_frame` and no `pose`.",
-    matters="The frame says what the pose places; without one it means nothing, and libsdformat refuses the file.",
+    matters="The pose places that frame; without a pose it has no effect, and libsdformat refuses the file.",
     example="`<include><uri>model://arm</uri><placement_frame>flange</placement_frame></include>`",
     better="Write the pose, or leave the placement frame out.",
 )
@@ -62,7 +62,7 @@ MERGED_AWAY = Rule(
     name="merged-away",
     severity=Severity.INFO,
     finds="A setting of an included model as a whole, which is merged into another model.",
-    matters="The setting of the model around it counts.",
+    matters="The setting of the model around it is used.",
     example="`<static>true</static>` in a model that is included with `merge='true'`.",
     better="Write it in the model around it.",
 )
@@ -70,7 +70,7 @@ INCLUDE_LEFTOVER = Rule(
     name="include-leftover",
     severity=Severity.WARNING,
     finds="Something in an include that an expanded model has no place for, such as its URI, for the ledger.",
-    matters="It is left out; what stands in its place is what it named.",
+    matters="It is left out, because the included model replaces the include.",
     example="An unknown element inside `<include>`.",
     better="Write it into the included model.",
 )

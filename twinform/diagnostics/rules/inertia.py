@@ -24,8 +24,8 @@ NON_POSITIVE_MASS = Rule(
 INDEFINITE_INERTIA = Rule(
     name="indefinite-inertia",
     severity=Severity.WARNING,
-    finds="An inertia matrix that is not positive definite: about some axis the body would resist with less than "
-    "nothing, or, to the pass `check-inertia`, with nothing.",
+    finds="An inertia matrix that is not positive definite: one of its principal moments is negative, or, to the "
+    "pass `check-inertia`, zero.",
     matters="Turning about that axis takes no torque, so integrators divide by zero; Gazebo refuses the link.",
     example="`<inertia ixx='0.01' ixy='0.02' ixz='0' iyy='0.01' iyz='0' izz='0.01'/>`: ixy is larger than ixx and iyy.",
     better="Compute the matrix from the shape and the mass; check the signs and the units of the products of inertia.",
@@ -64,8 +64,8 @@ IMPLAUSIBLE_DENSITY = Rule(
     severity=Severity.WARNING,
     finds="A mass that is too small or too large for the volume of the link's shapes: by default less than 1 kg/m^3, "
     "which is air, or more than 23,000 kg/m^3, which is osmium.",
-    matters="A wrong unit is the usual reason (grams for kilograms), and the robot moves like a balloon or like a "
-    "safe.",
+    matters="A wrong unit is the usual reason (grams for kilograms), and the robot moves as if it were much too "
+    "light or too heavy.",
     example="`<mass value='850'/>` for a gripper finger of 5 cm^3.",
     better="Write the mass in kilograms, or correct the size of the shapes.",
 )
@@ -112,7 +112,7 @@ BALANCED_INERTIA = Rule(
     severity=Severity.WARNING,
     finds="A link whose impossible inertia was replaced by the nearest one that a body can have; an info where they "
     "differ by no more than digits that were cut off.",
-    matters="The new numbers let a simulator run; whether they are the real part's nobody knows. The message says how "
+    matters="The new numbers let a simulator run; they need not be those of the real part. The message says how "
     "far they are from the old ones.",
     example="`balance-inertia` on `<inertia ixx='1' iyy='0.1' izz='0.1' .../>`, which becomes 0.733, 0.367, 0.367.",
     better="Compute the inertia from the shape and the mass, as `fill-inertia{replace=impossible}` does.",

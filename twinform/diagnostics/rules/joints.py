@@ -5,7 +5,7 @@ from twinform.diagnostics.rule import Rule, Severity
 MISSING_AXIS = Rule(
     name="missing-axis",
     severity=Severity.INFO,
-    finds="A joint that moves and does not say along or about what.",
+    finds="A joint that moves and has no axis.",
     matters="The default of URDF is x and that of SDF is z, so the same omission means two different robots.",
     example="A revolute joint without `<axis>`.",
     better="Write the axis.",
@@ -23,7 +23,7 @@ UNNORMALIZED_AXIS = Rule(
     name="unnormalised-axis",
     severity=Severity.INFO,
     finds="A joint axis that is not of length one.",
-    matters="It is a direction: readers make its length one, so that nothing moves faster for it.",
+    matters="It is only a direction: readers normalize it, so its length has no effect.",
     example="`<axis xyz='0 0 10'/>`",
     better="Write a vector of length one.",
     references="URDF, `joint/axis`: the vector should be normalized",
@@ -40,7 +40,8 @@ CONTINUOUS_IN_SDF = Rule(
     name="continuous-in-sdf",
     severity=Severity.WARNING,
     finds="A `continuous` joint in SDF.",
-    matters="The specification has it, and no engine of Gazebo: DART and Bullet Featherstone hold the joint still, "
+    matters="SDF has the type, but no physics engine of Gazebo supports it: DART and Bullet Featherstone hold the "
+    "joint still, "
     "with an error in the log, and Bullet leaves it out. Drake and converters to URDF turn it.",
     example="`<joint name='wheel_joint' type='continuous'>`",
     better="Make it `revolute` without lower and upper limits, as libsdformat does with URDF; `replace-continuous` "
@@ -59,7 +60,7 @@ ZERO_LIMIT = Rule(
     name="zero-limit",
     severity=Severity.INFO,
     finds="A limit of zero for the effort or the velocity of a joint that moves.",
-    matters="Gazebo takes it at its word and the joint does not move; ROS controllers that enforce limits hold it.",
+    matters="Gazebo enforces it, so the joint does not move; ROS controllers that enforce limits hold it.",
     example="`<limit effort='0' velocity='0' .../>`",
     better="Write what the actuator can do; a passive joint needs neither in SDF and in URDF 1.2.",
 )
@@ -76,7 +77,7 @@ EMPTY_DYNAMICS = Rule(
     severity=Severity.WARNING,
     strict=Severity.ERROR,
     finds="A `<dynamics>` of URDF with neither damping nor friction.",
-    matters="It says nothing, and urdfdom refuses the whole file for it.",
+    matters="It has no effect, and urdfdom refuses the whole file for it.",
     example="`<dynamics/>`",
     better="Delete it, or write `damping` or `friction`.",
 )

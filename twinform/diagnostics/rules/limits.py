@@ -14,7 +14,7 @@ FILLED_LIMIT = Rule(
 UNFILLED_LIMIT = Rule(
     name="unfilled-limit",
     severity=Severity.WARNING,
-    finds="A missing lower or upper limit that was not filled, as the range would have been upside down.",
+    finds="A missing lower or upper limit that was not filled, as the lower one would have been above the upper one.",
     matters="What is written is never changed, so the joint keeps a range of which one end is missing.",
     example="`fill-limits{lower=0 upper=1}` on a joint with `<limit lower='2' .../>` and no upper limit.",
     better="Write both ends in the source, or fill this joint on its own with the option `joints`.",
@@ -34,7 +34,7 @@ EMPTY_RANGE = Rule(
 RANGE_IN_DEGREES = Rule(
     name="range-in-degrees",
     severity=Severity.WARNING,
-    finds="A limit of a turning joint of more turns than a cable bears: by default more than two.",
+    finds="A limit of a turning joint of more than two turns (the option `turns` of `check-limits` changes that).",
     matters="Angles are in radians: 90 is more than 14 turns, and planners will use them.",
     example="`<limit lower='-90' upper='90' .../>`",
     better="Write radians; a joint that turns without end is `continuous`.",
@@ -52,14 +52,15 @@ IMPLAUSIBLE_LIMIT = Rule(
     severity=Severity.INFO,
     finds="A limit of effort or velocity that no actuator of a robot reaches: by default 100,000 N m (or N) and 1,000 "
     "rad/s (or m/s).",
-    matters="It stands for a number that nobody has looked up, and controllers and planners take it at its word.",
+    matters="It is usually a placeholder, and controllers and planners use it as if it were real.",
     example="`<limit effort='1e6' velocity='10000' .../>`",
     better="Write what the data sheet of the actuator says.",
 )
 SOFT_LIMIT_OUTSIDE = Rule(
     name="soft-limit-outside",
     severity=Severity.WARNING,
-    finds="Soft limits of a `<safety_controller>` that are outside of the hard ones, or upside down.",
+    finds="Soft limits of a `<safety_controller>` that are outside of the hard ones, or whose lower one is above "
+    "the upper one.",
     matters="The controller brakes too late, or never lets the joint move.",
     example="`<limit lower='-1' upper='1' .../><safety_controller soft_upper_limit='1.2' .../>`",
     better="Put the soft limits inside of the hard ones.",

@@ -7,7 +7,7 @@ OPEN_MESH = Rule(
     severity=Severity.WARNING,
     finds="A mesh without an inside, of which a pass needs the volume: its surface has holes, its faces do not agree "
     "which side is outside, or it is flat.",
-    matters="What its triangles enclose is not a volume, so a mass and an inertia computed from them mean nothing.",
+    matters="What its triangles enclose is not a volume, so a mass and an inertia computed from them would be wrong.",
     example="`fill-inertia` on a link whose collision is the scan of a housing, open at the bottom.",
     better="Close the mesh in a modeling program, use its convex hull (`fill-inertia{open-meshes=hull}`), or use "
     "simple shapes for the collision.",

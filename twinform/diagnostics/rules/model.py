@@ -162,7 +162,7 @@ UNKNOWN_REFERENCE = Rule(
 UNKNOWN_MATERIAL = Rule(
     name="unknown-material",
     severity=Severity.WARNING,
-    finds="A visual that names a material which is defined nowhere and says no color or texture itself.",
+    finds="A visual that names a material which is defined nowhere and has no color or texture itself.",
     matters="The visual is drawn in a default color.",
     example="`<material name='blu'/>` where the material is called `blue`.",
     better="Correct the name, or write the color in the visual.",
@@ -180,7 +180,7 @@ SEVERAL_AT_TOP = Rule(
     severity=Severity.WARNING,
     strict=Severity.ERROR,
     finds="An SDF file with more than one model, light or actor outside of a world.",
-    matters="libsdformat reads the first and says that there was another; Gazebo spawns only that one.",
+    matters="libsdformat reads the first and reports that there are others; Gazebo spawns only that one.",
     example="`<sdf ...><model name='a'>...</model><model name='b'>...</model></sdf>`",
     better="Put them into a world, or into files of their own.",
     references="libsdformat: ELEMENT_INCORRECT_TYPE",

@@ -69,12 +69,12 @@ WRONG_PLUGIN_SCOPE = Rule(
     name="wrong-plugin-scope",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
-    finds="A plugin that stands in something that it is not for: a system of the world in a model, one of a model in a "
+    finds="A plugin in an element that it does not work in: a system of the world in a model, one of a model in a "
     "sensor.",
     matters="It is not loaded, or looks for things in a place that has none and gives up. Some systems of the world "
     "work from a model too, and then there are two of them as soon as another model brings one.",
     example="`gz-sim-diff-drive-system` in a `<world>`; any system in a `<link>`.",
-    better="Move it to what it is for.",
+    better="Move it to the element that the message names.",
     references=_SOURCES,
 )
 PLUGIN_NOT_IN_RELEASE = Rule(
@@ -93,7 +93,7 @@ UNSUPPORTED_SENSOR = Rule(
     severity=Severity.WARNING,
     strict=Severity.ERROR,
     finds="A sensor of a type that the chosen release does not simulate.",
-    matters="It stands in the model and never says anything.",
+    matters="It is in the model and never publishes anything.",
     example="`<sensor type='ray'>`, which is a lidar on the CPU: gz-sim has only `gpu_lidar` so far; `multicamera`.",
     better="Use a type that is simulated.",
     references="gz-sim, src/SdfEntityCreator.cc; gz-sensors",
@@ -103,7 +103,7 @@ MISSING_WORLD_SYSTEM = Rule(
     severity=Severity.WARNING,
     strict=Severity.ERROR,
     finds="A sensor in a world that lacks the system, or the `<spherical_coordinates>`, which such sensors need.",
-    matters="The sensor never says anything, and nobody says why.",
+    matters="The sensor never publishes anything, without an error message.",
     example="An `imu` in a world without `gz-sim-imu-system`.",
     better="Add the system to the world; `add-sensor` does it for the sensors that it adds.",
     references="gz-sim, src/systems/sensors, src/systems/imu and others",
@@ -142,8 +142,7 @@ WHEELS_NOT_MEASURED = Rule(
     name="wheels-not-measured",
     severity=Severity.ERROR,
     finds="A drive system whose wheel radius, separation or base is neither given nor to be read off the model.",
-    matters="The system would take its own default, and the robot would drive and turn by another measure than its "
-    "own.",
+    matters="The system would take its own default, and the robot would drive and turn by the wrong distances.",
     example="Wheels whose only shapes are meshes.",
     better="Give the option, such as `wheel-radius=0.1`, or give the wheels a cylinder to collide with.",
     references="gz-sim, src/systems/diff_drive",
@@ -161,7 +160,8 @@ ADDED_WORLD_SYSTEM = Rule(
     name="added-world-system",
     severity=Severity.INFO,
     finds="A world that was given systems: those that its sensors need, or the default ones beside another.",
-    matters="Without its system a sensor never says anything, and one explicit plugin switches the default ones off.",
+    matters="Without its system a sensor never publishes anything, and one explicit plugin switches the default "
+    "ones off.",
     example="`add-sensor{type=imu link=base}` in a world without `gz-sim-imu-system`.",
     better="Nothing needs doing.",
     references="gz-sim, src/systems/imu and others",

@@ -24,10 +24,10 @@ OVERSIZED_FILE = Rule(
 NOT_WELL_FORMED = Rule(
     name="not-well-formed",
     severity=Severity.ERROR,
-    finds="Text that is not XML, in a way that no reader can mend with certainty.",
-    matters="The parser cannot tell what was meant; what it would guess may be another robot.",
+    finds="Text that is not XML, in a way that cannot be repaired with certainty.",
+    matters="The parser cannot tell what was meant, and a guess may be another robot.",
     example="An end tag that does not match, an attribute without quotes, a file cut off in the middle.",
-    better="Mend the line that the message names, as its help says.",
+    better="Correct the line that the message names, as its help says.",
     references="XML 1.0, section 2.1",
 )
 REPAIRED_XML = Rule(

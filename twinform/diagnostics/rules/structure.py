@@ -29,7 +29,7 @@ DIALECT = Rule(
     matters="That program acts on it, every other reader ignores it. It is kept as it is, and carried in a conversion.",
     example="`<contact>` in a link for Bullet, `<mujoco>` for MuJoCo, `<frame>` and all of `<drake:...>` for Drake, "
     "`<joint type='spherical'>`.",
-    better="Nothing needs doing where that program is used; for others, say it in their own words as well.",
+    better="Nothing needs doing where that program is used; for others, write what they read as well.",
 )
 MISSING_ELEMENT = Rule(
     name="missing-element",
@@ -60,7 +60,7 @@ DEFAULTED_ATTRIBUTE = Rule(
     name="defaulted-attribute",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
-    finds="An attribute that the format requires is not there; it has a default, or its element says nothing without "
+    finds="An attribute that the format requires is not there; it has a default, or its element has no effect without "
     "it, so it is clear what is meant.",
     matters="Some readers refuse the file all the same, as libsdformat does with SDF.",
     example="`<light name='lamp'>` without `type`, which is `point` by default; `<texture/>` in URDF.",
@@ -119,7 +119,7 @@ TABBED_NUMBERS = Rule(
     severity=Severity.WARNING,
     strict=Severity.ERROR,
     finds="Numbers in an attribute of URDF that have a tab or a new line before, between or behind them.",
-    matters="To XML, and here, they are blanks. urdfdom takes the number and the tab for one word that is no number, "
+    matters="To XML, and here, they are blanks. urdfdom does not read a number with a tab as a number, "
     "and drops the rest of the link; of a joint, the whole file.",
     example="`<origin xyz='0 0` and `0.1'/>` on the next line.",
     better="Put blanks between the numbers, on one line.",
@@ -147,7 +147,7 @@ OUTSIDE_VERSION = Rule(
     name="outside-version",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
-    finds="An element, attribute or word that the format has, but not in the version that the file declares.",
+    finds="An element, attribute or value that the format has, but not in the version that the file declares.",
     matters="Readers of that version ignore it; newer ones may read it in another way than it was meant.",
     example="`<capsule>` in an SDF 1.6 file: it came with 1.8. A joint of type `fixed` in SDF 1.4: it came with 1.5.",
     better="Declare the version that has it, or write what the declared version has.",
@@ -164,7 +164,7 @@ UNKNOWN_VERSION = Rule(
 SCHEMA_DISAGREEMENT = Rule(
     name="schema-disagreement",
     severity=Severity.ERROR,
-    finds="The XSD refuses a file in which the table pass finds nothing wrong.",
+    finds="The XSD refuses a file in which the schema reader finds nothing wrong.",
     matters="Both are made from one table, so this is a fault of this compiler and not of the file.",
     example="None is known.",
     better="Please report it with the file.",

@@ -5,12 +5,11 @@ from twinform.diagnostics.rule import Rule, Severity
 URDF_ONLY = Rule(
     name="urdf-only",
     severity=Severity.INFO,
-    finds="A part of a URDF file that SDF has no word for: transmissions, ros2_control, safety limits, calibration, "
-    "elements "
-    "of other tools.",
-    matters="Gazebo does not read it; ROS and our way back do.",
+    finds="A part of a URDF file that SDF has no equivalent of: transmissions, ros2_control, safety limits, "
+    "calibration, elements of other tools.",
+    matters="Gazebo does not read it; ROS does, and so does a conversion back to URDF.",
     example="`<transmission>`, `<safety_controller>`, `<calibration>`.",
-    better="Nothing needs doing: it travels in a carrier, which every other reader skips. `--no-carriers` leaves it "
+    better="Nothing needs doing: it is kept in a carrier, which every other reader skips. `--no-carriers` leaves it "
     "out.",
 )
 MATERIAL_NAME = Rule(
@@ -19,7 +18,7 @@ MATERIAL_NAME = Rule(
     finds="The name of a URDF material, or a shared material that no visual uses.",
     matters="Materials of SDF have colors but no names.",
     example="`<material name='blue'>`",
-    better="Nothing needs doing: the colors are written into every visual and the name travels in a carrier.",
+    better="Nothing needs doing: the colors are written into every visual and the name is kept in a carrier.",
 )
 WORLD_LINK = Rule(
     name="world-link",
@@ -53,7 +52,7 @@ FRAME_LINK = Rule(
     name="frame-link",
     severity=Severity.INFO,
     finds="A link without mass on a fixed joint.",
-    matters="SDF has a word for such a thing, `<frame>`; as a link, a simulator would give it a mass of its own.",
+    matters="SDF has `<frame>` for this; as a link, a simulator would give it a mass of its own.",
     example="A camera's optical frame, a tool center point.",
     better="Nothing needs doing: link and joint become frames of the same names, the shapes and sensors move to the "
     "parent at the same place.",
@@ -81,12 +80,12 @@ NO_JOINT = Rule(
     finds="A `floating` joint.",
     matters="In SDF two links that may move freely simply have no joint between them.",
     example="`<joint name='free' type='floating'>`",
-    better="Nothing needs doing: the child keeps its place, the joint's name travels in a carrier.",
+    better="Nothing needs doing: the child keeps its place, the joint's name is kept in a carrier.",
 )
 JOINT_TYPE_UNSUPPORTED = Rule(
     name="joint-type-unsupported",
     severity=Severity.ERROR,
-    finds="A joint that the target has no word for and that no others say together.",
+    finds="A joint that the target does not have and that cannot be built from several others.",
     matters="Left out or replaced, the robot would move in another way.",
     example="`piston` of SDF before 1.5; a `screw` with a `<thread_pitch>` of 0 rad/m.",
     better="Write the joint as a chain of revolute and prismatic ones.",
@@ -94,16 +93,16 @@ JOINT_TYPE_UNSUPPORTED = Rule(
 JOINT_CHAIN = Rule(
     name="joint-chain",
     severity=Severity.INFO,
-    finds="A joint that the target says by several joints with links between them: a `planar` one.",
+    finds="A joint that the target describes by several joints with links between them: a `planar` one.",
     matters="It moves the same way, but has three coordinates by three names. The links between have no mass, which "
     "engines with one body for each link do not like.",
     example="`<joint name='base' type='planar'>` becomes `base_x`, `base_y` and `base`.",
-    better="Nothing needs doing: our way back makes it one joint again.",
+    better="Nothing needs doing: a conversion back to URDF makes it one joint again.",
 )
 GAZEBO_TAG_WITHOUT_TARGET = Rule(
     name="gazebo-tag-without-target",
     severity=Severity.WARNING,
-    finds="A tag in a `<gazebo>` element that means nothing at this kind of reference.",
+    finds="A tag in a `<gazebo>` element that has no effect for what the element refers to.",
     matters="libsdformat ignores it without a word.",
     example="`<mu1>` in a `<gazebo>` for the whole model or for a joint; `<static>` for a link.",
     better="Refer to the link or joint that is meant.",
@@ -111,15 +110,15 @@ GAZEBO_TAG_WITHOUT_TARGET = Rule(
 GAZEBO_CONFLICT = Rule(
     name="gazebo-conflict",
     severity=Severity.WARNING,
-    finds="A `<gazebo>` element that says again what the model, link or joint says already.",
+    finds="A `<gazebo>` element that sets again what the model, link or joint sets already.",
     matters="libsdformat writes both, and then reads one of them.",
     example="Two `<gazebo reference='arm'>` with a different `<gravity>`; an `<inertial>` for a link that has one.",
-    better="Say it once.",
+    better="Keep one of the two.",
 )
 OLDER_VERSION = Rule(
     name="older-version",
     severity=Severity.WARNING,
-    finds="Something that the SDF version asked for cannot say.",
+    finds="Something that the SDF version asked for does not have.",
     matters="Readers of that version would not see it.",
     example="`mimic` before 1.11, `capsule` before 1.8.",
     better="Ask for a newer `--sdf-version` if the simulator reads it.",
@@ -137,7 +136,7 @@ UNSEEN_COLLISION = Rule(
     name="unseen-collision",
     severity=Severity.WARNING,
     finds="A contact sensor that names a collision of another link, which libsdformat would have lumped into its own.",
-    matters="A contact sensor of Gazebo sees the collisions of its own link alone, and this one stays silent.",
+    matters="A contact sensor of Gazebo reports only collisions of its own link, so this one reports none.",
     example="A sensor on `base_link` with `base_link_fixed_joint_lump__pad_collision_1`, where `pad` has a mass.",
     better="Lump the robot as libsdformat does, `--passes 'lump-fixed-joints{compat=libsdformat}'`, or put the sensor "
     "on the link that has the collision.",

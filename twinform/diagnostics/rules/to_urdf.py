@@ -5,10 +5,10 @@ from twinform.diagnostics.rule import Rule, Severity
 SDF_ONLY = Rule(
     name="sdf-only",
     severity=Severity.INFO,
-    finds="A part of an SDF file that neither URDF nor a `<gazebo>` element has a word for.",
-    matters="ROS does not read it; our way back does.",
+    finds="A part of an SDF file that has no equivalent in URDF nor in a `<gazebo>` element.",
+    matters="ROS does not read it; a conversion back to SDF does.",
     example="`<transparency>` of a visual, `<dissipation>` of a joint limit, `thread_pitch`.",
-    better="Nothing needs doing: it travels in a carrier, which all other readers skip. `--no-carriers` leaves it out.",
+    better="Nothing needs doing: it is kept in a carrier, which all other readers skip. `--no-carriers` leaves it out.",
 )
 MODEL_NOT_CHOSEN = Rule(
     name="model-not-chosen",
@@ -39,18 +39,18 @@ NESTED_MODEL = Rule(
     name="nested-model",
     severity=Severity.INFO,
     finds="A model inside the model.",
-    matters="A URDF robot has one level: the links, joints and frames come up, called `inner::link`, and the inner "
+    matters="A URDF robot has one level: the links, joints and frames move up, called `inner::link`, and the inner "
     "model's own frame becomes a link.",
     example="`<model name='arm'><model name='hand'>...`",
-    better="Nothing needs doing: what only a model can say (`static`, plugins, ...) travels in a carrier.",
+    better="Nothing needs doing: settings of the inner model (`static`, plugins, ...) are kept in a carrier.",
 )
 FRAME_MADE_LINK = Rule(
     name="frame-made-link",
     severity=Severity.INFO,
     finds="A `<frame>`.",
-    matters="URDF has no other word for it than a link without mass on a fixed joint.",
+    matters="URDF has no frames; a link without mass on a fixed joint takes its place.",
     example="`<frame name='tool' attached_to='hand'>`",
-    better="Nothing needs doing: our way back makes it a frame again, and so does libsdformat.",
+    better="Nothing needs doing: a conversion back to SDF makes it a frame again, and so does libsdformat.",
 )
 AUTOMATIC_INERTIA = Rule(
     name="automatic-inertia",
@@ -68,18 +68,20 @@ COMPUTED_INERTIA = Rule(
     finds="An inertial that asks the reader to compute it from the collisions (`auto='true'`).",
     matters="URDF can only write the numbers: they are those of the shapes, filled with their densities.",
     example="`<inertial auto='true'><density>2700</density></inertial>`",
-    better="Nothing needs doing: on our way back it is automatic again, if its shapes still give the same numbers.",
+    better="Nothing needs doing: a conversion back makes it automatic again, if its shapes still give the same "
+    "numbers.",
 )
 UNFOLDED_JOINT = Rule(
     name="unfolded-joint",
     severity=Severity.WARNING,
     finds="A `ball`, `universal`, `revolute2` or `screw` joint of an SDF file that becomes URDF.",
-    matters="URDF says it by a chain of joints with links between. Each weighs 2e-6 kg, where the joint is: Gazebo's "
+    matters="In URDF it becomes a chain of joints with links between. Each weighs 2e-6 kg, where the joint is: "
+    "Gazebo's "
     "own reader of URDF drops a link of 1e-6 kg or less, and all below it. The middle joint of the three of a ball "
-    "loses a direction at 90 degrees, which the ball does not. Gazebo obeys no mimic in URDF, so that a screw slides "
-    "and turns there as it likes.",
+    "loses a direction at 90 degrees, which the ball does not. Gazebo ignores mimics in URDF, so that a screw slides "
+    "and turns there independently.",
     example="`<joint name='neck' type='universal'>` becomes `neck_axis` and `neck`.",
-    better="Nothing for ROS, and our way back makes it one joint again. For Gazebo, keep the SDF file.",
+    better="Nothing for ROS, and a conversion back makes it one joint again. For Gazebo, keep the SDF file.",
 )
 GEARBOX = Rule(
     name="gearbox",
@@ -105,7 +107,7 @@ AXIS_FRAME = Rule(
     finds="A joint axis that is expressed in another frame than the joint's.",
     matters="In URDF it is always the joint frame: the axis is turned into it.",
     example="`<xyz expressed_in='__model__'>`, `<use_parent_model_frame>`, every axis before SDF 1.5.",
-    better="Nothing needs doing; the axis as it was written travels in a carrier.",
+    better="Nothing needs doing; the axis as it was written is kept in a carrier.",
 )
 MOVED_FRAME = Rule(
     name="moved-frame",
@@ -113,7 +115,7 @@ MOVED_FRAME = Rule(
     finds="A pose that is written with other numbers or in another frame than in the SDF file.",
     matters="In URDF a link's frame is its joint's, every pose is in the frame around it, and angles are in radians.",
     example="`<link name='arm'><pose>0 0 1 0 0 0</pose>` in the model frame becomes the origin of arm's joint.",
-    better="Nothing needs doing: the robot is the same, and the pose as it was written travels in a carrier.",
+    better="Nothing needs doing: the robot is the same, and the pose as it was written is kept in a carrier.",
 )
 CUT_LOOP = Rule(
     name="cut-loop",
@@ -128,7 +130,8 @@ HUNG_ROOT = Rule(
     name="hung-root",
     severity=Severity.INFO,
     finds="A link without a parent beside another one, or any link without a parent in a static model.",
-    matters="A URDF robot has one root: the link hangs by a `floating` joint from it; in a static model the root is "
+    matters="A URDF robot has one root: the link is attached to it by a `floating` joint; in a static model the "
+    "root is "
     "`world` and the joint `fixed`.",
     example="Two links and no joint.",
     better="Connect them by a joint if they belong together.",
@@ -139,7 +142,7 @@ UNSAYABLE_SHAPE = Rule(
     finds="A visual or collision with a shape that URDF does not have, or with none.",
     matters="ROS neither shows it nor plans around it.",
     example="`<plane>`, `<ellipsoid>`, `<cone>`, `<heightmap>`, `<polyline>`, one submesh of a mesh.",
-    better="Use a mesh or one of box, cylinder and sphere. The shape travels in a carrier.",
+    better="Use a mesh or one of box, cylinder and sphere. The shape is kept in a carrier.",
 )
 UNSAYABLE_NUMBER = Rule(
     name="unsayable-number",
@@ -163,20 +166,20 @@ COLORS = Rule(
     finds="Colors of a visual that are more than one color with alpha.",
     matters="A URDF material has one color: the diffuse one.",
     example="`<ambient>` unlike `<diffuse>`, or one of them alone.",
-    better="Nothing needs doing: the colors as they were written travel in a carrier.",
+    better="Nothing needs doing: the colors as they were written are kept in a carrier.",
 )
 
 STALE_CARRIER = Rule(
     name="stale-carrier",
     severity=Severity.WARNING,
     finds=(
-        "A carrier or mark of ours (`tf:`) that does not fit the model around it any more: what it belongs to was "
-        "deleted, renamed or says something else, or it was edited so that it means nothing."
+        "A carrier (an element of `tf:`) that no longer fits the model around it: what it belongs to was "
+        "deleted, renamed or edited, or the carrier itself was edited so that it is invalid."
     ),
     matters=(
-        "What the file says counts. A carrier holds only what the file leaves unsaid, so this one is dropped, and what "
+        "The rest of the file is used. A carrier holds only what the format lacks, so this one is dropped, and what "
         "it held is lost: a second color, a name, the frame that a pose was written in. The robot is the one that the "
-        "file describes. Of a file that a version before 0.2 wrote, all that it remembered of its source "
+        "file describes. Of a file that a version before 0.2 wrote, all that it kept about its source "
         "(`<tf:source>` and the like) is ignored, with one warning."
     ),
     example=(

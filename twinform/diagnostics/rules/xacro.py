@@ -11,15 +11,16 @@ XACRO_ERROR = Rule(
     "models and packages.",
     matters="There is no model before it is expanded.",
     example="`<link name='${prefix}_base'/>` where no property is called `prefix`.",
-    better="Mend the line that the message names. Arguments come after the inputs, `prefix:=left`; packages are looked "
+    better="Correct the line that the message names. Arguments come after the inputs, `prefix:=left`; packages are "
+    "looked "
     "for in ROS_PACKAGE_PATH, AMENT_PREFIX_PATH, around the file, and in the folders of `--path DIR`. The page about "
     "working with xacro lists what expressions may use.",
 )
 XACRO_WARNING = Rule(
     name="xacro-warning",
     severity=Severity.WARNING,
-    finds="Something that xacro itself warns of, or that the file has it say.",
-    matters="It is often a name that is about to go, or a file that was not found and is left out.",
+    finds="A warning of xacro itself, or of the file that it expands.",
+    matters="It is often a deprecated name, or a file that was not found and is left out.",
     example="`${radians(90)}` in place of `${math.radians(90)}`; `${xacro.warning('no gripper')}`.",
     better="Follow the message.",
 )
@@ -51,7 +52,7 @@ UNUSED_ARGUMENT = Rule(
     name="unused-argument",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
-    finds="An argument that was given and that the xacro file never looks at.",
+    finds="An argument that was given and that the xacro file does not use.",
     matters="A misspelt name changes nothing, and xacro does not say so.",
     example="`twinform check robot.urdf.xacro prefx:=left`",
     better="Check the name against the `<xacro:arg>` elements.",
@@ -62,7 +63,7 @@ UNEXPANDED_XACRO = Rule(
     strict=Severity.ERROR,
     finds="Elements of xacro in a file whose name does not end in `.xacro`; or expressions, `${...}`: an error in "
     "what describes the robot itself, a warning in `<ros2_control>` and `<transmission>`.",
-    matters="The file is read as it is, and the macros are not: the robot is not the one that is meant.",
+    matters="The file is read without expanding them, so the robot is not the one that is meant.",
     example="`<xacro:wheel side='left'/>` or `<origin xyz='0 ${width/2} 0'/>` in `robot.urdf`.",
     better="Call the file `robot.urdf.xacro`, pass `--xacro`, or expand it first.",
 )

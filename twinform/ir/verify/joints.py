@@ -42,7 +42,7 @@ def verify_joint(joint: Joint, sink: DiagnosticSink) -> None:
 
 
 def _missing(joint: Joint, name: str, sink: DiagnosticSink) -> None:
-    message = f"{joint.type} joint {joint.name!r} has no <{name}>; readers take their default"
+    message = f"{joint.type} joint {joint.name!r} has no <{name}>; the default is x in URDF and z in SDF"
     sink.report(rules.MISSING_AXIS, message, joint.location, expected=f"<{name}>")
 
 
@@ -71,7 +71,7 @@ def _verify_length(joint: Joint, xyz: Vector3, where: Location, sink: Diagnostic
         return
     length = math.hypot(*xyz)
     if abs(length - 1) > _ROUNDING:
-        message = f"the axis of joint {joint.name!r} has length {length:.4g}; readers make it 1"
+        message = f"the axis of joint {joint.name!r} has length {length:.4g}; readers normalize it"
         sink.report(rules.UNNORMALIZED_AXIS, message, where, found=f"{length:.4g}", expected="1")
 
 

@@ -26,7 +26,7 @@ def report_names(kind: str, nodes: Iterable[Node], sink: DiagnosticSink) -> None
             sink.report(rules.EMPTY_NAME, f"a {kind} has an empty name", node.location)
         report_unprintable(kind, node, sink)
         if name in seen:
-            message = f"{kind} {name!r} is there twice"
+            message = f"{kind} {name!r} is defined twice"
             sink.report(rules.DUPLICATE_NAME, message, node.location, found=name, related=(seen[name].location,))
         seen.setdefault(name, node)
 

@@ -38,7 +38,7 @@ def _degrees(pose: Pose, angle: float, sink: DiagnosticSink) -> None:
 def _length(pose: Pose, length: float, sink: DiagnosticSink) -> None:
     found = f"{length:.4g}"
     if length:
-        message = f"a quaternion has the length {found}; some readers make it 1, others scale by it"
+        message = f"a quaternion has the length {found}; some readers normalize it, others scale by it"
     else:
         message = "a quaternion has length zero, which is no rotation"
     sink.report(rules.UNNORMALIZED_QUATERNION, message, pose.location, found=found, expected="1")

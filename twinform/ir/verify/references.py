@@ -144,7 +144,7 @@ class References:
             known = (each for each in self.scope.names() if each not in taken)
             self.sink.report(rule, message, where, found=name, help=did_you_mean(name, known))
         else:
-            message = f"{name!r} is the name of two things, and this may mean either"
+            message = f"{name!r} is the name of two things, so this reference is ambiguous"
             self.sink.report(rules.AMBIGUOUS_FRAME, message, where, found=name)
 
 

@@ -78,7 +78,7 @@ class _Verifier:
         """A model that stands in no world has nothing around it to be relative to."""
         verify_rotation(model.pose, self.sink)
         if model.pose is not None and model.pose.relative_to:
-            message = f"the pose of model {model.name!r} names a frame, and there is nothing around a model at the top"
+            message = f"the pose of model {model.name!r} names a frame, and a model at the top has no frame around it"
             where = model.pose.location.at("@relative_to")
             self.sink.report(frame_rules.DANGLING_FRAME, message, where, found=model.pose.relative_to)
 
@@ -111,7 +111,7 @@ class _Verifier:
     def _joint(self, joint: Joint) -> None:
         verify_joint(joint, self.sink)
         if joint.type == "continuous":
-            message = f"joint {joint.name!r} is continuous, which no engine of Gazebo turns"
+            message = f"joint {joint.name!r} is continuous, which no physics engine of Gazebo supports"
             where = joint.location.at("@type")
             self.sink.report(
                 joint_rules.CONTINUOUS_IN_SDF, message, where, found="continuous", expected="revolute without limits"

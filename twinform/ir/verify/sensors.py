@@ -19,7 +19,7 @@ def verify_sensors(link: Link, model: Model, sink: DiagnosticSink) -> None:
     for sensor in link.sensors:
         _verify_content(sensor, sink)
         if sensor.type == "force_torque":
-            message = f"sensor {sensor.name!r} measures the force in a joint, and is on link {link.name!r}"
+            message = f"sensor {sensor.name!r} belongs in a joint, whose force it measures; it is on link {link.name!r}"
             sink.report(rules.MISPLACED_SENSOR, message, sensor.location, found="force_torque")
         if sensor.type == "contact":
             _verify_contact(sensor, model, sink)
@@ -50,7 +50,7 @@ def _verify_contact(sensor: Sensor, model: Model, sink: DiagnosticSink) -> None:
         if known is None:
             known = {one.name or "" for each in _all_models(model) for link in each.links for one in link.collisions}
         if name.rpartition("::")[2] not in known and name != _DEFAULT and not _has_includes(model):
-            message = f"contact sensor {sensor.name!r} looks at the collision {name!r}, which does not exist"
+            message = f"contact sensor {sensor.name!r} names the collision {name!r}, which does not exist"
             hint = did_you_mean(name.rpartition("::")[2], known)
             sink.report(rules.UNKNOWN_COLLISION, message, part.location.at(step), found=name, help=hint)
 

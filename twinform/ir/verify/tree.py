@@ -19,7 +19,7 @@ def report_loops(joints: Iterable[Joint], sink: DiagnosticSink, severity: Severi
             related = (first.location,)
             sink.report(rules.TWO_PARENTS, message, joint.location, related=related, severity=severity)
     for joint in _circles(parents):
-        message = f"joint {joint.name!r} closes a circle of joints through link {joint.child!r}"
+        message = f"joint {joint.name!r} closes a loop of joints through link {joint.child!r}"
         sink.report(rules.KINEMATIC_LOOP, message, joint.location, severity=severity)
     return parents
 

@@ -61,7 +61,7 @@ def _verify_joint(joint: Joint, links: set[str], sink: DiagnosticSink) -> None:
     verify_joint(joint, sink)
     for part in joint.opaque:
         if part.element and part.element.name == "dynamics" and not part.element.attributes:
-            message = f"<dynamics> of joint {joint.name!r} says neither damping nor friction"
+            message = f"<dynamics> of joint {joint.name!r} has neither damping nor friction"
             sink.report(joint_rules.EMPTY_DYNAMICS, message, part.location, expected="damping or friction")
 
 
@@ -119,6 +119,6 @@ def _is_bare(material: Material) -> bool:
 
 def _report_conflict(material: Material, first: Material, sink: DiagnosticSink) -> None:
     if (material.color, material.texture) != (first.color, first.texture):
-        message = f"material {material.name!r} has another look here than where it was first defined"
+        message = f"material {material.name!r} has another color or texture here than in its first definition"
         related = (first.location,)
         sink.report(bodies.CONFLICTING_MATERIAL, message, material.location, found=material.name, related=related)

@@ -39,7 +39,7 @@ class Materials(Pass):
     example: ClassVar[str] = "materials{pbr=true roughness=0.7}"
 
     scripts: bool = Field(default=True, description="Whether scripts become colors.")
-    pbr: bool = Field(default=False, description="Whether colors become those of PBR.")
+    pbr: bool = Field(default=False, description="Whether colors become PBR materials.")
     metalness: float = Field(default=0.0, ge=0, le=1, description="From 0, paint, to 1, bare metal.")
     roughness: float | None = Field(default=None, ge=0, le=1, description="From 0, a mirror, to 1.")
     links: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only links"))
@@ -120,10 +120,10 @@ def _known(name: str, where: Location, sink: DiagnosticSink) -> ClassicMaterial 
     """The material of a script; what is not known of it is noted."""
     found = classic_materials().get(name)
     if found is None:
-        message = f"the colors of the material script {name!r} are not known; it stays"
+        message = f"the colors of the material script {name!r} are not known; it is kept"
         sink.report(UNKNOWN_SCRIPT, message, where, found=name)
     elif found.textures:
-        message = f"of the material script {name!r} the colors are taken, and not its image {', '.join(found.textures)}"
+        message = f"the material script {name!r} becomes its colors, without its image {', '.join(found.textures)}"
         sink.report(TEXTURED_SCRIPT, message, where, found=name)
     return found
 

@@ -30,7 +30,7 @@ class RewriteUris(AssetPass):
     name = "rewrite-uris"
     example: ClassVar[str] = "rewrite-uris{to=model kinds=[mesh,texture]}"
 
-    to: Scheme = Field(description="How URIs are to be written.")
+    to: Scheme = Field(description="The scheme in which URIs are written.")
     from_schemes: frozenset[Literal["package", "model", "file", "relative", "http"]] = Field(
         default=frozenset({"package", "model", "file", "relative", "http"}),
         description="Which URIs are rewritten; a path that begins with `/` counts as a file, `https` and Fuel as http.",
@@ -65,7 +65,7 @@ class RewriteUris(AssetPass):
             except UnmappedError as error:
                 sink.report(UNMAPPED_URI, f"{uri.strip()!r} stays: {error}", where, found=uri.strip(), help=error.help)
             except AssetError as error:
-                sink.report(UNMAPPED_URI, f"{error.message}, so it stays", where, found=uri.strip(), help=error.help)
+                sink.report(UNMAPPED_URI, f"{error.message}, so it is kept", where, found=uri.strip(), help=error.help)
             return uri
 
         return map_uris(document, change)

@@ -56,7 +56,7 @@ class Moved:
     def _take(self, parameter: Element, move: Move) -> None:
         text = (parameter.text or "").strip()
         if _is_harmless(text, move.harmless):
-            self.lost.append(Lost(parameter, move.drop or "it is what goes without saying", harmless=True))
+            self.lost.append(Lost(parameter, move.drop or "it is the default", harmless=True))
         elif move.drop is not None:
             self.lost.append(Lost(parameter, move.drop))
         elif not (text or parameter.children or parameter.attributes):
@@ -120,7 +120,7 @@ class Moved:
             return
         elif old is not None and not self.repeats:
             if not _same(old, value):
-                self.lost.append(Lost(parameter, f"the sensor says {path} {old} itself"))
+                self.lost.append(Lost(parameter, f"the sensor itself has {path} {old}"))
             return
         self.element = with_text(self.element, path, value)
         if move.noise:

@@ -58,7 +58,7 @@ class PluginMigration:
             return ()
         if migration.sensor is not None:
             where = "a sensor that cannot be read" if site.scope == "sensor" else f"a {site.scope}"
-            return self._without(plugin, report, f"it belongs into a sensor of its kind, and stands in {where}")
+            return self._without(plugin, report, f"it has to be in a sensor of its kind, and is in {where}")
         return self._systems(plugin, site, migration, report)
 
     def _of_no_table(self, plugin: Plugin, site: Site, report: Report) -> Iterable[Plugin]:
@@ -66,7 +66,7 @@ class PluginMigration:
         if modern is not plugin:
             report.renamed(modern)
         elif site.scope != "gui" and not systems_of_file(plugin.filename or "") and _looks_built(plugin):
-            message = f"{report.what} is neither of Gazebo Classic nor of gz-sim; it stays as it is"
+            message = f"{report.what} is neither of Gazebo Classic nor of gz-sim; it is kept unchanged"
             self.sink.report(rules.UNKNOWN_PLUGIN, message, report.where, found=plugin.filename)
         elif site.scope == "gui" and _looks_built(plugin):
             return self._without(plugin, report, "the GUI of gz-sim has plugins of its own")
@@ -83,7 +83,7 @@ class PluginMigration:
         except (LookupError, OtherQuantityError) as error:
             return self._without(plugin, report, str(error))
         if any(row.scope == "world" for _, row in made) and site.world is None:
-            return self._without(plugin, report, f"{made[0][0].name} stands in a world, and there is none here")
+            return self._without(plugin, report, f"{made[0][0].name} has to be in a world, and there is none here")
         report.migrated(" and ".join(each.name or "" for each, _ in made), lost)
         for reason in reasons_to_look(migration, plugin):
             report.missing(reason)

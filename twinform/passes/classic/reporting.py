@@ -63,7 +63,7 @@ class Report:
 
     def without(self, reason: str, *, keeps: bool) -> None:
         """Say that nothing stands for it, and why."""
-        end = "it stays" if keeps else "it is left out"
+        end = "it is kept" if keeps else "it is left out"
         message = f"{self.what} has no counterpart in gz-sim, so {end}: {reason}"
         self.sink.report(rules.PLUGIN_WITHOUT_COUNTERPART, message, self.where, found=self.plugin.filename)
         if not keeps:
@@ -74,7 +74,7 @@ class Report:
         """Say what it is called now."""
         message = f"{self.what} is called {modern.filename} now"
         if modern.filename == self.plugin.filename:
-            message = f"{self.what} says its parameters in the names of now"
+            message = f"{self.what} uses the current names of its parameters"
         self.sink.report(rules.IGNITION_NAME, message, self.where, found=self.plugin.filename)
         weight = plugin_element(self.plugin).weight
         self.sink.account(Fate.APPROXIMATED, rules.IGNITION_NAME, message, self.where, weight)

@@ -103,7 +103,7 @@ class SensorMigration:
             message = f"sensor {sensor.name!r} on {site.holder!r} is {type_}, and measures nothing: {reason}"
             self.sink.report(rules.SENSOR_WITHOUT_COUNTERPART, message, where, found=type_)
         if type_ != sensor.type:
-            message = f"sensor {sensor.name!r} on {site.holder!r} was {sensor.type} and is {type_}"
+            message = f"sensor {sensor.name!r} on {site.holder!r} had the type {sensor.type} and is now {type_}"
             self._account_type(message, where, sensor.type)
 
     def _account_type(self, message: str, where: Location, found: str | None) -> None:
@@ -128,7 +128,7 @@ class SensorMigration:
             made = sensor_of(complete_lens(with_frame(element, self.release)))
             if made is not None:
                 yield made.model_copy(update={"plugins": rest if number == 0 else (), "source": sensor.source})
-        message = f"sensor {sensor.name!r} on {site.holder!r} was {_MANY} and is {len(cameras)} cameras"
+        message = f"sensor {sensor.name!r} on {site.holder!r} had the type {_MANY} and is now {len(cameras)} cameras"
         self._account_type(message, sensor.location, sensor.type)
         where = sensor.location
         self.sink.account(Fate.APPROXIMATED, rules.MIGRATED_SENSOR, message, where.at("@name"))

@@ -106,7 +106,7 @@ class _Work:
         """Whether it can be said in ROS 2; why not, where it cannot."""
         reason = self._obstacle(transmission)
         if reason:
-            message = f"transmission {transmission.name!r} stays as it is: {reason}"
+            message = f"transmission {transmission.name!r} is not converted: {reason}"
             self.sink.report(rules.UNCONVERTED_TRANSMISSION, message, self._place(part), found=transmission.name)
         return not reason
 
@@ -127,15 +127,15 @@ class _Work:
         self.sink.report(rules.CONVERTED_TRANSMISSION, message, where, found=name)
         if transmission.type not in PLUGINS:
             kind = f"{transmission.type!r}" if transmission.type else "no type"
-            message = f"transmission {name!r} is of {kind}, which ros2_control does not bring; its name stays"
+            message = f"transmission {name!r} has the type {kind}, which only another package can provide"
             self.sink.report(rules.FOREIGN_TRANSMISSION, message, where, found=transmission.type or None)
         if transmission.foreign:
             names = ", ".join(dict.fromkeys(_bare(each) for each in transmission.foreign))
-            message = f"transmission {name!r} stays beside the system: other programs read its {names}"
+            message = f"transmission {name!r} is kept beside <ros2_control>: other programs read its {names}"
             self.sink.report(rules.UNCONVERTED_TRANSMISSION, message, where, found=names)
         if not stays:
             weight = part.weight if self.format is Format.URDF else part.weight - 1  # the carrier is not of the source
-            message = f"transmission {name!r} is said in the words of ros2_control"
+            message = f"transmission {name!r} is written as a part of <ros2_control>"
             self.sink.account(Fate.APPROXIMATED, rules.CONVERTED_TRANSMISSION, message, where, weight)
 
     def _obstacle(self, transmission: Transmission) -> str:
@@ -154,7 +154,7 @@ class _Work:
     def _commands(self, part: Opaque, joint: str, interface: str) -> tuple[str, ...]:
         commands = commands_of(interface)
         if commands is None:
-            message = f"joint {joint!r} has the interface {interface!r}, which ros2_control has no word for"
+            message = f"joint {joint!r} has the interface {interface!r}, which ros2_control does not have"
             self.sink.report(rules.FOREIGN_HARDWARE_INTERFACE, message, self._place(part), found=interface)
             return ()
         if commands and self._mimics(joint):

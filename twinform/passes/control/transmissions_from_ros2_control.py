@@ -110,9 +110,7 @@ def _report(
     sink.report(rules.CONVERTED_ROS2_CONTROL, message, where, found=name)
     for each in made:
         if each.type not in PLUGINS:
-            message = (
-                f"transmission {each.name!r} is of {each.type!r}, which ros_control does not bring; its name stays"
-            )
+            message = f"transmission {each.name!r} has the type {each.type!r}, which only another package can provide"
             sink.report(rules.FOREIGN_TRANSMISSION, message, where, found=each.type)
     if not stays:
         sink.account(Fate.APPROXIMATED, rules.CONVERTED_ROS2_CONTROL, message, where, system.weight)
@@ -122,8 +120,8 @@ def _report(
 def _report_unsayable(model: Model, part: Opaque, system: Element, sink: DiagnosticSink, *, stays: bool) -> None:
     where = place_of(part, model)
     for what, lost in _unsayable(system):
-        end = " and is left out" if lost and not stays else ", so it stays as it is" if not lost else ""
-        message = f"{what} of ros2_control {system.get('name')!r} has no word in ROS 1{end}"
+        end = " and is left out" if lost and not stays else ", so it is left unchanged" if not lost else ""
+        message = f"{what} of ros2_control {system.get('name')!r} has no equivalent in ROS 1{end}"
         sink.report(rules.UNSAYABLE_IN_TRANSMISSIONS, message, where, found=what)
         if lost and not stays:
             sink.account(Fate.DROPPED, rules.UNSAYABLE_IN_TRANSMISSIONS, message, where, 0)

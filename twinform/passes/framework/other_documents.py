@@ -50,7 +50,7 @@ class DocumentPass(Pass):
         """Without a reader there is nothing that it can do."""
         if self._reader is not None:
             return self.run_with(document, sink, self._read)
-        sink.report(UNREAD_DOCUMENT, f"{self.name} needs other files, and nobody reads files here", document.location)
+        sink.report(UNREAD_DOCUMENT, f"{self.name} needs other files, and this run cannot read any", document.location)
         return document
 
     def _read(self, path: str, around: Document, sink: DiagnosticSink) -> Document | None:

@@ -97,7 +97,7 @@ def _has_namespace(model: Model) -> bool:
 
 def account_replaced(include: Include, sink: DiagnosticSink) -> None:
     """Say that the URI of an include went: what it names stands there now."""
-    message = f"the include of {include.uri!r} is replaced by what it names"
+    message = f"the include of {include.uri!r} is replaced by the included model"
     sink.account(Fate.DROPPED, rules.INCLUDE_LEFTOVER, message, include.location.at("uri"))
 
 

@@ -78,8 +78,8 @@ class BalanceInertia(Pass):
             return link
         if not finite or not has_mass(inertial):
             what = "has no positive mass" if finite else "is not finite"
-            message = f"the inertia of link {link.name!r} {what}, so no possible one is nearest to it"
-            sink.report(UNBALANCED_INERTIA, message, inertial.location, help="fill-inertia{replace=impossible}")
+            message = f"the inertia of link {link.name!r} {what}, so there is no nearest possible inertia"
+            sink.report(UNBALANCED_INERTIA, message, inertial.location, help="run fill-inertia{replace=impossible}")
             return link
         floor = self._floor(inertial.mass or 0.0, matrix)
         found = nearest_possible(matrix, floor) if floor < math.inf else None
@@ -116,7 +116,7 @@ def _part(old: Symmetric, new: Symmetric) -> float:
 def _report(link: Link, inertial: Inertial, old: Symmetric, new: Symmetric, sink: DiagnosticSink) -> None:
     was, now = (", ".join(f"{moment:.6g}" for moment in principal_moments(each)) for each in (old, new))
     part = _part(old, new)
-    change = f"by {part:.2g} of its size" if any(old) else "from nothing"
+    change = f"by {part:.2g} of its size" if any(old) else "from zero"
     message = f"the inertia of link {link.name!r} is changed {change}: its principal moments were {was} and are {now}"
     severity = Severity.INFO if part < _NOTHING_MUCH else None
     sink.report(BALANCED_INERTIA, message, inertial.location, found=was, expected=now, severity=severity)

@@ -77,7 +77,7 @@ class FillInertia(AssetPass):
     def _check_amounts(self) -> Self:
         given = [name.replace("_", "-") for name in _AMOUNTS if getattr(self, name) is not None]
         if len(given) > 1:
-            raise ValueError(f"{' and '.join(given)} are given; one says all")
+            raise ValueError(f"{' and '.join(given)} are given; give one of them")
         return self
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
@@ -159,9 +159,9 @@ def _is_solid(link: Link, whole: Solid, shapes: tuple[PlacedShape, ...], sink: D
 
 def _filled(link: Link, filling: _Filling, sink: DiagnosticSink) -> Link:
     found = filling.solid
-    kept = ", which was written" if filling.keeps_mass else ""
+    kept = ", as the file has it" if filling.keeps_mass else ""
     count = f"{len(filling.shapes)} shape{'' if len(filling.shapes) == 1 else 's'}"
-    message = f"link {link.name!r} got the inertia of {count}, with {found.mass:.6g} kg{kept}"
+    message = f"link {link.name!r} got the inertia of {count}, with a mass of {found.mass:.6g} kg{kept}"
     place = link.inertial.location if link.inertial and link.inertial.source else link.location
     sink.report(FILLED_INERTIA, message, place, found=f"{found.mass:.6g} kg")
     return link.model_copy(update={"inertial": inertial_of(found, link.inertial)})
@@ -174,4 +174,4 @@ def _report_empty(document: Document, patterns: tuple[str, ...], sink: Diagnosti
             continue
         if matches(body[0].name, patterns):
             message = f"link {body[0].name!r} moves and has no shape to compute a mass from"
-            sink.report(UNFILLED_INERTIA, message, body[0].location, help="split-massless gives it one")
+            sink.report(UNFILLED_INERTIA, message, body[0].location, help="run split-massless to give it a mass")

@@ -26,7 +26,7 @@ _IN_SDF = frozenset(
 """What an SDF file holds for the reverse conversion."""
 
 
-_IGNORED = "what an older version remembered of the source is ignored, as the file says what it says"
+_IGNORED = "what twinform before 0.2 kept about the source file is ignored; the contents of this file are used"
 
 
 class DropStale(ModelPass):
@@ -101,4 +101,4 @@ def _message(part: Opaque, node: Node) -> str:
     holder = f"{type(node).__name__.lower()} {name!r}" if name else f"a {type(node).__name__.lower()}"
     children = part.element.children if part.element else ()
     held = ", ".join(f"<{child.name.replace(f'{{{NAMESPACE}}}', 'tf:')}>" for child in children)
-    return f"<tf:{kind}> in {holder}{f' holds {held} and' if held else ''} does not fit what the file says now"
+    return f"<tf:{kind}> in {holder}{f' holds {held} and' if held else ''} no longer matches the file, so it is dropped"

@@ -88,7 +88,7 @@ class RestoreNames(ModelPass):
             elif node.name in sensed and any(old == link.name for link in model.links):
                 why = "has a sensor now, which would be one of the link of that name"
             elif kind == SCOPED_NAME and not (wrote_scopes(model) or scopes.issuperset(_scopes_in(old))):
-                why = "is in a nested model of which nothing tells any more"
+                why = "is in a nested model that the file no longer describes"
             if why:
                 message = f"{part} {node.name!r} was called {old!r}, and {why}"
                 sink.report(STALE_CARRIER, message, node.location, found=old)

@@ -84,15 +84,16 @@ class CheckLimits(Pass):
         if lower is None or upper is None or not lower <= upper:
             return
         where, found = _place(joint, limit), f"{lower:g} to {upper:g}"
-        named = f"joint {joint.name!r} can only be between {lower:g} and {upper:g}"
+        named = f"the limits of joint {joint.name!r} are {lower:g} and {upper:g}"
         if lower == upper:
-            yield _Finding(rules.EMPTY_RANGE, f"joint {joint.name!r} can only be at {lower:g}", where, found)
+            message = f"joint {joint.name!r} cannot move: both of its limits are {lower:g}"
+            yield _Finding(rules.EMPTY_RANGE, message, where, found)
         most = self.turns * math.tau
         if joint.type in _TURNING and most < max(-lower, upper) < UNLIMITED:
             message = f"joint {joint.name!r} turns from {lower:g} to {upper:g} rad; are these degrees?"
             yield _Finding(rules.RANGE_IN_DEGREES, message, where, found, f"at most {most:.4g}")
         if not lower <= 0 <= upper:
-            yield _Finding(rules.ZERO_OUT_OF_RANGE, f"{named}, and starts at 0", where, found)
+            yield _Finding(rules.ZERO_OUT_OF_RANGE, f"{named}, and exclude its zero position", where, found)
 
     def _drive(self, joint: Joint, limit: Limit) -> Iterator[_Finding]:
         where = _place(joint, limit)
@@ -128,7 +129,7 @@ def _soft(joint: Joint) -> Iterator[_Finding]:
         return
     said, where = str(soft), joint.location.at("safety_controller")
     if _less(soft.upper, soft.lower):
-        message = f"the soft limits of joint {joint.name!r} are upside down: {said}"
+        message = f"the lower soft limit of joint {joint.name!r} is above the upper one: {said}"
         yield _Finding(rules.SOFT_LIMIT_OUTSIDE, message, where, said)
         return
     hard = limit if joint.type in _BOUNDED else None

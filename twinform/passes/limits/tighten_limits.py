@@ -51,7 +51,7 @@ class TightenLimits(Pass):
         where = limit.location if limit.source else joint.location
         was, now = (_words(*ends) for ends in ((limit.lower, limit.upper), (lower, upper)))
         if lower is not None and upper is not None and lower >= upper:
-            message = f"the limits of joint {joint.name!r} stay {was}: {now} is no range"
+            message = f"the limits of joint {joint.name!r} are left at {was}: {now} would leave no range"
             sink.report(UNTIGHTENED_LIMIT, message, where, found=was)
             return joint
         message = f"the limits of joint {joint.name!r} were {was} and are {now}"

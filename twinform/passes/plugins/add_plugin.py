@@ -52,7 +52,7 @@ class AddPlugin(SelectingPass):
     selector: ClassVar[str] = "system"
 
     system: str = Field(description="The system, such as `diff-drive` or `joint-state-publisher`.")
-    release: ReleaseName = Field(default="harmonic", description="The release of Gazebo that has to know it all.")
+    release: ReleaseName = Field(default="harmonic", description="The release of Gazebo to check against.")
     model: str | None = Field(
         default=None, description="The model to add to, where there are several; `a::b` if nested."
     )

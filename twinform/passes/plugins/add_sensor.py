@@ -67,7 +67,7 @@ class AddSensor(SelectingPass):
     visualize: bool = Field(default=False, description="Whether the GUI shows it.")
     collision: str | None = Field(default=None, description="The collision of a contact sensor; by default all.")
     model: str | None = Field(default=None, description="The model to add to, where there are several.")
-    release: ReleaseName = Field(default="harmonic", description="The release of Gazebo that has to know it.")
+    release: ReleaseName = Field(default="harmonic", description="The release of Gazebo that has to support it.")
 
     @classmethod
     def fields_for(cls, word: str) -> Fields:
@@ -132,7 +132,7 @@ class AddSensor(SelectingPass):
         if found is None:
             missing(model, word, name, [each.name for each in nodes], sink)
         elif word == "link" and name == WORLD and document.format is Format.URDF:
-            message = "the link 'world' of URDF is what never moves; Gazebo has no such link to put a sensor on"
+            message = "a sensor cannot be on the link 'world': it stands for the world of Gazebo, which is no link"
             sink.report(rules.NOTHING_TO_ADD_TO, message, found.location, found=name)
             return None
         return found

@@ -67,7 +67,7 @@ def _can_be_bridged(topic: Topic, sink: DiagnosticSink) -> bool:
     where = topic.source.location
     if topic.needs_world:
         message = f"the topic {topic.name!r} contains the name of the world, which is not known here"
-        help_ = "say it with `world=NAME`, or give the sensor or plugin a topic of its own"
+        help_ = "name it with `world=NAME`, or give the sensor or plugin a topic of its own"
         sink.report(rules.UNBRIDGED_TOPIC, message, where, found=topic.name, help=help_, severity=Severity.WARNING)
         return False
     if ros_message(topic.message) is None:

@@ -81,7 +81,7 @@ def _check_plugin(plugin: Plugin, site: Site, release: str, names: Names, sink: 
     kind = _class_of(plugin, kinds, sink)
     if release != _NATIVE_IGNITION and is_ignition_name(f"{plugin.filename} {plugin.name}"):
         found = kind or kinds[0]
-        message = f"plugin {plugin.name!r} has a name of Ignition"
+        message = f"plugin {plugin.name!r} has a name from before Ignition became Gazebo"
         sink.report(rules.IGNITION_PLUGIN_NAME, message, plugin.location, help=f"write {as_xml(found)}")
     if kind is None:
         return
@@ -92,7 +92,7 @@ def _check_plugin(plugin: Plugin, site: Site, release: str, names: Names, sink: 
         return
     if site.scope not in kind.scopes and not (site.included and "actor" in kind.scopes):
         scopes = " or ".join(f"<{scope}>" for scope in kind.scopes)
-        message = f"{kind.class_name} stands in <{site.scope}> and belongs into {scopes}"
+        message = f"{kind.class_name} is in <{site.scope}> and has to be in {scopes}"
         sink.report(rules.WRONG_PLUGIN_SCOPE, message, plugin.location, found=site.scope, expected=scopes)
     _check_needs(plugin, kind, site, sink)
     model = site.model if "world" not in kind.scopes else None

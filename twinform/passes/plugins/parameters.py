@@ -70,7 +70,7 @@ def _check_inside(elements: Sequence[Element], rows: tuple[Parameter, ...], aske
             continue
         counts[element.name] += 1
         if counts[element.name] > 1 and not row.is_many:
-            message = f"<{element.name}> stands twice; {_called(asked.kind)} reads the first"
+            message = f"<{element.name}> occurs twice; {_called(asked.kind)} reads the first"
             asked.sink.report(rules.PLUGIN_PARAMETER_COUNT, message, at, found=element.name)
         _check_element(element, row, asked, at)
     present = {*counts}

@@ -59,7 +59,7 @@ def missing(document: Document | Model, what: str, name: str | None, known: list
     """Report that there is nothing to add to."""
     if name is None:
         message = f"there are several: {', '.join(known)}" if known else "there is none"
-        sink.report(rules.NOTHING_TO_ADD_TO, f"which {what} to add to? {message}", document.location)
+        sink.report(rules.NOTHING_TO_ADD_TO, f"it is not clear which {what} to add to: {message}", document.location)
         return
     near = nearest(name, known)
     help_ = f"did you mean {near}?" if near else f"there are {', '.join(known)}" if known else None

@@ -113,7 +113,7 @@ def restored_itself(node: AnyNode, version: Version) -> AnyNode:
         for part in reversed(own):
             terms = terms_of(part)
             if any(says_already(node, piece, terms) for piece in carried(part)):
-                raise CarrierError("what it holds is written beside it by now")
+                raise CarrierError("the file now has its own element for what it holds")
             node = absorb(node, carried(part), terms, version)
     parts = (_inside(part, version) for part in node.opaque)
     return replace_fields(node, opaque=tuple(part for part in parts if part is not None))

@@ -23,7 +23,7 @@ def report_dangling(before: Document, after: Document, gone: Gone, sink: Diagnos
         for word in (element.text, *(value for _, value in element.attributes)):
             name = (word or "").strip().rpartition("::")[2]
             if name in names:
-                message = f"<{element.name}> of a plugin names {name!r}, which is gone"
+                message = f"<{element.name}> of a plugin names {name!r}, which was removed"
                 sink.report(DROPPED_REFERENCE, message, where, found=name)
     old, new = DiagnosticSink(sink.file, sink.strict), DiagnosticSink(sink.file, sink.strict)
     verify(before, old)

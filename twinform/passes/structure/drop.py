@@ -72,7 +72,7 @@ class Drop(Pass):
     @model_validator(mode="after")
     def _check_any(self) -> Self:
         if not any(getattr(self, option) for option in _OPTIONS):
-            raise ValueError(f"nothing is to go; say one of {', '.join(_OPTIONS)}")
+            raise ValueError(f"nothing to drop; give one of {', '.join(_OPTIONS)}")
         return self
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:

@@ -41,7 +41,7 @@ class FlattenModels(ModelEdit):
     name: ClassVar[str] = "flatten-models"
     example: ClassVar[str] = "flatten-models{separator=__}"
 
-    separator: str = Field(default="_", min_length=1, description="What is put between the names.")
+    separator: str = Field(default="_", min_length=1, description="The separator between the names.")
 
     def edit(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document without models in models."""
@@ -129,7 +129,7 @@ def _report_settings(model: Model, place: EditContext) -> None:
             mine, theirs = getattr(model, field), getattr(nested, field)
             if theirs is not None and bool(theirs) != _usual(field, mine):
                 message = (
-                    f"nested model {nested.name!r} says {field} {str(theirs).lower()}, and {model.name!r} does not"
+                    f"nested model {nested.name!r} sets {field} to {str(theirs).lower()}, and {model.name!r} does not"
                 )
                 place.sink.report(rules.NESTED_SETTING, message, nested.location.at(field), found=str(theirs).lower())
         _report_settings(nested.model_copy(update={field: getattr(model, field) for field in _OF_THE_WHOLE}), place)

@@ -114,7 +114,7 @@ def _clash(model: Model, guest: Model, mount: Mount, sink: DiagnosticSink, kinds
         for node in (*getattr(guest, field), *own):
             other = taken.get((kind, node.name))
             if other is not None:
-                message = f"both models have {node.name!r}"
+                message = f"both models have something called {node.name!r}"
                 sink.report(
                     rules.NAME_CLASH, message, other.location, found=node.name, related=(node.location,),
                     help="give the attached model a prefix",

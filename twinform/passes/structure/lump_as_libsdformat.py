@@ -156,7 +156,7 @@ class _Lumping:
     def _lose_rest(self, link: Link) -> None:
         rest = [part for part in link.opaque if part.element is None or not part.element.name.startswith("{")]
         for part in rest:
-            message = f"{part.name} of link {link.name!r}, which is lumped, goes with it"
+            message = f"{part.name} of link {link.name!r} is lost when the link is lumped"
             self._lose(message, link, part.weight)
 
     def _lose(self, message: str, node: Link | Joint | GazeboExtension, weight: int) -> None:
@@ -181,7 +181,7 @@ class _Lumping:
             lost = [element for element in extension.content if says_something(element)]
             if lost:
                 words = ", ".join(f"<{element.name}>" for element in lost)
-                self._lose(f"{words} of joint {name!r} goes with the joint", extension, count_parts(extension))
+                self._lose(f"{words} of joint {name!r} is lost with the joint", extension, count_parts(extension))
             return None
         host = self.planned.hosts.get(name)
         elements = extension.content
@@ -203,7 +203,7 @@ class _Lumping:
         if lost:
             words = ", ".join(f"<{element.name}>" for element in lost)
             host = self.planned.hosts[name]
-            message = f"{words} of link {name!r} would be about all shapes of {host!r}, and is left out"
+            message = f"{words} of link {name!r} would apply to all shapes of {host!r}, so it is left out"
             self._lose(message, extension, sum(element.weight for element in lost))
         return [element for element in extension.content if element not in lost]
 
@@ -224,7 +224,7 @@ class _Lumping:
                 self.place.sink.report(rules.LUMPED_AWAY, message, where, found=name)
         for joint in self.planned.joints.values():
             if joint.name in named.joints:
-                message = f"{named.joints[joint.name]} names joint {joint.name!r}, which is gone"
+                message = f"{named.joints[joint.name]} names joint {joint.name!r}, which was removed"
                 self.place.sink.report(rules.LUMPED_AWAY, message, joint.location, found=joint.name)
 
 

@@ -35,14 +35,14 @@ class LumpFixedJoints(ModelEdit, AssetPass):
     example: ClassVar[str] = "lump-fixed-joints{keep=[tool0,*_optical_frame]}"
 
     keep: tuple[str, ...] = Field(default=(), description=with_such_a_name("Links and joints that stay,"))
-    compat: Literal["libsdformat"] | None = Field(default=None, description="Whose way of lumping to follow.")
+    compat: Literal["libsdformat"] | None = Field(default=None, description="The program whose rules are followed.")
 
     def edit_model(self, model: Model, place: EditContext) -> Model:
         """The model with one body for what cannot move apart."""
         # imported here: a document needs one way only
         if self.compat is not None:
             if place.format is Format.SDF:
-                message = f"libsdformat does not lump joints of SDF; model {model.name!r} stays as it is"
+                message = f"libsdformat does not lump joints of SDF; model {model.name!r} is left unchanged"
                 place.sink.report(rules.NOT_FOR_FORMAT, message, model.location, found=self.compat)
                 return model
             from twinform.passes.structure.lump_as_libsdformat import lump_as_libsdformat  # noqa: PLC0415 - see above

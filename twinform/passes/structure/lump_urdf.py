@@ -59,7 +59,7 @@ class _Obstacles:
             return f"{self.named.links[child.name]} names it" if _mass(child) else ""
         mine, theirs = of_body(content(self.there, child.name)), of_body(content(self.there, parent.name))
         other = next((about for about in {**mine, **theirs} if mine.get(about) != theirs.get(about)), None)
-        return f"<gazebo> says another {other!r} of {parent.name!r}" if other else None
+        return f"<gazebo> sets another {other!r} for {parent.name!r}" if other else None
 
 
 def _mass(link: Link) -> float:
@@ -106,7 +106,7 @@ class _Lumping:
         if not shapes:
             return
         if self._about(into, field) != self._about(guest, field):
-            message = f"the {field} of link {name!r} stay in it: <gazebo> says other things of those of {host!r}"
+            message = f"the {field} of link {name!r} are not moved: <gazebo> sets other values for those of {host!r}"
             self.place.sink.report(rules.SHAPES_NOT_MOVED, message, guest.location, found=name)
             return
         self.spent.setdefault(name, set()).add(field)

@@ -137,7 +137,7 @@ class _Renamer:
     def report_unfollowed(self, value: str, place: str, where: Location) -> None:
         new = self.scope.find("any", value)
         if new is not None and new != value:
-            message = f"{place} is {value!r}, which is called {new!r} now; nobody knows whether it means that"
+            message = f"{place} is {value!r}, which is called {new!r} now; check whether this refers to it"
             self.sink.report(rules.UNFOLLOWED_NAME, message, where, found=value)
 
 

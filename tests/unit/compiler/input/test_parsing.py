@@ -116,7 +116,7 @@ def test_files_that_cannot_be_read_say_so(tmp_path: Path) -> None:
 
 
 def test_errors_carry_their_diagnostics() -> None:
-    with pytest.raises(twinform.CompileError, match="is there twice") as caught:
+    with pytest.raises(twinform.CompileError, match="is defined twice") as caught:
         twinform.loads('<robot name="r"><link name="a"/><link name="a"/></robot>')
     assert [each.rule.name for each in caught.value.diagnostics] == ["duplicate-name", "several-roots"][:1]
 

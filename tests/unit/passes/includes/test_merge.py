@@ -29,7 +29,7 @@ def test_an_include_that_was_not_read_stays_where_it_is(holder: Model | World) -
 def test_what_the_merged_model_says_as_a_whole_is_accounted_for() -> None:
     sink = DiagnosticSink()
     merge_into_model(Model(name="around"), OUTER, Model(name="outer", static=True), sink, Transform())
-    words = "static of the merged model 'outer' is left out; that of the model around it counts"
+    words = "static of the merged model 'outer' is left out; that of the model around it is used"
     assert [(each.fate, each.rule.name, each.message) for each in sink.entries] == [
         (Fate.DROPPED, "merged-away", words)
     ]

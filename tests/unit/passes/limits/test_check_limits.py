@@ -37,7 +37,13 @@ def joint(
 
 
 def empty(where: float, line: int = LIMIT) -> Found:
-    return ("empty-range", line, f"joint 'j' can only be at {where:g}", f"{where:g} to {where:g}", None)
+    return (
+        "empty-range",
+        line,
+        f"joint 'j' cannot move: both of its limits are {where:g}",
+        f"{where:g} to {where:g}",
+        None,
+    )
 
 
 def degrees(lower: float, upper: float) -> Found:
@@ -46,7 +52,7 @@ def degrees(lower: float, upper: float) -> Found:
 
 
 def away(lower: float, upper: float, line: int = LIMIT) -> Found:
-    message = f"joint 'j' can only be between {lower:g} and {upper:g}, and starts at 0"
+    message = f"the limits of joint 'j' are {lower:g} and {upper:g}, and exclude its zero position"
     return ("zero-out-of-range", line, message, f"{lower:g} to {upper:g}", None)
 
 
@@ -146,7 +152,7 @@ def soft(lower: str, upper: str, kind: JointType = "revolute") -> Joint:
 
 
 OUTSIDE = "the soft limits of joint 'j', {0}, are outside of the hard ones"
-TURNED = "the soft limits of joint 'j' are upside down: {0}"
+TURNED = "the lower soft limit of joint 'j' is above the upper one: {0}"
 
 
 @pytest.mark.parametrize(

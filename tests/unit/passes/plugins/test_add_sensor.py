@@ -189,7 +189,7 @@ def test_a_fixed_joint_that_is_measured_stays_one() -> None:
     [
         ("{type=imu link=bas}", "there is no link 'bas' to add to", "bas", "did you mean base?"),
         ("{type=force_torque joint=rist}", "there is no joint 'rist' to add to", "rist", "did you mean wrist?"),
-        ("{type=contact link=hand}", "which collision to add to? there is none", None, None),
+        ("{type=contact link=hand}", "it is not clear which collision to add to: there is none", None, None),
         ("{type=contact link=hand collision=x}", "there is no collision 'x' to add to", "x", None),
         (
             "{type=contact link=base collision=skim}",

@@ -139,7 +139,7 @@ def test_names_that_libsdformat_leaves_dangling_are_reported_where_they_were_def
             "plugin 'q' names link 'lid', which is a part of 'base' now",
             "lid",
         ),
-        ("lumped-away", 4, f"{URDF}/joint[@name='hold']", "plugin 'p' names joint 'hold', which is gone", "hold"),
+        ("lumped-away", 4, f"{URDF}/joint[@name='hold']", "plugin 'p' names joint 'hold', which was removed", "hold"),
     ]
     assert links(made) == ["base"]
 
@@ -154,8 +154,8 @@ LOST = b"""<robot name="r"><link name="base"/>
 def test_what_goes_with_a_link_or_a_joint_is_said_and_counted() -> None:
     made = lumped(LOST, "{compat=libsdformat}")
     link, block = f"{URDF}/link[@name='box']", f"{URDF}/gazebo[1]"
-    gone = "<mine> of link 'box', which is lumped, goes with it"
-    words = "<sensor>, <implicitSpringDamper> of joint 'hold' goes with the joint"
+    gone = "<mine> of link 'box' is lost when the link is lumped"
+    words = "<sensor>, <implicitSpringDamper> of joint 'hold' is lost with the joint"
     assert [each for each in findings(made) if each[0] == "lumped-away"] == [
         ("lumped-away", 2, link, gone, None),
         ("lumped-away", 4, block, words, None),

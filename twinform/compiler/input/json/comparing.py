@@ -32,7 +32,7 @@ def compare_documents(document: Document, again: Document | None, sink: Diagnost
     data = plain(json_data(document))
     for fault in islice(json_faults(data), MOST):
         name = "/".join(map(str, fault.path))
-        message = f"{name or 'the document'}: {fault.message}; {document.format.upper()} cannot say it"
+        message = f"{name or 'the document'}: {fault.message}; {document.format.upper()} cannot express it"
         where = _nearest(document, fault.path).location
         sink.report(structure.INVALID_VALUE, message, where, found=fault.found, expected=fault.expected)
     if again is None or sink.has_errors:
@@ -61,7 +61,7 @@ def report_missed(missed: Missed, format_: str, where: Location, sink: Diagnosti
     name = "/".join(map(str, missed.path))
     became = "leaves it out" if missed.theirs is _UNKNOWN else f"has {_shown(missed.theirs)} there"
     said = "nothing" if missed.mine is _UNKNOWN else _shown(missed.mine)
-    message = f"{name}: {format_.upper()} cannot say {said}; a file of it {became}"
+    message = f"{name}: {format_.upper()} cannot express {said}; a file in that format {became}"
     hint = "if it stands in 'opaque', write it in the field that is meant for it"
     sink.report(structure.INVALID_VALUE, message, where, found=said, help=hint)
 

@@ -57,7 +57,7 @@ class CarryUrdf(ModelPass):
 
     def _sweep(self, node: Node, sink: DiagnosticSink, back: bool) -> Node:
         if isinstance(node, Joint) and node.type in BALLS:
-            message = f"{node.type} joint {node.name!r} is one of a dialect of URDF"
+            message = f"{node.type} joint {node.name!r} has a type that only dialects of URDF have"
             kept = [Opaque(attribute=("type", node.type))]
             ball = self._swept(node.model_copy(update={"type": "ball"}), sink, back)
             return self._carry(ball, kept, sink, message)

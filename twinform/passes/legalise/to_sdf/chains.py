@@ -77,10 +77,10 @@ def find_chain(last: Joint, kind: str, around: Neighbors) -> Chain:
     _check_links(chain, around)
     for joint in (*chain.above[1:], last):
         if not Transform.from_pose(joint.pose).is_identity:
-            raise StaleChainError(f"joint {joint.name!r} is not where the others are")
+            raise StaleChainError(f"joint {joint.name!r} is not at the place of the others")
     for joint in chain.above:
         if joint.sensors or not all(is_ours(part) or is_of_axis(part.at) for part in joint.opaque):
-            raise StaleChainError(f"joint {joint.name!r} says more than an axis")
+            raise StaleChainError(f"joint {joint.name!r} has more than an axis")
     _check_limits(chain)
     _CHECKS[known](chain)
     return chain
@@ -93,7 +93,7 @@ def _walk(last: Joint, kind: JointType, around: Neighbors) -> Chain:
     for _ in CHAINS[kind]:
         link, upper = around.links.get(joint.parent or ""), around.above.get(joint.parent)
         if link is None or upper is None or {part_of(link), part_of(upper)} != {last.name}:
-            raise StaleChainError(f"what is above {joint.name!r} is not of the chain")
+            raise StaleChainError(f"the parent of {joint.name!r} is not part of the chain")
         joints.insert(0, upper)
         between.insert(0, link)
         joint = upper
@@ -112,14 +112,14 @@ def _check_links(chain: Chain, around: Neighbors) -> None:
             raise StaleChainError(f"link {link.name!r} says something")
     for name in (name for link in chain.between for name in around.below.get(link.name, ())):
         if name not in inside:
-            raise StaleChainError(f"joint {name!r} hangs from a link of it")
+            raise StaleChainError(f"joint {name!r} is attached to one of its links")
 
 
 def _check_limits(chain: Chain) -> None:
     for joint in (*chain.above, chain.last):
         limit = joint.axis.limit if joint.axis and joint.axis.limit else Limit()
         if any(getattr(limit, field) is not None for field in _BEYOND_SDF):
-            raise StaleChainError(f"joint {joint.name!r} has limits that SDF has no word for")
+            raise StaleChainError(f"joint {joint.name!r} has limits that SDF does not have")
 
 
 def _check_turns(chain: Chain) -> None:
@@ -136,7 +136,7 @@ def _check_ball(chain: Chain) -> None:
         if axis.xyz != xyz or axis.mimic or joint.type != "continuous":
             raise StaleChainError(f"joint {joint.name!r} does not turn freely about {xyz}")
     if len({_damping(joint) for joint in joints}) != 1:
-        raise StaleChainError("its joints are damped unlike each other")
+        raise StaleChainError("its joints differ in damping")
 
 
 def _damping(joint: Joint) -> tuple[float | None, float | None]:
@@ -191,7 +191,7 @@ def _in_sdf(joint: Joint) -> Axis:
 def _referred(joint: Joint) -> Joint:
     made = with_reference(joint)
     if made is None:
-        raise StaleChainError(f"joint {joint.name!r} does not mimic as it did")
+        raise StaleChainError(f"joint {joint.name!r} no longer mimics as it did")
     return made
 
 

@@ -87,7 +87,7 @@ class _Fold:
                         extension,
                         extension.content,
                         to_sdf.URDF_ONLY,
-                        f"<gazebo> refers to {name!r}: nothing",
+                        f"<gazebo> refers to {name!r}, which is neither a link nor a joint",
                         DANGLING,
                     )
         model = self._model(model, groups[""]) if "" in groups else model
@@ -98,9 +98,9 @@ class _Fold:
         for part in extension.opaque:
             rule = structure.UNKNOWN_ATTRIBUTE if part.attribute else structure.STRAY_TEXT
             if not (part.attribute and part.attribute[0].startswith("{")):
-                self.sink.report(rule, f"{part.name} of <gazebo> means nothing", part.location, found=part.name)
+                self.sink.report(rule, f"no reader uses {part.name} of <gazebo>", part.location, found=part.name)
         if extension.opaque or not extension.content:
-            self._keep(extension, (), to_sdf.URDF_ONLY, "this <gazebo> says nothing about the model")
+            self._keep(extension, (), to_sdf.URDF_ONLY, "this <gazebo> sets nothing in the model")
 
     def _link(self, link: Link, extensions: list[GazeboExtension]) -> Link:
         elsewhere = {**MODEL_TAGS, **({} if link.name in self.joints else JOINT_TAGS)}
@@ -161,12 +161,12 @@ class _Fold:
             if came_from(self.robot, Format.SDF):  # made so that libsdformat lets the links be
                 continue
             message = ", ".join(f"<{element.name}>" for element in elements)
-            self._keep(extension, elements, to_sdf.URDF_ONLY, f"{message} has nothing to do here: no link is merged")
+            self._keep(extension, elements, to_sdf.URDF_ONLY, f"{message} has no effect: no link is lumped")
         for element, extension, message in sorter.overruled:
             self._keep(extension, [element], to_sdf.GAZEBO_CONFLICT, message, OVERRULED)
         for extension, elements in sorter.without_use:
             names = ", ".join(f"<{element.name}>" for element in elements)
-            message = f"{names} is about shapes, and link {extension.reference!r} has none of the kind"
+            message = f"{names} applies to shapes, and link {extension.reference!r} has none of that kind"
             where, rule = place_of(elements[0], extension), to_sdf.GAZEBO_TAG_WITHOUT_TARGET
             self.sink.report(rule, message, where, found=elements[0].name, severity=Severity.INFO)
             self._keep(extension, elements, rule, message)
@@ -174,12 +174,12 @@ class _Fold:
 
     def _misplaced(self, extension: GazeboExtension, elements: list[Element], target: str) -> None:
         for element in elements:
-            message = f"<{element.name}> in a <gazebo> for {target} means nothing"
+            message = f"<{element.name}> has no effect in a <gazebo> for {target}"
             where = place_of(element, extension)
             self.sink.report(to_sdf.GAZEBO_TAG_WITHOUT_TARGET, message, where, found=element.name)
         if elements:
             names = ", ".join(f"<{element.name}>" for element in elements)
-            message = f"{names} means nothing for {target}"
+            message = f"{names} has no effect on {target}"
             self._keep(extension, elements, to_sdf.GAZEBO_TAG_WITHOUT_TARGET, message)
 
     def _keep(
@@ -242,7 +242,7 @@ class _Fold:
             self._keep(extension, [element], to_sdf.GAZEBO_CONFLICT, message)
 
     def _conflict(self, node: Node, field: str, winner: str, where: Location, *, accounted: bool = True) -> str:
-        message = f"<gazebo> says {field!r} of {node.__dict__['name']!r} again; {winner} stays"
+        message = f"<gazebo> sets {field!r} of {node.__dict__['name']!r} again; {winner} is used"
         self.sink.report(to_sdf.GAZEBO_CONFLICT, message, where, found=field)
         if accounted:
             self.sink.account(Fate.DROPPED, to_sdf.GAZEBO_CONFLICT, message, where)

@@ -39,12 +39,12 @@ class FollowLumpedNames(ModelPass):
             found = names.get((element.text or "").strip())
             if found is None:
                 continue
-            message = f"{(element.text or '').strip()!r} is called {found.name!r} where nothing is lumped"
+            message = f"{(element.text or '').strip()!r} is called {found.name!r} when links are not lumped"
             fate = Fate.CARRIED if self.carriers else Fate.APPROXIMATED
             sink.account(fate, rules.LUMPED_NAME, message, element.location.at("text()"), weight=0)
             if extension.reference and not _is_one_body(model, extension.reference, found.link):
                 message = (
-                    f"{found.name!r} is on link {found.link!r}, and what is on {extension.reference!r} cannot see it"
+                    f"{found.name!r} is on link {found.link!r}, which no sensor on {extension.reference!r} can detect"
                 )
                 hint = "convert with --passes 'lump-fixed-joints{compat=libsdformat}'"
                 sink.report(rules.UNSEEN_COLLISION, message, element.location, found=found.name, help=hint)

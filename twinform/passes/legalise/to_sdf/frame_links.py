@@ -105,7 +105,7 @@ class FrameLinks(ModelPass):
             return frame
         whole = to_element(joint.model_copy(update={"opaque": ()}), "joint", "urdf")
         rest = [Opaque(element=child) for child in whole.children if child.name not in {"origin", "parent", "child"}]
-        return self._keep(frame, rest, f"the axis of the fixed joint {joint.name!r} has no use", sink)
+        return self._keep(frame, rest, f"the axis of the fixed joint {joint.name!r} has no effect", sink)
 
     def _keep_physics(self, model: Model, joints: list[Joint], sink: DiagnosticSink) -> Model:
         """What `<gazebo>` says of the physics of a joint that becomes a frame: it is carried in such an element."""

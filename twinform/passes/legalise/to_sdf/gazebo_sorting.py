@@ -168,7 +168,7 @@ class Sorter:
         key = (read.tag.target, read.tag.field)
         before = self._read.get(key)
         if before is not None and before.value != read.value:
-            message = f"<{read.element.name}> in <gazebo> says another value than before; the last one stays"
+            message = f"<{read.element.name}> in <gazebo> has another value than before; the last one is used"
             related = (before.where,)
             self._notes.report(
                 to_sdf.GAZEBO_CONFLICT, message, read.where, found=value_text(read.element), related=related

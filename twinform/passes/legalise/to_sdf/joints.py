@@ -112,7 +112,7 @@ class UrdfJoints(ModelPass):
             return joint
         limit, rest = _without(limit, _HIGHER)
         joint = joint.model_copy(update={"axis": joint.axis.model_copy(update={"limit": limit})})
-        return self._keep(joint, rest, f"SDF has no place for these limits of joint {joint.name!r}", sink)
+        return self._keep(joint, rest, f"SDF has no equivalent of these limits of joint {joint.name!r}", sink)
 
     def _without_axis(self, joint: Joint, sink: DiagnosticSink) -> Joint:
         if joint.axis is None:
@@ -135,7 +135,7 @@ class UrdfJoints(ModelPass):
         if not update:
             return joint
         joint = joint.model_copy(update={"axis": axis.model_copy(update=update)})
-        return self._keep(joint, rest, f"SDF has no place for these limits of joint {joint.name!r}", sink)
+        return self._keep(joint, rest, f"SDF has no equivalent of these limits of joint {joint.name!r}", sink)
 
     def _keep(
         self, joint: Joint, rest: list[Opaque], message: str, sink: DiagnosticSink, rule: Rule = to_sdf.URDF_ONLY

@@ -97,7 +97,7 @@ def _are_close(some: Iterable[float], others: Iterable[float], scale: float) -> 
 
 
 def _stale(link: Link, inertial: Inertial, why: str, sink: DiagnosticSink) -> Link:
-    message = f"the inertia of link {link.name!r} was computed, and is not any more: {why}"
+    message = f"the inertia of link {link.name!r} is no longer computed from its collisions: {why}"
     sink.report(rules.STALE_CARRIER, message, inertial.location, found=link.name)
     kept = tuple(part for part in inertial.opaque if not _is_auto(part))
     bare = without_annotation(inertial.model_copy(update={"opaque": kept}), COMPUTED_MASS)

@@ -79,7 +79,7 @@ def _own_name(shape: Visual | Collision) -> str:
 
 
 def _why(shape: Visual | Collision) -> str:
-    return "is there twice; the second one" if _own_name(shape) else "is no name; it"
+    return "is used twice; the second one" if _own_name(shape) else "is not a valid name; it"
 
 
 def _free(base: str, taken: set[str], seen: set[str], numbers: Mapping[str, "count[int]"]) -> str:

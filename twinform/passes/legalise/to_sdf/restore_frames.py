@@ -139,7 +139,7 @@ class _Restoring:
         try:
             return read_offset(found)
         except ValueError as error:
-            self._stale(f"the offset of {node.name!r} says nothing: {error}", node)
+            self._stale(f"the kept offset of {node.name!r} is invalid: {error}", node)
             return None
 
     def _stale(self, message: str, node: Node) -> None:

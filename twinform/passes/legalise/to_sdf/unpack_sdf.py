@@ -99,9 +99,9 @@ def _with_colors(visual: Visual, sink: DiagnosticSink) -> Visual:
         of, ambient, diffuse = (_color(found.get(name)) for name in ("of", "ambient", "diffuse"))
     except ValueError as error:
         of = ambient = diffuse = None
-        sink.report(STALE_CARRIER, f"the colors of visual {visual.name!r} say nothing: {error}", visual.location)
+        sink.report(STALE_CARRIER, f"the kept colors of visual {visual.name!r} are invalid: {error}", visual.location)
     if material is None or material.diffuse is None or of is None or urdf_color(material.diffuse) != of:
-        message = f"visual {visual.name!r} had two colors in SDF, and has another one now"
+        message = f"visual {visual.name!r} had two colors in SDF, and its color was edited since"
         sink.report(STALE_CARRIER, message, visual.location, found=found.get("of") or "")
         return visual
     said = {name: color for name, color in (("ambient", ambient), ("diffuse", diffuse)) if color is not None}

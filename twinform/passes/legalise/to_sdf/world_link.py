@@ -38,7 +38,7 @@ class WorldLink(ModelPass):
         model = model.model_copy(update={"links": links, "joints": joints})
         if not any(joint.parent == "world" and joint.type != "floating" for joint in joints):
             fate = Fate.CARRIED if self.carriers else Fate.DROPPED
-            message = "nothing is fixed to the link 'world', and SDF has a world without saying so"
+            message = "nothing is fixed to the link 'world', and SDF always has a world"
             sink.account(fate, to_sdf.URDF_ONLY, message, world.location, count_parts(world))
         own = tuple(piece for part in world.opaque for piece in (unpack(part) if is_carrier(part, "urdf") else (part,)))
         body = world.model_copy(update={"opaque": own})

@@ -101,6 +101,6 @@ def _hang(model: Model, roots: list[Link], first: str, keeper: Keeper) -> Model:
         taken.add(name)
         made = Joint(name=name, type=kind, parent=first, child=link.name, source=link.source)
         joints.append(mark_synthesized(made))
-        message = f"link {link.name!r} hangs by a {kind} joint from {first!r}"
+        message = f"link {link.name!r} is attached by a {kind} joint to {first!r}"
         keeper.sink.account(Fate.APPROXIMATED, rules.HUNG_ROOT, message, link.location, 0)
     return model.model_copy(update={"joints": tuple(joints)})

@@ -115,7 +115,7 @@ class _Rest:
         of = f"{tag} {name!r}" if name else f"an {tag}"
         for piece in pieces:
             what = f"{piece.at}/{piece.name}" if piece.at else piece.name
-            message = f"{what} of {of} has no word in URDF"
+            message = f"{what} of {of} has no equivalent in URDF"
             kept = self.keeper.keep(kept, [piece], rules.SDF_ONLY, message, piece.location_in(node))
         for path, text in endless:
             message = f"{path} of {of} is {text}, and numbers in URDF are finite"

@@ -19,7 +19,7 @@ def with_floating_joints(model: Model, keeper: Keeper) -> Model:
     for link, mark, fits in _marked(model):
         name, parent = mark.get("joint") or "", mark.get("parent") or ""
         if not fits:
-            message = f"link {link.name!r} hung from {parent!r} by the floating joint {name!r}, and cannot any more"
+            message = f"link {link.name!r} hung from {parent!r} by the floating joint {name!r}, and no longer can"
             keeper.sink.report(STALE_CARRIER, message, link.location, found=name)
             continue
         joint = Joint(name=name, type="floating", parent=parent, child=link.name, pose=Pose(relative_to=link.name))

@@ -58,7 +58,7 @@ def _map(joint: Joint, strength: float | None, keeper: Keeper) -> Joint:
         keeper.sink.report(shared_rules.JOINT_TYPE_UNSUPPORTED, message, where, found=joint.type)
         return joint
     if joint.type == "continuous":
-        message = f"joint {joint.name!r} is called continuous, which is revolute without limits in most of SDF"
+        message = f"joint {joint.name!r} is continuous, which most SDF files write as revolute without limits"
         keeper.account(rules.SDF_ONLY, message, joint.location, 1)
         joint = keeper.mark(joint, CONTINUOUS)
     if joint.axis is None or joint.type in {"fixed", "floating", "planar"}:
@@ -95,7 +95,7 @@ def _continuous(joint: Joint, limit: Limit, strength: float | None, keeper: Keep
     joint = _keep_written(joint, limit, ends, keeper)
     endless = [name for name in _LIMITS if name not in ends and not _limits(limit, name)]
     if endless:
-        message = f"the limits of joint {joint.name!r} that are infinite go without saying: {', '.join(endless)}"
+        message = f"infinite limits of joint {joint.name!r} are not written in URDF: {', '.join(endless)}"
         keeper.account(rules.UNBOUNDED_LIMIT, message, limit.location, len(endless))
     limit = limit.model_copy(update={"lower": None, "upper": None})
     if _is_strength(limit.effort) or _is_strength(limit.velocity):
@@ -112,7 +112,7 @@ def _fill(joint: Joint, limit: Limit, numbers: Mapping[str, float | None], keepe
     for name, number in missing.items():
         if number is None:
             continue
-        message = f"the {name} limit of {joint.type} joint {joint.name!r} is infinite; URDF gets {number:g}"
+        message = f"the {name} limit of {joint.type} joint {joint.name!r} is infinite; URDF needs a number: {number:g}"
         keeper.sink.account(Fate.APPROXIMATED, rules.UNBOUNDED_LIMIT, message, joint.location, 0)
     return limit.model_copy(update=missing) if missing else limit
 

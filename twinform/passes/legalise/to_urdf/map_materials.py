@@ -72,7 +72,7 @@ def _keep_colors(visual: Visual, material: Material, keeper: Keeper) -> Visual:
     }
     if not others:
         return visual
-    message = f"visual {visual.name!r} has two colors, or one beyond those of URDF"
+    message = f"visual {visual.name!r} has more colors than a URDF material can have"
     keeper.account(rules.COLORS, message, material.location, sum(1 for name in others if written[name]))
     return keeper.mark(visual, COLORS, attributes={**others, "of": format_value(color)}, always=True)
 
@@ -96,9 +96,7 @@ def _said_by_tag(link: Link, keeper: Keeper) -> Link:
         bare = material.model_copy(update={"script": None}) if material else None
         one = visual.model_copy(update={"material": None if bare == Material() else bare})
         if script and script.uris:
-            message = (
-                f"<material> for link {link.name!r} does not say in which files the material of {visual.name!r} is"
-            )
+            message = f"<material> for link {link.name!r} does not name the files of the material of {visual.name!r}"
             keeper.account(rules.SDF_ONLY, message, script.location, len(script.uris))
         if script and script.uris != (SCRIPT_URI,):
             one = keeper.mark(one, SCRIPTS, text="\n".join(script.uris), always=True)

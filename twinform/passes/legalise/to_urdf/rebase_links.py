@@ -107,7 +107,7 @@ class _Rebase:
             return moved
         name = getattr(holder, "name", None)
         message = (
-            f"the pose of the {tag} {name!r} is written in another way" if name else f"the pose of the {tag} moved"
+            f"the pose of the {tag} {name!r} is written differently in URDF" if name else f"the pose of the {tag} moved"
         )
         self._account(written, f"{message} ({self.kind} {self.name!r})")
         return self._marked(moved, written, notation=made)

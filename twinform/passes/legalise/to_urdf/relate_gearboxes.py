@@ -50,7 +50,7 @@ def _follower(joint: Joint, found: Relation) -> Joint:
 
 
 def _report_uncoupled(gearbox: Joint, why: str, keeper: Keeper) -> None:
-    message = f"gearbox {gearbox.name!r} couples no two joints of URDF: {why}"
+    message = f"gearbox {gearbox.name!r} cannot be written as a mimic in URDF: {why}"
     _report(gearbox, message, Severity.WARNING, keeper)
 
 

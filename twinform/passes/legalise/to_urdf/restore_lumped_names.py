@@ -32,6 +32,6 @@ class RestoreLumpedNames(ModelPass):
 
         model = model.model_copy(update={"extensions": tuple(map(restore, model.extensions))})
         for mark in stale:
-            message = f"{mark.get('instead_of')!r} was called {mark.text!r}, which does not mean it any more"
+            message = f"{mark.get('instead_of')!r} was called {mark.text!r}, which now names something else"
             sink.report(STALE_CARRIER, message, mark.location, found=mark.text)
         return model

@@ -108,12 +108,12 @@ def _account(joint: Joint, keeper: Keeper) -> Joint:
     """Say what becomes of the joint; it carries what its chain has no words for."""
     between = len(CHAINS[joint.type])
     message = (
-        f"{joint.type} joint {joint.name!r} is {_WORDS[joint.type]} in URDF, with links of next to no mass between"
+        f"{joint.type} joint {joint.name!r} becomes {_WORDS[joint.type]} in URDF and links of {CHAIN_MASS:g} kg between"
     )
     keeper.sink.report(rules.UNFOLDED_JOINT, message, joint.location.at("@type"), found=joint.type)
     fate = Fate.CARRIED if keeper.carriers else Fate.DROPPED
     account = partial(keeper.sink.account, rule=rules.UNFOLDED_JOINT, location=joint.location)
-    account(fate, message=f"joint {joint.name!r} is {joint.type}", weight=1)
+    account(fate, message=f"joint {joint.name!r} has the type {joint.type}", weight=1)
     links = f"{between} link{'' if between == 1 else 's'} between"
     account(Fate.APPROXIMATED, message=f"{links} the joints of {joint.name!r}, of {CHAIN_MASS:g} kg", weight=0)
     if joint.type == "ball":

@@ -49,7 +49,7 @@ def _unpacked(node: AnyNode, misfit: Callable[[Opaque], str], sink: DiagnosticSi
         for piece in unpack(part) if is_carrier(part, "urdf") else (part,):
             why = misfit(piece) if piece is not part and not is_dangling(part) else ""
             if why:
-                message = f"{piece.name} of {_called(node)} does not come back: {why}"
+                message = f"{piece.name} of {_called(node)} is not restored: {why}"
                 sink.report(STALE_CARRIER, message, part.location_in(node), found=piece.name)
             else:
                 opaque.append(piece)
@@ -66,7 +66,7 @@ def _with_overruled(model: Model, sink: DiagnosticSink) -> Model:
         for piece in unpack(part):
             more = with_overruled(model, piece.element) if piece.element else None
             if more is None:
-                message = f"{piece.name} of {_called(model)} does not come back: nothing says otherwise any more"
+                message = f"{piece.name} of {_called(model)} is not restored: what overruled it is gone"
                 sink.report(STALE_CARRIER, message, part.location_in(model), found=piece.name)
             else:
                 model = more

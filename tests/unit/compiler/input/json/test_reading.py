@@ -147,8 +147,8 @@ WRONG: dict[str, tuple[object, list[tuple[int, str, str]]]] = {
                 11,
                 "models/0/opaque",
                 (
-                    'URDF cannot say [{"attribute": ["a", "1"]}, {"attribute": ["a", "2"]}]; '
-                    'a file of it has [{"attribute": ["a", "2"]}] there'
+                    'URDF cannot express [{"attribute": ["a", "1"]}, {"attribute": ["a", "2"]}]; '
+                    'a file in that format has [{"attribute": ["a", "2"]}] there'
                 ),
             )
         ],
@@ -171,7 +171,7 @@ WRONG: dict[str, tuple[object, list[tuple[int, str, str]]]] = {
             (
                 19,
                 "models/0/plugins/0/content/0/text",
-                'SDF cannot say " 1 "; a file of it has "1" there',
+                'SDF cannot express " 1 "; a file in that format has "1" there',
             )
         ],
     ),
