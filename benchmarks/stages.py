@@ -50,7 +50,7 @@ def _convert(text: bytes, sdf_version: str, stages: Stages) -> None:
         root = parse(text, sink)
     with stages.time("XSD of the input"):
         clean = not libxml2_errors(root, "urdf", (1, 0))
-    with stages.time("table pass: structure, values, lowering"):
+    with stages.time("schema reader: structure, values, lowering"):
         simple = clean and b"xmlns" not in text
         context = Context(sink, sink.file, "urdf", (1, 0), clean=clean, simple=simple)
         data = front_end.lower(root, context)

@@ -48,7 +48,7 @@ def _drake(text: bytes, folder: Path) -> Words:
         plant = importlib.import_module("pydrake.multibody.plant").MultibodyPlant(0.0)
         importlib.import_module("pydrake.multibody.parsing").Parser(plant).AddModels(str(path))
         plant.Finalize()
-    except Exception as error:  # noqa: BLE001 - likewise
+    except Exception as error:  # noqa: BLE001 - an engine may raise anything
         return (*said.words, " ".join(str(error).split()))
     return tuple(said.words)
 

@@ -8,7 +8,7 @@ import click
 
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
-from twinform.cli.gazebo_files import Companions
+from twinform.cli.gazebo_files import GazeboFiles
 from twinform.cli.instrumentation import InstrumentationOptions
 from twinform.cli.outputs import Output, Outputs, beside
 from twinform.cli.targets import Job
@@ -29,7 +29,7 @@ class Options:
     notes: bool
     policy: Policy
     watching: InstrumentationOptions
-    companions: Companions
+    gazebo_files: GazeboFiles
     audit: bool = False
 
     def request_for(self, job: Job) -> ConversionRequest:
@@ -53,7 +53,7 @@ class Options:
             yield Output(outputs.by, job.path)
         if self.ledger:
             yield Output("--ledger", self.ledger)
-        yield from self.companions.places()
+        yield from self.gazebo_files.places()
         yield from beside(job.path, self.beside)
 
     def show(self, name: str, diagnostics: tuple[Diagnostic, ...]) -> bool:
@@ -86,7 +86,7 @@ def run_job(job: Job, options: Options, label: str, outputs: Outputs) -> int:
     if not options.show(job.source.name, conversion.diagnostics):
         return FINDINGS
     _add(conversion, job.path, options.ledger, outputs)
-    if not options.companions.make(conversion, job.source.name, outputs, notes=options.notes):
+    if not options.gazebo_files.make(conversion, job.source.name, outputs, notes=options.notes):
         return FINDINGS
     outputs.news.append(f"{label}{': ' if label else ''}{summary(conversion.ledger)}")
     return _audit(conversion, job.source.name, outputs) if options.audit else 0
@@ -116,7 +116,7 @@ def _add(conversion: Conversion, path: Path | None, ledger: Path | None, outputs
         outputs.add(outputs.by, path, conversion.text)
     if ledger is not None:
         outputs.add("--ledger", ledger, conversion.ledger.to_json())
-    outputs.add_beside(path, conversion.companions)
+    outputs.add_beside(path, conversion.side_files)
 
 
 def summary(ledger: Ledger) -> str:

@@ -10,7 +10,7 @@ from click.core import ParameterSource
 from twinform.cli.config import settings_of
 from twinform.cli.conversion import Options, print_plan, run_job
 from twinform.cli.findings import notes_option
-from twinform.cli.gazebo_files import Companions, companion_options, version_for
+from twinform.cli.gazebo_files import GazeboFiles, companion_options, version_for
 from twinform.cli.inputs import inputs, load_options_of, reading_options
 from twinform.cli.instrumentation import InstrumentationOptions, watching_options
 from twinform.cli.outputs import Outputs
@@ -94,9 +94,9 @@ def command(
         policy=policy,
         watching=watching,
         audit=audit,
-        companions=Companions(bridge, world, gazebo),
+        gazebo_files=GazeboFiles(bridge, world, gazebo),
     )
-    if options.companions and (split or len(sources) > 1):
+    if options.gazebo_files and (split or len(sources) > 1):
         raise click.UsageError("--bridge and --world take one input, and no --split")
     if options.beside and len(sources) > 1:
         raise click.UsageError(f"a pass writes {options.beside[0]} beside the result; that takes one input")

@@ -44,7 +44,7 @@ def version_for(gazebo: str, asked: str | None) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Companions:
+class GazeboFiles:
     """The files to write beside one model, and the release of Gazebo that they are for."""
 
     bridge: Path | None = None

@@ -48,13 +48,13 @@ class InstrumentationOptions:
     statistics: bool = False
     reproducers: Path | None = None
 
-    def begin(self, name: str) -> "Watched":
-        """Watch the passes of one input, which messages call `name`."""
-        return Watched(self, name)
+    def begin(self, name: str) -> "InputInstrumentation":
+        """Observe the passes of one input, which messages call `name`."""
+        return InputInstrumentation(self, name)
 
 
 @dataclass(slots=True)
-class Watched:
+class InputInstrumentation:
     """The watches over the passes of one input."""
 
     options: InstrumentationOptions

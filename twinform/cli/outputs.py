@@ -23,14 +23,14 @@ class Output(NamedTuple):
     path: Path
 
 
-def beside(result: Path | None, companions: Iterable[str]) -> list[Output]:
+def beside(result: Path | None, side_files: Iterable[str]) -> list[Output]:
     """The files that passes make, at their paths below the folder of the result.
 
     Raises:
         click.UsageError: the result goes to no file, or such a path leads elsewhere, through a symbolic link.
     """
     found: list[Output] = []
-    for name in companions:
+    for name in side_files:
         if result is None or is_stream(result):
             raise click.UsageError(f"{name} is to be written beside the result: name a file with -o")
         path = result.parent / name
@@ -83,16 +83,16 @@ class Outputs:
         """A file that an option names."""
         self.texts.append((Output(by, path), text))
 
-    def add_beside(self, result: Path | None, companions: Sequence[SideFile]) -> None:
+    def add_beside(self, result: Path | None, side_files: Sequence[SideFile]) -> None:
         """The files that passes have made.
 
         Raises:
             click.UsageError: they have no place, or it is that of a file which was not written by twinform.
         """
-        places = beside(result, [each.path for each in companions])
-        for place, companion in zip(places, companions, strict=True):
-            _require_ours(place.path, companion)
-            self.texts.append((place, companion.text))
+        places = beside(result, [each.path for each in side_files])
+        for place, side_file in zip(places, side_files, strict=True):
+            _require_ours(place.path, side_file)
+            self.texts.append((place, side_file.text))
 
     def write(self, read: Iterable[Path] = ()) -> None:
         """Write all, and say what is to be said; `read` are files that were read on the way.
@@ -116,9 +116,9 @@ class Outputs:
             click.echo(self.stdout.encode(), nl=False)  # the XML declaration says UTF-8, whatever the terminal's is
 
 
-def _require_ours(path: Path, companion: SideFile) -> None:
-    """Raise where a file is in the place of a companion that does not begin as it does."""
-    own, _, _ = companion.text.partition("\n")
+def _require_ours(path: Path, side_file: SideFile) -> None:
+    """Raise where a file is in the place of a side_file that does not begin as it does."""
+    own, _, _ = side_file.text.partition("\n")
     with suppress(OSError), path.open("rb") as file:  # writing it will say what is wrong
         if file.readline(_LONGEST_LINE).rstrip() != own.encode().rstrip():
             message = f"{path} is there, and twinform has not written it: remove it, or have another name"

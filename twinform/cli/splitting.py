@@ -48,4 +48,4 @@ def _add(result: Split, folder: Path, ledger: Path | None, outputs: Outputs) -> 
         outputs.add("--split", folder / name, text)
     if ledger is not None:
         outputs.add("--ledger", ledger, result.ledger.to_json())
-    outputs.add_beside(folder / next(iter(result.files)), result.companions)
+    outputs.add_beside(folder / next(iter(result.files)), result.side_files)

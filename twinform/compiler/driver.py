@@ -26,7 +26,7 @@ from twinform.schemas import Engine, XmlElement, table
 class Conversion:
     """What `convert` made: the text, its document, the diagnostics and the ledger.
 
-    `source` is the XML that it was made from, for those who count: `twinform.compiler.audit`. `companions` are files
+    `source` is the XML that it was made from, for those who count: `twinform.compiler.audit`. `side_files` are files
     that passes made to lie beside the text.
     """
 
@@ -35,7 +35,7 @@ class Conversion:
     diagnostics: tuple[Diagnostic, ...]
     ledger: Ledger
     source: XmlElement | None = field(default=None, repr=False, compare=False)
-    companions: tuple[SideFile, ...] = ()
+    side_files: tuple[SideFile, ...] = ()
 
 
 def plan(
@@ -137,8 +137,8 @@ def _wanted(document: Document | None, request: ConversionRequest) -> Callable[[
     wanted = wanted_includes(document, request.model)
     if request.to == "urdf" or document is None:
         return wanted
-    standing = {id(one.model) for one in candidates(document)}
-    return lambda include: id(include) in standing and wanted(include)
+    placed = {id(one.model) for one in candidates(document)}
+    return lambda include: id(include) in placed and wanted(include)
 
 
 def has_mixed_words(loaded: LoadResult) -> bool:
@@ -195,7 +195,7 @@ def _run(
         raise CompileError(tuple(sink.diagnostics))
     lost = sum(entry.weight for entry in sink.entries)
     ledger = Ledger(max(0, loaded.size - lost), sink.traced_entries())
-    return Conversion(text, document, tuple(sink.diagnostics), ledger, loaded.tree, tuple(sink.companions))
+    return Conversion(text, document, tuple(sink.diagnostics), ledger, loaded.tree, tuple(sink.side_files))
 
 
 def written(

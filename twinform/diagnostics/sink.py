@@ -27,7 +27,7 @@ class DiagnosticSink:
     """Collects diagnostics and ledger entries, in the order in which they are made.
 
     `file` completes the locations, which know only a line and a path. `origins` lead from the lines of expanded texts
-    to where they were written. `has_errors` says whether anything here stops a conversion. `companions` are the files
+    to where they were written. `has_errors` says whether anything here stops a conversion. `side_files` are the files
     that passes make to lie beside the result.
     """
 
@@ -38,7 +38,7 @@ class DiagnosticSink:
     left_out: int = 0
     has_errors: bool = False
     origins: dict[str, Origins] = field(default_factory=dict[str, Origins])
-    companions: list[SideFile] = field(default_factory=list[SideFile])
+    side_files: list[SideFile] = field(default_factory=list[SideFile])
 
     def __post_init__(self) -> None:
         self.has_errors = any(diagnostic.is_error for diagnostic in self.diagnostics)

@@ -1,4 +1,4 @@
-"""On documents with mistakes the engines and the table pass come to one verdict as well."""
+"""On documents with mistakes the engines and the schema reader come to one verdict as well."""
 
 from functools import cache
 from pathlib import Path
@@ -39,8 +39,8 @@ def test_a_mutant_gets_one_verdict(seed: int):
     for _ in range(EACH):
         root = mutant(random.choice(_sources()), random)
         name, version = _version(root)
-        table_pass = _read(root, name, version)
-        default = table_pass.structural == 0 and not libxml2_errors(root, name, version)
+        table_reading = _read(root, name, version)
+        default = table_reading.structural == 0 and not libxml2_errors(root, name, version)
         normative = not xmlschema_errors(root, name, version, names=False)
         assert default is normative, etree.tostring(root).decode()
         engines: tuple[Engine, ...] = ("libxml2", "xmlschema")
@@ -48,7 +48,7 @@ def test_a_mutant_gets_one_verdict(seed: int):
             context = _read(root, name, version)
             validate(root, context, engine)
             said = [found.message for found in context.sink.diagnostics]
-            assert said == [found.message for found in table_pass.sink.diagnostics], etree.tostring(root).decode()
+            assert said == [found.message for found in table_reading.sink.diagnostics], etree.tostring(root).decode()
 
 
 def test_a_reader_that_trusts_the_schema_says_the_same():

@@ -1,4 +1,4 @@
-"""The table pass over a small table that has every kind of row: all that comes out, kept in `table_pass.json`.
+"""The schema reader over a small table that has every kind of row: all that comes out, kept in `schema_reader.json`.
 
 There, a case has its `text` and the `definition` of its root, the `data` with sources as text, all that is `said`, and
 what the context remembers.
@@ -75,7 +75,9 @@ pose  pose  default="0 0 0 0 0 0"                         -> .
 TABLE = Table("sdf", ("1.0", "1.1", "1.2"), "thing", {each.name: each for each in parse_facts(FACTS.splitlines(), "t")})
 
 
-CASES: dict[str, dict[str, Any]] = json.loads(Path(__file__).with_name("table_pass.json").read_text(encoding="utf-8"))
+CASES: dict[str, dict[str, Any]] = json.loads(
+    Path(__file__).with_name("schema_reader.json").read_text(encoding="utf-8")
+)
 NOT_VALID = {"leaves with attributes", "stray text", "faults inside of what is skipped"}
 """What a schema does not let pass, and the short way does not see."""
 

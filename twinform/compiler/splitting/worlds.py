@@ -48,7 +48,7 @@ class Split:
     files: Mapping[str, str]
     diagnostics: tuple[Diagnostic, ...]
     ledger: Ledger
-    companions: tuple[SideFile, ...] = ()
+    side_files: tuple[SideFile, ...] = ()
 
 
 def split(
@@ -102,7 +102,7 @@ def split(
             raise CompileError(tuple(sink.diagnostics))
         lost = sum(entry.weight for entry in sink.entries)
         ledger = Ledger(max(0, checked.size - lost), tuple(sink.entries))
-        return Split(files.texts, tuple(sink.diagnostics), ledger, tuple(sink.companions))
+        return Split(files.texts, tuple(sink.diagnostics), ledger, tuple(sink.side_files))
 
 
 def _inside_models(document: Document | None) -> Callable[[Include], bool]:

@@ -1,4 +1,4 @@
-"""Rules about the structure of a file, which its schema decides. The table pass reports them."""
+"""Rules about the structure of a file, which its schema decides. The schema reader reports them."""
 
 from twinform.diagnostics.rule import Rule, Severity
 

@@ -36,7 +36,7 @@ class SideFilePass(Pass):
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The same document."""
-        sink.companions.append(SideFile(self.file, self.text(document, sink)))
+        sink.side_files.append(SideFile(self.file, self.text(document, sink)))
         return document
 
     @abstractmethod

@@ -182,6 +182,6 @@ def test_a_joint_in_the_world_ends_on_links_and_stays_where_it_was() -> None:
     ]
 
 
-def _pose(element: etree._Element) -> tuple[str | None, str | None]:  # pyright: ignore[reportPrivateUsage] - likewise
+def _pose(element: etree._Element) -> tuple[str | None, str | None]:  # pyright: ignore[reportPrivateUsage] - lxml has no public name for its type
     pose = element.find("pose")
     return (None, None) if pose is None else (pose.get("relative_to"), pose.text)
