@@ -40,7 +40,7 @@ Files that others accept and that are refused here, and accepted ones that are n
 `reports/corpus/known.toml`; one without is a broken promise.
 
 Every `.xacro` file is *expanded* without arguments, with the packages around it in the corpus and no others, then
-checked and converted in the same way. Most are libraries of macros, which are no robots by themselves, or need packages that
+checked and converted, too. Most are libraries of macros, which are no robots by themselves, or need packages that
 the corpus does not have."""
 
 Outcome = tuple[CorpusFile, Examined]
