@@ -27,12 +27,12 @@ CHECKS: list[tuple[Fact, object, tuple[str, str, str | None] | None]] = [
     (
         Fact("@mode", **WORDS),
         "late",
-        ("outside-version", "'late' as 'mode' of <a> came with SDF 1.5; the file declares 1.2", "fast, slow"),
+        ("outside-version", "'late' as 'mode' of <a> was added in SDF 1.5; the file declares 1.2", "fast, slow"),
     ),
     (
         Fact("mode", **WORDS),
         "gone",
-        ("outside-version", "'gone' as <a> went after SDF 1.0; the file declares 1.2", "fast, slow"),
+        ("outside-version", "'gone' as <a> was removed after SDF 1.0; the file declares 1.2", "fast, slow"),
     ),
     (Fact("@near", type="double", min=0, max=1), 0.0, None),
     (Fact("@near", type="double", min=0, max=1), 1.0, None),
