@@ -1,4 +1,4 @@
-"""Inertias that SDF leaves to its reader, computed from the collisions as its readers do."""
+"""Inertias marked `auto` in SDF, computed from the collisions as SDF readers do."""
 
 from collections.abc import Callable, Iterable
 

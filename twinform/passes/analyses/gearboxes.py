@@ -1,4 +1,4 @@
-"""What a gearbox of SDF couples: the angles of two joints at one body."""
+"""Gearbox joints of SDF: the two joints at one body whose angles they couple."""
 
 import math
 from collections.abc import Mapping

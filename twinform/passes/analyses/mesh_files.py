@@ -1,4 +1,4 @@
-"""Opening mesh files that somebody else wrote, with `trimesh`."""
+"""Opening untrusted mesh files with `trimesh`."""
 
 import importlib
 import io

@@ -1,4 +1,4 @@
-"""Mesh files as solids: what `trimesh` knows of them, in the frame of the shape."""
+"""Mesh files as solids, read by `trimesh`, in the frame of the shape."""
 
 import importlib
 import math

@@ -1,4 +1,4 @@
-"""Marks: elements of our namespace that say how the source wrote a part that the target says in its own words.
+"""Annotations: elements of our namespace that record how the source wrote a part that the target writes differently.
 
 A mark never repeats what the target says; it holds the rest, so that it stays true when the other part is edited:
 

@@ -1,4 +1,4 @@
-"""What a joint with two axes carries, shared out between the two joints that have one axis each, and back."""
+"""Carriers of two-axis joints, divided between the two single-axis joints of the chain and merged again."""
 
 from collections.abc import Iterable
 

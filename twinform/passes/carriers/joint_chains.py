@@ -1,4 +1,4 @@
-"""Chains of URDF joints that stand for one joint of SDF: which there are, and how they are marked.
+"""Chains of URDF joints that represent one multi-axis SDF joint, and their annotations.
 
 The last joint of a chain keeps the name and the child of the one that it stands for and says its type; the joints above
 it, and the links between, say whose parts they are:

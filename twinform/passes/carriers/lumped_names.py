@@ -1,4 +1,4 @@
-"""Names of lumped collisions, and the marks that give them back.
+"""Names of lumped collisions, and the annotations that restore them.
 
 libsdformat calls the collision of a link that it lumps into another one `HOST_fixed_joint_lump__NAME_collision_N`, and
 URDF for Gazebo names it so in contact sensors and plugins. Here nothing is lumped unless somebody asks for it, and the

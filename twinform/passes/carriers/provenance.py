@@ -1,4 +1,4 @@
-"""What a model was converted from: a mark on it, which the reverse conversion reads.
+"""Provenance annotation: the format and version that a model was converted from, read by the reverse conversion.
 
 <tf:from format="sdf" version="1.9"/>
 <tf:from format="sdf" version="1.6" mixed="true"/>      whose file has words that 1.6 does not have

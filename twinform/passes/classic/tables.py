@@ -1,4 +1,4 @@
-"""The tables of this folder: which plugin of Gazebo Classic becomes what, and where its parameters go.
+"""Migration tables: what each Gazebo Classic plugin becomes, and where its parameters go.
 
 A table in `data/` is named after the plugin and has
 
@@ -224,7 +224,7 @@ def _with_moves(row: Any) -> Any:
         return [_with_moves(each) for each in row]  # pyright: ignore[reportUnknownVariableType] - TOML has any type
     if not isinstance(row, dict):
         return row
-    made: dict[str, Any] = {str(name): _with_moves(value) for name, value in row.items()}  # pyright: ignore[reportUnknownArgumentType, reportUnknownVariableType] - likewise
+    made: dict[str, Any] = {str(name): _with_moves(value) for name, value in row.items()}  # pyright: ignore[reportUnknownArgumentType, reportUnknownVariableType] - TOML has any type
     if isinstance(made.get("moves"), dict):
         made["moves"] = {name: _move(value) for name, value in made["moves"].items()}
     return made

@@ -1,4 +1,4 @@
-"""What worlds of Gazebo Classic need in gz-sim, and what of them it does not read."""
+"""Migration of worlds: the systems that gz-sim needs, and the parts that it does not read."""
 
 from collections.abc import Iterator, Mapping
 

@@ -1,4 +1,4 @@
-"""From the transmissions of ROS 1 to `<ros2_control>`."""
+"""Convert transmissions of ROS 1 to `<ros2_control>`."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field

@@ -1,4 +1,4 @@
-"""From `<ros2_control>` back to the transmissions of ROS 1."""
+"""Convert `<ros2_control>` to transmissions of ROS 1."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace as changed

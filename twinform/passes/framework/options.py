@@ -1,4 +1,4 @@
-"""The options of passes: from what a user writes to a pass, and back. Pipelines as text and as tables share this."""
+"""Pass options: parsing and printing them, for pipelines as text and as tables."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from difflib import get_close_matches

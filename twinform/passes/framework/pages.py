@@ -1,4 +1,4 @@
-"""The pages of the passes: `python -m twinform.passes.framework.pages FILE [--check]`."""
+"""Generator of the reference page of passes: `python -m twinform.passes.framework.pages FILE [--check]`."""
 
 import sys
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""A document with the models of other files in the place of its includes."""
+"""Replacing the includes of a document by the models of other files."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field

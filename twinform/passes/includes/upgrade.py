@@ -1,4 +1,4 @@
-"""Files of different versions of SDF become one file in the newest of them."""
+"""Upgrading documents of different SDF versions to the newest of them."""
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document

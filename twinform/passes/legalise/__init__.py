@@ -1,4 +1,4 @@
-"""The passes that turn what a target cannot say into what it can."""
+"""Legalisation: passes that rewrite what the target format cannot express into what it can."""
 
 from dataclasses import dataclass
 from functools import lru_cache

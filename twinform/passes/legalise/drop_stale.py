@@ -1,4 +1,4 @@
-"""The last look at carriers and marks of the other format: what found no use does not travel on."""
+"""Dropping stale carriers and annotations of the other format."""
 
 from dataclasses import dataclass, field
 from typing import ClassVar, TypeVar

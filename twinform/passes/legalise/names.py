@@ -1,4 +1,4 @@
-"""Names that a conversion had to change, and the marks that give them back.
+"""Names that a conversion had to change, and the annotations that restore them.
 
     <tf:name instead_of="arm_joint">arm</tf:name>                    in SDF
     <tf:name instead_of="arm" was="arm "/>                           where blanks are around the name

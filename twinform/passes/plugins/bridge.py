@@ -1,4 +1,4 @@
-"""The configuration of ros_gz_bridge for what a document has: which topics of Gazebo are which topics of ROS."""
+"""Configuration of ros_gz_bridge: which topics of Gazebo map to which topics of ROS."""
 
 import json
 import re

@@ -1,4 +1,4 @@
-"""What the catalog holds: frozen facts about plugins, sensors and releases."""
+"""Data types of the catalog: plugins, sensors and releases."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

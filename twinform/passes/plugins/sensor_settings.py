@@ -1,4 +1,4 @@
-"""The settings of sensors: what `add-sensor` may be told, and the elements that say it."""
+"""Sensor settings: the options of `add-sensor`, and the elements that they set."""
 
 import tomllib
 from collections.abc import Iterator, Mapping

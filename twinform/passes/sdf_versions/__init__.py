@@ -1,4 +1,4 @@
-"""From one version of SDF to another, step by step."""
+"""Conversion between versions of SDF: the passes, in order."""
 
 from functools import lru_cache
 

@@ -1,4 +1,4 @@
-"""The shape of the passes between versions of SDF."""
+"""Base class of the passes between versions of SDF."""
 
 from abc import abstractmethod
 from collections.abc import Callable

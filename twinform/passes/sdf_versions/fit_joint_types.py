@@ -1,4 +1,4 @@
-"""Joint types that came with 1.5 and 1.6, and one that went."""
+"""Joint types that SDF 1.5 and 1.6 introduced, and one that was removed."""
 
 from functools import partial
 from typing import ClassVar

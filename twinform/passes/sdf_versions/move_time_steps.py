@@ -1,4 +1,4 @@
-"""Since 1.4 the time steps of physics belong to no engine."""
+"""Physics time steps, which are elements of `<physics>` itself since SDF 1.4."""
 
 from typing import ClassVar
 

@@ -1,4 +1,4 @@
-"""Since 1.6 gravity and the magnetic field belong to the world."""
+"""Gravity and magnetic field, which are elements of `<world>` since SDF 1.6."""
 
 from functools import partial
 from typing import ClassVar

@@ -1,4 +1,4 @@
-"""In which frame an axis is, as the versions say it."""
+"""Frames of joint axes: `use_parent_model_frame` and `expressed_in`."""
 
 from functools import partial
 from typing import ClassVar

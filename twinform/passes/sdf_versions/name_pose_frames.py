@@ -1,4 +1,4 @@
-"""Since 1.7 a pose names its frame `relative_to`."""
+"""Frames of poses: `relative_to` since SDF 1.7, `frame` before."""
 
 from typing import ClassVar, TypeVar
 

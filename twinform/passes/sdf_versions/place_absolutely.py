@@ -1,4 +1,4 @@
-"""Before 1.7 frames had no names: every pose is in the one frame that goes without saying."""
+"""Poses in the default frame, as before SDF 1.7, where frames have no names."""
 
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar

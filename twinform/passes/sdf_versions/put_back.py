@@ -1,4 +1,4 @@
-"""Parts that traveled in carriers come back in a version that has them."""
+"""Unpacking carriers into a version of SDF that has their parts."""
 
 from functools import partial
 from typing import ClassVar, TypeVar

@@ -1,4 +1,4 @@
-"""Since 1.12 the states in a world have names of their own."""
+"""Elements of world states, renamed in SDF 1.12."""
 
 from dataclasses import dataclass
 from typing import ClassVar

@@ -1,4 +1,4 @@
-"""Which passes lie between two versions of SDF."""
+"""Selection of the passes between two versions of SDF."""
 
 from collections.abc import Callable, Iterator
 

@@ -1,4 +1,4 @@
-"""Before 1.7 an axis is in the joint's frame or the model's, and before 1.5 always in the model's."""
+"""Joint axes in the joint frame or the model frame, as before SDF 1.7."""
 
 from functools import partial
 from typing import ClassVar

@@ -1,4 +1,4 @@
-"""Since 1.10 a screw says its pitch in meters per turn."""
+"""Thread pitch of screw joints, in meters per turn since SDF 1.10."""
 
 import math
 from functools import partial

@@ -1,4 +1,4 @@
-"""What still names a part of a model that has been taken out."""
+"""Dangling references to parts that were removed from a model."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field

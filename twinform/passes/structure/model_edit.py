@@ -1,4 +1,4 @@
-"""The shape of the passes on the structure: every model of a document, or the one that is named."""
+"""Base class of the passes on structure: every model of a document, or the one that is named."""
 
 from abc import abstractmethod
 from collections.abc import Callable

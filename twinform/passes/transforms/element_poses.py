@@ -1,4 +1,4 @@
-"""Poses in parts that have no typed form: projectors, particle emitters, cameras of a sensor."""
+"""Poses in untyped elements: projectors, particle emitters, cameras of a sensor."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

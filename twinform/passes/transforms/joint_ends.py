@@ -1,4 +1,4 @@
-"""Joints between links, where a joint of newer SDF is between frames."""
+"""Joints between frames, converted to joints between links."""
 
 from collections.abc import Container
 

@@ -1,4 +1,4 @@
-"""Poses in the notation that URDF and older versions of SDF have."""
+"""Notation of poses in URDF and in versions of SDF, and its annotations."""
 
 import math
 

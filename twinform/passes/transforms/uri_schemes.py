@@ -1,4 +1,4 @@
-"""`package://`, where ROS looks for files, and `model://`, where Gazebo does.
+"""URI schemes of meshes and textures: `package://` of ROS and `model://` of Gazebo.
 
 A mark says which scheme a URI had where the reverse conversion would write another:
 

@@ -1,4 +1,4 @@
-"""From the terms of URDF to those of SDF: the passes, in order."""
+"""Legalisation from URDF to SDF: the passes, in order."""
 
 from twinform.ir import Format
 from twinform.passes.framework.base import Pass

@@ -1,4 +1,4 @@
-"""Mass, and where the tree begins."""
+"""Masses and the root link of a URDF, as SDF needs them."""
 
 from collections import defaultdict
 from typing import ClassVar

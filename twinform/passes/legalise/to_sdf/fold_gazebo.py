@@ -1,4 +1,4 @@
-"""`<gazebo>` elements become what they mean in SDF."""
+"""Folding `<gazebo>` elements into the links, joints and model that they refer to."""
 
 from collections import defaultdict
 from collections.abc import Callable, Iterable

@@ -1,4 +1,4 @@
-"""What URDF says by `<mimic>`, a gearbox of SDF says already."""
+"""Removing `<mimic>` from joints that a gearbox of SDF couples already."""
 
 import math
 from typing import ClassVar

@@ -1,4 +1,4 @@
-"""Chains that came from one joint of SDF become that joint again."""
+"""Folding chains of URDF joints back into one multi-axis SDF joint."""
 
 from collections.abc import Iterator
 from typing import ClassVar, TypeVar

@@ -1,4 +1,4 @@
-"""Links without mass that are fixed to another become frames."""
+"""Converting massless links on fixed joints to frames."""
 
 from typing import ClassVar, TypeVar
 

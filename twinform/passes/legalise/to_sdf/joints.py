@@ -1,4 +1,4 @@
-"""Joints of URDF as SDF says them."""
+"""Conversion of URDF joint types, axes and limits to SDF."""
 
 from typing import ClassVar, TypeVar
 

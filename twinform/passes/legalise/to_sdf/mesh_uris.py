@@ -1,4 +1,4 @@
-"""Where meshes and textures are."""
+"""URIs of meshes and textures for Gazebo: `package://` to `model://`."""
 
 from dataclasses import dataclass
 from typing import ClassVar, TypeVar

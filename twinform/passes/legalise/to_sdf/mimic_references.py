@@ -1,4 +1,4 @@
-"""The `reference` of a mimic, which URDF has no word for: it is part of the offset there."""
+"""The `reference` of a mimic, which URDF folds into the offset."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""A name for every visual and collision."""
+"""Naming unnamed visuals and collisions."""
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping

@@ -1,4 +1,4 @@
-"""Poses as the SDF file had them that a URDF was converted from."""
+"""Reverse conversion of poses: restoring how the SDF source wrote them."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field

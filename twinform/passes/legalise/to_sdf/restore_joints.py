@@ -1,4 +1,4 @@
-"""Joints as the SDF file had them that a URDF was converted from."""
+"""Reverse conversion of joints: restoring how the SDF source wrote them."""
 
 from typing import ClassVar
 

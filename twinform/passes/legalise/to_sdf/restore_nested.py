@@ -1,4 +1,4 @@
-"""Nested models as the SDF file had them that a URDF was converted from."""
+"""Reverse conversion of nested models: restoring those of the SDF source."""
 
 from collections.abc import Iterable, Iterator
 from typing import ClassVar, TypeVar

@@ -1,4 +1,4 @@
-"""The step over: from here on the document is SDF."""
+"""Change of format from URDF to SDF: after this pass the document is SDF."""
 
 from typing import ClassVar
 

@@ -1,4 +1,4 @@
-"""Materials that are named become colors that are written."""
+"""Inlining the named materials of URDF into visuals."""
 
 from functools import lru_cache
 from typing import ClassVar

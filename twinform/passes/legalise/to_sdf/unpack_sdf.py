@@ -1,4 +1,4 @@
-"""What SDF says and URDF does not, put back where it stood."""
+"""Unpacking carriers of SDF parts into the nodes that they came from."""
 
 from collections.abc import Iterable
 from typing import ClassVar, Literal, TypeVar, cast

@@ -1,4 +1,4 @@
-"""From SDF's terms to URDF's, step by step."""
+"""Legalisation from SDF to URDF: the passes, in order."""
 
 from twinform.ir import Format
 from twinform.passes.framework.base import Pass

@@ -1,4 +1,4 @@
-"""The last step: what is left over is carried, and the document is URDF."""
+"""The last pass to URDF: moving all remaining SDF parts into carriers, and changing the format."""
 
 from typing import ClassVar, TypeVar
 

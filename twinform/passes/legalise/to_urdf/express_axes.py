@@ -1,4 +1,4 @@
-"""In URDF an axis is in the joint frame."""
+"""Expressing joint axes in the joint frame, as URDF requires."""
 
 from typing import ClassVar
 

@@ -1,4 +1,4 @@
-"""Links of SDF that a mark says a floating joint of URDF leaves free."""
+"""Reverse conversion of floating joints: restoring them between free links."""
 
 from collections.abc import Iterator, Mapping
 

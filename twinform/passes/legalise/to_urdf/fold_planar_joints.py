@@ -1,4 +1,4 @@
-"""A chain that came from a planar joint of URDF becomes one again."""
+"""Folding chains of SDF joints back into one planar joint of URDF."""
 
 from collections.abc import Iterator
 from typing import ClassVar, TypeVar

@@ -1,4 +1,4 @@
-"""Joint types, limits and mimicry in terms of URDF."""
+"""Converting joint types, limits and mimics to URDF."""
 
 import math
 from collections.abc import Mapping

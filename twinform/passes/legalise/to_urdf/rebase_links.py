@@ -1,4 +1,4 @@
-"""In URDF the frame of a link is the frame of its joint."""
+"""Moving each link frame to the frame of its joint, as URDF requires."""
 
 from dataclasses import dataclass
 from typing import ClassVar, TypeVar

@@ -1,4 +1,4 @@
-"""What of a node URDF can write and what is left over, found by comparing it with the table of URDF."""
+"""Remainder of a node: the fields that URDF cannot express, found by the URDF facts table."""
 
 import math
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""Links and joints as the URDF file had them that an SDF file was converted from."""
+"""Reverse conversion of links and joints: restoring how the URDF source wrote them."""
 
 from collections.abc import Container, Iterator
 from typing import ClassVar, TypeVar

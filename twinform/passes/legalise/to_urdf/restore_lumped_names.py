@@ -1,4 +1,4 @@
-"""The names of lumped collisions that a robot had in its contact sensors and plugins."""
+"""Reverse conversion of lumped collision names in contact sensors and plugins."""
 
 from typing import ClassVar
 

@@ -1,4 +1,4 @@
-"""Materials as the URDF file had them that an SDF file was converted from."""
+"""Reverse conversion of materials: restoring how the URDF source wrote them."""
 
 from collections import Counter
 from collections.abc import Mapping

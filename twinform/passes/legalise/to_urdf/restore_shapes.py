@@ -1,4 +1,4 @@
-"""What a conversion to SDF had to write out, and URDF leaves unsaid."""
+"""Reverse conversion of shapes and masses: removing names and values that the conversion to SDF added."""
 
 from typing import ClassVar, TypeVar
 

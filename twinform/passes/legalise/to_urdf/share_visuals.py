@@ -1,4 +1,4 @@
-"""What all visuals of a link say alike and URDF has no word for, in a `<visual>` in a `<gazebo>` element."""
+"""Writing what all visuals of a link share, and URDF lacks, as one `<visual>` in a `<gazebo>` element."""
 
 from collections.abc import Iterator
 from typing import ClassVar

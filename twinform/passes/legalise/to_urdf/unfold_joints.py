@@ -1,4 +1,4 @@
-"""Joints of several degrees of freedom, or of coupled ones, as chains."""
+"""Unfolding multi-axis and coupled SDF joints into chains of URDF joints."""
 
 from functools import partial
 from typing import ClassVar

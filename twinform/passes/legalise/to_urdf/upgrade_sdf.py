@@ -1,4 +1,4 @@
-"""The way to URDF begins with the newest version of SDF."""
+"""Upgrading SDF to the newest version before the conversion to URDF."""
 
 from typing import ClassVar
 

@@ -1,4 +1,4 @@
-"""URIs of SDF as URDF has them."""
+"""URIs of meshes and textures for ROS: `model://` to `package://`."""
 
 from typing import TypeVar
 
