@@ -15,7 +15,7 @@ _PARALLEL = 1e-9
 
 
 GEARED = "geared"
-"""The mark on a joint that mimics because a gearbox couples it: `<tf:geared/>`."""
+"""The annotation on a joint that mimics because a gearbox couples it: `<tf:geared/>`."""
 
 
 class Relation(NamedTuple):

@@ -8,7 +8,7 @@ from twinform.passes.carriers.carriers import NAMESPACE, is_ours
 Parts = tuple[Opaque, ...]
 
 _FIRST, _SECOND = (f"{{{NAMESPACE}}}{field}" for field in ("axis", "axis2"))
-"""The marks on how the two axes were written."""
+"""The annotations on how the two axes were written."""
 
 
 def split_axes(parts: Iterable[Opaque]) -> tuple[Parts, Parts]:

@@ -16,9 +16,9 @@ from twinform.ir.node import Vector3
 from twinform.passes.carriers.annotations import find_annotation
 
 CHAIN = "chain"
-"""The mark on the last joint, with the type of the joint that the chain stands for."""
+"""The annotation on the last joint, with the type of the joint that the chain stands for."""
 PART = "part"
-"""The mark on the other joints and on the links, with the name of the last joint."""
+"""The annotation on the other joints and on the links, with the name of the last joint."""
 
 CHAINS: dict[JointType, tuple[str, ...]] = {
     "universal": ("axis",),

@@ -22,7 +22,7 @@ _ABOUT = frozenset({"source", "spelling"})
 
 
 def with_look(link: Link, fields: Iterable[str]) -> Link:
-    """The link with a mark on the fields of materials that one extension sets in all visuals, beside what is marked."""
+    """The link with an annotation on the material fields that one extension sets in all visuals."""
     names = dict.fromkeys((*look_of(link), *(field for field in fields if field not in _ABOUT)))
     return with_annotation(without_annotation(link, LOOK), LOOK, " ".join(names))
 

@@ -10,7 +10,7 @@ A table in `data/` is named after the plugin and has
 * `uses`: tables of `shared.toml` with more parameters; `geometry`: what the author has to write beside;
   `caveats`: what is otherwise afterwards; `body`: parameters with the link whose pose it reports.
 
-A parameter goes to a path, or somewhere else in the words of `Move`. Topics are patterns, which `topics.py` reads.
+A parameter goes to a path, or somewhere else in the syntax of `Move`. Topics are patterns, which `topics.py` reads.
 """
 
 import re

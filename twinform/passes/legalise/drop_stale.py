@@ -30,7 +30,7 @@ _IGNORED = "what an older version remembered of the source is ignored, as the fi
 
 
 class DropStale(ModelPass):
-    """Drop the carriers and marks of the other format that fit nothing in the model any more.
+    """Drop the carriers and annotations of the other format that fit nothing in the model any more.
 
     Changes: 1. a carrier whose part was deleted, renamed or contradicted by an edit goes; 2. so does all that versions
     before 0.2 remembered of the source. What the file says stays.

@@ -30,7 +30,7 @@ _HEAD = """\
 
 @dataclass(frozen=True, slots=True)
 class Bridge:
-    """One entry: the keys of ros_gz_bridge's file, in its words."""
+    """One entry: the keys of ros_gz_bridge's file, in its syntax."""
 
     ros_topic_name: str
     gz_topic_name: str

@@ -57,7 +57,7 @@ class Settings:
 
 @cache
 def settings_of(type_: str) -> Settings:
-    """The settings of a kind of sensor, by any word for it; one that cannot be added has none.
+    """The settings of a kind of sensor, by any of its names; one that cannot be added has none.
 
     Raises:
         UnknownNameError: gz-sim simulates none of this type.

@@ -19,7 +19,7 @@ _STILL = Axis(xyz=AXIS[Format.SDF], limit=Limit(lower=0.0, upper=0.0))
 
 
 class FitJointTypes(VersionPass):
-    """Say the types of joints in the words of an older version.
+    """Write the types of joints as an older version does.
 
     Changes: 1. `continuous` before 1.6 is `revolute`, without an end to its motion; 2. `fixed` before 1.5 is `revolute`
     between zero and zero.

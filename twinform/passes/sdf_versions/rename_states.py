@@ -29,7 +29,7 @@ class RenameStates(VersionPass):
     back: bool = False
 
     def change(self, document: Document, keeper: Keeper) -> Document:
-        """The document with states in the words of the version."""
+        """The document with states in the syntax of the version."""
         renaming = _Renaming(self.number, self.back)
 
         def of_state(element: Element) -> Element:

@@ -27,7 +27,7 @@ class TurnAxes(VersionPass):
     name: ClassVar[str] = "turn-axes"
 
     def change(self, document: Document, keeper: Keeper) -> Document:
-        """The document with axes in the words of the version."""
+        """The document with axes in the syntax of the version."""
         return rewrite(document, Model, partial(_model, keeper, self.number >= _WORDS))
 
 
@@ -77,7 +77,7 @@ class _Turner:
         turned = joint.model_copy(update={field: plain})
         message = f"the axis of joint {joint.name!r} is expressed in {axis.expressed_in or 'its own frame'}"
         written = axis.xyz is not None or axis.expressed_in is not None
-        # back in newer words, an axis that was written without a frame is one in the model
+        # back in newer syntax, an axis that was written without a frame is one in the model
         gone = [f"{field}.expressed_in"] if to_model and axis.expressed_in is None else []
         gone += [f"{field}.xyz"] if axis.xyz is None and xyz is not None else []
         terms = Terms(since=_NAMES, without=tuple(gone))

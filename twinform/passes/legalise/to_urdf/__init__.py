@@ -45,7 +45,7 @@ def to_urdf(
 ) -> tuple[Pass, ...]:
     """The passes that make URDF of the model of this name, or of the only one.
 
-    `mixed` lets it have shapes of newer versions, and `mixed_source` says that the SDF has words of other ones.
+    `mixed` lets it have shapes of newer versions, and `mixed_source` says that the SDF has syntax of other ones.
     """
     shapes: UrdfVersion = "1.2" if mixed else urdf_version
     return (

@@ -15,7 +15,7 @@ _AXES = {
 }
 """The axes that mean something, by the type of the joint."""
 OLD_WORD = "use_parent_model_frame"
-"""What the mark on an axis says where the file called the model's frame so, and has newer words elsewhere."""
+"""What the annotation on an axis says where the file called the model's frame so, and has newer syntax elsewhere."""
 
 
 class ExpressAxes(ToUrdfPass):
