@@ -19,7 +19,7 @@ _MASS = ("mass", f"{TOKEN_MASS:g} kg")
 _INERTIA = ("inertia", f"{TOKEN_MOMENT:g} kg m^2")
 
 UNSAID = "unsaid"
-"""The annotation on an SDF inertial that lists what URDF leaves out: `<tf:unsaid>inertia</tf:unsaid>`, or all `inertial`.
+"""The annotation on an SDF inertial that lists what URDF leaves out: `<tf:unsaid>inertia</tf:unsaid>`, or `inertial`.
 
 Where URDF says zero, and a token stands in SDF, it is `zero-mass` and `zero-inertia`.
 """
