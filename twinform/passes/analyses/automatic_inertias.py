@@ -1,4 +1,4 @@
-"""Inertias that SDF leaves to its reader, computed from the collisions as its readers do."""
+"""Inertias marked `auto` in SDF, computed from the collisions as SDF readers do."""
 
 from collections.abc import Callable, Iterable
 
@@ -12,7 +12,7 @@ from twinform.passes.analyses.shapes import inertial_of, own_density
 from twinform.passes.carriers.carriers import to_element
 
 COMPUTED_MASS = "computed-mass"
-"""The mark on an inertial whose mass was computed with its inertia: `<tf:computed-mass/>`."""
+"""The annotation on an inertial whose mass was computed with its inertia: `<tf:computed-mass/>`."""
 
 
 class NoInertiaError(Exception):

@@ -1,4 +1,4 @@
-"""What a gearbox of SDF couples: the angles of two joints at one body."""
+"""Gearbox joints of SDF: the two joints at one body whose angles they couple."""
 
 import math
 from collections.abc import Mapping
@@ -15,7 +15,7 @@ _PARALLEL = 1e-9
 
 
 GEARED = "geared"
-"""The mark on a joint that mimics because a gearbox couples it: `<tf:geared/>`."""
+"""The annotation on a joint that mimics because a gearbox couples it: `<tf:geared/>`."""
 
 
 class Relation(NamedTuple):

@@ -1,4 +1,4 @@
-"""Opening mesh files that somebody else wrote, with `trimesh`."""
+"""Opening untrusted mesh files with `trimesh`."""
 
 import importlib
 import io
@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 READ = frozenset({"stl", "obj", "dae", "ply", "off", "glb"})
-"""Formats that hold all of a mesh in one file, or what else they name is only its looks."""
+"""Formats that hold all of a mesh in one file, or what else they name is only its appearance."""
 EXTRA = "pip install 'twinform[meshes]'"
 READERS = frozenset({"trimesh", "collada"})
 """What the extra brings."""

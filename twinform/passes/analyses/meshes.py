@@ -1,4 +1,4 @@
-"""Mesh files as solids: what `trimesh` knows of them, in the frame of the shape."""
+"""Mesh files as solids, read by `trimesh`, in the frame of the shape."""
 
 import importlib
 import math
@@ -172,7 +172,7 @@ def _triangles(path: Path, submesh: str | None) -> _Triangles:
     trimesh: Any = importlib.import_module("trimesh")
     whole = scene.to_mesh() if submesh is None else _part(trimesh, scene, submesh)
     meter = _unit(trimesh, scene.geometry.values()) if kind_of(path) == "dae" else 1.0
-    # made anew, so that vertices which differ in their looks are merged as well
+    # made anew, so that vertices which differ in their appearance are merged as well
     triangles = trimesh.Trimesh(vertices=whole.vertices * meter, faces=whole.faces, process=True)
     if not len(triangles.faces):
         raise ValueError("it has no triangles")

@@ -1,4 +1,4 @@
-"""The shapes of a link, where they are, and what they weigh and hold."""
+"""Shapes of a link: their poses, masses and volumes."""
 
 from collections.abc import Iterator
 from typing import Literal, NamedTuple

@@ -1,1 +1,1 @@
-"""How models look and touch: materials, surfaces, and where their files are."""
+"""Passes on appearance and contact: materials, surfaces, and the URIs of their files."""

@@ -1,4 +1,4 @@
-"""The tags of `<gazebo>` elements that are about links of URDF, changed without touching the others."""
+"""Editing the `<gazebo>` tags of one URDF link without touching the others."""
 
 from collections.abc import Callable, Iterable, Mapping
 

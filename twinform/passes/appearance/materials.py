@@ -1,4 +1,4 @@
-"""Say how visuals look in the words of newer Gazebo."""
+"""Convert Gazebo Classic materials of visuals to the materials of newer Gazebo."""
 
 import math
 from typing import ClassVar

@@ -1,4 +1,4 @@
-"""Say where files are in another scheme."""
+"""Rewrite URIs of files to another scheme."""
 
 from typing import ClassVar, Literal
 

@@ -1,4 +1,4 @@
-"""Set how collisions touch."""
+"""Set the contact surface of collisions."""
 
 from typing import ClassVar, Self
 

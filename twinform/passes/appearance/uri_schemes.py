@@ -1,4 +1,4 @@
-"""From one way of naming a file to another."""
+"""Conversion of file references between schemes: `package://`, `model://`, `file://` and paths."""
 
 import os
 import re

@@ -1,1 +1,1 @@
-"""Carriers and marks: what travels in our namespace inside a file of the other format, in both directions."""
+"""Carriers and annotations: elements of our namespace inside a file of the other format, for the reverse conversion."""

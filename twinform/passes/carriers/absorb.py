@@ -1,4 +1,4 @@
-"""Putting pieces of SDF into a typed node, as if they had stood in its element."""
+"""Merging SDF elements into a typed node, as if they had been children of its element."""
 
 from collections.abc import Mapping
 from typing import Any, TypeGuard, TypeVar, cast

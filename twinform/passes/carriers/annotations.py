@@ -1,6 +1,7 @@
-"""Marks: elements of our namespace that say how the source wrote a part that the target says in its own words.
+"""Annotations: elements of our namespace that record how the source wrote a part that the target writes differently.
 
-A mark never repeats what the target says; it holds the rest, so that it stays true when the other part is edited:
+An annotation never repeats what the target says; it holds the rest, so that it stays true when the other part is
+edited:
 
     <tf:made/>                                   a conversion made this link, joint or frame up
     <tf:from format="sdf" version="1.9"/>        in a model: what it was converted from
@@ -9,8 +10,8 @@ A mark never repeats what the target says; it holds the rest, so that it stays t
     <tf:axis expressed_in="base"/>               the frame in which the source wrote this axis
     <tf:extension/>                              the source says this joint in a `<gazebo>` element
 
-Other marks stand beside what uses them: `joint_chains.py`, `to_sdf/shared_materials.py` and so on. They are elements
-and never attributes: other readers skip foreign elements, and some fail on foreign attributes.
+Other annotations stand beside what uses them: `joint_chains.py`, `to_sdf/shared_materials.py` and so on. They are
+elements and never attributes: other readers skip foreign elements, and some fail on foreign attributes.
 """
 
 from collections.abc import Mapping
@@ -22,13 +23,13 @@ from twinform.passes.carriers.carriers import NAMESPACE
 AnyNode = TypeVar("AnyNode", bound=Node)
 
 EXTENSION = "extension"
-"""The mark on a joint of SDF that URDF says in a `<gazebo>` element."""
+"""The annotation on a joint of SDF that URDF has in a `<gazebo>` element."""
 SYNTHESIZED = "made"
-"""The mark on a link, joint or frame that was not in the source."""
+"""The annotation on a link, joint or frame that was not in the source."""
 
 
 def annotation(kind: str, text: str | None = None, attributes: Mapping[str, str | None] | None = None) -> Opaque:
-    """A mark; attributes that are None are left out."""
+    """An annotation; attributes that are None are left out."""
     written = tuple((name, value) for name, value in (attributes or {}).items() if value is not None)
     return Opaque(element=Element(name=f"{{{NAMESPACE}}}{kind}", text=text, attributes=written))
 
@@ -36,28 +37,28 @@ def annotation(kind: str, text: str | None = None, attributes: Mapping[str, str 
 def with_annotation(
     node: AnyNode, kind: str, text: str | None = None, attributes: Mapping[str, str | None] | None = None
 ) -> AnyNode:
-    """The node with one more mark, before its other opaque parts."""
+    """The node with one more annotation, before its other opaque parts."""
     return node.model_copy(update={"opaque": (annotation(kind, text, attributes), *node.opaque)})
 
 
 def is_annotation(part: Opaque, kind: str) -> bool:
-    """Whether an opaque part is a mark of this kind."""
+    """Whether an opaque part is an annotation of this kind."""
     return part.element is not None and part.element.name == f"{{{NAMESPACE}}}{kind}"
 
 
 def find_annotation(node: Node, kind: str) -> Element | None:
-    """The first mark of a kind on the node."""
+    """The first annotation of a kind on the node."""
     return next((part.element for part in node.opaque if is_annotation(part, kind)), None) if node.opaque else None
 
 
 def without_annotation(node: AnyNode, *kinds: str) -> AnyNode:
-    """The node without its marks of these kinds."""
+    """The node without its annotations of these kinds."""
     kept = tuple(part for part in node.opaque if not any(is_annotation(part, kind) for kind in kinds))
     return node if len(kept) == len(node.opaque) else node.model_copy(update={"opaque": kept})
 
 
 def mark_synthesized(node: AnyNode) -> AnyNode:
-    """The node, marked as made up by a pass, so that the reverse conversion leaves it out."""
+    """The node, annotated as made up by a pass, so that the reverse conversion leaves it out."""
     return node if is_synthesized(node) else with_annotation(node, SYNTHESIZED)
 
 
@@ -67,5 +68,5 @@ def is_synthesized(node: Node) -> bool:
 
 
 def without_synthesized(node: AnyNode) -> AnyNode:
-    """The node without marks of what was made up, on it and in it."""
+    """The node without annotations of what was made up, on it and in it."""
     return rewrite(node, Node, lambda each: without_annotation(each, SYNTHESIZED), enter=holds_opaque)

@@ -72,7 +72,7 @@ def is_overruled(part: Opaque) -> bool:
 
 
 def is_ours(part: Opaque) -> bool:
-    """Whether an opaque part is of our own namespace: a carrier, or a mark."""
+    """Whether an opaque part is of our own namespace: a carrier, or an annotation."""
     name = part.element.name if part.element else part.attribute[0] if part.attribute else ""
     return name.startswith(_OURS)
 
@@ -88,7 +88,7 @@ def is_memory(part: Opaque) -> bool:
 
 
 def has_ours(node: Node) -> bool:
-    """Whether a carrier or mark is anywhere in a node."""
+    """Whether a carrier or annotation is anywhere in a node."""
     return any(element.name.startswith(_OURS) for element in untyped_elements(node))
 
 

@@ -1,4 +1,4 @@
-"""What a joint with two axes carries, shared out between the two joints that have one axis each, and back."""
+"""Carriers of two-axis joints, divided between the two single-axis joints of the chain and merged again."""
 
 from collections.abc import Iterable
 
@@ -8,7 +8,7 @@ from twinform.passes.carriers.carriers import NAMESPACE, is_ours
 Parts = tuple[Opaque, ...]
 
 _FIRST, _SECOND = (f"{{{NAMESPACE}}}{field}" for field in ("axis", "axis2"))
-"""The marks on how the two axes were written."""
+"""The annotations on how the two axes were written."""
 
 
 def split_axes(parts: Iterable[Opaque]) -> tuple[Parts, Parts]:

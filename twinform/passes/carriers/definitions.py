@@ -1,4 +1,4 @@
-"""Which definition of SDF's table says what an element of a node may hold."""
+"""The definition in the SDF facts table that applies to the children of a node's element."""
 
 from twinform.ir import (
     Collision,

@@ -1,4 +1,4 @@
-"""Chains of URDF joints that stand for one joint of SDF: which there are, and how they are marked.
+"""Chains of URDF joints that represent one multi-axis SDF joint, and their annotations.
 
 The last joint of a chain keeps the name and the child of the one that it stands for and says its type; the joints above
 it, and the links between, say whose parts they are:
@@ -16,9 +16,9 @@ from twinform.ir.node import Vector3
 from twinform.passes.carriers.annotations import find_annotation
 
 CHAIN = "chain"
-"""The mark on the last joint, with the type of the joint that the chain stands for."""
+"""The annotation on the last joint, with the type of the joint that the chain stands for."""
 PART = "part"
-"""The mark on the other joints and on the links, with the name of the last joint."""
+"""The annotation on the other joints and on the links, with the name of the last joint."""
 
 CHAINS: dict[JointType, tuple[str, ...]] = {
     "universal": ("axis",),

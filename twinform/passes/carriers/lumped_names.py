@@ -1,8 +1,8 @@
-"""Names of lumped collisions, and the marks that give them back.
+"""Names of lumped collisions, and the annotations that restore them.
 
 libsdformat calls the collision of a link that it lumps into another one `HOST_fixed_joint_lump__NAME_collision_N`, and
 URDF for Gazebo names it so in contact sensors and plugins. Here nothing is lumped unless somebody asks for it, and the
-collision keeps its own name. The mark stands beside the text that was changed:
+collision keeps its own name. The annotation stands beside the text that was changed:
 
     <collision>pad_collision</collision><tf:lumped instead_of="pad_collision">base_fixed_joint_lump__pad_...</tf:lumped>
 """
@@ -31,7 +31,7 @@ def mentions_collisions(model: Model) -> bool:
 
 
 def followed(element: Element, names: Mapping[str, Followed], *, carriers: bool) -> Element:
-    """The element with every text in it that is one of these names changed, and marked if wanted."""
+    """The element with every text in it that is one of these names changed, and annotated if wanted."""
     children: list[Element] = []
     for child in element.children:
         found = names.get((child.text or "").strip())
@@ -47,15 +47,15 @@ def followed(element: Element, names: Mapping[str, Followed], *, carriers: bool)
 
 
 def has_marks(model: Model) -> bool:
-    """Whether a mark says the name of a lumped collision."""
+    """Whether an annotation has the name of a lumped collision."""
     return any(one.name == _LUMPED for each in model.extensions for part in each.content for one in part.walk())
 
 
 def restored(element: Element, names: Mapping[str, Followed], stale: list[Element]) -> Element:
-    """The element by the names that marks in it say, where `names` has them mean what stands there now.
+    """The element by the names that annotations in it give, where `names` has them mean what stands there now.
 
     A text that was edited since stays, and so does one whose old name means another collision by now, or none: these
-    marks are added to `stale`.
+    annotations are added to `stale`.
     """
     if not any(one.name == _LUMPED for one in element.walk()):
         return element

@@ -1,4 +1,4 @@
-"""How a conversion names materials, and the marks on what SDF and URDF say of them that the other does not.
+"""Names that a conversion gives to materials, and annotations on what only SDF or only URDF has of them.
 
 <tf:colors ambient="0.1 0.1 0.1 1" of="1 0 0 1"/>   in a visual of URDF: SDF's other color, while `of` is this one's
 <tf:scripts>file://a.material</tf:scripts>          in a visual of URDF: where the material of its link's tag is
@@ -22,7 +22,7 @@ _ABOUT = frozenset({"source", "spelling"})
 
 
 def with_look(link: Link, fields: Iterable[str]) -> Link:
-    """The link with a mark on the fields of materials that one extension sets in all visuals, beside what is marked."""
+    """The link with an annotation on the material fields that one extension sets in all visuals."""
     names = dict.fromkeys((*look_of(link), *(field for field in fields if field not in _ABOUT)))
     return with_annotation(without_annotation(link, LOOK), LOOK, " ".join(names))
 

@@ -1,7 +1,7 @@
-"""What a model was converted from: a mark on it, which the reverse conversion reads.
+"""Provenance annotation: the format and version that a model was converted from, read by the reverse conversion.
 
 <tf:from format="sdf" version="1.9"/>
-<tf:from format="sdf" version="1.6" mixed="true"/>      whose file has words that 1.6 does not have
+<tf:from format="sdf" version="1.6" mixed="true"/>      whose file uses syntax that 1.6 does not have
 """
 
 from twinform.ir import Document, Format, Model
@@ -11,24 +11,24 @@ from twinform.schemas import parse_version, table
 _SCOPES = (1, 8)
 """Since this version `::` in a name says that it is in a nested model."""
 FROM = "from"
-"""The mark on a model with the format and the version that it was converted from."""
+"""The annotation on a model with the format and the version that it was converted from."""
 _MIXED = "mixed"
 
 
 def with_provenance(model: Model, document: Document) -> Model:
-    """The model, marked as converted from the format and version of a document."""
+    """The model, annotated as converted from the format and version of a document."""
     attributes = {"format": document.format.value, "version": document.version or "1.0"}
     mixed = "true" if find_annotation(model, _MIXED) is not None else None
     return with_annotation(without_annotation(model, _MIXED), FROM, attributes={**attributes, "mixed": mixed})
 
 
 def with_mixed_words(model: Model) -> Model:
-    """The model, marked as one whose file has words that its version does not have."""
+    """The model, annotated as one whose file uses syntax that its version does not have."""
     return with_annotation(model, _MIXED)
 
 
 def without_provenance(model: Model) -> Model:
-    """The model without the mark."""
+    """The model without the annotation."""
     return without_annotation(model, FROM)
 
 
@@ -50,7 +50,7 @@ def may_write_scopes(version: str) -> bool:
 
 
 def has_mixed_words(document: Document) -> bool:
-    """Whether the file that the only model of a document was converted from has words of other versions too."""
+    """Whether the file that the only model of a document was converted from has syntax of other versions too."""
     found = find_annotation(document.models[0], FROM) if len(document.models) == 1 else None
     return found is not None and found.get("mixed") == "true"
 

@@ -1,4 +1,4 @@
-"""Parts of other versions of SDF, which travel inside a file of a version that does not have them.
+"""Carriers of parts of other SDF versions, inside a file of a version that lacks them.
 
 Such a carrier says which versions have its part:
 

@@ -1,4 +1,4 @@
-"""The mass that a link without mass gets, so that the engines of Gazebo can move it."""
+"""Token mass for massless links, so that the physics engines of Gazebo can move them."""
 
 from twinform.ir import Inertia, Inertial, Model
 

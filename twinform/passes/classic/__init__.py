@@ -1,1 +1,1 @@
-"""From Gazebo Classic to gz-sim."""
+"""Migration from Gazebo Classic to gz-sim."""

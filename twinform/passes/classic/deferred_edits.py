@@ -1,4 +1,4 @@
-"""What migrated plugins ask of the model or world around them, done when all plugins have been seen."""
+"""Deferred edits: what migrated plugins change in the model or world around them, applied after all plugins."""
 
 from collections import defaultdict
 from collections.abc import Callable

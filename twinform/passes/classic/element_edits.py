@@ -1,4 +1,4 @@
-"""Reading and writing texts in an element by their paths, such as `camera/clip/near` or `noise/@type`."""
+"""Reading and writing texts in an element by path, such as `camera/clip/near` or `noise/@type`."""
 
 from twinform.ir import Element
 

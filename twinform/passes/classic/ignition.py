@@ -1,4 +1,4 @@
-"""Names from when Gazebo was called Ignition, in plugins and their parameters."""
+"""Renaming of Ignition plugins and parameters to their Gazebo names."""
 
 import re
 

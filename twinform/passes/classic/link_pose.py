@@ -1,4 +1,4 @@
-"""Ground truth of a link (gazebo_ros_p3d) as that of its model, which is what OdometryPublisher reports."""
+"""Ground-truth pose of a link (gazebo_ros_p3d) by the OdometryPublisher of its model."""
 
 from collections.abc import Iterator
 

@@ -1,4 +1,4 @@
-"""From Gazebo Classic to gz-sim."""
+"""Migrate models and worlds from Gazebo Classic to gz-sim."""
 
 from typing import ClassVar
 

@@ -1,4 +1,4 @@
-"""Parameters on their way from a plugin of Gazebo Classic to where gz-sim reads them."""
+"""Conversion of parameters of Gazebo Classic plugins to the elements that gz-sim reads."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field

@@ -1,4 +1,4 @@
-"""Plugins of Gazebo Classic, one by one."""
+"""Migration of Gazebo Classic plugins, one by one."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass

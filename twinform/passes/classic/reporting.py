@@ -26,7 +26,7 @@ def accept(sink: DiagnosticSink, tried: DiagnosticSink) -> None:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """Writes into the notes where a plugin stands."""
+    """Writes into the diagnostics where a plugin stands."""
 
     sink: DiagnosticSink
     plugin: Plugin

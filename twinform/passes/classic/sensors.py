@@ -1,4 +1,4 @@
-"""Sensors of Gazebo Classic, with the plugins in them, in the words of gz-sim."""
+"""Migration of Gazebo Classic sensors, and of the plugins in them."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Plugins of Gazebo Classic that systems of gz-sim take the place of."""
+"""Gazebo Classic plugins replaced by systems of gz-sim."""
 
 from collections.abc import Iterator
 

@@ -1,4 +1,4 @@
-"""The tables of this folder: which plugin of Gazebo Classic becomes what, and where its parameters go.
+"""Migration tables: what each Gazebo Classic plugin becomes, and where its parameters go.
 
 A table in `data/` is named after the plugin and has
 
@@ -10,7 +10,7 @@ A table in `data/` is named after the plugin and has
 * `uses`: tables of `shared.toml` with more parameters; `geometry`: what the author has to write beside;
   `caveats`: what is otherwise afterwards; `body`: parameters with the link whose pose it reports.
 
-A parameter goes to a path, or somewhere else in the words of `Move`. Topics are patterns, which `topics.py` reads.
+A parameter goes to a path, or somewhere else in the syntax of `Move`. Topics are patterns, which `topics.py` reads.
 """
 
 import re
@@ -224,7 +224,7 @@ def _with_moves(row: Any) -> Any:
         return [_with_moves(each) for each in row]  # pyright: ignore[reportUnknownVariableType] - TOML has any type
     if not isinstance(row, dict):
         return row
-    made: dict[str, Any] = {str(name): _with_moves(value) for name, value in row.items()}  # pyright: ignore[reportUnknownArgumentType, reportUnknownVariableType] - TOML holds any type
+    made: dict[str, Any] = {str(name): _with_moves(value) for name, value in row.items()}  # pyright: ignore[reportUnknownArgumentType, reportUnknownVariableType] - TOML has any type
     if isinstance(made.get("moves"), dict):
         made["moves"] = {name: _move(value) for name, value in made["moves"].items()}
     return made

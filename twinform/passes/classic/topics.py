@@ -1,4 +1,4 @@
-"""The topics of plugins of ROS: namespaces, names and remappings become one name.
+"""ROS topics of plugins: namespaces, names and remappings resolved into one name.
 
 A pattern has pieces between slashes; each is a name behind `=`, or in braces a choice between parameters, `$plugin`,
 `$sensor` and `$camera`, and such a name: `{cameraName|$sensor}/{imageTopicName|=image_raw}`. In a name, `$plugin` is

@@ -1,4 +1,4 @@
-"""What worlds of Gazebo Classic need in gz-sim, and what of them it does not read."""
+"""Migration of worlds: the systems that gz-sim needs, and the parts that it does not read."""
 
 from collections.abc import Iterator, Mapping
 
@@ -47,7 +47,7 @@ def complete_worlds(document: Document, release: Release, sink: DiagnosticSink) 
 
 
 def report_needs(document: Document, release: Release, sink: DiagnosticSink) -> None:
-    """Say which systems the world needs that the models of a document without one will stand in."""
+    """Report which systems the world needs that the models of a document without one will stand in."""
     sensors, noted = sensors_of(document), set[str]()
     for sensor, site in sensors:
         kind = kind_of_sensor(sensor, release.name)
@@ -63,7 +63,7 @@ def report_needs(document: Document, release: Release, sink: DiagnosticSink) -> 
 
 
 def report_unread(document: Document, sink: DiagnosticSink) -> None:
-    """Say which parts of worlds gz-sim does not read."""
+    """Report which parts of worlds gz-sim does not read."""
     parts = unread_parts()
     for world in document.worlds:
         for part in world.opaque:

@@ -1,1 +1,1 @@
-"""Passes about what drives the joints: transmissions of ROS 1 and `<ros2_control>` of ROS 2."""
+"""Passes on joint actuation: transmissions of ROS 1 and `<ros2_control>` of ROS 2."""

@@ -1,4 +1,4 @@
-"""The elements of URDF that a model keeps as they are, in either language.
+"""Elements of URDF that a model keeps unchanged, in URDF and SDF.
 
 In a URDF document they are opaque parts of the model; in SDF each stands in a carrier.
 """

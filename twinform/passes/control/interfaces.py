@@ -1,4 +1,4 @@
-"""What the interfaces of ros_control and the types of transmissions are called in ros2_control.
+"""Names of ros_control interfaces and transmission types in ros2_control.
 
 Facts from ros_control's `hardware_interface` and `transmission_interface`, `pr2_mechanism_model`, and from
 ros2_control's packages of the same names.

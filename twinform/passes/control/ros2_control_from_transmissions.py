@@ -1,4 +1,4 @@
-"""From the transmissions of ROS 1 to `<ros2_control>`."""
+"""Convert transmissions of ROS 1 to `<ros2_control>`."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -33,7 +33,7 @@ class Ros2ControlFromTransmissions(Pass):
 
     Never touches: a transmission of joints that the model does not have, that cannot move, or that a `<ros2_control>`
     commands already, nor the plugins of a simulator; `migrate-gazebo-classic` changes those. A transmission of which
-    other programs read parts that ROS 2 has no word for stays beside the new one.
+    other programs read parts that ROS 2 cannot express stays beside the new one.
     Diagnostics: `converted-transmission`, `unconverted-transmission`, `foreign-transmission` and
     `foreign-hardware-interface`; each transmission that went has an entry of the ledger, *approximated*.
     """

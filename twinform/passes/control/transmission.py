@@ -1,4 +1,4 @@
-"""A `<transmission>` of ROS 1 in all its generations, and one inside of `<ros2_control>`, as one value."""
+"""A transmission, read from any generation of `<transmission>` of ROS 1 or from `<ros2_control>`."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

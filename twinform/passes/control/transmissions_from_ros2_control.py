@@ -1,4 +1,4 @@
-"""From `<ros2_control>` back to the transmissions of ROS 1."""
+"""Convert `<ros2_control>` to transmissions of ROS 1."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace as changed
@@ -128,7 +128,7 @@ def _report_unsayable(model: Model, part: Opaque, system: Element, sink: Diagnos
 
 
 def _unsayable(system: Element) -> Iterator[tuple[str, bool]]:
-    """What ROS 1 has no word for, and whether it goes with the element."""
+    """What ROS 1 cannot express, and whether it goes with the element."""
     goes = not _rest(system)
     for child in system.children:
         if child.name == "hardware":

@@ -1,4 +1,4 @@
-"""The files beside a model, for passes that need them: a port, which the compiler fills in."""
+"""Asset access: an interface for passes that read files beside a model, implemented by the compiler."""
 
 from pathlib import Path
 from typing import Literal, Protocol, Self

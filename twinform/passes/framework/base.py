@@ -13,7 +13,7 @@ class Pass(BaseModel, ABC):
     """A step from IR to IR: a frozen object whose fields are its options.
 
     Valid IR goes in and valid IR comes out; a pass keeps no state between runs, prints nothing, and opens no file
-    unless that is its purpose. What it finds, and what becomes of parts that it cannot keep, goes into the notes.
+    unless that is its purpose. What it finds, and what becomes of parts that it cannot keep, goes into the diagnostics.
 
     Its docstring says what it does in an imperative sentence, then what it `Changes`, in numbered cases where there are
     several, what it `Never touches:`, and its `Diagnostics:`.
@@ -28,7 +28,7 @@ class Pass(BaseModel, ABC):
     )
 
     name: ClassVar[str]
-    """The word for it in a pipeline; the class and the file have the same words."""
+    """Its name in a pipeline; the class and the file have the same name."""
 
     example: ClassVar[str] = ""
     """A pipeline that uses it, for its page."""

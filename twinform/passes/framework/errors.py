@@ -1,4 +1,4 @@
-"""How a pass fails: it raises, or it makes IR that is not valid. Both are faults of the pass, not of the model."""
+"""Errors of passes: an exception, or invalid IR as the result. Both are bugs of the pass, not of the model."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING

@@ -1,4 +1,4 @@
-"""What looks at passes from outside: timing, printed changes and the like are hooks, and no pass knows of them."""
+"""Pass instrumentation: the interface of hooks such as timing and printed changes."""
 
 from collections.abc import Iterable
 

@@ -1,4 +1,4 @@
-"""The options of passes: from what a user writes to a pass, and back. Pipelines as text and as tables share this."""
+"""Pass options: parsing and printing them, for pipelines as text and as tables."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from difflib import get_close_matches
@@ -65,7 +65,7 @@ def takes_list(field: FieldInfo) -> bool:
 def _readable(
     error: ValidationError, name: str, written: Mapping[str, Value], fields: Mapping[str, FieldInfo]
 ) -> OptionError:
-    """Pydantic's first complaint in the words of a pipeline."""
+    """Pydantic's first complaint in the syntax of a pipeline."""
     problem = error.errors(include_url=False)[0]
     option = str(problem["loc"][0]) if problem["loc"] else ""
     if problem["type"] == "extra_forbidden":

@@ -1,4 +1,4 @@
-"""How a pass gets a document that is not the one it runs over: by a port that the driver gives it."""
+"""Access to other documents for passes, by an interface that the driver implements."""
 
 from abc import abstractmethod
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""The pages of the passes: `python -m twinform.passes.framework.pages FILE [--check]`."""
+"""Generator of the reference page of passes: `python -m twinform.passes.framework.pages FILE [--check]`."""
 
 import sys
 from collections.abc import Iterator
@@ -62,7 +62,7 @@ def _default(value: Value) -> str:
 
 
 def _words(annotation: object) -> str:
-    """A type in the words of the pipeline's grammar."""
+    """A type in the syntax of the pipeline's grammar."""
     inner = cast("tuple[object, ...]", get_args(annotation))
     origin = get_origin(annotation)
     if origin is Annotated:

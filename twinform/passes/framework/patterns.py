@@ -1,4 +1,4 @@
-"""Names by pattern, as options of passes have them: one or several, of which one has to match."""
+"""Name patterns in the options of passes: one or several, of which one has to match."""
 
 from collections.abc import Iterable
 from fnmatch import fnmatchcase

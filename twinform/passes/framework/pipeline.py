@@ -1,4 +1,4 @@
-"""Passes in a row. Their text is in `text.py`, their table in `tables.py`."""
+"""Pipelines: passes in sequence. Their text is in `text.py`, their table in `tables.py`."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass

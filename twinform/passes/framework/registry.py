@@ -1,4 +1,4 @@
-"""The passes that are installed: ours and those of others come through the same door, an entry-point group."""
+"""Registry of installed passes, found by entry points, the built-in ones too."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Passes that make a file beside the result. They write nothing: the text goes into the notes, and the caller has it.
+"""Passes that produce an additional file. They write nothing: the caller gets the text from the diagnostics.
 
 So the file appears together with the result, only where there is no error, and only in the folder that was named for
 the result: a pipeline may come from a configuration or a reproducer, which have no say in where files are written.

@@ -9,7 +9,7 @@
     pass = "@checks"
 
 `pass` is the name of a pass, or `@` and that of another pipeline, which takes no options. No option can be called
-`pass`: options are fields in Python, where it is a keyword. TOML has no word for nothing; an empty table, `{}`, stands
+`pass`: options are fields in Python, where it is a keyword. TOML has no null; an empty table, `{}`, stands
 for what the text of a pipeline says as `null`.
 """
 

@@ -1,4 +1,4 @@
-"""Putting included models in the place of their includes: pure functions from documents to a document."""
+"""Expanding includes: pure functions that replace `<include>` by the models that it names."""
 
 from twinform.passes.includes.detach import detach, links_named_around
 from twinform.passes.includes.expand import Included, Resolver, expand_includes, has_includes

@@ -1,4 +1,4 @@
-"""A world whose parts no longer name frames inside its models, so that the models can go into other files.
+"""Resolving references from a world into its models, so that the models can be split into files of their own.
 
 A frame inside a model need not be there under its name in another format; the model itself and its links are.
 """

@@ -1,4 +1,4 @@
-"""A document with the models of other files in the place of its includes."""
+"""Replacing the includes of a document by the models of other files."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
@@ -53,8 +53,8 @@ def _model_has_includes(model: Model) -> bool:
 def expand_includes(document: Document, resolve: Resolver, sink: DiagnosticSink, *, carriers: bool = True) -> Document:
     """The document with what its includes name in their place.
 
-    Files of different versions come together in the newest of them: older ones are said in its words, and what it lacks
-    is carried, or dropped without `carriers`.
+    Files of different versions come together in the newest of them: older ones are upgraded to it, and what it
+    lacks is carried, or dropped without `carriers`.
     """
     found = [resolve(include) for include in _includes(document)]
     version = newest(document.version, *(each.document.version for each in found if each), *_needs(document))

@@ -1,4 +1,4 @@
-"""Merging: the contents of an included model become contents of the model or world around the include."""
+"""Merge includes (`merge="true"`): contents of the included model become contents of the model or world around it."""
 
 from dataclasses import dataclass
 from typing import TypeVar

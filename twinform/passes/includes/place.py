@@ -1,4 +1,4 @@
-"""What an include makes of the thing that it names: another name, another pose, more plugins."""
+"""What an `<include>` changes in the included model: name, pose, plugins."""
 
 from collections.abc import Iterator
 from contextlib import suppress

@@ -1,4 +1,4 @@
-"""Relative paths of an included model, said from where the include is."""
+"""Relative paths of an included model, rewritten relative to the including file."""
 
 import re
 from posixpath import normpath

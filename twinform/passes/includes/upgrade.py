@@ -1,4 +1,4 @@
-"""Files of different versions of SDF become one file in the newest of them."""
+"""Upgrading documents of different SDF versions to the newest of them."""
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
@@ -12,7 +12,7 @@ def newest(*versions: str | None) -> str | None:
 
 
 def upgrade_document(document: Document, version: str | None, sink: DiagnosticSink, *, carriers: bool) -> Document:
-    """The document in the words of a version that is not older than its own."""
+    """The document in the syntax of a version that is not older than its own."""
     known = table("sdf").versions
     if document.version == version or document.version not in known or version not in known:
         return document

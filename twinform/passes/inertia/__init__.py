@@ -1,1 +1,1 @@
-"""Masses and inertias: finding what no body has, computing it from shapes, and the nearest that a body can have."""
+"""Passes on mass and inertia: checking them, computing them from shapes, correcting them."""

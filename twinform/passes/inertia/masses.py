@@ -1,4 +1,4 @@
-"""The masses of a document's links while they change, and taking a share of one for another."""
+"""Masses of the links of a document during a pass, and moving a share of one to another."""
 
 from collections.abc import Iterator
 from typing import NamedTuple

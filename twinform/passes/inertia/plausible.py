@@ -1,4 +1,4 @@
-"""Whether the mass and inertia of a link go with its shapes."""
+"""Plausibility of the mass and inertia of a link, compared with its shapes."""
 
 import math
 from collections.abc import Iterable

@@ -1,4 +1,4 @@
-"""Give bodies that move and weigh nothing a mass."""
+"""Give mass to massless bodies that move."""
 
 from typing import ClassVar, Literal
 

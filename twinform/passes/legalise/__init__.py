@@ -1,4 +1,4 @@
-"""The passes that turn what a target cannot say into what it can."""
+"""Legalisation: passes that rewrite what the target format cannot express into what it can."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -15,7 +15,7 @@ class Target:
     """What a conversion is to make.
 
     `carriers` says whether parts that the target cannot say travel along; `model` names the one of several models that
-    becomes a URDF; `mixed` says that the file may have words that its version does not have, as its source had, and
+    becomes a URDF; `mixed` says that the file may use syntax that its version does not have, as its source had, and
     `mixed_source` that the file at hand is such a one.
     """
 

@@ -1,4 +1,4 @@
-"""The last look at carriers and marks of the other format: what found no use does not travel on."""
+"""Dropping stale carriers and annotations of the other format."""
 
 from dataclasses import dataclass, field
 from typing import ClassVar, TypeVar
@@ -30,7 +30,7 @@ _IGNORED = "what twinform before 0.2 kept about the source file is ignored; the 
 
 
 class DropStale(ModelPass):
-    """Drop the carriers and marks of the other format that fit nothing in the model any more.
+    """Drop the carriers and annotations of the other format that fit nothing in the model any more.
 
     Changes: 1. a carrier whose part was deleted, renamed or contradicted by an edit goes; 2. so does all that versions
     before 0.2 remembered of the source. What the file says stays.

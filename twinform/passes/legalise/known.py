@@ -1,4 +1,4 @@
-"""The passes that targets ask for, by name. They are no part of a user's pipeline and are not registered."""
+"""Legalisation passes by name. They are not available in a user's pipeline and not registered."""
 
 from collections.abc import Iterator
 from functools import cache

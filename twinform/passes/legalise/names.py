@@ -1,10 +1,10 @@
-"""Names that a conversion had to change, and the marks that give them back.
+"""Names that a conversion had to change, and the annotations that restore them.
 
     <tf:name instead_of="arm_joint">arm</tf:name>                    in SDF
     <tf:name instead_of="arm" was="arm "/>                           where blanks are around the name
     <tf:scoped-name instead_of="arm__hand">arm::hand</tf:name>       in URDF
 
-A mark says which name it stands behind: where that was edited since, the edit counts.
+An annotation has the name that it was made for: where that was edited since, the edit counts.
 """
 
 from collections.abc import Iterator
@@ -21,9 +21,9 @@ from twinform.passes.structure.scopes import Part, scope_of
 from twinform.passes.transforms.notation import NESTED
 
 NAME = "name"
-"""The mark on a link, joint, frame or shape of SDF with the name that it has in URDF."""
+"""The annotation on a link, joint, frame or shape of SDF with the name that it has in URDF."""
 SCOPED_NAME = "scoped-name"
-"""The mark on a link, joint or frame of URDF with the name, such as `arm::hand`, that it has in SDF."""
+"""The annotation on a link, joint or frame of URDF with the name, such as `arm::hand`, that it has in SDF."""
 Names = dict[tuple[Part, str], str]
 """New names by the kind of what is renamed and its old name."""
 _FIELDS: dict[Part, str] = {"link": "links", "joint": "joints", "frame": "frames"}
@@ -36,7 +36,7 @@ def renamed(model: Model, names: Names, format_: Format) -> Model:
 
 
 def with_old_names(model: Model, names: Names) -> Model:
-    """The model of URDF with marks on what was renamed; it has the new names by now."""
+    """The model of URDF with annotations on what was renamed; it has the new names by now."""
     old = {(part, new): name for (part, name), new in names.items()}
 
     def marked(part: Part, node: Link | Joint | Frame) -> Link | Joint | Frame:
@@ -50,8 +50,8 @@ def with_old_names(model: Model, names: Names) -> Model:
 class RestoreNames(ModelPass):
     """Give links, joints and frames the names that they had in the source.
 
-    Changes: a name behind which a mark stands becomes the one that the mark says, and all that names it follows. With
-    `apart`, a joint may have the name of a link, as in URDF and in SDF before 1.7.
+    Changes: a name behind which an annotation stands becomes the one that the annotation gives, and all that names it
+    follows. With `apart`, a joint may have the name of a link, as in URDF and in SDF before 1.7.
     Never touches: a name that was edited since, or where another part has the old name by now, or the scope in it is
     that of no nested model any more.
     Diagnostics: `stale-carrier` for these.
@@ -118,7 +118,7 @@ def _scopes_in(name: str) -> set[str]:
 
 
 def _marked(model: Model, kind: str) -> Iterator[tuple[Part, Link | Joint | Frame, str, str]]:
-    """What has a mark: its kind, itself, the name that the mark stands behind and the one that it gives back."""
+    """What has an annotation: its kind, the node, the name at the time of renaming and the one to restore."""
     for part, field in _FIELDS.items():
         for node in getattr(model, field):
             found = find_annotation(node, kind)
@@ -128,12 +128,12 @@ def _marked(model: Model, kind: str) -> Iterator[tuple[Part, Link | Joint | Fram
 
 
 def _old_name(found: Element) -> str:
-    """The name that a mark gives back."""
+    """The name that an annotation gives back."""
     return found.get("was") or found.text or ""
 
 
 def with_old_name(node: AnyNode, name: str) -> AnyNode:
-    """The node with a mark on it that has its name, since it will be called otherwise; a text would lose blanks."""
+    """The node with its name in an annotation, since it will be renamed; a text would lose blanks."""
     old: str = node.__dict__["name"]
     is_plain = old == old.strip()
     return with_annotation(

@@ -1,4 +1,4 @@
-"""The page of the pipeline: `python -m twinform.passes.legalise.page FILE [--check]` writes or checks it."""
+"""Generator of the pipeline page: `python -m twinform.passes.legalise.page FILE [--check]` writes or checks it."""
 
 import sys
 from collections.abc import Iterable, Iterator

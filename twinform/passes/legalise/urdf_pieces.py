@@ -1,4 +1,4 @@
-"""Pieces of URDF that travel in SDF: what they name, and whether they still fit there."""
+"""Carried URDF elements: what they refer to, and whether this still exists."""
 
 from collections.abc import Iterator
 

@@ -1,1 +1,1 @@
-"""Limits of joints: what they lack, what they cannot mean, and soft ones made hard."""
+"""Passes on joint limits: checking, filling and tightening them, and soft limits."""

@@ -1,4 +1,4 @@
-"""Check that limits of joints are those of a robot."""
+"""Check that joint limits are plausible for a robot."""
 
 import math
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""Let continuous joints of SDF turn in Gazebo, whose engines know revolute ones alone."""
+"""Replace continuous joints of SDF by revolute ones, which the engines of Gazebo support."""
 
 from typing import ClassVar
 

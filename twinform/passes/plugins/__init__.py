@@ -1,1 +1,1 @@
-"""Plugins and sensors of Gazebo: what there is, adding it to models, and checking it."""
+"""Gazebo plugins and sensors: the catalog, adding them to models, and checking them."""

@@ -1,4 +1,4 @@
-"""The configuration of ros_gz_bridge for what a document has: which topics of Gazebo are which topics of ROS."""
+"""Configuration of ros_gz_bridge: which topics of Gazebo map to which topics of ROS."""
 
 import json
 import re
@@ -30,7 +30,7 @@ _HEAD = """\
 
 @dataclass(frozen=True, slots=True)
 class Bridge:
-    """One entry: the keys of ros_gz_bridge's file, in its words."""
+    """One entry: the keys of ros_gz_bridge's file, in its syntax."""
 
     ros_topic_name: str
     gz_topic_name: str

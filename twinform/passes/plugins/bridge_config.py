@@ -1,4 +1,4 @@
-"""The configuration of ros_gz_bridge, as a file beside the result."""
+"""Write the configuration of ros_gz_bridge, as a file beside the result."""
 
 from typing import Annotated, ClassVar
 

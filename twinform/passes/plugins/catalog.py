@@ -164,12 +164,12 @@ def classic_plugins_of_file(file: str) -> dict[Family, PluginKind]:
 
 @cache
 def sensors() -> dict[str, SensorKind]:
-    """The kinds of sensors by the word for them in SDF."""
+    """The kinds of sensors by their type in SDF."""
     return {type_: _sensor(type_, row) for type_, row in _toml("sensors.toml").items()}
 
 
 def sensor(type_: str) -> SensorKind:
-    """A kind of sensor by its word or an older one.
+    """A kind of sensor by its type or an older name.
 
     Raises:
         UnknownNameError: gz-sim simulates none of this type.

@@ -1,4 +1,4 @@
-"""Hold plugins and sensors against what a release of Gazebo knows."""
+"""Check plugins and sensors against the catalog of a Gazebo release."""
 
 from typing import ClassVar
 

@@ -1,4 +1,4 @@
-"""Adding plugins and sensors to models and worlds, in the language that they are in."""
+"""Adding plugins and sensors to models and worlds, in URDF and SDF."""
 
 from twinform.ir import Element, Format, GazeboExtension, Link, Model, Plugin, Sensor, World, replace_fields
 from twinform.passes.plugins.elements import plugin_element, sensor_element

@@ -1,4 +1,4 @@
-"""Plugins and sensors as the elements that stand for them in `<gazebo>` and in other free content."""
+"""XML elements of plugins and sensors, in `<gazebo>` and in other untyped content."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""How deep a model reaches below its own frame, so that it can be put on the ground."""
+"""Ground clearance: how far a model reaches below its own frame."""
 
 import math
 from collections.abc import Callable, Iterator

@@ -1,4 +1,4 @@
-"""The notation of the catalog's tables of plugins.
+"""Syntax of the plugin tables in the catalog.
 
     system wheel-slip  file=gz-sim-wheel-slip-system class=gz::sim::systems::WheelSlip scope=model
       wheel         +  element

@@ -1,4 +1,4 @@
-"""The parameters of a system as the options of a pass, and options as the content of a plugin.
+"""Plugin parameters as pass options, and pass options as plugin parameters.
 
 An option is called as its parameter in kebab-case, with the names of what is around it before: `left_joint` is
 `left-joint`, `<left_track><link>` is `left-track-link`, `linkName` is `link-name`.

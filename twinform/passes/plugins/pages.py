@@ -1,4 +1,4 @@
-"""The page of systems and sensors: `python -m twinform.passes.plugins.pages FILE [--check]` writes or checks it."""
+"""Generator of the page of systems and sensors: `python -m twinform.passes.plugins.pages FILE [--check]`."""
 
 import sys
 from collections.abc import Iterable, Iterator

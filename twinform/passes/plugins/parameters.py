@@ -1,4 +1,4 @@
-"""The parameters of one plugin, held against what its system reads."""
+"""Checking the parameters of one plugin against those of its system."""
 
 from collections import Counter
 from collections.abc import Iterator, Sequence

@@ -1,4 +1,4 @@
-"""What the catalog holds: frozen facts about plugins, sensors and releases."""
+"""Data types of the catalog: plugins, sensors and releases."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -161,7 +161,7 @@ class Published:
 class SensorKind:
     """A kind of sensor that gz-sim simulates.
 
-    `aliases` are older words for `type` that are still read, `classic` the words of Gazebo Classic for what becomes
+    `aliases` are older names for `type` that are still read, `classic` the names in Gazebo Classic for what becomes
     this. `element` has its parameters. `systems` are what the world needs to have, `world_elements` what else.
     `suffix` ends the topic where none is written. `custom` is the `gz:type` of those whose type is `custom`, or what it
     begins with where that ends in a slash.

@@ -1,4 +1,4 @@
-"""Passes whose options depend on what one of them selects."""
+"""Passes whose options depend on the value of another option."""
 
 from abc import abstractmethod
 from collections.abc import Mapping

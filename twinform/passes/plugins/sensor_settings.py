@@ -1,4 +1,4 @@
-"""The settings of sensors: what `add-sensor` may be told, and the elements that say it."""
+"""Sensor settings: the options of `add-sensor`, and the elements that they set."""
 
 import tomllib
 from collections.abc import Iterator, Mapping
@@ -57,7 +57,7 @@ class Settings:
 
 @cache
 def settings_of(type_: str) -> Settings:
-    """The settings of a kind of sensor, by any word for it; one that cannot be added has none.
+    """The settings of a kind of sensor, by any of its names; one that cannot be added has none.
 
     Raises:
         UnknownNameError: gz-sim simulates none of this type.

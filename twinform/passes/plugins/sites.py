@@ -1,4 +1,4 @@
-"""Every plugin and sensor of a document, whichever language it is in, with the place where it stands.
+"""All plugins and sensors of a document, in URDF or SDF, with their locations.
 
 In SDF they are nodes of worlds, models, includes, links, joints, sensors and visuals; those of actors and of the GUI
 stand in elements without a typed form. In URDF they are elements in `<gazebo>`. A pass need not know which.

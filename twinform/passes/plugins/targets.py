@@ -1,4 +1,4 @@
-"""What of a document a pass is to add to."""
+"""Targets of a pass: the model, world, link or sensor of a document that it adds to."""
 
 from collections.abc import Iterator
 

@@ -1,4 +1,4 @@
-"""The topics of gz-transport that the plugins and sensors of a document read and write."""
+"""Topics of gz-transport that the plugins and sensors of a document publish and subscribe to."""
 
 import re
 from collections.abc import Iterable, Iterator, Mapping

@@ -1,4 +1,4 @@
-"""The values of parameters: whether a text is one of a type, and what a type is called."""
+"""Types of parameter values: whether a text is of a type, and the names of types."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""Where the wheels of a model are and how large: what drive systems want to know and the model says already.
+"""Wheel geometry: positions, axes and radii of the wheels of a model, for drive systems.
 
 Everything is measured with all joints at zero, in m, in the frame of the model.
 """

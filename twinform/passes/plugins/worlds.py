@@ -1,4 +1,4 @@
-"""The systems that a world has, and those that sensors need in it."""
+"""World systems: those that a world has, and those that its sensors need."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""From one version of SDF to another, step by step."""
+"""Conversion between versions of SDF: the passes, in order."""
 
 from functools import lru_cache
 
@@ -43,10 +43,10 @@ def change_version(declared: str | None, asked: str, *, carriers: bool = True) -
 
 
 def raise_version(declared: str | None, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
-    """The passes that say an older file in newer words, with what it carries."""
+    """The passes that upgrade an older file, with what it carries."""
     old, new = parse_version(known_version(declared)), parse_version(asked)
     back = PutBack(version=asked, source=print_version(old), carriers=carriers)
-    after: list[Pass] = []  # what came back may be in newer or older words
+    after: list[Pass] = []  # what came back may be in newer or older syntax
     if new < _ANY_POSE:
         after.append(WritePlainPoses(version=asked, carriers=carriers))
     if new >= _NAMED_STATES:
@@ -58,7 +58,7 @@ def raise_version(declared: str | None, asked: str, *, carriers: bool = True) ->
 def raise_words(declared: str | None, *, carriers: bool = True, mixed: bool = False) -> tuple[Pass, ...]:
     """The same for the newest version, with the file's own names and with the parts that only older versions have.
 
-    `mixed` says that the file has words of newer versions too.
+    `mixed` says that the file has syntax of newer versions too.
     """
     old, newest = known_version(declared), table("sdf").versions[-1]
     back = PutBack(version=newest, source=old, carriers=carriers)
@@ -66,21 +66,21 @@ def raise_words(declared: str | None, *, carriers: bool = True, mixed: bool = Fa
 
 
 def raise_for_merging(declared: str, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
-    """The same on the way to a file of several versions: what its version lacks is left out when it is whole."""
+    """The same in the conversion to a file of several versions: what its version lacks is left out when it is whole."""
     back = PutBack(version=asked, source=declared, carriers=carriers)
     return (*forward(parse_version(declared), parse_version(asked)), back, SetVersion(version=asked))
 
 
 def raise_unversioned(*, carriers: bool = True) -> tuple[Pass, ...]:
-    """The passes that say old words in new ones where nobody has declared a version, as in `<gazebo>` elements."""
+    """The passes that upgrade old syntax where nobody has declared a version, as in `<gazebo>` elements."""
     return tuple(unversioned(table("sdf").versions[-1], carriers=carriers))
 
 
 def lower_version(declared: str | None, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
-    """The passes that say a newer file in older words."""
+    """The passes that downgrade a newer file."""
     return tuple(backward(parse_version(known_version(declared)), parse_version(asked), carriers=carriers))
 
 
 def lower_meaning(asked: str) -> tuple[Pass, ...]:
-    """The passes for what means something else in an older version; newer words stay."""
+    """The passes for what means something else in an older version; newer syntax stays."""
     return tuple(meaning_back(parse_version(table("sdf").versions[-1]), parse_version(asked)))

@@ -1,4 +1,4 @@
-"""The shape of the passes between versions of SDF."""
+"""Base class of the passes between versions of SDF."""
 
 from abc import abstractmethod
 from collections.abc import Callable
@@ -18,7 +18,7 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 
 
 class VersionPass(Pass):
-    """A pass on the way to `version`. After an error there is nothing left to do.
+    """A pass in the conversion to `version`. After an error there is nothing left to do.
 
     `carriers` says whether parts that this version lacks travel in carriers or only into the ledger.
     """
@@ -27,7 +27,7 @@ class VersionPass(Pass):
     carriers: bool = True
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
-        """The document in other words."""
+        """The document in other syntax."""
         if sink.has_errors:
             return document
         try:
@@ -47,7 +47,7 @@ class VersionPass(Pass):
 
 
 def _report(error: FrameError, document: Document, version: str, sink: DiagnosticSink) -> None:
-    """Say which frame cannot be resolved, and how it could be where an include was not read."""
+    """Report which frame cannot be resolved, and how it could be where an include was not read."""
     if error.rule is not DANGLING_FRAME or not _has_includes(document):
         error.report(sink)
         return

@@ -1,4 +1,4 @@
-"""Before 1.10 there was a number where there is infinity now."""
+"""Infinite limits, which are large numbers before SDF 1.10."""
 
 import math
 from functools import partial

@@ -1,4 +1,4 @@
-"""Since 1.7 links, joints and frames are all frames, and share one scope."""
+"""Unique names for links, joints and frames, which share one scope since SDF 1.7."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What a document says, apart from what it carries and from the order of things that have none."""
+"""Comparison of documents without carriers and without the order of elements where it has no meaning."""
 
 from typing import TypeVar
 

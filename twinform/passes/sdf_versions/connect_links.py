@@ -1,4 +1,4 @@
-"""Before 1.8 a joint is between links."""
+"""Joints between links instead of frames, as before SDF 1.8."""
 
 from functools import partial
 from typing import ClassVar

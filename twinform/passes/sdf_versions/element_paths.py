@@ -1,4 +1,4 @@
-"""Taking elements out of untyped trees and putting them in elsewhere."""
+"""Removing and inserting elements of untyped trees by path."""
 
 from twinform.ir import Element
 

@@ -1,4 +1,4 @@
-"""Joint types that came with 1.5 and 1.6, and one that went."""
+"""Joint types that SDF 1.5 and 1.6 introduced, and one that was removed."""
 
 from functools import partial
 from typing import ClassVar
@@ -19,7 +19,7 @@ _STILL = Axis(xyz=AXIS[Format.SDF], limit=Limit(lower=0.0, upper=0.0))
 
 
 class FitJointTypes(VersionPass):
-    """Say the types of joints in the words of an older version.
+    """Write the types of joints as an older version does.
 
     Changes: 1. `continuous` before 1.6 is `revolute`, without an end to its motion; 2. `fixed` before 1.5 is `revolute`
     between zero and zero.

@@ -1,4 +1,4 @@
-"""Before 1.5 there are no models in models."""
+"""Flattening nested models, which SDF has since 1.5."""
 
 from functools import partial
 from typing import ClassVar

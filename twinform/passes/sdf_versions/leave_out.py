@@ -1,4 +1,4 @@
-"""The net behind the passes that translate: what the version has no row for is left out."""
+"""Removing elements and attributes that the SDF version does not define."""
 
 from typing import Any, ClassVar
 

@@ -1,4 +1,4 @@
-"""What the net has taken out of a node, as pieces of the element that the node is."""
+"""Removed elements and attributes of a node, as pieces for carriers."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Since 1.4 the time steps of physics belong to no engine."""
+"""Physics time steps, which are elements of `<physics>` itself since SDF 1.4."""
 
 from typing import ClassVar
 
@@ -24,7 +24,7 @@ class MoveTimeSteps(VersionPass):
     back: bool = False
 
     def change(self, document: Document, keeper: Keeper) -> Document:
-        """The document with its steps in the words of the version."""
+        """The document with its steps in the syntax of the version."""
         move = _back if self.back else _forth
 
         def of_physics(element: Element) -> Element:

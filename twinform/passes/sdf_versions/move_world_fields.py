@@ -1,4 +1,4 @@
-"""Since 1.6 gravity and the magnetic field belong to the world."""
+"""Gravity and magnetic field, which are elements of `<world>` since SDF 1.6."""
 
 from functools import partial
 from typing import ClassVar
@@ -18,7 +18,7 @@ class MoveWorldFields(VersionPass):
     """Move `<gravity>` and `<magnetic_field>` from the physics of a world to the world, or with `back` from there.
 
     Changes: where a world without `<physics>` has one of them, `back` makes one, which goes again on the way forth.
-    Never touches: gravity of a second `<physics>`; the magnetic field on the way to 1.4, which does not have it.
+    Never touches: gravity of a second `<physics>`; the magnetic field in the conversion to 1.4, which does not have it.
     """
 
     name: ClassVar[str] = "move-world-fields"

@@ -1,4 +1,4 @@
-"""In which frame an axis is, as the versions say it."""
+"""Frames of joint axes: `use_parent_model_frame` and `expressed_in`."""
 
 from functools import partial
 from typing import ClassVar
@@ -26,7 +26,7 @@ class NameAxisFrames(VersionPass):
     both: bool = False
 
     def change(self, document: Document, keeper: Keeper) -> Document:
-        """The document with axes in the words of the version."""
+        """The document with axes in the syntax of the version."""
         change = partial(_joint, always=self.source_before_1_5, named=self.number >= _BY_NAME, both=self.both)
 
         def in_world(world: World) -> World:

@@ -1,4 +1,4 @@
-"""Since 1.7 a pose names its frame `relative_to`."""
+"""Frames of poses: `relative_to` since SDF 1.7, `frame` before."""
 
 from typing import ClassVar, TypeVar
 
@@ -34,7 +34,7 @@ class NamePoseFrames(VersionPass):
     name: ClassVar[str] = "name-pose-frames"
 
     def change(self, document: Document, keeper: Keeper) -> Document:
-        """The document with poses in the words of 1.7."""
+        """The document with poses in the syntax of 1.7."""
         models = tuple(map(_renamed_model, document.models))
         rest = map_children(document.model_copy(update={"models": ()}), _all_renamed)
         return rest.model_copy(update={"models": models})

@@ -1,4 +1,4 @@
-"""What may go without a name in one version must have one in another."""
+"""Names for elements that must have one in another version of SDF."""
 
 from pathlib import PurePosixPath
 from typing import ClassVar, TypeVar

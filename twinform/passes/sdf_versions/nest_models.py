@@ -1,4 +1,4 @@
-"""Since 1.8 a name like `arm::hand` is that of a hand in a nested model."""
+"""Nested models from names such as `arm::hand`, since SDF 1.8."""
 
 from dataclasses import dataclass, field
 from functools import partial

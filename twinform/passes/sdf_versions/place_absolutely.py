@@ -1,4 +1,4 @@
-"""Before 1.7 frames had no names: every pose is in the one frame that goes without saying."""
+"""Poses in the default frame, as before SDF 1.7, where frames have no names."""
 
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
@@ -59,7 +59,7 @@ class PlaceAbsolutely(VersionPass):
     Changes: 1. links and nested models are posed in the model, models of a world in the world; 2. joints in their child
     link, but for fixed ones whose child is in an include, which lose their pose; 3. visuals, collisions, inertials,
     sensors and lights in their link, and so on; 4. frames go; 5. a model that is placed by one of its frames is placed
-    by its own, which is all that happens on the way to 1.7.
+    by its own, which is all that happens in the conversion to 1.7.
     Never touches: poses that name no frame.
     Diagnostics: `older-version` for each frame, `include-not-expanded` where only an include knows a frame; in the
     ledger `other-words` for each pose.

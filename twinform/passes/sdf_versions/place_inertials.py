@@ -1,4 +1,4 @@
-"""Since 1.8 an inertial is posed in its link and nowhere else."""
+"""Poses of inertials in the link frame, as since SDF 1.8."""
 
 from typing import ClassVar
 

@@ -1,4 +1,4 @@
-"""Parts that traveled in carriers come back in a version that has them."""
+"""Unpacking carriers into a version of SDF that has their parts."""
 
 from functools import partial
 from typing import ClassVar, TypeVar
@@ -35,8 +35,8 @@ class PutBack(VersionPass):
 
     Changes: every carrier whose part the version has; the last one that was made comes first. That a file of an older
     version (`source`) still means what the carriers were made from is proved by repetition: the restored model is said
-    in its words once more, and has to say what the file says. Where it does not, because the file was edited, the model
-    or world stays as it is, and its carriers with it.
+    in its syntax once more, and has to say what the file says. Where it does not, because the file was edited, the
+    model or world stays as it is, and its carriers with it.
     Diagnostics: `stale-carrier`; `unknown-leader` where what a joint mimics is gone.
     """
 
@@ -82,7 +82,7 @@ class PutBack(VersionPass):
         return True
 
     def _again(self, node: Node, field: str) -> Document:
-        """What a node says in the words of the file's version."""
+        """What a node says in the syntax of the file's version."""
         sink = DiagnosticSink()
         document = Document.model_validate({"format": "sdf", "version": self.version}).model_copy(
             update={field: (node,)}

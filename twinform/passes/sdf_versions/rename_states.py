@@ -1,4 +1,4 @@
-"""Since 1.12 the states in a world have names of their own."""
+"""Elements of world states, renamed in SDF 1.12."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -29,7 +29,7 @@ class RenameStates(VersionPass):
     back: bool = False
 
     def change(self, document: Document, keeper: Keeper) -> Document:
-        """The document with states in the words of the version."""
+        """The document with states in the syntax of the version."""
         renaming = _Renaming(self.number, self.back)
 
         def of_state(element: Element) -> Element:

@@ -1,4 +1,4 @@
-"""The last step between versions: the document declares the new one."""
+"""Setting the version of the document, after all other passes between versions."""
 
 from typing import ClassVar
 

@@ -1,4 +1,4 @@
-"""What the table of SDF says about when parts came and went, by their names and by their fields in the IR."""
+"""Version ranges of SDF elements and attributes, by name and by IR field."""
 
 from collections.abc import Container
 from dataclasses import dataclass, field

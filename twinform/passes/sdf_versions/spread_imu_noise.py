@@ -1,4 +1,4 @@
-"""Since 1.6 an IMU has its noise on each axis."""
+"""IMU noise, which is on each axis since SDF 1.6."""
 
 from functools import partial
 from typing import ClassVar

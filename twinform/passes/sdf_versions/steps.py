@@ -1,4 +1,4 @@
-"""Which passes lie between two versions of SDF."""
+"""Selection of the passes between two versions of SDF."""
 
 from collections.abc import Callable, Iterator
 
@@ -33,7 +33,7 @@ def forward(old: Version, new: Version, *, names: bool = True, mixed: bool = Fal
     """The passes from an older version to a newer one, each where its version is crossed.
 
     `names` says whether names become what newer versions want: unlike each other, and without scopes in them; `mixed`
-    whether the file has newer words already.
+    whether the file has newer syntax already.
     """
     crosses: Crosses = lambda minor: old < (1, minor) <= new  # noqa: E731 - a word for the lines below
     yield from _to_named_frames(crosses, print_version(new), old, names=names, mixed=mixed)

@@ -1,4 +1,4 @@
-"""Before 1.7 an axis is in the joint's frame or the model's, and before 1.5 always in the model's."""
+"""Joint axes in the joint frame or the model frame, as before SDF 1.7."""
 
 from functools import partial
 from typing import ClassVar
@@ -27,7 +27,7 @@ class TurnAxes(VersionPass):
     name: ClassVar[str] = "turn-axes"
 
     def change(self, document: Document, keeper: Keeper) -> Document:
-        """The document with axes in the words of the version."""
+        """The document with axes in the syntax of the version."""
         return rewrite(document, Model, partial(_model, keeper, self.number >= _WORDS))
 
 
@@ -77,7 +77,7 @@ class _Turner:
         turned = joint.model_copy(update={field: plain})
         message = f"the axis of joint {joint.name!r} is expressed in {axis.expressed_in or 'its own frame'}"
         written = axis.xyz is not None or axis.expressed_in is not None
-        # back in newer words, an axis that was written without a frame is one in the model
+        # back in newer syntax, an axis that was written without a frame is one in the model
         gone = [f"{field}.expressed_in"] if to_model and axis.expressed_in is None else []
         gone += [f"{field}.xyz"] if axis.xyz is None and xyz is not None else []
         terms = Terms(since=_NAMES, without=tuple(gone))

@@ -1,4 +1,4 @@
-"""Before 1.11 no inertia was left to the reader."""
+"""Computing automatic inertias, which SDF has since 1.11."""
 
 from functools import partial
 from typing import ClassVar

@@ -1,4 +1,4 @@
-"""Before 1.9 a pose is six numbers, the angles in radians."""
+"""Poses as six numbers with angles in radians, as before SDF 1.9."""
 
 from functools import partial
 from typing import ClassVar, TypeVar

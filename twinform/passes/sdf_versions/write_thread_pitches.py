@@ -1,4 +1,4 @@
-"""Since 1.10 a screw says its pitch in meters per turn."""
+"""Thread pitch of screw joints, in meters per turn since SDF 1.10."""
 
 import math
 from functools import partial
@@ -19,7 +19,7 @@ _DEFAULT = 1.0
 class WriteThreadPitches(VersionPass):
     """Write the pitch of a screw joint in words that the version understands.
 
-    Changes: 1. on the way to 1.10 a pitch that is not written, 1 rad/m, is written, because another one is meant
+    Changes: 1. in the conversion to 1.10 a pitch that is not written, 1 rad/m, is written, because another one is meant
     without it from there on; 2. with `back`, a `screw_thread_pitch` of s m per turn becomes a `thread_pitch` of -2 pi/s
     rad/m, as does the one that goes without saying.
     Never touches: a `thread_pitch` that is written, which all versions understand.
@@ -29,7 +29,7 @@ class WriteThreadPitches(VersionPass):
     back: bool = False
 
     def change(self, document: Document, keeper: Keeper) -> Document:
-        """The document with screws in the words of the version."""
+        """The document with screws in the syntax of the version."""
         return rewrite(document, Joint, partial(_back, keeper) if self.back else _forth)
 
 

@@ -1,1 +1,1 @@
-"""Passes that change how a model is built: names, joints, roots, models in models."""
+"""Passes on the structure of models: names, joints, roots, nested models."""

@@ -1,4 +1,4 @@
-"""Masses of links put together."""
+"""Combined mass and inertia of several links."""
 
 import math
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""What still names a part of a model that has been taken out."""
+"""Dangling references to parts that were removed from a model."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -17,7 +17,7 @@ class Gone:
 
 
 def report_dangling(before: Document, after: Document, gone: Gone, sink: DiagnosticSink) -> None:
-    """Say which plugins name what is gone, and what is wrong now that was not before."""
+    """Report which plugins name what is gone, and what is wrong now that was not before."""
     names = {name for each in gone.names.values() for name in each if name} - set(_names(after))
     for element, where in _parameters(after):
         for word in (element.text, *(value for _, value in element.attributes)):

@@ -1,4 +1,4 @@
-"""Take visuals, collisions, sensors, plugins and lights out of a model."""
+"""Drop visuals, collisions, sensors, plugins and lights from a model."""
 
 from typing import ClassVar, Self, TypeVar
 

@@ -1,4 +1,4 @@
-"""Make one model of a model with models in it."""
+"""Flatten nested models into one model."""
 
 from collections.abc import Iterator
 from typing import ClassVar

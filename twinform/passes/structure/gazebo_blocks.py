@@ -1,4 +1,4 @@
-"""The `<gazebo>` elements of URDF by what they refer to, and what in them is about what."""
+"""`<gazebo>` elements of URDF by reference, and the links and joints that their content is about."""
 
 from collections.abc import Iterable, Mapping
 

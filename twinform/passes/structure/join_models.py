@@ -1,4 +1,4 @@
-"""Two models become one, held together by a fixed joint."""
+"""Joining two models into one by a fixed joint."""
 
 from collections.abc import Iterable
 from typing import NamedTuple

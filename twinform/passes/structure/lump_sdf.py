@@ -1,4 +1,4 @@
-"""Links of SDF on fixed joints become frames; what was in them moves to the link that they are fixed to."""
+"""Lumping of fixed joints in SDF: links become frames, and their contents move to the link that they are fixed to."""
 
 from collections.abc import Iterable
 from typing import TypeVar

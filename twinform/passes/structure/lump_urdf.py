@@ -1,4 +1,4 @@
-"""Links of URDF on fixed joints give their mass and shapes to the link that they are fixed to, and stay as frames."""
+"""Lumping of fixed joints in URDF: mass and shapes move to the parent link, and the links stay as frames."""
 
 from typing import TypeVar
 

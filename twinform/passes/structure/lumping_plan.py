@@ -1,4 +1,4 @@
-"""Which links go into the one that they are fixed to, and which have to stay."""
+"""Planning of fixed-joint lumping: which links are merged into which, and which have to stay."""
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping

@@ -1,4 +1,4 @@
-"""Links and joints that plugins, transmissions and the like count on, and that must not turn into frames."""
+"""Links and joints that plugins and transmissions refer to, and that must not become frames."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The shape of the passes on the structure: every model of a document, or the one that is named."""
+"""Base class of the passes on structure: every model of a document, or the one that is named."""
 
 from abc import abstractmethod
 from collections.abc import Callable
@@ -73,7 +73,7 @@ def _has_model(document: Document, name: str | None) -> bool:
 
 
 def in_new_words(document: Document, sink: DiagnosticSink, change: Callable[[Document], Document]) -> Document:
-    """A document after a change that is made in the words of SDF 1.8; the one that came in where that changes nothing.
+    """A document after a change that is made in the syntax of SDF 1.8; the one that came in where that changes nothing.
 
     URDF, and SDF that is newer, is changed as it is. What raising the version has to say is said only after a change.
     """
@@ -95,7 +95,7 @@ def in_new_words(document: Document, sink: DiagnosticSink, change: Callable[[Doc
 
 
 def _modern(document: Document, sink: DiagnosticSink) -> Document:
-    """A document of SDF before 1.8 in the words of 1.8; any other as it is."""
+    """A document of SDF before 1.8 in the syntax of 1.8; any other as it is."""
     known, version = table("sdf").versions, document.version
     if document.format is not Format.SDF or version not in known:
         return document

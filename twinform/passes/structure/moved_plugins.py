@@ -1,4 +1,4 @@
-"""Plugins of Gazebo Classic that measure at a body, when this becomes a part of another one."""
+"""Gazebo Classic plugins that measure at a link, when it is lumped into another."""
 
 from collections.abc import Mapping
 

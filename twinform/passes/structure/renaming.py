@@ -1,4 +1,4 @@
-"""Every reference to a part follows when the part gets another name."""
+"""Renaming parts of a model, with every reference to them."""
 
 import re
 from collections.abc import Callable

@@ -15,7 +15,7 @@ from twinform.passes.structure.reversal import REVERSIBLE, block_measures_in_sen
 
 
 class Reroot(ModelEdit):
-    """Make another link the root; the joints on the way to the old root are reversed exactly.
+    """Make another link the root; the joints on the path to the old root are reversed exactly.
 
     Changes: 1. parent and child of the joints between the two roots; 2. their axes, which point the other way, so that
     positions, limits, damping, springs, mimics and calibrations keep their meaning; 3. in URDF their origins; where a

@@ -1,4 +1,4 @@
-"""Another root for a model of SDF: parents and children change their roles, and nothing moves."""
+"""Rerooting of SDF models: parents and children of joints are exchanged, and nothing moves."""
 
 from twinform.ir import Format, Frame, Joint, Model, Pose
 from twinform.ir.defaults import direction

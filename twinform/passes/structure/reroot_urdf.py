@@ -1,4 +1,4 @@
-"""Another root for a URDF robot. No link moves in any other, and none loses its name."""
+"""Rerooting of URDF robots: no link moves, and none loses its name."""
 
 import math
 from typing import NamedTuple

@@ -1,4 +1,4 @@
-"""Joints with parent and child exchanged, so that the same positions mean the same motion.
+"""Reversing joints: parent and child exchanged, the same positions for the same motion.
 
 A joint moves its child by T(q) = X A(q) in the parent, where X is the joint's frame there and A the motion along its
 axis. Seen from the child, the parent is at A(q)^-1 X^-1, and for one axis, and for a screw, A(q)^-1 is the motion along

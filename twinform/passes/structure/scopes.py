@@ -1,4 +1,4 @@
-"""New names for the parts of a model, by the scopes in which SDF looks names up."""
+"""Name scopes of models, for renaming by SDF lookup rules."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field

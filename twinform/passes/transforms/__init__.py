@@ -1,1 +1,1 @@
-"""Rewrites that several passes share: notation of poses, frames, nested models, URIs."""
+"""Rewrites that several passes share: poses, frames, nested models, URIs."""

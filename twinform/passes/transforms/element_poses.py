@@ -1,4 +1,4 @@
-"""Poses in parts that have no typed form: projectors, particle emitters, cameras of a sensor."""
+"""Poses in untyped elements: projectors, particle emitters, cameras of a sensor."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -40,7 +40,7 @@ class ElementPoses:
     keep: Keep
     kind: Kind = "link"
     frame: Callable[[str], tuple[str, Kind]] = _as_named
-    """The frame that a mark names, where marks say in which frame a pose is to be written."""
+    """The frame that an annotation names, where annotations say in which frame a pose is to be written."""
     stays: frozenset[str] = frozenset()
     """Frames that poses may go on naming."""
 
@@ -100,7 +100,7 @@ class ElementPoses:
         *,
         moves: bool,
     ) -> Element:
-        """An element whose pose is written in the frame and notation that a mark in it says; the mark goes."""
+        """An element with its pose in the frame and notation of an annotation in it, which is removed."""
         read = Pose() if pose is None else read_pose(pose)
         placed = self._resolve(read) if moves or read.relative_to else holder.compose(Transform.from_pose(read))
         name = mark.get("relative_to")

@@ -1,4 +1,4 @@
-"""Models in models brought up into the outermost one."""
+"""Flattening of nested models into the outermost one."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The tags of `<gazebo>` elements that mean something else than they say, and how their values are read.
+"""Special `<gazebo>` tags: their fields in SDF, and how libsdformat reads their values.
 
 Everything else in such an element is SDF as it stands. The meanings are those of libsdformat's URDF reader.
 """

@@ -1,4 +1,4 @@
-"""Joints between links, where a joint of newer SDF is between frames."""
+"""Joints between frames, converted to joints between links."""
 
 from collections.abc import Container
 
@@ -9,7 +9,7 @@ from twinform.ir.frames import FrameGraph
 from twinform.passes.transforms.nodes import text_piece
 
 ENDS = "ends"
-"""The mark on a joint whose ends were frames: `<tf:ends parent="mount" child="flange"/>`."""
+"""The annotation on a joint whose ends were frames: `<tf:ends parent="mount" child="flange"/>`."""
 
 
 def resolve_ends(joint: Joint, links: Container[str], graph: FrameGraph) -> tuple[Joint, list[Opaque]]:

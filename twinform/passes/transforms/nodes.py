@@ -1,4 +1,4 @@
-"""Small things that several passes do with nodes."""
+"""Helpers for nodes: unique names, pieces for carriers, mapping of elements."""
 
 from collections.abc import Callable, Container, Iterable
 

@@ -1,4 +1,4 @@
-"""Poses in the notation that URDF and older versions of SDF have."""
+"""Notation of poses in URDF and in versions of SDF, and its annotations."""
 
 import math
 
@@ -22,11 +22,11 @@ def in_radians(transform: Transform, relative_to: str | None = None) -> Pose:
 
 
 POSE = "pose"
-"""The mark on what has a pose: the frame and the notation in which SDF wrote it."""
+"""The annotation on what has a pose: the frame and the notation in which SDF wrote it."""
 
 
 def pose_attributes(written: Pose | None) -> dict[str, str | None]:
-    """What a mark says of a pose as SDF wrote it; nothing where that is the usual frame and notation."""
+    """The annotation's attributes for a pose as SDF wrote it; none where that is the usual frame and notation."""
     if written is None:
         return {}
     degrees = None if written.degrees is None else str(written.degrees).lower()
@@ -35,7 +35,7 @@ def pose_attributes(written: Pose | None) -> dict[str, str | None]:
 
 
 def as_marked(transform: Transform, mark: Element | None, relative_to: str | None) -> Pose | None:
-    """The pose in the notation that a mark says; None for the identity, which goes without saying."""
+    """The pose in the notation of its annotation; None for the identity, which goes without saying."""
     if mark is None or not (mark.get("degrees") or mark.get("rotation_format")):
         pose = transform.to_pose(relative_to)
         return None if pose == Pose() else pose
@@ -51,25 +51,25 @@ def as_marked(transform: Transform, mark: Element | None, relative_to: str | Non
 
 
 BODY = "body"
-"""The mark on a link of URDF called `world` that is a link in SDF too, and not its world."""
+"""The annotation on a link of URDF called `world` that is a link in SDF too, and not its world."""
 FRAME = "frame"
-"""The mark on a link that is a frame in SDF, with what that is attached to where it is not the parent of its joint."""
+"""The annotation on a link that is a frame in SDF; what that is attached to, if not the parent of its joint."""
 NESTED = "nested"
-"""The mark on a link that is the frame of a nested model in SDF, with what else that model says."""
+"""The annotation on a link that is the frame of a nested model in SDF, with what else that model says."""
 LINK = "link"
-"""The mark on a frame of SDF that is a link in URDF; the frame that it is attached to is its joint."""
+"""The annotation on a frame of SDF that is a link in URDF; the frame that it is attached to is its joint."""
 OFFSET = "offset"
-"""The mark on a link or model whose frame in SDF is another one than in URDF: the one of SDF in that of URDF."""
+"""The annotation on a link or model whose frame in SDF is another one than in URDF: the one of SDF in that of URDF."""
 
 
 def offset_attributes(offset: Transform) -> dict[str, str | None]:
-    """What the mark says: meters and radians."""
+    """The offset as attributes: meters and radians."""
     pose = in_radians(offset)
     return {name: format_value(value) for name in ("xyz", "rpy") if (value := getattr(pose, name)) is not None}
 
 
 def read_offset(mark: Element) -> Transform:
-    """What a mark says, which may have been edited.
+    """The offset of an annotation, which may have been edited.
 
     Raises:
         ValueError: it is not three numbers.

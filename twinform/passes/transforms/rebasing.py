@@ -1,4 +1,4 @@
-"""Expressing the poses in a link or a joint in another frame; nothing that they pose moves."""
+"""Changing the frame in which the poses of a link or joint are expressed, without moving anything."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The one color that a material has in URDF."""
+"""Colors of URDF materials: alpha, and the range that urdfdom accepts."""
 
 from twinform.ir import Color
 

@@ -1,13 +1,13 @@
-"""`package://`, where ROS looks for files, and `model://`, where Gazebo does.
+"""URI schemes of meshes and textures: `package://` of ROS and `model://` of Gazebo.
 
-A mark says which scheme a URI had where the reverse conversion would write another:
+An annotation records which scheme a URI had where the reverse conversion would write another:
 
     <tf:mesh scheme="package"/>   <tf:texture scheme="package"/>
 """
 
 ROS, GAZEBO = "package", "model"
 MESH_SCHEME, TEXTURE_SCHEME = "mesh", "texture"
-"""The marks on a visual or collision."""
+"""The annotations on a visual or collision."""
 
 
 def package_uri(uri: str) -> tuple[str, bool]:

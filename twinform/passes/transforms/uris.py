@@ -1,4 +1,4 @@
-"""The URIs and paths of files that a document names, wherever they stand."""
+"""URIs and file paths of a document, wherever they are written."""
 
 from collections.abc import Callable
 from functools import partial

@@ -1,4 +1,4 @@
-"""What can be known of passes without their help: how long they take and what they change.
+"""Instrumentation hooks: timing, statistics and changes of passes.
 
 `reproducer.py`, which is about their faults, is imported where there is one.
 """

@@ -1,4 +1,4 @@
-"""Documents after passes, as JSON."""
+"""IR dumps after passes, as JSON."""
 
 from collections.abc import Callable, Collection
 

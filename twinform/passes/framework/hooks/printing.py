@@ -1,4 +1,4 @@
-"""What a pass changed, in words: one line for each value, with its path in the IR."""
+"""Printing what a pass changed: one line for each value, with its path in the IR."""
 
 import json
 from collections.abc import Callable, Iterator

@@ -1,4 +1,4 @@
-"""How long each pass takes, how much it changes and how much it finds."""
+"""Pass statistics: run time, number of changes, number of findings."""
 
 from dataclasses import dataclass
 from time import perf_counter

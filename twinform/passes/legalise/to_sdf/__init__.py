@@ -1,4 +1,4 @@
-"""From the terms of URDF to those of SDF: the passes, in order."""
+"""Legalisation from URDF to SDF: the passes, in order."""
 
 from twinform.ir import Format
 from twinform.passes.framework.base import Pass
@@ -40,8 +40,8 @@ def to_sdf(
 ) -> tuple[Pass, ...]:
     """The passes that make SDF of a version out of a URDF document.
 
-    `mixed` lets it have words of newer versions, and `mixed_source` says that the URDF has some. Without `scopes`, `::`
-    in a name that a file before 1.8 gave is no model since 1.8 either, as where such a file is compared.
+    `mixed` lets it have syntax of newer versions, and `mixed_source` says that the URDF has some. Without `scopes`,
+    `::` in a name that a file before 1.8 gave is no model since 1.8 either, as where such a file is compared.
     """
     before_named_frames = parse_version(version) < _ONE_SCOPE
     return (

@@ -1,4 +1,4 @@
-"""Mass, and where the tree begins."""
+"""Masses and the root link of a URDF, as SDF needs them."""
 
 from collections import defaultdict
 from typing import ClassVar
@@ -19,7 +19,7 @@ _MASS = ("mass", f"{TOKEN_MASS:g} kg")
 _INERTIA = ("inertia", f"{TOKEN_MOMENT:g} kg m^2")
 
 UNSAID = "unsaid"
-"""The mark on an inertial of SDF that lists what URDF leaves out: `<tf:unsaid>inertia</tf:unsaid>`, or all `inertial`.
+"""The annotation on an SDF inertial that lists what URDF leaves out: `<tf:unsaid>inertia</tf:unsaid>`, or `inertial`.
 
 Where URDF says zero, and a token stands in SDF, it is `zero-mass` and `zero-inertia`.
 """
@@ -56,7 +56,7 @@ class UrdfBodies(ModelPass):
         lacks = [*(_MASS if _has_no_mass(link) else ()), *(_INERTIA if _has_no_inertia(link) else ())]
         if not lacks:
             return link
-        # what the source says of it is nothing, or is said by a mark
+        # the source has nothing of it, or an annotation has it
         message = f"link {link.name!r} has no {' or '.join(lacks[::2])}, and gets {' and '.join(lacks[1::2])}"
         where = link.inertial.location if link.inertial else link.location.at("inertial")
         sink.account(Fate.APPROXIMATED, to_sdf.TOKEN_MASS, message, where, weight=0)

@@ -1,4 +1,4 @@
-"""Parts that only URDF knows go into carriers."""
+"""Moving parts that only URDF has into carriers."""
 
 from collections.abc import Container, Iterator
 from functools import cache

@@ -1,4 +1,4 @@
-"""Chains of URDF joints that were one joint of SDF: whether they still are, and what joint they are."""
+"""Reverse conversion of chains of URDF joints: validating a chain, and the SDF joint that it represents."""
 
 import math
 from dataclasses import dataclass

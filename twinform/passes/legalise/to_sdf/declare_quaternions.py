@@ -1,4 +1,4 @@
-"""A pose of SDF says that its rotation is a quaternion; URDF has another attribute for it."""
+"""Declaring the rotation format of poses that are quaternions in URDF."""
 
 from typing import ClassVar
 

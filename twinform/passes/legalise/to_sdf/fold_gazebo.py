@@ -1,4 +1,4 @@
-"""`<gazebo>` elements become what they mean in SDF."""
+"""Folding `<gazebo>` elements into the links, joints and model that they refer to."""
 
 from collections import defaultdict
 from collections.abc import Callable, Iterable
@@ -62,7 +62,7 @@ class _Fold:
         self.robot = model
         self.sink = sink
         self.carriers = carriers
-        self.annotations = carriers and not came_from(model, Format.SDF)  # how URDF says it does not matter at home
+        self.annotations = carriers and not came_from(model, Format.SDF)  # SDF does not need them back
         self.links = {link.name for link in model.links}
         self.joints = {joint.name for joint in model.joints}
         self.kept: list[Opaque] = []

@@ -1,4 +1,4 @@
-"""What URDF says by `<mimic>`, a gearbox of SDF says already."""
+"""Removing `<mimic>` from joints that a gearbox of SDF couples already."""
 
 import math
 from typing import ClassVar
@@ -17,9 +17,9 @@ _CLOSE = 1e-9
 
 
 class FoldGearboxes(ModelPass):
-    """Take away the mimics that were made for gearboxes on the way to URDF.
+    """Take away the mimics that were made for gearboxes in the conversion to URDF.
 
-    Changes: a joint that is marked as made to mimic another does not, where a gearbox couples the two just so.
+    Changes: a joint that is annotated as made to mimic another does not, where a gearbox couples the two just so.
     Never touches: a mimic that was edited, or whose gearbox is gone; it stands for itself then.
     Diagnostics: `stale-carrier`.
     """

@@ -1,4 +1,4 @@
-"""Chains that came from one joint of SDF become that joint again."""
+"""Folding chains of URDF joints back into one multi-axis SDF joint."""
 
 from collections.abc import Iterator
 from typing import ClassVar, TypeVar
@@ -20,7 +20,7 @@ class FoldJoints(ModelPass):
     Changes: 1. the last joint of a chain has its type, parent and place again, and the axes as the chain says them now;
     2. the other joints and the links between go; 3. what mimics the first joint of two mimics `axis` of the one, what
     mimics the last `axis2`.
-    Never touches: chains that were edited so that they are not such a joint any more; their marks go.
+    Never touches: chains that were edited so that they are not such a joint any more; their annotations go.
     Diagnostics: `stale-carrier`, also for parts whose own names get lost.
     """
 

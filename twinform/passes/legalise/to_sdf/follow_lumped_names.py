@@ -1,4 +1,4 @@
-"""Lumped collisions in contact sensors and plugins, by the names that they have where nothing is lumped."""
+"""Renaming lumped collisions in contact sensors and plugins to the unlumped ones."""
 
 from typing import ClassVar
 

@@ -1,4 +1,4 @@
-"""Links without mass that are fixed to another become frames."""
+"""Converting massless links on fixed joints to frames."""
 
 from typing import ClassVar, TypeVar
 
@@ -29,7 +29,7 @@ class FrameLinks(ModelPass):
     """Turn a link without mass on a fixed joint into SDF's `<frame>`, and its joint into another one.
 
     Changes: 1. the joint becomes a frame attached to its parent, with the joint's origin; 2. the link becomes a frame
-    attached to that one, and is marked as a link of URDF; 3. visuals, collisions, sensors and lights move to the
+    attached to that one, and is annotated as a link of URDF; 3. visuals, collisions, sensors and lights move to the
     nearest link above that stays a link, and are posed in the link's frame as before. Joints below keep the link's name
     as their parent.
     Never touches: links with mass; a link fixed to the world, which has no link above; one whose joint has a sensor,
@@ -43,7 +43,7 @@ class FrameLinks(ModelPass):
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model without massless links on fixed joints."""
         links = {link.name: link for link in model.links}
-        stays = came_from(model, Format.SDF)  # where frames are marked
+        stays = came_from(model, Format.SDF)  # where frames are annotated
         moved = {
             joint.child: joint
             for joint in model.joints
@@ -190,7 +190,7 @@ def _as_before(joint: Joint, link: Link, mark: Element, pose: Pose | None) -> Fr
 
 
 def _offset(link: Link) -> tuple[Link, Pose | None]:
-    """The link without the mark on its frame in SDF, and where that is in its joint."""
+    """The link without the annotation on its frame in SDF, and where that is in its joint."""
     found = find_annotation(link, OFFSET)
     try:
         return without_annotation(link, OFFSET), read_offset(found).to_pose() if found else None
@@ -220,7 +220,7 @@ def _carriers(node: Link | Joint) -> tuple[Opaque, ...]:
 
 
 def _is_native(part: Opaque) -> bool:
-    """Whether it is SDF's own: carriers stay with the frame, and marks say something of the link that is gone."""
+    """Whether it is SDF's own: carriers stay with the frame, and annotations are about the link that is gone."""
     return not is_ours(part) and not (part.element is not None and part.element.name.startswith("{"))
 
 

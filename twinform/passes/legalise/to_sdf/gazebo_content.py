@@ -44,7 +44,7 @@ def read_content(
 
 
 def _report(found: DiagnosticSink, step: str, reference: str, sink: DiagnosticSink) -> None:
-    """Say what was found in terms of the file: what was read as the element of `step` stands in a `<gazebo>`."""
+    """Report what was found in terms of the file: what was read as the element of `step` stands in a `<gazebo>`."""
     own = f"gazebo[@reference='{reference}']" if reference else "gazebo"
     for each in found.diagnostics:
         path = each.location.path.replace(step, own, 1)

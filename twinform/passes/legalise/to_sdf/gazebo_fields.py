@@ -1,4 +1,4 @@
-"""The values of `<gazebo>` tags go where they mean something."""
+"""Assigning the values of `<gazebo>` tags to the SDF fields that they set."""
 
 from collections.abc import Iterable
 from typing import Any

@@ -1,4 +1,4 @@
-"""Two descriptions of one thing put together, field by field."""
+"""Merging two descriptions of one node, field by field."""
 
 from collections.abc import Mapping
 from typing import Any, TypeVar

@@ -1,4 +1,4 @@
-"""The content of `<gazebo>` elements, sorted by what is to be done with it."""
+"""Sorting the content of `<gazebo>` elements by how it is converted."""
 
 from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple

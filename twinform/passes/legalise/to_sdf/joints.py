@@ -1,4 +1,4 @@
-"""Joints of URDF as SDF says them."""
+"""Conversion of URDF joint types, axes and limits to SDF."""
 
 from typing import ClassVar, TypeVar
 
@@ -16,7 +16,7 @@ from twinform.passes.legalise.urdf_pieces import OF_AN_AXIS
 from twinform.schemas import format_value
 
 FLOATING = "floating"
-"""The mark on a link of SDF that a floating joint of URDF leaves free, with what else the joint says."""
+"""The annotation on a link of SDF that a floating joint of URDF leaves free, with what else the joint says."""
 _BESIDE_AXIS = OF_AN_AXIS - {"axis"}
 Made = TypeVar("Made", Link, Joint)
 
@@ -30,7 +30,7 @@ class UrdfJoints(ModelPass):
     limits written, 0 where URDF leaves them out; 5. a `floating` joint goes, and so does one that was made to fix a
     static model to the world; its child link is posed where it was; 6. limits of acceleration and jerk, which SDF
     lacks, are carried; 7. a `planar` joint becomes two sliding joints and a turning one, with two links without mass
-    between them, all of them marked so that they become one again.
+    between them, all of them annotated so that they become one again.
     Never touches: names, origins, parents, children.
     Diagnostics: `joint-chain`; ledger entries under `urdf-only` and `no-joint`.
     """

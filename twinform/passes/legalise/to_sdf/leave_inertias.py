@@ -1,4 +1,4 @@
-"""Inertias that were computed on the way to URDF are left to the reader again."""
+"""Removing inertias that the conversion to URDF computed, so that the SDF reader computes them again."""
 
 import math
 from collections.abc import Iterable

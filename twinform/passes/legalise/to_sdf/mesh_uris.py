@@ -1,4 +1,4 @@
-"""Where meshes and textures are."""
+"""URIs of meshes and textures for Gazebo: `package://` to `model://`."""
 
 from dataclasses import dataclass
 from typing import ClassVar, TypeVar
@@ -16,8 +16,8 @@ Shape = TypeVar("Shape", Visual, Collision)
 class MeshUris(ModelPass):
     """Write `package://` as `model://`, which Gazebo looks up in its own resource path.
 
-    Changes: 1. URIs of meshes; 2. URIs of textures. What was `model://` in URDF is marked, and what a mark says was
-    `package://` in SDF stays so.
+    Changes: 1. URIs of meshes; 2. URIs of textures. What was `model://` in URDF is annotated, and what was
+    `package://` in SDF, by its annotation, stays so.
     Never touches: files, relative paths and other schemes.
     Diagnostics: none.
     """
@@ -33,7 +33,7 @@ class MeshUris(ModelPass):
 
 @dataclass(frozen=True, slots=True)
 class _Links:
-    """One run over the links; `marks` says whether the scheme of a URI is to be marked."""
+    """One run over the links; `marks` says whether the scheme of a URI is to be annotated."""
 
     sink: DiagnosticSink
     annotations: bool

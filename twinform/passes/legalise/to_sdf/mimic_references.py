@@ -1,4 +1,4 @@
-"""The `reference` of a mimic, which URDF has no word for: it is part of the offset there."""
+"""The `reference` of a mimic, which URDF folds into the offset."""
 
 import math
 
@@ -9,7 +9,7 @@ from twinform.passes.legalise.to_urdf.map_joints import MIMIC
 
 
 def with_reference(joint: Joint) -> Joint | None:
-    """The joint whose mimic has the `reference` that a mark says; None where there is no mimic, or it says no number.
+    """The joint whose mimic has the annotated `reference`; None where there is no mimic, or the text is no number.
 
     multiplier (leader - reference) + offset is what URDF says as multiplier leader + offset.
     """

@@ -1,4 +1,4 @@
-"""A name for every visual and collision."""
+"""Naming unnamed visuals and collisions."""
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
@@ -15,7 +15,7 @@ from twinform.passes.legalise.names import NAME
 Shape = TypeVar("Shape", Visual, Collision)
 
 UNNAMED = "unnamed"
-"""The mark on a model of SDF that lists, line by line, the names of shapes that have none in URDF."""
+"""The annotation on a model of SDF that lists, line by line, the names of shapes that have none in URDF."""
 
 
 class NameShapes(ModelPass):

@@ -1,4 +1,4 @@
-"""A planar joint as a chain: along the plane, across it, and about its normal."""
+"""Planar joints as chains of two prismatic joints and one revolute joint."""
 
 import math
 from typing import NamedTuple

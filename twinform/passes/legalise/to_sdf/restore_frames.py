@@ -1,4 +1,4 @@
-"""Poses as the SDF file had them that a URDF was converted from."""
+"""Reverse conversion of poses: restoring how the SDF source wrote them."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -43,17 +43,17 @@ SCOPE = "::"
 class RestoreFrames(ModelPass):
     """Write poses as SDF wrote them, in a model that came from there: each in its frame and notation, nothing moves.
 
-    Changes: 1. a link has the frame that a mark gives it, and all that is in it, or was added to it since, is posed in
-    that frame; 2. links are posed in the model's frame, joints in their child's, frames in what they are attached to,
-    or each in the frame that a mark names; 3. an axis is expressed in the frame that a mark names; 4. the ends of a
-    joint are the frames that a mark names, if they still move with these links.
+    Changes: 1. a link has the frame that an annotation gives it, and all that is in it, or was added to it since, is
+    posed in that frame; 2. links are posed in the model's frame, joints in their child's, frames in what they are
+    attached to, or each in the frame that an annotation names; 3. an axis is expressed in the frame that an annotation
+    names; 4. the ends of a joint are the frames that an annotation names, if they still move with these links.
     Never touches: models that did not come from SDF.
-    Diagnostics: `stale-carrier` for marks whose frames are gone, or go round in a circle since an edit.
+    Diagnostics: `stale-carrier` for annotations whose frames are gone, or go round in a circle since an edit.
     """
 
     name: ClassVar[str] = "restore-frames"
     old_words: bool = False
-    """Whether the model's frame is called by the word before 1.7 where a mark says so."""
+    """Whether the model's frame is called by the word before 1.7 where an annotation has that."""
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model in the terms of its SDF file."""
@@ -152,7 +152,7 @@ class _Restoring:
         return self._base(name, "frame")
 
     def _written_in(self, node: Node, graph: FrameGraph, usual: str) -> str | None:
-        """The frame that a mark on a node names; None for the usual one."""
+        """The frame that an annotation on a node names; None for the usual one."""
         found = find_annotation(node, POSE)
         name = found.get("relative_to") if found else None
         if not name:
@@ -290,5 +290,5 @@ def _off_root(frame: Frame, root: str) -> Frame:
 
 
 def _without_frames(node: AnyNode) -> AnyNode:
-    """The node without what marks say of the frames in which it was written, on it and in it."""
+    """The node without annotations of the frames in which it was written, on it and in it."""
     return rewrite(node, Node, lambda each: without_annotation(each, POSE, ENDS, *_AXES), enter=holds_opaque)

@@ -1,4 +1,4 @@
-"""Joints as the SDF file had them that a URDF was converted from."""
+"""Reverse conversion of joints: restoring how the SDF source wrote them."""
 
 from typing import ClassVar
 
@@ -19,8 +19,8 @@ _NUMBERS = ("lower", "upper", "effort", "velocity")
 class RestoreJoints(ModelPass):
     """Write joints as SDF wrote them, in a model that came from there.
 
-    Changes: 1. limits of 1e16 and beyond, which stand for none, go; 2. a joint without limits that a mark calls
-    `continuous` is so; 3. the offset of a mimic is shared with the `reference` that a mark says.
+    Changes: 1. limits of 1e16 and beyond, which stand for none, go; 2. a joint without limits that an annotation calls
+    `continuous` is so; 3. the offset of a mimic is shared with the `reference` in an annotation.
     Never touches: models that did not come from SDF.
     Diagnostics: `stale-carrier`.
     """

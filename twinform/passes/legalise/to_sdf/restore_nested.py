@@ -1,4 +1,4 @@
-"""Nested models as the SDF file had them that a URDF was converted from."""
+"""Reverse conversion of nested models: restoring those of the SDF source."""
 
 from collections.abc import Iterable, Iterator
 from typing import ClassVar, TypeVar
@@ -48,7 +48,7 @@ class NameScopes(ModelPass):
 
 
 def _without_hollow(model: Model, sink: DiagnosticSink) -> Model:
-    """The model without marks of nested models that nothing is in."""
+    """The model without annotations of nested models that nothing is in."""
     named = [node.name for node in (*model.links, *model.frames)]  # a joint goes where its links are
     frames: list[Frame] = []
     for frame in model.frames:

@@ -1,4 +1,4 @@
-"""The step over: from here on the document is SDF."""
+"""Change of format from URDF to SDF: after this pass the document is SDF."""
 
 from typing import ClassVar
 
@@ -21,7 +21,7 @@ from twinform.schemas import table
 class RetargetSdf(Pass):
     """Declare the document to be SDF of a version, with the prefix of the carriers where there are any.
 
-    Changes: format, version and namespaces of the document; the model is marked as one that came from URDF.
+    Changes: format, version and namespaces of the document; the model is annotated as one that came from URDF.
     Never touches: anything in it.
     Diagnostics: none.
     """
@@ -46,7 +46,7 @@ class RetargetSdf(Pass):
         )
 
     def _from_urdf(self, model: Model, document: Document) -> Model:
-        """The model, marked as one that came from URDF, unless it is one of SDF that is back."""
+        """The model, annotated as one that came from URDF, unless it is one of SDF that is back."""
         if came_from(model, Format.SDF):
             links = tuple(without_annotation(link, BODY) for link in model.links)
             return without_provenance(model.model_copy(update={"links": links}))

@@ -1,4 +1,4 @@
-"""Materials that are named become colors that are written."""
+"""Inlining the named materials of URDF into visuals."""
 
 from functools import lru_cache
 from typing import ClassVar
@@ -17,8 +17,8 @@ class SharedMaterials(ModelPass):
 
     Changes: 1. a color becomes `diffuse` and `ambient`; 2. a texture becomes the albedo map of a PBR material; 3. a
     visual that only names a material takes what is defined for the name, by the robot or else by the first visual that
-    says more. The name is a mark on the visual, and which materials the robot defines are marks on the model; only a
-    definition that no visual uses as it stands is carried whole.
+    says more. The name is an annotation on the visual, and which materials the robot defines are annotations on the
+    model; only a definition that no visual uses as it stands is carried whole.
     Never touches: what a `<gazebo>` element says about the look.
     Diagnostics: none; ledger entries under `material-name`.
     """
@@ -83,7 +83,7 @@ class SharedMaterials(ModelPass):
 
 
 def _name(material: Material, shared: dict[str | None, Material]) -> Opaque:
-    """The mark with the name; it says where the material is defined if that is not where the name makes one expect."""
+    """The annotation with the name, and where the material is defined if that is not the usual place."""
     own = material.color is not None or material.texture is not None
     definition = shared.get(material.name)
     usual = definition is None or not (definition.color or definition.texture)
@@ -97,7 +97,7 @@ def _name_mark(name: str, defined: str | None) -> Opaque:
 
 
 def _definition(material: Material, named: set[str | None]) -> Opaque:
-    """The mark of a material that the robot defines; with all that it says, where no visual has that by its name."""
+    """The annotation of a material that the robot defines; with all its content, where no visual has that."""
     plain = not material.opaque and (material.color or material.texture)
     if plain and material.name in named:
         return annotation(SHARED_MATERIAL, material.name)
@@ -106,7 +106,7 @@ def _definition(material: Material, named: set[str | None]) -> Opaque:
 
 
 def _sdf_material(material: Material, source: Material) -> Material:
-    """The look of `source`, where the material says nothing in SDF's own words."""
+    """The appearance of `source`, where the material has nothing in SDF's own syntax."""
     return material.model_copy(
         update={
             "name": None,

@@ -1,4 +1,4 @@
-"""One scope for all names."""
+"""Making names of links and joints unique, as they share one scope in SDF."""
 
 from collections.abc import Collection
 from typing import ClassVar, TypeVar

@@ -1,4 +1,4 @@
-"""What SDF says and URDF does not, put back where it stood."""
+"""Unpacking carriers of SDF parts into the nodes that they came from."""
 
 from collections.abc import Iterable
 from typing import ClassVar, Literal, TypeVar, cast
@@ -83,7 +83,7 @@ def _is_overruled(carrier: Opaque, node: Node) -> bool:
 
 
 def _has_look(material: Material | None) -> bool:
-    """Whether URDF says how something looks, beside which there may be more to say."""
+    """Whether URDF has the appearance, beside which there may be more to say."""
     said = (material.ambient, material.diffuse, material.albedo_map, material.script) if material else ()
     return any(each is not None for each in said)
 
@@ -125,7 +125,7 @@ def _with_scripts(visual: Visual, sink: DiagnosticSink) -> Visual:
 
 
 def _color(text: str | None) -> Color | None:
-    """The color that a mark says; empty for one that is not written, None where it is the usual one."""
+    """The color in an annotation; empty for one that is not written, None where it is the usual one."""
     if text is None:
         return None
     return tuple(float(part) for part in text.split())

@@ -1,4 +1,4 @@
-"""A root link called `world` is SDF's world."""
+"""Converting a root link called `world` to the world of SDF."""
 
 from typing import ClassVar
 

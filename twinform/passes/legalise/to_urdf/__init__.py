@@ -1,4 +1,4 @@
-"""From SDF's terms to URDF's, step by step."""
+"""Legalisation from SDF to URDF: the passes, in order."""
 
 from twinform.ir import Format
 from twinform.passes.framework.base import Pass
@@ -45,7 +45,7 @@ def to_urdf(
 ) -> tuple[Pass, ...]:
     """The passes that make URDF of the model of this name, or of the only one.
 
-    `mixed` lets it have shapes of newer versions, and `mixed_source` says that the SDF has words of other ones.
+    `mixed` lets it have shapes of newer versions, and `mixed_source` says that the SDF has syntax of other ones.
     """
     shapes: UrdfVersion = "1.2" if mixed else urdf_version
     return (

@@ -46,7 +46,7 @@ class Keeper:
         return carry(node, listed, "sdf", about) if self.carriers else node
 
     def account(self, rule: Rule, message: str, location: Location, weight: int) -> None:
-        """An entry in the ledger for what marks keep."""
+        """An entry in the ledger for what annotations keep."""
         self.sink.account(Fate.CARRIED if self.carriers else Fate.DROPPED, rule, message, location, weight)
 
     def mark(
@@ -58,7 +58,7 @@ class Keeper:
         attributes: Mapping[str, str | None] | None = None,
         always: bool = False,
     ) -> AnyNode:
-        """The node with a mark on how SDF wrote it; if it came from URDF, only with what is more (`always`)."""
+        """The node with an annotation on how SDF wrote it; if it came from URDF, only with what is more (`always`)."""
         return with_annotation(node, kind, text, attributes) if self.carriers and (always or not self.back) else node
 
 

@@ -1,4 +1,4 @@
-"""URDF describes one tree."""
+"""Building one kinematic tree: choosing a root, cutting loops, connecting several roots."""
 
 from typing import ClassVar
 

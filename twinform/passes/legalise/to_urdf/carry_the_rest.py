@@ -1,4 +1,4 @@
-"""The last step: what is left over is carried, and the document is URDF."""
+"""The last pass to URDF: moving all remaining SDF parts into carriers, and changing the format."""
 
 from typing import ClassVar, TypeVar
 
@@ -22,7 +22,7 @@ _IMPLIED: Words = {"relative_to": None}
 
 
 class CarryTheRest(Pass):
-    """Carry every part that URDF has no word for, and call the document URDF.
+    """Carry every part that URDF cannot express, and call the document URDF.
 
     Changes: 1. typed fields and opaque parts that the table of URDF has no row for go into carriers on the nearest
     element that URDF has; 2. `world` becomes a link where a joint hangs from it; 3. the document is URDF of the version

@@ -1,4 +1,4 @@
-"""Inertias that SDF leaves to its reader, URDF has to be told."""
+"""Computing automatic inertias of SDF, which URDF has to have written."""
 
 from functools import partial
 from typing import ClassVar

@@ -1,4 +1,4 @@
-"""Joints that have no place in the tree of URDF are joints of SDF in `<gazebo>` elements."""
+"""Moving joints outside the kinematic tree into `<gazebo>` elements as SDF joints."""
 
 from collections.abc import Mapping, Sequence
 from functools import partial

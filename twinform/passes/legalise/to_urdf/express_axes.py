@@ -1,4 +1,4 @@
-"""In URDF an axis is in the joint frame."""
+"""Expressing joint axes in the joint frame, as URDF requires."""
 
 from typing import ClassVar
 
@@ -15,7 +15,7 @@ _AXES = {
 }
 """The axes that mean something, by the type of the joint."""
 OLD_WORD = "use_parent_model_frame"
-"""What the mark on an axis says where the file called the model's frame so, and has newer words elsewhere."""
+"""What the annotation on an axis says where the file called the model's frame so, and has newer syntax elsewhere."""
 
 
 class ExpressAxes(ToUrdfPass):

@@ -1,4 +1,4 @@
-"""What URDF lacks and Gazebo reads from `<gazebo>` elements."""
+"""Writing `<gazebo>` elements for what URDF lacks and Gazebo reads."""
 
 from collections.abc import Iterable, Iterator
 from functools import cache

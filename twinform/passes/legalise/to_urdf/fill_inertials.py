@@ -1,4 +1,4 @@
-"""What SDF assumes about mass, URDF has to be told."""
+"""Writing the default mass and inertia of SDF, which URDF does not assume."""
 
 from typing import ClassVar
 

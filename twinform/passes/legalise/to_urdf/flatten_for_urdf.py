@@ -1,4 +1,4 @@
-"""URDF has no models inside models."""
+"""Flattening nested models, which URDF does not have."""
 
 from functools import partial
 from typing import ClassVar

@@ -1,4 +1,4 @@
-"""Links of SDF that a mark says a floating joint of URDF leaves free."""
+"""Reverse conversion of floating joints: restoring them between free links."""
 
 from collections.abc import Iterator, Mapping
 
@@ -12,7 +12,7 @@ from twinform.passes.legalise.to_urdf.base import Keeper
 
 
 def with_floating_joints(model: Model, keeper: Keeper) -> Model:
-    """The model with the floating joints that marks tell of; one that fits the file no more is a `stale-carrier`."""
+    """The model with the annotated floating joints; one that fits the file no more is a `stale-carrier`."""
     if not _has_marks(model):
         return model
     joints = list(model.joints)
@@ -30,7 +30,7 @@ def with_floating_joints(model: Model, keeper: Keeper) -> Model:
 
 
 def without_loose_floating(model: Model) -> Model:
-    """The model without the marks that fit the file no more."""
+    """The model without the annotations that fit the file no more."""
     if not _has_marks(model):
         return model
     loose = {link.name for link, _, fits in _marked(model) if not fits}
@@ -43,7 +43,7 @@ def _has_marks(model: Model) -> bool:
 
 
 def _marked(model: Model) -> Iterator[tuple[Link, Element, bool]]:
-    """Each marked link, its mark, and whether the joint can be: a new name, a free link, a parent that is not below."""
+    """Each annotated link, its annotation, and whether the joint can be: new name, free link, parent not below."""
     graph = FrameGraph(model)
     holders = {joint.child: joint.parent or WORLD for joint in model.joints if joint.child}
     names = {joint.name for joint in model.joints}

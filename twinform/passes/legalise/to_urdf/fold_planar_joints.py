@@ -1,4 +1,4 @@
-"""A chain that came from a planar joint of URDF becomes one again."""
+"""Folding chains of SDF joints back into one planar joint of URDF."""
 
 from collections.abc import Iterator
 from typing import ClassVar, TypeVar
@@ -22,7 +22,8 @@ class FoldPlanarJoints(ToUrdfPass):
 
     Changes: 1. the joint that was called so is planar, and has the parent and the place of the first one of its chain;
     2. the other two joints and the links between them go.
-    Never touches: chains that did not come from a planar joint. Those that were edited since stay, without their marks.
+    Never touches: chains that did not come from a planar joint. Those that were edited since stay, without their
+    annotations.
     Diagnostics: `stale-carrier`.
     """
 

@@ -1,4 +1,4 @@
-"""How joints of SDF move, one degree of freedom after the other, in the joint's own frame."""
+"""Degrees of freedom of SDF joints, in order, in the joint frame."""
 
 import math
 from typing import NamedTuple

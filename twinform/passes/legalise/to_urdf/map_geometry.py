@@ -1,4 +1,4 @@
-"""The shapes that URDF has, and the others."""
+"""Converting geometry to the shapes of URDF, and carrying the others."""
 
 from typing import ClassVar, Literal, TypeVar
 

@@ -1,4 +1,4 @@
-"""Joint types, limits and mimicry in terms of URDF."""
+"""Converting joint types, limits and mimics to URDF."""
 
 import math
 from collections.abc import Mapping
@@ -21,9 +21,9 @@ _WITHOUT_STRENGTH = ("effort", "velocity", "stiffness", "dissipation")
 """What goes from the limit of a continuous joint without strength: URDF would ask for the strength beside the rest."""
 _LIMITS = ("lower", "upper", "effort", "velocity")
 CONTINUOUS = "continuous"
-"""The mark on a continuous joint that is called so in SDF, where most say revolute without limits."""
+"""The annotation on a continuous joint that is called so in SDF, where most say revolute without limits."""
 MIMIC = "mimic"
-"""The mark on a mimic joint whose mimicry has a `reference` in SDF, the position of the leader that counts as zero."""
+"""The annotation on a mimic joint with a `reference` in SDF, the position of the leader that counts as zero."""
 _TYPES = frozenset({"fixed", "revolute", "continuous", "prismatic", "floating", "planar"})
 _FORCES = ("effort", "velocity")
 _NEEDS_STRENGTH = frozenset({"1.0", "1.1"})

@@ -1,4 +1,4 @@
-"""A URDF material is one color, one texture and a name."""
+"""Converting materials to URDF: one color, one texture and a name."""
 
 from typing import ClassVar
 

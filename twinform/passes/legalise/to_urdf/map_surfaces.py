@@ -1,4 +1,4 @@
-"""URDF has no surfaces; Gazebo's tags for a link have them for all its collisions at once."""
+"""Converting contact surfaces to the `<gazebo>` tags of a link, which apply to all its collisions."""
 
 from typing import ClassVar
 

@@ -1,4 +1,4 @@
-"""Tags of `<gazebo>` elements that a later one of the same field overrules, put back in front of that one."""
+"""Restoring `<gazebo>` tags that a later tag of the same field overrides."""
 
 from twinform.ir import Element, GazeboExtension, Model
 from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS, Tag

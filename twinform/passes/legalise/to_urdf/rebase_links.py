@@ -1,4 +1,4 @@
-"""In URDF the frame of a link is the frame of its joint."""
+"""Moving each link frame to the frame of its joint, as URDF requires."""
 
 from dataclasses import dataclass
 from typing import ClassVar, TypeVar
@@ -26,8 +26,8 @@ class RebaseLinks(ToUrdfPass):
     Changes: 1. a joint's pose is relative to its parent link, a link's to its joint, with no offset; 2. the poses in a
     link, of sensors and lights too, are relative to the moved frame, in radians where URDF writes them, but in a model
     that came from URDF those of sensors and lights go on naming links; 3. the root link is the model's frame: the
-    model's pose is the root's, or none where the root is `world`. Numbers stay as they are where nothing moves. Marks
-    say where the frames of links and model were, and in which frames poses were written.
+    model's pose is the root's, or none where the root is `world`. Numbers stay as they are where nothing moves.
+    Annotations record where the frames of links and model were, and in which frames poses were written.
     Diagnostics: in the ledger `moved-frame` for every pose that is written in another way than it was.
     """
 

@@ -1,4 +1,4 @@
-"""Gearboxes couple joints; URDF says so by `<mimic>`."""
+"""Converting gearbox joints to `<mimic>`."""
 
 from typing import ClassVar
 

@@ -1,4 +1,4 @@
-"""What of a node URDF can write and what is left over, found by comparing it with the table of URDF."""
+"""Remainder of a node: the fields that URDF cannot express, found by the URDF facts table."""
 
 import math
 from collections.abc import Iterator
@@ -12,7 +12,7 @@ from twinform.schemas import Fact, format_value, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 Words = dict[str, Union["Words", None]]
-"""The fields of a node that have a word, each with the words for what is inside; None where that is a plain value."""
+"""The fields of a node that URDF has, each with the fields inside; None where that is a plain value."""
 
 _IDENTITY = frozenset({"name", "type", "kind"})
 _ABOUT = frozenset({"source", "spelling", "opaque"})
@@ -20,7 +20,7 @@ _APART = _IDENTITY | _ABOUT
 _NONE: tuple[()] = ()
 """There is only one empty tuple."""
 _UNKNOWN: Words = {}
-"""The words for a field that URDF does not have."""
+"""The inner fields of one that URDF does not have."""
 
 
 @dataclass(slots=True)
@@ -38,7 +38,7 @@ class Split:
 
 @cache
 def urdf_words(definition: str, *steps: str) -> Words:
-    """The words that URDF has for the node of a definition, or of the rows below it that the steps name."""
+    """The fields that URDF has for the node of a definition, or of the rows below it that the steps name."""
     facts = table("urdf")
     fact = facts.definitions[definition]
     for step in steps:
@@ -79,7 +79,7 @@ def _place(row: Fact, words: Words) -> None:
 def take_remainder(node: AnyNode, tag: str, words: Words) -> tuple[AnyNode, list[Opaque], list[tuple[str, str]]]:
     """The node with only what URDF can write, the rest as pieces of the SDF element that the node is, and bad numbers.
 
-    Nodes in tuples (links, visuals, ...) stay where there is a word for them: they have remainders of their own.
+    Nodes in tuples (links, visuals, ...) stay where URDF has them: they have remainders of their own.
     """
     if all(is_ours(part) or _is_foreign(part) for part in node.opaque) and _fits(node, words):
         return node, [], []

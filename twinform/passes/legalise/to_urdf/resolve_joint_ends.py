@@ -1,4 +1,4 @@
-"""Joints of URDF connect links."""
+"""Resolving parent and child frames of joints to links."""
 
 from typing import ClassVar
 

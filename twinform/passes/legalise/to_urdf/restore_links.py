@@ -1,4 +1,4 @@
-"""Links and joints as the URDF file had them that an SDF file was converted from."""
+"""Reverse conversion of links and joints: restoring how the URDF source wrote them."""
 
 from collections.abc import Container, Iterator
 from typing import ClassVar, TypeVar
@@ -19,9 +19,9 @@ _HELD = ("visuals", "collisions", "sensors", "lights")
 class RestoreLinks(ToUrdfPass):
     """Make links and joints again of what was a massless link on a fixed joint, or on a floating one.
 
-    Changes: 1. a frame that is marked as a link is one, and the frame that it is attached to its joint; 2. what the
+    Changes: 1. a frame that is annotated as a link is one, and the frame that it is attached to its joint; 2. what the
     link below holds in this frame is the link's, and a joint that
-    holds it holds the link below; 3. a link that a mark calls free hangs from its joint again.
+    holds it holds the link below; 3. a link that an annotation calls free hangs from its joint again.
     Never touches: a frame that is not attached to its joint any more; it is made a link like others.
     Diagnostics: `stale-carrier` for these, and for a floating joint that fits the file no more.
     """

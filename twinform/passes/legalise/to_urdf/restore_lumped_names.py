@@ -1,4 +1,4 @@
-"""The names of lumped collisions that a robot had in its contact sensors and plugins."""
+"""Reverse conversion of lumped collision names in contact sensors and plugins."""
 
 from typing import ClassVar
 
@@ -13,7 +13,7 @@ from twinform.passes.legalise.to_sdf.follow_lumped_names import names_of_libsdfo
 class RestoreLumpedNames(ModelPass):
     """Name collisions in `<gazebo>` elements as libsdformat lumps them, where the source did.
 
-    Changes: a text beside which a mark says what stood there.
+    Changes: a text beside which an annotation has the original.
     Never touches: a text that was edited since, or whose old name does not mean that collision any more.
     Diagnostics: `stale-carrier` for these.
     """

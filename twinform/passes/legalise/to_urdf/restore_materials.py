@@ -1,4 +1,4 @@
-"""Materials as the URDF file had them that an SDF file was converted from."""
+"""Reverse conversion of materials: restoring how the URDF source wrote them."""
 
 from collections import Counter
 from collections.abc import Mapping
@@ -20,8 +20,8 @@ Look = tuple[Color | None, str | None]
 class RestoreMaterials(ModelPass):
     """Name materials as URDF named them, and define those again that the robot defined.
 
-    Changes: 1. a material has the name that a mark on its visual says; 2. what the robot defined is what most visuals
-    by its name look like now, and these only name it; 3. so do visuals that took it from another one.
+    Changes: 1. a material has the name in an annotation on its visual; 2. what the robot defined is what most
+    visuals by its name look like now, and these only name it; 3. so do visuals that took it from another one.
     Never touches: the look of a visual. One that differs from what its name means keeps a name of its own.
     Diagnostics: `stale-carrier` for these.
     """
@@ -94,7 +94,7 @@ def _name(visual: Visual) -> str:
 
 
 def _says(visual: Visual) -> str | None:
-    """Where a mark says that the material is defined, if that is not where its name makes one expect."""
+    """Where an annotation says that the material is defined, if that is not where its name makes one expect."""
     found = find_annotation(visual, MATERIAL)
     return found.get("defined") if found else None
 
@@ -105,7 +105,7 @@ def _is_unnamed(visual: Visual) -> bool:
 
 
 def _is_own(visual: Visual, shared: Mapping[str, Material]) -> bool:
-    """Whether the visual itself defines its material, as `shared-materials` marks it."""
+    """Whether the visual itself defines its material, as `shared-materials` annotates it."""
     says = _says(visual)
     if says is not None:
         return says == "here"

@@ -1,4 +1,4 @@
-"""What a conversion to SDF had to write out, and URDF leaves unsaid."""
+"""Reverse conversion of shapes and masses: removing names and values that the conversion to SDF added."""
 
 from typing import ClassVar, TypeVar
 
@@ -20,8 +20,9 @@ _NOTHING = Inertial(mass=0.0, inertia=Inertia().model_copy(update=dict.fromkeys(
 class RestoreShapes(ModelPass):
     """Leave out the names and the inertias that a conversion to SDF made, in a model that came from URDF.
 
-    Changes: 1. a visual or collision whose name a mark lists has none, and one whose name was taken has it again; 2. an
-    inertial of no mass goes, as URDF means that by saying nothing; 3. a token of mass and inertia goes, too.
+    Changes: 1. a visual or collision whose name an annotation lists has none, and one whose name was taken has it
+    again; 2. an inertial of no mass goes, as URDF means that by saying nothing; 3. a token of mass and inertia goes
+    too.
     Never touches: names that were edited since; models that did not come from URDF.
     Diagnostics: none.
     """

@@ -1,4 +1,4 @@
-"""A URDF file holds one robot."""
+"""Selecting the model that becomes the robot."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

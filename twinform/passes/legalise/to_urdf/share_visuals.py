@@ -1,4 +1,4 @@
-"""What all visuals of a link say alike and URDF has no word for, in a `<visual>` in a `<gazebo>` element."""
+"""Writing what all visuals of a link share, and URDF lacks, as one `<visual>` in a `<gazebo>` element."""
 
 from collections.abc import Iterator
 from typing import ClassVar
@@ -88,7 +88,7 @@ def _said(material: Material | None) -> Iterator[tuple[str, object]]:
 
 
 def _rest(visual: Visual) -> tuple[Element, ...]:
-    """What only SDF has words for, besides materials."""
+    """What only SDF has, besides materials."""
     bare = visual.model_copy(update={"material": None, "pose": None, "geometry": None})
     _, pieces, _ = take_remainder(bare, "visual", urdf_words("link", "visual"))
     elements = tuple(piece.element for piece in pieces if piece.element and not piece.at)

@@ -1,4 +1,4 @@
-"""URDF has no frames."""
+"""Converting frames to massless links on fixed joints."""
 
 from typing import ClassVar
 

@@ -1,4 +1,4 @@
-"""Joints of several degrees of freedom, or of coupled ones, as chains."""
+"""Unfolding multi-axis and coupled SDF joints into chains of URDF joints."""
 
 from functools import partial
 from typing import ClassVar
@@ -32,9 +32,9 @@ class UnfoldJoints(ToUrdfPass):
 
     Changes: 1. a universal or revolute2 joint turns about its first axis, then about its second; 2. a ball joint turns
     about z, y and x of its frame; 3. a screw joint slides by a joint that mimics the one that turns; 4. the last joint
-    of a chain keeps name, place and child, and links of 2e-6 kg stand between; all are marked, so that the way back
-    folds them; 5. what mimics the first axis of a joint with two mimics the first joint of the chain; 6. a ball joint
-    that was one in URDF is one again.
+    of a chain keeps name, place and child, and links of 2e-6 kg stand between; all are annotated, so that the reverse
+    conversion folds them; 5. what mimics the first axis of a joint with two mimics the first joint of the chain; 6. a
+    ball joint that was one in URDF is one again.
     Never touches: joints that close a loop, which are joints of SDF in a `<gazebo>` element.
     Diagnostics: `unfolded-joint`; `joint-type-unsupported` for a screw with a pitch of 0 rad/m.
     """
@@ -105,7 +105,7 @@ def _last(joint: Joint, parent: str | None, step: Step, opaque: tuple[Opaque, ..
 
 
 def _account(joint: Joint, keeper: Keeper) -> Joint:
-    """Say what becomes of the joint; it carries what its chain has no words for."""
+    """Report what becomes of the joint; it carries what its chain cannot express."""
     between = len(CHAINS[joint.type])
     message = (
         f"{joint.type} joint {joint.name!r} becomes {_WORDS[joint.type]} in URDF and links of {CHAIN_MASS:g} kg between"

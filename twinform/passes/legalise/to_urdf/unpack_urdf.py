@@ -1,4 +1,4 @@
-"""Parts of URDF that traveled through SDF in carriers stand where they stood."""
+"""Unpacking carriers of URDF parts into the nodes that they came from."""
 
 from collections.abc import Callable
 from functools import partial

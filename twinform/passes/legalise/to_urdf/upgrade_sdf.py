@@ -1,4 +1,4 @@
-"""The way to URDF begins with the newest version of SDF."""
+"""Upgrading SDF to the newest version before the conversion to URDF."""
 
 from typing import ClassVar
 
@@ -10,7 +10,7 @@ from twinform.passes.sdf_versions import raise_words
 
 
 class UpgradeSdf(Pass):
-    """Say the file in the words of the newest SDF, as all passes after this one know it.
+    """Upgrade the file to the newest SDF, as all passes after this one know it.
 
     Changes: those of the steps between the versions, and carriers of newer parts come back.
     Never touches: names, which URDF does not want to be unlike each other; what no newer version has, which the last
@@ -23,7 +23,7 @@ class UpgradeSdf(Pass):
     mixed: bool = False
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
-        """The document in new words; it still declares its version, for the way back."""
+        """The document in new syntax; it still declares its version, for the reverse conversion."""
         if self.carriers and self.mixed:
             document = document.model_copy(update={"models": tuple(map(with_mixed_words, document.models))})
         for step in raise_words(document.version, carriers=self.carriers, mixed=self.carriers and self.mixed):

@@ -1,4 +1,4 @@
-"""URIs of SDF as URDF has them."""
+"""URIs of meshes and textures for ROS: `model://` to `package://`."""
 
 from typing import TypeVar
 
@@ -12,9 +12,9 @@ Shape = TypeVar("Shape", Visual, Collision)
 
 
 def urdf_uri(shape: Shape, kind: str, written: str, keeper: Keeper) -> tuple[Shape, str]:
-    """A URI in a visual or collision for ROS, and the shape with a mark if SDF would have another scheme for it.
+    """A URI in a visual or collision for ROS, and the shape with an annotation if SDF would have another scheme for it.
 
-    `kind` is the mark's. One that came from URDF with the scheme of Gazebo keeps that.
+    `kind` is the annotation's. One that came from URDF with the scheme of Gazebo keeps that.
     """
     mark = find_annotation(shape, kind)
     shape = without_annotation(shape, kind)
