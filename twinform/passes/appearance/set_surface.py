@@ -41,12 +41,14 @@ class SetSurface(Pass):
     links: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only links"))
     collisions: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only collisions"))
     mu: float | None = Field(default=None, ge=0, description="Coulomb friction along the first direction.")
-    mu2: float | None = Field(default=None, ge=0, description="Likewise along the second; not set, it stays as it is.")
+    mu2: float | None = Field(
+        default=None, ge=0, description="Coulomb friction along the second; unchanged if not set."
+    )
     restitution: float | None = Field(default=None, ge=0, le=1, description="From 0, no bounce, to 1.")
     kp: float | None = Field(default=None, gt=0, description="The stiffness of the contact, in N/m.")
     kd: float | None = Field(default=None, ge=0, description="The damping of the contact, in N s/m.")
     slip1: float | None = Field(default=None, ge=0, description="Force dependent slip along the first, in m/(N s).")
-    slip2: float | None = Field(default=None, ge=0, description="Likewise along the second direction.")
+    slip2: float | None = Field(default=None, ge=0, description="Force dependent slip along the second, in m/(N s).")
     max_vel: float | None = Field(default=None, ge=0, description="The fastest correction of a contact, in m/s.")
     min_depth: float | None = Field(default=None, ge=0, description="The depth that is left uncorrected, in m.")
 
