@@ -24,8 +24,8 @@ This file is made by `python -m twinform.passes.legalise.page docs/explanation/p
 2. **Includes**, where they are asked for or the target has none, are put in their place.
 3. **Your passes**, those of `--passes`, [each with its page](../reference/passes.md). The document is verified after
    each that changed something.
-4. **Legalisation**: the passes below, which turn what the target cannot express into what it can. The document is verified
-   after the last of them.
+4. **Legalisation**: the passes below, which turn what the target cannot express into what it can. The document is
+   verified after the last of them.
 5. **Writing**, and the schema of the target once more.
 """
 _CARRIERS = """\
