@@ -118,7 +118,7 @@ def united_bounds(boxes: list[Bounds | None]) -> Bounds | None:
 
 
 def own_density(node: Node) -> float | None:
-    """What `<density>` says in a node; the last one, should there be several."""
+    """The `<density>` of a node; the last one, should there be several."""
     texts = [part.element.text for part in node.opaque if part.element and part.element.name == "density"]
     return float(texts[-1] or "nan") if texts else None
 

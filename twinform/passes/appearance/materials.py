@@ -129,7 +129,7 @@ def _known(name: str, where: Location, sink: DiagnosticSink) -> ClassicMaterial 
 
 
 def _colored(material: Material, found: ClassicMaterial) -> Material:
-    """The material with the colors of a script, where it says none itself."""
+    """The material with the colors of a script, where it has none itself."""
     return material.model_copy(
         update={
             "script": None,

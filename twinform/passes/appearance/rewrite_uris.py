@@ -20,11 +20,11 @@ class RewriteUris(AssetPass):
     1. `package://` and `model://` become each other, whether or not their files are there;
     2. to `file` and `relative`, they are looked up, in `roots` first, then as `--path` and the variables of ROS and
        Gazebo say; a relative path is relative to the folder of the document;
-    3. to `package` and `model`, files and paths are said from the folder around them that is in `roots`, has a
+    3. to `package` and `model`, files and paths are relative to the folder around them that is in `roots`, has a
        package.xml, or a model.config.
 
     Never touches: URIs that are in the scheme already, words such as `__default__`, and the parameters of plugins.
-    Diagnostics: `unmapped-uri` for each URI that cannot be said so; it stays.
+    Diagnostics: `unmapped-uri` for each URI that cannot be written so; it stays.
     """
 
     name = "rewrite-uris"

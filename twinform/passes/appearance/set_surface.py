@@ -32,7 +32,7 @@ class SetSurface(Pass):
 
     Only what an option is given for is set; all else that is written of a surface stays.
     Never touches: links without collisions, and models that an `<include>` names.
-    Diagnostics: `unset-surface` where URDF cannot say it for one of several collisions, and `nothing-matched`.
+    Diagnostics: `unset-surface` where URDF cannot express it for one of several collisions, and `nothing-matched`.
     """
 
     name = "set-surface"

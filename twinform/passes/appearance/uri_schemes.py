@@ -19,7 +19,7 @@ _SCHEMES: dict[str, Known] = {"package": "package", "model": "model", "file": "f
 
 
 class UnmappedError(Exception):
-    """Why a URI cannot be said in another scheme."""
+    """Why a URI cannot be written in another scheme."""
 
     def __init__(self, message: str, help: str | None = None) -> None:
         super().__init__(message)

@@ -9,7 +9,7 @@ from pydantic import ValidationError
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Model, Node, Opaque
 from twinform.passes.carriers.definitions import definition_of
-from twinform.passes.carriers.sdf_versions import Terms
+from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.schemas import Context, Version, XmlElement, element_xml, reader
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -23,24 +23,24 @@ class CarrierError(Exception):
     """A carrier holds what cannot stand in its place, because somebody edited it."""
 
 
-def absorb(node: AnyNode, pieces: tuple[Opaque, ...], terms: Terms, version: Version) -> AnyNode:
-    """The node with the pieces; what the terms say is to go goes before they come.
+def absorb(node: AnyNode, pieces: tuple[Opaque, ...], condition: VersionCondition, version: Version) -> AnyNode:
+    """The node with the pieces; what the condition names in `without` goes before they come.
 
     Raises:
         CarrierError: a piece is not of SDF.
     """
-    for path in terms.without:
+    for path in condition.without:
         node = _blanked(node, path.split("."))
-    if terms.instead and isinstance(node, Model):
-        node = node.model_copy(update=_without_scope(node, terms.instead))
+    if condition.instead and isinstance(node, Model):
+        node = node.model_copy(update=_without_scope(node, condition.instead))
     for piece in pieces:
-        node = _absorb(node, piece, terms, version)
+        node = _absorb(node, piece, condition, version)
     return node
 
 
-def says_already(node: Node, piece: Opaque, terms: Terms) -> bool:
+def says_already(node: Node, piece: Opaque, condition: VersionCondition) -> bool:
     """Whether a mimic, which no older version has, was written by hand where one is carried."""
-    if terms.without or terms.instead or piece.element is None or piece.element.name != "mimic":
+    if condition.without or condition.instead or piece.element is None or piece.element.name != "mimic":
         return False
     holder: object = node
     for step in filter(None, piece.at.split("/")):
@@ -66,15 +66,15 @@ def _without_scope(model: Model, prefix: str) -> dict[str, object]:
     }
 
 
-def _absorb(node: AnyNode, piece: Opaque, terms: Terms, version: Version) -> AnyNode:
+def _absorb(node: AnyNode, piece: Opaque, condition: VersionCondition, version: Version) -> AnyNode:
     data = _read(piece, definition_of(node) or "", version)
     if piece.element is not None and piece.element.name == "pose" and not piece.at:
         node = node.model_copy(update={"pose": None})  # one pose stands for another
-    return _merged(node, data, terms.index)
+    return _merged(node, data, condition.index)
 
 
 def _read(piece: Opaque, definition: str, version: Version) -> dict[str, Any]:
-    """What a piece says about the node of a definition."""
+    """The fields that a piece sets in the node of a definition."""
     if not definition:
         raise CarrierError("there is nothing of SDF around it")
     xml = etree.SubElement(etree.Element("sdf"), definition)
@@ -128,7 +128,7 @@ def _merged_value(node: Node, name: str, value: object, index: int | None) -> ob
 
 
 def _said(node: Node) -> dict[str, Any]:
-    """What a node says, as the data of another one."""
+    """The fields of a node, as the data of another one."""
     fields = type(node).model_fields
     return {
         name: getattr(node, name) for name in fields if name != "source" and getattr(node, name) != fields[name].default

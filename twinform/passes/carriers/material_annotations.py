@@ -28,7 +28,7 @@ def with_look(link: Link, fields: Iterable[str]) -> Link:
 
 
 def look_of(link: Link) -> tuple[str, ...]:
-    """The fields of materials that one extension says for all visuals."""
+    """The fields of materials that one extension sets for all visuals."""
     found = find_annotation(link, LOOK)
     return tuple((found.text or "").split()) if found else ()
 

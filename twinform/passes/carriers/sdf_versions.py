@@ -23,7 +23,7 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 
 
 @dataclass(frozen=True, slots=True)
-class Terms:
+class VersionCondition:
     """Which versions have a part, and how it comes back.
 
     `index` is its place among its like, `without` the fields that go when it comes, `instead` the sibling that it
@@ -41,7 +41,7 @@ class Terms:
         return (self.since is not None and version >= self.since) or (self.until is not None and version <= self.until)
 
     def attributes(self) -> Attributes:
-        """What the carrier says about itself."""
+        """What the carrier has as attributes."""
         said = {
             "since": print_version(self.since) if self.since else "",
             "until": print_version(self.until) if self.until else "",
@@ -60,20 +60,27 @@ class Keeper:
     carriers: bool
 
     def keep(
-        self, node: AnyNode, pieces: list[Opaque], terms: Terms, rule: Rule, message: str, where: Location, weight: int
+        self,
+        node: AnyNode,
+        pieces: list[Opaque],
+        condition: VersionCondition,
+        rule: Rule,
+        message: str,
+        where: Location,
+        weight: int,
     ) -> AnyNode:
         """The node with the pieces in carriers, and an entry in the ledger."""
         self.account(rule, message, where, weight)
         if not self.carriers:
             return node
-        return node.model_copy(update={"opaque": (*node.opaque, *version_carriers(pieces, terms))})
+        return node.model_copy(update={"opaque": (*node.opaque, *version_carriers(pieces, condition))})
 
     def keep_element(
-        self, piece: Opaque, terms: Terms, rule: Rule, message: str, where: Location
+        self, piece: Opaque, condition: VersionCondition, rule: Rule, message: str, where: Location
     ) -> tuple[Element, ...]:
         """The carriers of a part of an untyped element, and an entry in the ledger."""
         self.account(rule, message, where, max(1, piece.weight))
-        carriers = version_carriers([piece], terms) if self.carriers else ()
+        carriers = version_carriers([piece], condition) if self.carriers else ()
         return tuple(part.element for part in carriers if part.element)
 
     def account(self, rule: Rule, message: str, where: Location, weight: int) -> None:
@@ -81,12 +88,12 @@ class Keeper:
         self.sink.account(Fate.CARRIED if self.carriers else Fate.DROPPED, rule, message, where, weight)
 
 
-def version_carriers(pieces: list[Opaque], terms: Terms) -> tuple[Opaque, ...]:
-    """The carriers of pieces, and one that only says what is to go: the last comes back first."""
-    carriers = pack(pieces, DIALECT, replace(terms, without=()).attributes())
-    if not terms.without:
+def version_carriers(pieces: list[Opaque], condition: VersionCondition) -> tuple[Opaque, ...]:
+    """The carriers of pieces, and one that only names what to remove: the last comes back first."""
+    carriers = pack(pieces, DIALECT, replace(condition, without=()).attributes())
+    if not condition.without:
         return carriers
-    return (*carriers, Opaque(element=Element(name=f"{{{NAMESPACE}}}{DIALECT}", attributes=terms.attributes())))
+    return (*carriers, Opaque(element=Element(name=f"{{{NAMESPACE}}}{DIALECT}", attributes=condition.attributes())))
 
 
 def is_version_carrier(part: Opaque) -> bool:
@@ -94,11 +101,11 @@ def is_version_carrier(part: Opaque) -> bool:
     return is_carrier(part, DIALECT)
 
 
-def terms_of(part: Opaque) -> Terms:
+def condition_of(part: Opaque) -> VersionCondition:
     """What a carrier says about its part; one that was edited into nonsense fits no version."""
     said = dict(part.element.attributes) if part.element else {}
     try:
-        return Terms(
+        return VersionCondition(
             parse_version(said["since"]) if "since" in said else None,
             parse_version(said["until"]) if "until" in said else None,
             int(said["index"]) if "index" in said else None,
@@ -106,11 +113,11 @@ def terms_of(part: Opaque) -> Terms:
             said.get("instead", ""),
         )
     except ValueError:
-        return Terms()
+        return VersionCondition()
 
 
 def carried(part: Opaque) -> tuple[Opaque, ...]:
-    """The pieces in a carrier; none in one that only says what is to go."""
+    """The pieces in a carrier; none in one that only names what to remove."""
     element = part.element
     if element is None or (not element.children and element.get("attribute") is None and element.get("text") is None):
         return ()

@@ -52,7 +52,7 @@ def has_token_inertia(inertial: Inertial) -> bool:
 
 
 def is_token(inertial: Inertial | None) -> bool:
-    """Whether an inertial says the token at the origin of its link, and no more."""
+    """Whether an inertial has the token at the origin of its link, and no more."""
     return inertial is not None and has_token_mass(inertial) and _says_no_more(inertial)
 
 

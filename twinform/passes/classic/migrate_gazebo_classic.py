@@ -43,7 +43,7 @@ class MigrateGazeboClassic(Pass):
     6. models that came with Gazebo Classic are included from Fuel;
     7. worlds get the systems that their sensors need, and all default systems once one is written;
     8. material scripts become colors, by the pass `materials`;
-    9. SDF that is older is said in the version that the release reads.
+    9. SDF that is older is upgraded to the version that the release reads.
 
     Never touches: plugins that are neither of Gazebo Classic nor of gz-sim, and parts of worlds that gz-sim skips; it
     says which these are.

@@ -17,7 +17,7 @@ _DRIFT_TIME = "3600"
 
 
 @dataclass(frozen=True, slots=True)
-class Lost:
+class DroppedParameter:
     """A parameter that went nowhere, and why; `harmless` where it said nothing that matters."""
 
     parameter: Element
@@ -37,7 +37,7 @@ class Moved:
     repeats: bool
     is_valid: Callable[[Element], bool] = lambda _: True
     moved: set[str] = field(default_factory=set[str])
-    lost: list[Lost] = field(default_factory=list[Lost])
+    lost: list[DroppedParameter] = field(default_factory=list[DroppedParameter])
     frame: str | None = None
     offsets: dict[str, str] = field(default_factory=dict[str, str])
 
@@ -51,20 +51,20 @@ class Moved:
                 self.moved.add(parameter.name)
                 if self.element is not before and not self.is_valid(self.element):
                     self.element = before
-                    self.lost.append(Lost(parameter, f"{parameter.text!r} is no value for it"))
+                    self.lost.append(DroppedParameter(parameter, f"{parameter.text!r} is no value for it"))
 
     def _take(self, parameter: Element, move: Move) -> None:
         text = (parameter.text or "").strip()
         if _is_harmless(text, move.harmless):
-            self.lost.append(Lost(parameter, move.drop or "it is the default", harmless=True))
+            self.lost.append(DroppedParameter(parameter, move.drop or "it is the default", harmless=True))
         elif move.drop is not None:
-            self.lost.append(Lost(parameter, move.drop))
+            self.lost.append(DroppedParameter(parameter, move.drop))
         elif not (text or parameter.children or parameter.attributes):
-            self.lost.append(Lost(parameter, "it is empty", harmless=True))
+            self.lost.append(DroppedParameter(parameter, "it is empty", harmless=True))
         elif move.choose is not None:
             self._choose(parameter, text, move)
         elif move.first and parameter.name in self.moved:
-            self.lost.append(Lost(parameter, "the system has one value for all", harmless=False))
+            self.lost.append(DroppedParameter(parameter, "the system has one value for all", harmless=False))
         elif parameter.children or parameter.attributes:
             self.element = added(self.element, parameter.model_copy(update={"name": move.to or parameter.name}))
         else:
@@ -74,7 +74,7 @@ class Moved:
         choices = move.choose or {}
         chosen = choices.get(text, choices.get(_TRUTHS.get(text, text)))
         if chosen is None:
-            self.lost.append(Lost(parameter, f"{text!r} is none of {', '.join(choices)}"))
+            self.lost.append(DroppedParameter(parameter, f"{text!r} is none of {', '.join(choices)}"))
             return
         for path, value in chosen.items():
             self.element = with_text(self.element, path, value)
@@ -120,7 +120,7 @@ class Moved:
             return
         elif old is not None and not self.repeats:
             if not _same(old, value):
-                self.lost.append(Lost(parameter, f"the sensor itself has {path} {old}"))
+                self.lost.append(DroppedParameter(parameter, f"the sensor itself has {path} {old}"))
             return
         self.element = with_text(self.element, path, value)
         if move.noise:
@@ -131,7 +131,7 @@ class Moved:
         if len(numbers) == len("xyz") and all(number is not None and isfinite(number) for number in numbers):
             self.offsets[name] = value
         else:
-            self.lost.append(Lost(parameter, f"{value!r} is not three numbers"))
+            self.lost.append(DroppedParameter(parameter, f"{value!r} is not three numbers"))
 
     def _make_noise(self, noise: str, move: Move) -> None:
         self.element = with_text(self.element, f"{noise}/@type", "gaussian")

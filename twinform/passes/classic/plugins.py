@@ -10,7 +10,7 @@ from twinform.ir.defaults import multiplier
 from twinform.passes.classic.deferred_edits import DeferredEdits
 from twinform.passes.classic.ignition import modern_plugin
 from twinform.passes.classic.link_pose import OtherQuantityError, offset_of
-from twinform.passes.classic.moving import Lost, Moved
+from twinform.passes.classic.moving import DroppedParameter, Moved
 from twinform.passes.classic.reporting import Report, accept, reasons_to_look, scratch
 from twinform.passes.classic.sensors import SensorMigration
 from twinform.passes.classic.systems import made_systems, unused
@@ -145,7 +145,7 @@ class PluginMigration:
         written = _written(joints[follower])
         if written is not None and not _same_mimic(written, mimic):
             return self._without(plugin, report, f"joint {follower!r} mimics {written.joint!r} in another way already")
-        lost: list[Lost] = [*moved.lost, *unused(plugin, moved.moved, RosNames(plugin))]
+        lost: list[DroppedParameter] = [*moved.lost, *unused(plugin, moved.moved, RosNames(plugin))]
         report.migrated(f"the <mimic> of joint {follower!r}", lost)
         if written is None:
             self.deeds.mimic(site, follower, mimic)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from twinform.diagnostics import DiagnosticSink, Fate, Location
 from twinform.diagnostics.rules import classic as rules
 from twinform.ir import Element, Plugin
-from twinform.passes.classic.moving import Lost, truth_of
+from twinform.passes.classic.moving import DroppedParameter, truth_of
 from twinform.passes.classic.tables import Caveat, Migration
 from twinform.passes.plugins.elements import plugin_element
 from twinform.passes.plugins.sites import Site
@@ -45,15 +45,15 @@ class Report:
         """The plugin in a sentence."""
         return f"plugin {self.plugin.name!r} of {self.plugin.filename}"
 
-    def migrated(self, became: str, lost: Iterable[Lost]) -> None:
+    def migrated(self, became: str, lost: Iterable[DroppedParameter]) -> None:
         """Say what it became, and which of its parameters went nowhere."""
         self._account(f"{self.what} became {became}", lost)
 
-    def needless(self, reason: str, lost: Iterable[Lost]) -> None:
+    def needless(self, reason: str, lost: Iterable[DroppedParameter]) -> None:
         """Say that gz-sim does without it."""
         self._account(f"{self.what} is not needed: {reason}", lost)
 
-    def _account(self, message: str, lost: Iterable[Lost]) -> None:
+    def _account(self, message: str, lost: Iterable[DroppedParameter]) -> None:
         self.sink.report(rules.MIGRATED_PLUGIN, message, self.where, found=self.plugin.filename)
         weight = plugin_element(self.plugin).weight
         for each in lost:
@@ -84,7 +84,7 @@ class Report:
         message = f"{self.what} was migrated, but {what}"
         self.sink.report(rules.INCOMPLETE_MIGRATION, message, self.where, found=self.plugin.filename)
 
-    def _lost(self, lost: Lost) -> None:
+    def _lost(self, lost: DroppedParameter) -> None:
         parameter, where = lost.parameter, self._place(lost.parameter)
         message = f"<{parameter.name}> of {self.what} has no counterpart: {lost.reason}"
         if not lost.harmless:

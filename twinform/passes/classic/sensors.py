@@ -9,7 +9,7 @@ from twinform.diagnostics.rules import classic as rules
 from twinform.ir import Element, Plugin, Sensor
 from twinform.ir.sensor import RENAMED_ELEMENTS
 from twinform.passes.classic.element_edits import text_at, with_text
-from twinform.passes.classic.moving import Lost, Moved, camera_height, camera_width, focal_length
+from twinform.passes.classic.moving import DroppedParameter, Moved, camera_height, camera_width, focal_length
 from twinform.passes.classic.reporting import Report, accept, reasons_to_look, scratch
 from twinform.passes.classic.systems import unused
 from twinform.passes.classic.tables import Migration, SensorRow, migration_of, unread_parts
@@ -82,7 +82,7 @@ class SensorMigration:
             if text_at(element, path) is None and migration.nothing is None:
                 element = with_text(element, path, topic)
         taken = moved.moved | set(migration.make.of if migration.make else ())
-        lost: list[Lost] = [*moved.lost, *unused(plugin, taken, names)]
+        lost: list[DroppedParameter] = [*moved.lost, *unused(plugin, taken, names)]
         report = Report(self.sink, plugin, site)
         if migration.nothing is not None:
             report.needless(migration.nothing, lost)

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from twinform.ir import Element, Plugin
 from twinform.passes.classic.element_edits import added
-from twinform.passes.classic.moving import Lost, Moved, truth_of
+from twinform.passes.classic.moving import DroppedParameter, Moved, truth_of
 from twinform.passes.classic.tables import Migration, SystemRow
 from twinform.passes.classic.topics import RosNames, is_namespace
 from twinform.passes.plugins.catalog import system
@@ -18,13 +18,13 @@ _UNREAD = "the plugin of Gazebo Classic does not read it either"
 
 def made_systems(
     plugin: Plugin, migration: Migration, site: Site, release: str
-) -> tuple[list[tuple[Plugin, SystemRow]], list[Lost]]:
+) -> tuple[list[tuple[Plugin, SystemRow]], list[DroppedParameter]]:
     """The systems that take a plugin's place, with their rows, and the parameters that went nowhere.
 
     Raises:
         LookupError: the release has no such system; the error says which.
     """
-    names, lost, taken = RosNames(plugin), list[Lost](), set[str]()
+    names, lost, taken = RosNames(plugin), list[DroppedParameter](), set[str]()
     made: list[tuple[Plugin, SystemRow]] = []
     for row in migration.systems:
         kind = _kind(row, release)
@@ -38,7 +38,7 @@ def made_systems(
         kept, unread = _read_by(kind, content, release)
         lost += [each for each in moved.lost if each.parameter.name not in taken]
         lost += [
-            Lost(parameter, f"{kind.class_name} of {release} does not read <{name}>")
+            DroppedParameter(parameter, f"{kind.class_name} of {release} does not read <{name}>")
             for parameter, name in _origins(plugin, row, unread)
         ]
         taken |= moved.moved
@@ -47,15 +47,15 @@ def made_systems(
     return made, _once(lost)
 
 
-def unused(plugin: Plugin, taken: set[str], names: RosNames) -> Iterator[Lost]:
+def unused(plugin: Plugin, taken: set[str], names: RosNames) -> Iterator[DroppedParameter]:
     """The parameters that nothing has taken."""
     for parameter in plugin.content:
         if parameter.name == "ros" and "ros" not in taken:
-            yield from (Lost(part, reason) for part, reason in names.leftovers())
+            yield from (DroppedParameter(part, reason) for part, reason in names.leftovers())
         elif parameter.name not in taken | names.used and not is_namespace(parameter.name):
-            yield Lost(parameter, _UNREAD)
+            yield DroppedParameter(parameter, _UNREAD)
         elif is_namespace(parameter.name) and parameter.name not in taken | names.used:
-            yield Lost(parameter, "nothing is published below a namespace", harmless=True)
+            yield DroppedParameter(parameter, "nothing is published below a namespace", harmless=True)
 
 
 def _kind(row: SystemRow, release: str) -> PluginKind:
@@ -66,7 +66,7 @@ def _kind(row: SystemRow, release: str) -> PluginKind:
 
 
 def _sets(row: SystemRow, site: Site, element: Element) -> Iterator[Element]:
-    """What is written where no parameter has said it."""
+    """What is written where no parameter sets it."""
     for name, value in row.sets.items():
         if element.find(name) is None:
             yield Element(name=name, text=site.model.name if value == "$model" and site.model else value)
@@ -105,8 +105,8 @@ def _plugin(plugin: Plugin, kind: PluginKind, content: list[Element], *, alone: 
     return Plugin(name=kind.class_name, filename=kind.file, content=tuple(content), source=source)
 
 
-def _once(lost: list[Lost]) -> list[Lost]:
-    seen: dict[int, Lost] = {}
+def _once(lost: list[DroppedParameter]) -> list[DroppedParameter]:
+    seen: dict[int, DroppedParameter] = {}
     for each in lost:
         seen.setdefault(id(each.parameter), each)
     return list(seen.values())

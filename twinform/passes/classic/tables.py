@@ -84,7 +84,7 @@ class Caveat(_Row):
 class SystemRow(_Row):
     """A system that takes a plugin's place; `before` is the one that did so in releases that lack it.
 
-    `sets` is what is written where no parameter says it: mostly what went without saying in the plugin and does not in
+    `sets` is what is written where no parameter sets it: mostly what went without saying in the plugin and does not in
     the system. `$model` is the name of the model. What is `measured` are the sizes that the plugin took from the model.
     `transforms` are the parameters that switch the transforms of the odometry on, each with what it is where it is not
     written; they go to `/tf` where all are true, and elsewhere otherwise. Without it there is nothing to switch.
@@ -147,7 +147,7 @@ class Migration(_Row):
 
     @property
     def parameters(self) -> frozenset[str]:
-        """The names of all parameters that the table says something about."""
+        """The names of all parameters in the table."""
         tables = [self.shared, self.moves, *(row.moves for row in self.systems)]
         patterns = [pattern for row in self.systems for pattern in row.topics.values()]
         if self.sensor:
@@ -161,7 +161,7 @@ class Migration(_Row):
 
 
 def migration_of(filename: str, content: tuple[Element, ...] = ()) -> Migration | None:
-    """What the tables say of a plugin, by its file and parameters; None for one that is not of Gazebo Classic."""
+    """The migration of a plugin, by its file and parameters; None for one that is not of Gazebo Classic."""
     key = modern_file(filename)
     written = {element.name for element in content}
     for migration in _by_file().get(key, ()):

@@ -27,7 +27,7 @@ class Ros2ControlFromTransmissions(Pass):
     1. every joint gets the command interfaces that its `hardwareInterface` elements stand for, and the state interfaces
        position, velocity and effort, which every joint of ros_control has;
     2. every transmission stands in the system, with ends, roles, reductions and offsets; the reduction of a simple one
-       moves from the actuator to the joint, where ROS 2 reads it; what else is said of it becomes its parameters;
+       moves from the actuator to the joint, where ROS 2 reads it; its other content becomes its parameters;
     3. older types (`SimpleTransmission`, those of the PR2) become the simple transmission of ROS 2;
     4. a joint that mimics another gets no command interface: its leader is commanded.
 
@@ -103,7 +103,7 @@ class _Work:
         }
 
     def takes(self, part: Opaque, transmission: Transmission) -> bool:
-        """Whether it can be said in ROS 2; why not, where it cannot."""
+        """Whether it can be expressed in ROS 2; why not, where it cannot."""
         reason = self._obstacle(transmission)
         if reason:
             message = f"transmission {transmission.name!r} is not converted: {reason}"

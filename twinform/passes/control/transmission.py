@@ -17,7 +17,7 @@ class End:
     """A joint or actuator of a transmission.
 
     `reduction` and `offset` are as they were written; joint position = actuator position / reduction + offset.
-    `parameters` are what else is said of it, by name.
+    `parameters` are its other content, by name.
     """
 
     name: str

@@ -34,7 +34,7 @@ class TransmissionsFromRos2Control(Pass):
     1 has no word for (the hardware plugin and its parameters, limits and parameters of joints, other interfaces) is
     reported and, where the element goes, dropped.
     Diagnostics: `converted-ros2-control`, `unsayable-in-transmissions` and `foreign-transmission`; each system has an
-    entry of the ledger, *approximated*, and each part that ROS 1 cannot say one, *dropped*.
+    entry of the ledger, *approximated*, and each part that ROS 1 lacks one, *dropped*.
     """
 
     name = "transmissions-from-ros2-control"

@@ -42,7 +42,7 @@ class Assets(Protocol):
 
 
 class _NoAssets:
-    """A document by itself, of which nobody said where it came from."""
+    """A document by itself, of which the origin is not known."""
 
     folder: Path | None = None
 

@@ -84,7 +84,7 @@ def chosen(step: Pass) -> Iterator[tuple[str, Value]]:
     """The options that differ from their defaults, in the order of the class; a list of one is its one value.
 
     Raises:
-        TypeError: an option has a value that a pipeline cannot say.
+        TypeError: an option has a value that has no form in a pipeline.
     """
     for name, field in type(step).model_fields.items():
         value: object = getattr(step, name)
@@ -99,7 +99,7 @@ def option_value(value: object) -> Value:
     """The value of an option as a pipeline has it.
 
     Raises:
-        TypeError: a pipeline cannot say it.
+        TypeError: it has no form in a pipeline.
     """
     if isinstance(value, tuple | list):
         return [_scalar(item) for item in cast("Sequence[object]", value)]

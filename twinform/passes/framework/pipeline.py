@@ -55,7 +55,7 @@ class Pipeline:
         """The canonical text: defaults are left out, and parsing it gives the same pipeline back.
 
         Raises:
-            TypeError: an option has a value that the text cannot say.
+            TypeError: an option has a value that has no form in the text.
         """
         return ",".join(print_call(each.name, dict(chosen(each))) for each in self)
 

@@ -41,4 +41,4 @@ class SideFilePass(Pass):
 
     @abstractmethod
     def text(self, document: Document, sink: DiagnosticSink) -> str:
-        """What the file says. A file is only written over one that begins with the same line."""
+        """The text of the file. A file is only written over one that begins with the same line."""

@@ -92,7 +92,7 @@ def tables(pipeline: Pipeline) -> list[Table]:
     """The pipeline as TOML has it; options that have their defaults are left out.
 
     Raises:
-        TypeError: an option has a value that a pipeline cannot say.
+        TypeError: an option has a value that has no form in a pipeline.
     """
     return [{_NAME: step.name, **dict(chosen(step))} for step in pipeline]
 
@@ -101,7 +101,7 @@ def print_tables(pipeline: Pipeline, name: str) -> str:
     """The text of a pipeline of this name in a TOML file.
 
     Raises:
-        TypeError: an option has a value that a pipeline cannot say.
+        TypeError: an option has a value that has no form in a pipeline.
         ValueError: the name is no key.
     """
     if not KEY.fullmatch(name):

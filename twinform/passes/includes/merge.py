@@ -96,7 +96,7 @@ class _Contents:
 
 
 def _account_settings(model: Model, sink: DiagnosticSink) -> None:
-    """What the merged model says of itself as a whole counts no more."""
+    """What the merged model has as a whole does not count."""
     said = [name for name in _SETTINGS if getattr(model, name) is not None]
     attributes = [part for part in model.opaque if part.element is None]
     for name in (*said, *(part.name for part in attributes)):

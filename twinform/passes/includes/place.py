@@ -17,7 +17,7 @@ _PARAMETERS = "params"
 
 
 def placed_model(include: Include, model: Model, sink: DiagnosticSink, frame: Transform) -> Model:
-    """The included model where and as the include says; what the include does not say stays.
+    """The included model with the pose and settings of its include; what this does not set stays.
 
     `frame` is the frame of the model in the one that the include places.
     """
@@ -53,7 +53,7 @@ def _pose(include: Include, frame: Transform) -> Pose | None:
 
 
 def placed_light(include: Include, light: Light) -> Light:
-    """The included light where the include says."""
+    """The included light at the pose of the include."""
     update = {
         "name": include.name if include.name is not None else light.name,
         "pose": include.pose if include.pose is not None else light.pose,
@@ -63,7 +63,7 @@ def placed_light(include: Include, light: Light) -> Light:
 
 
 def placed_actor(include: Include, document: Document) -> Opaque | None:
-    """The actor of a document where the include says; None where there is none."""
+    """The actor of a document at the pose of the include; None where there is none."""
     part = next((part for part in document.opaque if part.element and part.element.name == "actor"), None)
     if part is None or part.element is None:
         return None

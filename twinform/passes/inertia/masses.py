@@ -13,7 +13,7 @@ from twinform.passes.analyses.shapes import inertial_of
 from twinform.passes.inertia.physical_consistency import is_possible
 
 
-class _Home(NamedTuple):
+class _LinkAddress(NamedTuple):
     """Where a link is: the model at the root, and the link's name in it."""
 
     root: Model
@@ -26,7 +26,7 @@ class Masses:
     def __init__(self, document: Document) -> None:
         self._default = MOMENT[document.format]
         self._format = document.format
-        self._homes = dict(_homes(document))
+        self._addresses = dict(_addresses(document))
         self._graphs: dict[int, FrameGraph] = {}
         self._changed: dict[int, Inertial] = {}
 
@@ -58,9 +58,9 @@ class Masses:
         """
         inertial = self.of(donor) or Inertial()
         mass, matrix = inertial.mass or 0.0, inertia_matrix(inertial.inertia, self._default) or NOTHING.inertia
-        home = self._homes[id(donor)]
-        graph = self._graph(home.root)
-        at = graph.resolve(inertial.pose, home.name, self._homes[id(taker)].name)
+        address = self._addresses[id(donor)]
+        graph = self._graph(address.root)
+        at = graph.resolve(inertial.pose, address.name, self._addresses[id(taker)].name)
         taken = placed(with_mass(Solid(mass, ORIGIN, matrix), part * mass), at)
         self._changed[id(donor)] = _scaled(inertial, matrix, 1 - part)
         self.give(taker, taken)
@@ -75,11 +75,11 @@ class Masses:
         return self._graphs.setdefault(id(root), FrameGraph(root))
 
 
-def _homes(document: Document) -> Iterator[tuple[int, _Home]]:
+def _addresses(document: Document) -> Iterator[tuple[int, _LinkAddress]]:
     for root in (*document.models, *(model for world in document.worlds for model in world.models)):
         models = [(root, "")]
         for model, scope in models:  # grows while it is walked
-            yield from ((id(link), _Home(root, scope + link.name)) for link in model.links)
+            yield from ((id(link), _LinkAddress(root, scope + link.name)) for link in model.links)
             models.extend((nested, f"{scope}{nested.name}::") for nested in model.models)
 
 

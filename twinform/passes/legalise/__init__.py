@@ -14,9 +14,9 @@ __all__ = ["Target", "legalisation"]
 class Target:
     """What a conversion is to make.
 
-    `carriers` says whether parts that the target cannot say travel along; `model` names the one of several models that
-    becomes a URDF; `mixed` says that the file may use syntax that its version does not have, as its source had, and
-    `mixed_source` that the file at hand is such a one.
+    `carriers` says whether parts that the target cannot express travel along; `model` names the one of several models
+    that becomes a URDF; `mixed` says that the file may use syntax that its version does not have, as its source had,
+    and `mixed_source` that the file at hand is such a one.
     """
 
     format: Format

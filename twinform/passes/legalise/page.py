@@ -24,12 +24,12 @@ This file is made by `python -m twinform.passes.legalise.page docs/explanation/p
 2. **Includes**, where they are asked for or the target has none, are put in their place.
 3. **Your passes**, those of `--passes`, [each with its page](../reference/passes.md). The document is verified after
    each that changed something.
-4. **Legalisation**: the passes below, which turn what the target cannot say into what it can. The document is verified
-   after the last of them.
+4. **Legalisation**: the passes below, which turn what the target cannot express into what it can. The document is
+   verified after the last of them.
 5. **Writing**, and the schema of the target once more.
 """
 _CARRIERS = """\
-Without `--no-carriers`, what the target has no words for travels along in our own namespace; each of these passes says
+Without `--no-carriers`, what the target cannot express travels in our own namespace; each of these passes says
 in its docstring what it changes, what it never touches and what it reports.
 """
 _SOURCE = "../.."
@@ -53,7 +53,7 @@ def ways() -> Iterator[Way]:
     older = "An older version takes some of the passes of the last chapter, before the last one of these."
     usual = Target(Format.SDF)
     yield Way(f"From URDF to SDF {usual.sdf_version}", Format.URDF, None, usual, older)
-    remark = "What is read in another version is said in the newest one first."
+    remark = "A document of another version is upgraded to the newest one first."
     yield Way("From SDF to URDF", Format.SDF, newest, Target(Format.URDF), remark)
     remark = "Of these, those run that lie between the two versions."
     yield Way("From older SDF to newer", Format.SDF, oldest, Target(Format.SDF, newest), remark)

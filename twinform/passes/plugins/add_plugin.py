@@ -41,7 +41,7 @@ class AddPlugin(SelectingPass):
     Wheel separation, wheel radius and wheel base, and how far tracks are apart, are read off the model where they are
     not given: from the joints' places and axes, and the cylinders, spheres and capsules of the wheels.
     Frames of odometry that are not given are `odom` and the base link, so that the transforms of ROS make one tree.
-    A system that needs another one of the world, such as Buoyancy, gets it there; without a world it is said.
+    A system that needs another one of the world, such as Buoyancy, gets it there; without a world it is reported.
     Never touches: a plugin that is there; one that is the same already is not added again.
     Diagnostics: `nothing-to-add-to`, `plugin-reference`, `measured-wheels`, `wheels-not-measured`,
     `world-system-needed`, `added-world-system`.

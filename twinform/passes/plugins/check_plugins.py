@@ -20,7 +20,7 @@ from twinform.passes.plugins.catalog import (
     systems,
     systems_of_file,
 )
-from twinform.passes.plugins.parameters import Asked, Names, check_parameters
+from twinform.passes.plugins.parameters import Names, ParameterContext, check_parameters
 from twinform.passes.plugins.parts import PluginKind, ReleaseName, SensorKind
 from twinform.passes.plugins.sites import Site, plugins_of, sensors_of
 from twinform.passes.plugins.worlds import (
@@ -96,7 +96,7 @@ def _check_plugin(plugin: Plugin, site: Site, release: str, names: Names, sink: 
         sink.report(rules.WRONG_PLUGIN_SCOPE, message, plugin.location, found=site.scope, expected=scopes)
     _check_needs(plugin, kind, site, sink)
     model = site.model if "world" not in kind.scopes else None
-    check_parameters(plugin, Asked(kind, release, model, names, sink))
+    check_parameters(plugin, ParameterContext(kind, release, model, names, sink))
 
 
 def _check_needs(plugin: Plugin, kind: PluginKind, site: Site, sink: DiagnosticSink) -> None:

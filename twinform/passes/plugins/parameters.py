@@ -26,7 +26,7 @@ class Names:
         return self._known[key]
 
 
-class Asked(NamedTuple):
+class ParameterContext(NamedTuple):
     """What a plugin is held against: its kind, the release, and the model that it names parts of."""
 
     kind: PluginKind
@@ -36,9 +36,9 @@ class Asked(NamedTuple):
     sink: DiagnosticSink
 
 
-def check_parameters(plugin: Plugin, asked: Asked) -> None:
+def check_parameters(plugin: Plugin, context: ParameterContext) -> None:
     """Report what is wrong with the parameters of a plugin."""
-    _check_inside(plugin.content, asked.kind.parameters, asked, plugin.location)
+    _check_inside(plugin.content, context.kind.parameters, context, plugin.location)
 
 
 def names_in(model: Model, kind: str) -> set[str] | None:
@@ -56,32 +56,34 @@ def names_in(model: Model, kind: str) -> set[str] | None:
     return names
 
 
-def _check_inside(elements: Sequence[Element], rows: tuple[Parameter, ...], asked: Asked, where: Location) -> None:
+def _check_inside(
+    elements: Sequence[Element], rows: tuple[Parameter, ...], context: ParameterContext, where: Location
+) -> None:
     counts = Counter[str]()
     for element in elements:
         if _is_foreign(element.name):
             continue
         at = element.location if element.source else where
         row = next((each for each in rows if each.matches(element.name)), None)
-        if row is None and asked.kind.free:
+        if row is None and context.kind.free:
             continue
-        if row is None or asked.release not in row.releases:
-            _unknown(element.name, row, rows, asked, at)
+        if row is None or context.release not in row.releases:
+            _unknown(element.name, row, rows, context, at)
             continue
         counts[element.name] += 1
         if counts[element.name] > 1 and not row.is_many:
-            message = f"<{element.name}> occurs twice; {_called(asked.kind)} reads the first"
-            asked.sink.report(rules.PLUGIN_PARAMETER_COUNT, message, at, found=element.name)
-        _check_element(element, row, asked, at)
+            message = f"<{element.name}> occurs twice; {_called(context.kind)} reads the first"
+            context.sink.report(rules.PLUGIN_PARAMETER_COUNT, message, at, found=element.name)
+        _check_element(element, row, context, at)
     present = {*counts}
     for row in rows:
         if (
-            row.is_required_in(asked.release)
+            row.is_required_in(context.release)
             and not row.is_attribute
             and not any(row.matches(name) for name in present)
         ):
-            message = f"{_called(asked.kind)} needs <{row.name}>"
-            asked.sink.report(rules.PLUGIN_PARAMETER_COUNT, message, where, expected=row.name)
+            message = f"{_called(context.kind)} needs <{row.name}>"
+            context.sink.report(rules.PLUGIN_PARAMETER_COUNT, message, where, expected=row.name)
 
 
 def _is_foreign(name: str) -> bool:
@@ -89,59 +91,61 @@ def _is_foreign(name: str) -> bool:
     return name.startswith("{") or ":" in name
 
 
-def _check_element(element: Element, row: Parameter, asked: Asked, at: Location) -> None:
+def _check_element(element: Element, row: Parameter, context: ParameterContext, at: Location) -> None:
     if row.free:
         return
-    _check_attributes(element, row, asked, at)
+    _check_attributes(element, row, context, at)
     if row.type == "element":
-        _check_inside(element.children, row.children, asked, at)
+        _check_inside(element.children, row.children, context, at)
     else:
-        _check_value(row, element.text or "", f"<{element.name}>", asked, at)
+        _check_value(row, element.text or "", f"<{element.name}>", context, at)
 
 
-def _check_attributes(element: Element, row: Parameter, asked: Asked, at: Location) -> None:
+def _check_attributes(element: Element, row: Parameter, context: ParameterContext, at: Location) -> None:
     rows = {each.name[1:]: each for each in row.children if each.is_attribute}
     for name, value in element.attributes:
         if _is_foreign(name):
             continue
         found = rows.get(name)
         if found is None:
-            _unknown(f"@{name}", None, tuple(rows.values()), asked, at)
+            _unknown(f"@{name}", None, tuple(rows.values()), context, at)
         else:
-            _check_value(found, value, f"{name!r} of <{element.name}>", asked, at)
+            _check_value(found, value, f"{name!r} of <{element.name}>", context, at)
     for name, each in rows.items():
         if each.is_required and element.get(name) is None:
-            message = f"{_called(asked.kind)} needs {name!r} of <{element.name}>"
-            asked.sink.report(rules.PLUGIN_PARAMETER_COUNT, message, at, expected=name)
+            message = f"{_called(context.kind)} needs {name!r} of <{element.name}>"
+            context.sink.report(rules.PLUGIN_PARAMETER_COUNT, message, at, expected=name)
 
 
-def _check_value(row: Parameter, text: str, what: str, asked: Asked, at: Location) -> None:
+def _check_value(row: Parameter, text: str, what: str, context: ParameterContext, at: Location) -> None:
     problem = problem_of(row, text)
     if problem:
-        message = f"{what} of {_called(asked.kind)} is {text!r}, and has to be {problem}"
-        asked.sink.report(rules.PLUGIN_PARAMETER_VALUE, message, at, found=text, expected=problem)
+        message = f"{what} of {_called(context.kind)} is {text!r}, and has to be {problem}"
+        context.sink.report(rules.PLUGIN_PARAMETER_VALUE, message, at, found=text, expected=problem)
         return
-    if row.type in {"joint", "link"} and asked.model is not None:
-        _check_reference(row.type, text.strip(), what, asked, at)
+    if row.type in {"joint", "link"} and context.model is not None:
+        _check_reference(row.type, text.strip(), what, context, at)
 
 
-def _check_reference(kind: str, name: str, what: str, asked: Asked, at: Location) -> None:
-    known = asked.names.of(asked.model, kind) if asked.model else None
-    if known is None or name in known or (asked.model and asked.model.includes and "::" in name):
+def _check_reference(kind: str, name: str, what: str, context: ParameterContext, at: Location) -> None:
+    known = context.names.of(context.model, kind) if context.model else None
+    if known is None or name in known or (context.model and context.model.includes and "::" in name):
         return
     near = nearest(name, sorted(known))
-    message = f"{what} of {_called(asked.kind)} names {name!r}, and the model has no such {kind}"
-    asked.sink.report(rules.PLUGIN_REFERENCE, message, at, found=name, help=_meant(near))
+    message = f"{what} of {_called(context.kind)} names {name!r}, and the model has no such {kind}"
+    context.sink.report(rules.PLUGIN_REFERENCE, message, at, found=name, help=_meant(near))
 
 
-def _unknown(name: str, row: Parameter | None, rows: Sequence[Parameter], asked: Asked, at: Location) -> None:
+def _unknown(
+    name: str, row: Parameter | None, rows: Sequence[Parameter], context: ParameterContext, at: Location
+) -> None:
     called = f"<{name}>" if not name.startswith("@") else f"the attribute {name[1:]!r}"
     if row is not None:
-        message = f"{_called(asked.kind)} does not read {called} in {asked.release}"
+        message = f"{_called(context.kind)} does not read {called} in {context.release}"
     else:
-        message = f"{_called(asked.kind)} does not read {called}"
-    near = nearest(name, list(_readable(rows, asked.release)))
-    asked.sink.report(rules.UNKNOWN_PLUGIN_PARAMETER, message, at, found=name.lstrip("@"), help=_meant(near))
+        message = f"{_called(context.kind)} does not read {called}"
+    near = nearest(name, list(_readable(rows, context.release)))
+    context.sink.report(rules.UNKNOWN_PLUGIN_PARAMETER, message, at, found=name.lstrip("@"), help=_meant(near))
 
 
 def _readable(rows: Sequence[Parameter], release: str) -> Iterator[str]:

@@ -59,7 +59,7 @@ class SelectingPass(Pass):
 
 
 P = Any
-"""A class of passes; type variables cannot say that a subclass is made of it."""
+"""A class of passes; type variables cannot express that a subclass is made of it."""
 
 
 def _class_of(cls: P, options: Mapping[str, object]) -> P:

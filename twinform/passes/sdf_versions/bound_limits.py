@@ -7,7 +7,7 @@ from typing import ClassVar
 from twinform.diagnostics.rules import sdf_versions as rules
 from twinform.ir import Axis, Document, Joint, Opaque, rewrite
 from twinform.ir.defaults import UNLIMITED, UNLIMITED_STRENGTH
-from twinform.passes.carriers.sdf_versions import Keeper, Terms
+from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition
 from twinform.passes.sdf_versions.base import VersionPass
 from twinform.passes.transforms.nodes import text_piece
 from twinform.schemas import format_value
@@ -51,7 +51,9 @@ def _bound(keeper: Keeper, joint: Joint, field: str, axis: Axis) -> Joint:
     pieces: list[Opaque] = [text_piece(name, format_value(value), f"{field}/limit") for name, value in infinite.items()]
     message = f"{' and '.join(infinite)} of joint {joint.name!r} are infinite"
     changed = joint.model_copy(update={field: bounded})
-    return keeper.keep(changed, pieces, Terms(since=_SINCE), rules.OTHER_WORDS, message, limit.location, len(pieces))
+    return keeper.keep(
+        changed, pieces, VersionCondition(since=_SINCE), rules.OTHER_WORDS, message, limit.location, len(pieces)
+    )
 
 
 def _is_infinite(value: float | None) -> bool:

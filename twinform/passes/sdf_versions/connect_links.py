@@ -7,7 +7,7 @@ from twinform.diagnostics.rules import sdf_versions as rules
 from twinform.diagnostics.rules.frames import DANGLING_FRAME
 from twinform.ir import Document, Joint, Model, Opaque, World, count_parts, rewrite
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
-from twinform.passes.carriers.sdf_versions import Keeper, Terms
+from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition
 from twinform.passes.sdf_versions.base import VersionPass
 from twinform.passes.transforms.joint_ends import named_ends, report_self_joint, resolve_ends
 from twinform.passes.transforms.nodes import pose_piece
@@ -76,8 +76,8 @@ def _resolve(joint: Joint, links: set[str], graph: FrameGraph, keeper: Keeper, *
         gone = ("pose",) if joint.pose is None else ()
         pieces = [*pieces, *_written(joint)]
         weight += count_parts(joint.pose) if joint.pose else 0
-    terms = Terms(since=_SINCE, without=gone)
-    return keeper.keep(resolved, pieces, terms, rules.OTHER_WORDS, message, joint.location, weight)
+    condition = VersionCondition(since=_SINCE, without=gone)
+    return keeper.keep(resolved, pieces, condition, rules.OTHER_WORDS, message, joint.location, weight)
 
 
 def _written(joint: Joint) -> list[Opaque]:

@@ -8,7 +8,7 @@ from twinform.diagnostics.rules import to_sdf as shared_rules
 from twinform.ir import Axis, Document, Format, Joint, Limit, Opaque, rewrite
 from twinform.ir.defaults import AXIS
 from twinform.passes.carriers.carriers import to_element
-from twinform.passes.carriers.sdf_versions import Keeper, Terms
+from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition
 from twinform.passes.sdf_versions.base import VersionPass
 from twinform.passes.transforms.nodes import text_piece
 from twinform.schemas import Version, format_value, print_version
@@ -55,7 +55,7 @@ def _continuous(keeper: Keeper, joint: Joint) -> Joint:
         pieces += [text_piece(name, format_value(value), "axis/limit") for name, value in ends.items()]
         endless = limit.model_copy(update=dict.fromkeys(ends))
         changed = changed.model_copy(update={"axis": joint.axis.model_copy(update={"limit": endless})})
-    return _keep(keeper, changed, joint, pieces, Terms(since=_NEWER["continuous"]))
+    return _keep(keeper, changed, joint, pieces, VersionCondition(since=_NEWER["continuous"]))
 
 
 def _fixed(keeper: Keeper, joint: Joint) -> Joint:
@@ -64,13 +64,13 @@ def _fixed(keeper: Keeper, joint: Joint) -> Joint:
         written = to_element(Joint(name="", type="fixed", axis=joint.axis), "joint", "sdf").find("axis")
         pieces += [Opaque(element=written)] if written else []
     changed = joint.model_copy(update={"type": "revolute", "axis": _STILL})
-    return _keep(keeper, changed, joint, pieces, Terms(since=_NEWER["fixed"], without=("axis",)))
+    return _keep(keeper, changed, joint, pieces, VersionCondition(since=_NEWER["fixed"], without=("axis",)))
 
 
 def _type(joint: Joint) -> Opaque:
     return Opaque(attribute=("type", joint.type))
 
 
-def _keep(keeper: Keeper, changed: Joint, joint: Joint, pieces: list[Opaque], terms: Terms) -> Joint:
+def _keep(keeper: Keeper, changed: Joint, joint: Joint, pieces: list[Opaque], condition: VersionCondition) -> Joint:
     message = f"joint {joint.name!r} is {joint.type}, which the version calls {changed.type}"
-    return keeper.keep(changed, pieces, terms, rules.OTHER_WORDS, message, joint.location, len(pieces))
+    return keeper.keep(changed, pieces, condition, rules.OTHER_WORDS, message, joint.location, len(pieces))

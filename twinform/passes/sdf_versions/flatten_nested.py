@@ -6,7 +6,7 @@ from typing import ClassVar
 from twinform.diagnostics.rules import to_sdf as rules
 from twinform.ir import Document, Model, World, count_parts, rewrite
 from twinform.passes.carriers.annotations import without_synthesized
-from twinform.passes.carriers.sdf_versions import Keeper, Terms
+from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition
 from twinform.passes.sdf_versions.base import VersionPass
 from twinform.passes.transforms.flattening import flatten
 from twinform.passes.transforms.nodes import piece
@@ -40,7 +40,7 @@ class FlattenNested(VersionPass):
             nested = model.models[index]
             message = f"model {nested.name!r} is in model {model.name!r}, which SDF has since 1.5"
             keeper.sink.report(rules.OLDER_VERSION, message, nested.location, found=nested.name)
-            terms = Terms(since=since, index=index, instead=f"{nested.name}::")
+            condition = VersionCondition(since=since, index=index, instead=f"{nested.name}::")
             where, weight = nested.location, count_parts(nested.model_copy(update={"links": (), "joints": ()}))
-            flat = keeper.keep(flat, [piece(nested, "model")], terms, rules.OLDER_VERSION, message, where, weight)
+            flat = keeper.keep(flat, [piece(nested, "model")], condition, rules.OLDER_VERSION, message, where, weight)
         return flat

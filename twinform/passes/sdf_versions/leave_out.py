@@ -7,7 +7,7 @@ from twinform.diagnostics.rules import sdf_versions as rules
 from twinform.diagnostics.rules import to_sdf as shared_rules
 from twinform.ir import Collision, Document, Element, Node, Opaque, Pose, Visual, node_fields, replace_fields
 from twinform.passes.carriers.definitions import definition_of
-from twinform.passes.carriers.sdf_versions import Keeper, Terms, is_version_carrier
+from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition, is_version_carrier
 from twinform.passes.sdf_versions.base import VersionPass, is_foreign
 from twinform.passes.sdf_versions.leftovers import Leftover, node_pieces
 from twinform.passes.sdf_versions.spans import Shape, Span, shape, shape_of, whole
@@ -30,10 +30,10 @@ class LeaveOut(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with what the version has."""
-        return _Net(keeper, self.number).whole_node(document, shape("sdf"))
+        return _UndefinedRemover(keeper, self.number).whole_node(document, shape("sdf"))
 
 
-class _Net:
+class _UndefinedRemover:
     """One run."""
 
     def __init__(self, keeper: Keeper, version: Version) -> None:
@@ -71,7 +71,7 @@ class _Net:
         if field in node_fields(type(node)) and not isinstance(value, Node):
             return self._many(field, value, span, row)
         if row is None:
-            return type(node).model_fields[field].default, [Leftover((field,), value, span.terms(self.version))]
+            return type(node).model_fields[field].default, [Leftover((field,), value, span.condition(self.version))]
         if isinstance(value, Node) and (row.reference not in self.whole or span.is_split):
             return self._inner(field, value, span, row)
         return value, []
@@ -81,7 +81,7 @@ class _Net:
         if definition_of(value) is not None and form.fact.type is None:
             return self.whole_node(value, form), []
         changed, left = self.node(value, form)
-        if left and changed == type(value)():  # an element that says nothing is not written
+        if left and changed == type(value)():  # an empty element is not written
             changed = None
         return changed, [each.inside(field, row.name) for each in left]
 
@@ -90,25 +90,25 @@ class _Net:
         kept: list[Any] = []
         left: list[Leftover] = []
         for index, value in enumerate(values):
-            terms = self._terms(value, span, row, index)
-            if terms is None and repetition and kept:
-                terms = repetition.terms(self.version)
-            if terms is not None:
-                left.insert(0, Leftover((field,), (value,), terms))
+            condition = self._condition(value, span, row, index)
+            if condition is None and repetition and kept:
+                condition = repetition.condition(self.version)
+            if condition is not None:
+                left.insert(0, Leftover((field,), (value,), condition))
             elif row is not None and row.reference not in self.whole:
                 kept.append(self.whole_node(value, shape_of(row)))
             else:
                 kept.append(value)
         return tuple(kept), left
 
-    def _terms(self, value: Any, span: Span, row: Fact | None, index: int) -> Terms | None:
+    def _condition(self, value: Any, span: Span, row: Fact | None, index: int) -> VersionCondition | None:
         """When there is such a thing, if not in this version."""
         if row is None:
-            return span.terms(self.version, index)
+            return span.condition(self.version, index)
         if isinstance(value, Visual | Collision) and value.geometry and value.geometry.shape:
             known = shape("geometry").kinds.get(value.geometry.shape.kind)
             if known and known.row(self.version) is None:
-                return known.terms(self.version, index)
+                return known.condition(self.version, index)
         return None
 
     def _carry(self, node: Any, pieces: list[Opaque], left: Leftover) -> Any:
@@ -116,10 +116,10 @@ class _Net:
         where = left.location if left.location.line else node.location
         message = f"SDF {print_version(self.version)} does not have {called}"
         rule = rules.GONE_FROM_SDF
-        if left.terms.since is not None:
+        if left.condition.since is not None:
             rule = shared_rules.OLDER_VERSION
             self.keeper.sink.report(rule, message, where, found=called)
-        return self.keeper.keep(node, pieces, left.terms, rule, message, where, left.weight)
+        return self.keeper.keep(node, pieces, left.condition, rule, message, where, left.weight)
 
 
 class _Elements:
@@ -136,7 +136,7 @@ class _Elements:
         seen: dict[tuple[str, str], int] = {}
         for part in node.opaque:
             found = self._part(node, part, form, seen)
-            if isinstance(found, Terms):
+            if isinstance(found, VersionCondition):
                 left.insert(0, Leftover((), part, found))
                 continue
             changed, attributes = found
@@ -146,7 +146,7 @@ class _Elements:
 
     def _part(
         self, node: Node, part: Opaque, form: Shape, seen: dict[tuple[str, str], int]
-    ) -> Terms | tuple[Opaque, list[Leftover]]:
+    ) -> VersionCondition | tuple[Opaque, list[Leftover]]:
         """The part as the version has it, or when there is such a thing."""
         name = part.element.name if part.element else f"@{part.attribute[0]}" if part.attribute else ""
         if not name or name.lstrip("@")[0] == "{" or is_version_carrier(part):
@@ -160,20 +160,22 @@ class _Elements:
                 return part, []
             row = span.row(self.version)
             if row is None:
-                return span.terms(self.version)
+                return span.condition(self.version)
             form = span.shape(row)
         number = seen[part.at, name] = seen.get((part.at, name), int(self._is_typed(node, row))) + 1
         repetition = span.repetition(self.version) if span else None
         if part.element is None or row is None:
             return part, []
         if repetition and number > 1:
-            return repetition.terms(self.version)
+            return repetition.condition(self.version)
         where = part.location
         element, attributes = self._element(part.element, row, form, where)
         if element is part.element:
             return part, []
         at = f"{part.at}/{name}" if part.at else name
-        lifted = [Leftover((), Opaque(at=at, attribute=pair, source=part.source), terms) for pair, terms in attributes]
+        lifted = [
+            Leftover((), Opaque(at=at, attribute=pair, source=part.source), condition) for pair, condition in attributes
+        ]
         return part.model_copy(update={"element": element}), lifted
 
     def _is_typed(self, node: Node, row: Fact | None) -> bool:
@@ -182,18 +184,18 @@ class _Elements:
 
     def _element(
         self, element: Element, row: Fact, form: Shape, where: Location
-    ) -> tuple[Element, list[tuple[tuple[str, str], Terms]]]:
+    ) -> tuple[Element, list[tuple[tuple[str, str], VersionCondition]]]:
         """The element as the version has it; the attributes that a leaf loses have to be carried beside it."""
         if form.fact.any or (row.reference in self.whole and form is shape_of(row)):
             return element, []
-        lost = [(pair, terms) for pair in element.attributes if (terms := self._missing(f"@{pair[0]}", form))]
+        lost = [(pair, condition) for pair in element.attributes if (condition := self._missing(f"@{pair[0]}", form))]
         children: list[Element] = []
         for child in element.children:
             children += self._child(child, form, where)
         gone = [pair for pair, _ in lost]
         if form.fact.type is None:
-            for pair, terms in lost:
-                children += self._keep(Opaque(attribute=pair), terms, f"the attribute {pair[0]!r}", where)
+            for pair, condition in lost:
+                children += self._keep(Opaque(attribute=pair), condition, f"the attribute {pair[0]!r}", where)
             lost = []
         attributes = tuple(pair for pair in element.attributes if pair not in gone)
         return replace_fields(element, attributes=attributes, children=tuple(children)), lost
@@ -206,31 +208,31 @@ class _Elements:
         if row is not None and row.type and any(not is_foreign(inner) for inner in child.children):
             row, span = None, span.containers()  # a wrench is a value, and was a position and a force
         if row is None:
-            return self._keep(Opaque(element=child), span.terms(self.version), f"<{child.name}>", where)
+            return self._keep(Opaque(element=child), span.condition(self.version), f"<{child.name}>", where)
         inner, lost = self._element(child, row, span.shape(row), where)
         beside = [
             element
-            for pair, terms in lost
+            for pair, condition in lost
             for element in self._keep(
-                Opaque(at=child.name, attribute=pair), terms, f"the attribute {pair[0]!r} of <{child.name}>", where
+                Opaque(at=child.name, attribute=pair), condition, f"the attribute {pair[0]!r} of <{child.name}>", where
             )
         ]
         return [inner, *beside]
 
-    def _missing(self, name: str, form: Shape) -> Terms | None:
+    def _missing(self, name: str, form: Shape) -> VersionCondition | None:
         span = form.names.get(name)
-        return span.terms(self.version) if span and span.row(self.version) is None else None
+        return span.condition(self.version) if span and span.row(self.version) is None else None
 
-    def _keep(self, piece: Opaque, terms: Terms, called: str, where: Location) -> list[Element]:
+    def _keep(self, piece: Opaque, condition: VersionCondition, called: str, where: Location) -> list[Element]:
         message = f"SDF {print_version(self.version)} does not have {called}"
-        rule = shared_rules.OLDER_VERSION if terms.since is not None else rules.GONE_FROM_SDF
-        if terms.since is not None:
+        rule = shared_rules.OLDER_VERSION if condition.since is not None else rules.GONE_FROM_SDF
+        if condition.since is not None:
             self.keeper.sink.report(rule, message, where, found=called)
-        return list(self.keeper.keep_element(piece, terms, rule, message, where))
+        return list(self.keeper.keep_element(piece, condition, rule, message, where))
 
 
 def _is_plain_pose(value: object) -> bool:
-    """Whether it is a pose that every version can say, which is nearly every one."""
+    """Whether it is a pose that every version can express, which is nearly every one."""
     return (
         isinstance(value, Pose)
         and not value.opaque

@@ -8,7 +8,7 @@ from twinform.diagnostics import NOWHERE, Location
 from twinform.ir import Element, Node, Opaque, count_parts
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.definitions import definition_of
-from twinform.passes.carriers.sdf_versions import Terms
+from twinform.passes.carriers.sdf_versions import VersionCondition
 
 _ABOUT = frozenset({"source", "spelling", "name", "type", "kind", "format", "version", "namespaces"})
 _IDENTITY = frozenset({"name", "type", "version"})
@@ -20,14 +20,14 @@ class Leftover:
 
     fields: tuple[str, ...]
     value: object
-    terms: Terms
+    condition: VersionCondition
 
     def inside(self, field: str, tag: str) -> "Leftover":
         """The same, seen from the node around it, whose field this is in the element of that tag."""
         if isinstance(self.value, Opaque):
             at = f"{tag}/{self.value.at}" if self.value.at else tag
-            return Leftover((), self.value.model_copy(update={"at": at}), self.terms)
-        return Leftover((field, *self.fields), self.value, self.terms)
+            return Leftover((), self.value.model_copy(update={"at": at}), self.condition)
+        return Leftover((field, *self.fields), self.value, self.condition)
 
     @property
     def first(self) -> object:

@@ -4,7 +4,7 @@ from functools import partial
 from typing import ClassVar
 
 from twinform.ir import Document, Element, Opaque, World, rewrite
-from twinform.passes.carriers.sdf_versions import Keeper, Terms, version_carriers
+from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition, version_carriers
 from twinform.passes.sdf_versions.base import VersionPass
 from twinform.passes.sdf_versions.element_paths import put, take
 from twinform.schemas import format_value, parse_value
@@ -78,7 +78,7 @@ def _back(carriers: bool, field: bool, world: World) -> World:
 
 def _made(*, carriers: bool) -> Element:
     """A `<physics>` that is there for its gravity alone."""
-    annotations = version_carriers([], Terms(since=_SINCE, without=(".",))) if carriers else ()
+    annotations = version_carriers([], VersionCondition(since=_SINCE, without=(".",))) if carriers else ()
     children = tuple(part.element for part in annotations if part.element)
     return Element(name="physics", attributes=(("type", "ode"),), children=children)
 

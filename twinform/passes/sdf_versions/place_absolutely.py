@@ -30,7 +30,7 @@ from twinform.ir import (
 from twinform.ir.frames import MODEL, WORLD, FrameGraph, Kind
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import to_element
-from twinform.passes.carriers.sdf_versions import Keeper, Terms, version_carriers
+from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition, version_carriers
 from twinform.passes.sdf_versions.base import VersionPass, known_version
 from twinform.passes.transforms.element_poses import ElementPoses
 from twinform.passes.transforms.nodes import pose_piece
@@ -124,10 +124,10 @@ class _Placer:
             message = f"frame {frame.name!r} has no place in SDF before 1.7"
             self.keeper.sink.report(shared_rules.OLDER_VERSION, message, frame.location, found=frame.name)
             pieces = [Opaque(element=to_element(frame, "frame", "sdf"))]
-            terms = Terms(since=_NAMES, index=index)
+            condition = VersionCondition(since=_NAMES, index=index)
             weight = count_parts(frame)
             holder = self.keeper.keep(
-                holder, pieces, terms, shared_rules.OLDER_VERSION, message, frame.location, weight
+                holder, pieces, condition, shared_rules.OLDER_VERSION, message, frame.location, weight
             )
         return holder.model_copy(update={"frames": ()})
 
@@ -142,9 +142,9 @@ class _Placer:
         called = getattr(node, "name", None)
         what = f"{type(node).__name__.lower()} {called!r}" if called else f"the {type(node).__name__.lower()}"
         message = f"the pose of {what} is in a frame that the version cannot name"
-        terms = Terms(since=_PLACEMENT if self.named else _NAMES, without=gone)
+        condition = VersionCondition(since=_PLACEMENT if self.named else _NAMES, without=gone)
         weight = count_parts(written) if written else 0
-        return self.keeper.keep(changed, pieces, terms, rules.OTHER_WORDS, message, node.location, weight)
+        return self.keeper.keep(changed, pieces, condition, rules.OTHER_WORDS, message, node.location, weight)
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,7 +212,7 @@ class _Poses:
     def _keep(self, message: str, pose: Pose) -> tuple[Element, ...]:
         written = to_element(pose, "pose", "sdf")
         self.placer.keeper.account(rules.OTHER_WORDS, message, NOWHERE, 1 + len(written.attributes))
-        carriers = version_carriers([Opaque(element=written)], Terms(since=_NAMES, instead="pose"))
+        carriers = version_carriers([Opaque(element=written)], VersionCondition(since=_NAMES, instead="pose"))
         return tuple(part.element for part in carriers if part.element) if self.placer.keeper.carriers else ()
 
 

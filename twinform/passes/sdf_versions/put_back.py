@@ -20,7 +20,7 @@ from twinform.ir import (
 from twinform.ir.verify.joints import verify_mimics
 from twinform.passes.carriers.absorb import CarrierError, absorb, says_already
 from twinform.passes.carriers.carriers import NAMESPACE
-from twinform.passes.carriers.sdf_versions import DIALECT, Keeper, carried, is_version_carrier, terms_of
+from twinform.passes.carriers.sdf_versions import DIALECT, Keeper, carried, condition_of, is_version_carrier
 from twinform.passes.sdf_versions.base import VersionPass, is_foreign
 from twinform.passes.sdf_versions.comparison import same, without_carriers
 from twinform.passes.sdf_versions.steps import backward
@@ -106,15 +106,15 @@ def restored(node: AnyNode, version: Version) -> AnyNode:
 
 def restored_itself(node: AnyNode, version: Version) -> AnyNode:
     """The node with its own carriers unpacked."""
-    own = [part for part in node.opaque if is_version_carrier(part) and terms_of(part).fit(version)]
+    own = [part for part in node.opaque if is_version_carrier(part) and condition_of(part).fit(version)]
     if own:
         kept = tuple(part for part in node.opaque if not any(part is each for each in own))
         node = node.model_copy(update={"opaque": kept})
         for part in reversed(own):
-            terms = terms_of(part)
-            if any(says_already(node, piece, terms) for piece in carried(part)):
+            condition = condition_of(part)
+            if any(says_already(node, piece, condition) for piece in carried(part)):
                 raise CarrierError("the file now has its own element for what it holds")
-            node = absorb(node, carried(part), terms, version)
+            node = absorb(node, carried(part), condition, version)
     parts = (_inside(part, version) for part in node.opaque)
     return replace_fields(node, opaque=tuple(part for part in parts if part is not None))
 
@@ -133,13 +133,13 @@ def _restored_element(element: Element, version: Version) -> Element | None:
     changed = False
     for child in element.children:
         part = Opaque(element=child)
-        if is_version_carrier(part) and (terms := terms_of(part)).fit(version):
+        if is_version_carrier(part) and (condition := condition_of(part)).fit(version):
             changed = True
-            if _ITSELF in terms.without:
+            if _ITSELF in condition.without:
                 return None
             pieces = carried(part)
             made += [piece for piece in pieces if piece.attribute]
-            children = [each for each in children if each.name != terms.instead]
+            children = [each for each in children if each.name != condition.instead]
             children += [piece.element for piece in pieces if piece.element]
             continue
         inner = child if is_foreign(child) or child.name == "plugin" else _restored_element(child, version)

@@ -4,7 +4,7 @@ from collections.abc import Container
 from dataclasses import dataclass, field
 from functools import cache
 
-from twinform.passes.carriers.sdf_versions import Terms
+from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.schemas import Fact, Version, table
 
 _FIRST: Version = (0, 0)
@@ -25,11 +25,11 @@ class Span:
             self._found[version] = next(fitting, None)
         return self._found[version]
 
-    def terms(self, version: Version, index: int | None = None) -> Terms:
+    def condition(self, version: Version, index: int | None = None) -> VersionCondition:
         """The nearest versions that have it, on both sides of one that does not."""
         later = [since for since, _, _ in self.rows if since > version]
         earlier = [until for _, until, _ in self.rows if until < version]
-        return Terms(since=min(later, default=None), until=max(earlier, default=None), index=index)
+        return VersionCondition(since=min(later, default=None), until=max(earlier, default=None), index=index)
 
     def repetition(self, version: Version) -> "Span | None":
         """When it may stand more than once, if that is in other versions alone."""

@@ -7,7 +7,7 @@ from twinform.diagnostics.rules import sdf_versions as rules
 from twinform.ir import Axis, Document, Element, Format, Joint, Model, Opaque, rewrite
 from twinform.ir.defaults import AXIS, direction
 from twinform.ir.frames import MODEL, FrameGraph
-from twinform.passes.carriers.sdf_versions import Keeper, Terms
+from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition
 from twinform.passes.sdf_versions.base import VersionPass
 from twinform.schemas import Version, format_value
 
@@ -80,10 +80,10 @@ class _Turner:
         # back in newer syntax, an axis that was written without a frame is one in the model
         gone = [f"{field}.expressed_in"] if to_model and axis.expressed_in is None else []
         gone += [f"{field}.xyz"] if axis.xyz is None and xyz is not None else []
-        terms = Terms(since=_NAMES, without=tuple(gone))
+        condition = VersionCondition(since=_NAMES, without=tuple(gone))
         pieces = [_written(field, axis)] if written else []
         weight = (axis.xyz is not None) + (axis.expressed_in is not None)
-        return self.keeper.keep(turned, pieces, terms, rules.OTHER_WORDS, message, axis.location, weight)
+        return self.keeper.keep(turned, pieces, condition, rules.OTHER_WORDS, message, axis.location, weight)
 
 
 def _written(field: str, axis: Axis) -> Opaque:

@@ -8,7 +8,7 @@ from twinform.ir import Document, Inertial, Link, Model, rewrite
 from twinform.ir.frames import FrameGraph
 from twinform.passes.analyses.automatic_inertias import NoInertiaError, automatic, map_automatic, written_out
 from twinform.passes.analyses.meshes import Meshes
-from twinform.passes.carriers.sdf_versions import Keeper, Terms
+from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition
 from twinform.passes.framework.assets import AssetPass
 from twinform.passes.sdf_versions.base import VersionPass
 
@@ -21,7 +21,7 @@ class WriteInertias(VersionPass, AssetPass):
     Changes: mass, pose and inertia of such a link are those of its collisions, filled with their densities; a mass that
     is written stays.
     Never touches: links without collisions or with shapes without an inside; of these a later pass says that the
-    version cannot say it.
+    version cannot express it.
     """
 
     name: ClassVar[str] = "write-inertias"
@@ -39,6 +39,6 @@ def _write(keeper: Keeper, meshes: Meshes, link: Link, inertial: Inertial, graph
         return link
     written, pieces, made = written_out(inertial, found)
     message = f"the inertia of link {link.name!r} is left to be computed from its collisions"
-    terms = Terms(since=_SINCE, without=made)
-    kept = keeper.keep(written, pieces, terms, rules.OTHER_WORDS, message, inertial.location, len(pieces))
+    condition = VersionCondition(since=_SINCE, without=made)
+    kept = keeper.keep(written, pieces, condition, rules.OTHER_WORDS, message, inertial.location, len(pieces))
     return link.model_copy(update={"inertial": kept})

@@ -8,7 +8,7 @@ from twinform.diagnostics.rules import sdf_versions as rules
 from twinform.ir import Document, Element, Node, Opaque, Pose, count_parts, map_children, rewrite
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import to_element
-from twinform.passes.carriers.sdf_versions import Keeper, Terms, version_carriers
+from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition, version_carriers
 from twinform.passes.sdf_versions.base import VersionPass, map_inside, map_own_elements
 from twinform.passes.sdf_versions.element_paths import replace
 from twinform.passes.transforms.element_poses import read_pose
@@ -44,8 +44,8 @@ def _plain(keeper: Keeper, node: Node) -> Node:
     called = getattr(node, "name", None) or type(node).__name__.lower()
     message = f"the pose of {called!r} is written in degrees or as a quaternion"
     weight = count_parts(pose)
-    terms = Terms(since=_SINCE)
-    return keeper.keep(changed, [pose_piece(pose)], terms, rules.OTHER_WORDS, message, pose.location, weight)
+    condition = VersionCondition(since=_SINCE)
+    return keeper.keep(changed, [pose_piece(pose)], condition, rules.OTHER_WORDS, message, pose.location, weight)
 
 
 def _element(keeper: Keeper, element: Element) -> Element:
@@ -61,6 +61,6 @@ def _element(keeper: Keeper, element: Element) -> Element:
     changed = replace(element, pose, plain)
     if not keeper.carriers:
         return changed
-    carriers = version_carriers([Opaque(element=pose)], Terms(since=_SINCE, instead="pose"))
+    carriers = version_carriers([Opaque(element=pose)], VersionCondition(since=_SINCE, instead="pose"))
     children = (*changed.children, *(part.element for part in carriers if part.element))
     return changed.model_copy(update={"children": children})

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from twinform.diagnostics.rules import sdf_versions as rules
 from twinform.ir import Document, Joint, rewrite
-from twinform.passes.carriers.sdf_versions import Keeper, Terms
+from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition
 from twinform.passes.sdf_versions.base import VersionPass
 from twinform.passes.transforms.nodes import text_piece
 from twinform.schemas import format_value
@@ -51,5 +51,5 @@ def _back(keeper: Keeper, joint: Joint) -> Joint:
     if joint.thread_pitch is not None:
         pieces.append(text_piece("thread_pitch", format_value(joint.thread_pitch)))
     gone = ("thread_pitch",) if joint.thread_pitch is None else ()
-    terms = Terms(since=_SINCE, without=gone)
-    return keeper.keep(changed, pieces, terms, rules.OTHER_WORDS, message, joint.location, max(1, len(pieces)))
+    condition = VersionCondition(since=_SINCE, without=gone)
+    return keeper.keep(changed, pieces, condition, rules.OTHER_WORDS, message, joint.location, max(1, len(pieces)))

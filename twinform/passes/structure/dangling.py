@@ -10,15 +10,15 @@ from twinform.ir.verify import verify
 
 
 @dataclass(frozen=True, slots=True)
-class Gone:
+class RemovedNames:
     """The names of what was taken out, by kind; empty for what had none."""
 
     names: dict[str, set[str]] = field(default_factory=dict[str, set[str]])
 
 
-def report_dangling(before: Document, after: Document, gone: Gone, sink: DiagnosticSink) -> None:
+def report_dangling(before: Document, after: Document, removed: RemovedNames, sink: DiagnosticSink) -> None:
     """Report which plugins name what is gone, and what is wrong now that was not before."""
-    names = {name for each in gone.names.values() for name in each if name} - set(_names(after))
+    names = {name for each in removed.names.values() for name in each if name} - set(_names(after))
     for element, where in _parameters(after):
         for word in (element.text, *(value for _, value in element.attributes)):
             name = (word or "").strip().rpartition("::")[2]

@@ -26,7 +26,7 @@ from twinform.ir import (
 from twinform.passes.carriers.carriers import is_ours
 from twinform.passes.framework.base import Pass
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
-from twinform.passes.structure.dangling import Gone, report_dangling
+from twinform.passes.structure.dangling import RemovedNames, report_dangling
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -77,80 +77,82 @@ class Drop(Pass):
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document without what is to go."""
-        gone = Gone()
+        removed = RemovedNames()
         everywhere = "*" in self.links
-        made = self._thinned(document, gone, meant=everywhere)
-        made = map_children(made, lambda node: self._node(node, gone, meant=everywhere))
+        made = self._thinned(document, removed, meant=everywhere)
+        made = map_children(made, lambda node: self._node(node, removed, meant=everywhere))
         for option in _OPTIONS:
             patterns = ", ".join(getattr(self, option))
-            if patterns and option not in gone.names:
+            if patterns and option not in removed.names:
                 message = f"none of the {option} is called {patterns}"
                 sink.report(NOTHING_MATCHED, message, document.location, found=patterns)
         if made is not document:
-            report_dangling(document, made, gone, sink)
+            report_dangling(document, made, removed, sink)
         return made
 
-    def _node(self, node: Node, gone: Gone, *, meant: bool) -> Node:
+    def _node(self, node: Node, removed: RemovedNames, *, meant: bool) -> Node:
         """The node without what is to go below it; `meant` says whether it is on a link that is meant."""
         if isinstance(node, GazeboExtension):
-            return self._extension(node, gone)
+            return self._extension(node, removed)
         if isinstance(node, Link):
             meant = matches(node.name, self.links)
-        made = map_children(self._thinned(node, gone, meant=meant), lambda child: self._node(child, gone, meant=meant))
+        made = map_children(
+            self._thinned(node, removed, meant=meant), lambda child: self._node(child, removed, meant=meant)
+        )
         return _without_empty(node, made) if isinstance(node, Model) and isinstance(made, Model) else made
 
-    def _thinned(self, node: AnyNode, gone: Gone, *, meant: bool) -> AnyNode:
+    def _thinned(self, node: AnyNode, removed: RemovedNames, *, meant: bool) -> AnyNode:
         """The node without what is to go directly in it."""
         update: dict[str, object] = {}
         for name in node_fields(type(node)) if meant else ():
             value = getattr(node, name)
             if not value or isinstance(value, Node):
                 continue
-            kept = tuple(child for child in value if not self._goes(child, gone))
+            kept = tuple(child for child in value if not self._goes(child, removed))
             if len(kept) < len(value):
                 update[name] = kept
         if meant and node.opaque:
-            opaque = tuple(self._in_opaque(part, gone) for part in node.opaque)
+            opaque = tuple(self._in_opaque(part, removed) for part in node.opaque)
             update |= {"opaque": opaque} if opaque != node.opaque else {}
         return node.model_copy(update=update) if update else node
 
-    def _in_opaque(self, part: Opaque, gone: Gone) -> Opaque:
+    def _in_opaque(self, part: Opaque, removed: RemovedNames) -> Opaque:
         """A part that the IR keeps as it is, such as `<gui>`, without what is to go in it."""
         if part.element is None or is_ours(part):
             return part
-        return replace_fields(part, element=self._inside(part.element, gone))
+        return replace_fields(part, element=self._inside(part.element, removed))
 
-    def _goes(self, node: Node, gone: Gone) -> bool:
+    def _goes(self, node: Node, removed: RemovedNames) -> bool:
         option = _KINDS.get(type(node))
         if option is None:
             return False
-        return self._is_named(option, getattr(node, "name", None), getattr(node, "filename", None), gone)
+        return self._is_named(option, getattr(node, "name", None), getattr(node, "filename", None), removed)
 
-    def _is_named(self, option: str, name: str | None, file: str | None, gone: Gone) -> bool:
+    def _is_named(self, option: str, name: str | None, file: str | None, removed: RemovedNames) -> bool:
         patterns = getattr(self, option)
         if not matches(name, patterns) and not (file and matches(file, patterns)):
             return False
-        gone.names.setdefault(option, set()).add(name or "")
+        removed.names.setdefault(option, set()).add(name or "")
         return True
 
-    def _extension(self, extension: GazeboExtension, gone: Gone) -> GazeboExtension:
+    def _extension(self, extension: GazeboExtension, removed: RemovedNames) -> GazeboExtension:
         """A `<gazebo>` element of URDF without what is to go in it."""
         if not matches(extension.reference, self.links):
             return extension
-        return replace_fields(extension, content=self._kept(extension.content, gone))
+        return replace_fields(extension, content=self._kept(extension.content, removed))
 
-    def _kept(self, elements: tuple[Element, ...], gone: Gone) -> tuple[Element, ...]:
+    def _kept(self, elements: tuple[Element, ...], removed: RemovedNames) -> tuple[Element, ...]:
         """The elements that stay, without what is to go in them; the parameters of plugins are theirs alone."""
-        return tuple(self._inside(each, gone) for each in elements if not self._element_goes(each, gone))
+        return tuple(self._inside(each, removed) for each in elements if not self._element_goes(each, removed))
 
-    def _inside(self, element: Element, gone: Gone) -> Element:
+    def _inside(self, element: Element, removed: RemovedNames) -> Element:
         if element.name == "plugin":
             return element
-        return replace_fields(element, children=self._kept(element.children, gone))
+        return replace_fields(element, children=self._kept(element.children, removed))
 
-    def _element_goes(self, element: Element, gone: Gone) -> bool:
+    def _element_goes(self, element: Element, removed: RemovedNames) -> bool:
         option = _FREE_CONTENT.get(element.name)
-        return option is not None and self._is_named(option, element.get("name"), element.get("filename"), gone)
+        return option is not None and self._is_named(option, element.get("name"), element.get("filename"), removed)
 
 
 def _without_empty(before: Model, after: Model) -> Model:

@@ -23,7 +23,7 @@ _OF_BODY = {
     "dampingFactor": "velocity_decay", "velocity_decay": "velocity_decay", "kinematic": "kinematic",
     "enable_wind": "enable_wind", "inertial": "inertial", "pose": "pose",
 }  # fmt: skip
-"""Elements that are about the body of a link, and what they say something of."""
+"""Elements that are about the body of a link, and their values something of."""
 _DISABLE = "disableFixedJointLumping"
 _PRESERVE = ("preserveFixedJoint", _DISABLE)
 _TYPED = frozenset({"sensor", "light"})

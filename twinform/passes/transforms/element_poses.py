@@ -147,7 +147,7 @@ def _is_marked(element: Element) -> bool:
 
 
 def read_pose(element: Element) -> Pose:
-    """The pose that an element says; SDF before 1.7 calls its frame `frame`."""
+    """The pose that an element defines; SDF before 1.7 calls its frame `frame`."""
     context = Context(DiagnosticSink(), "", "sdf", table("sdf").newest)
     pose = Pose.model_validate(reader("sdf", context.version).read(element_xml(element), context, "pose"))
     return pose.model_copy(update={"relative_to": _frame_of(element), "opaque": ()})

@@ -5,7 +5,7 @@ from math import pi
 import pytest
 
 import twinform
-from tests.unit.passes.told import entries
+from tests.unit.passes.reported import entries
 from twinform.ir import Joint, Model, Pose
 
 BASE = f'<link name="base"><pose>0 0 0 0 0 {pi / 2}</pose></link>\n'

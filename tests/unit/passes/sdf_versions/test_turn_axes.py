@@ -5,7 +5,7 @@ from math import pi
 import pytest
 
 import twinform
-from tests.unit.passes.told import entries
+from tests.unit.passes.reported import entries
 from twinform.ir import Axis, Joint
 from twinform.passes.carriers.carriers import NAMESPACE
 

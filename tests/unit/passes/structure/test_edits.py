@@ -5,7 +5,7 @@ from math import cos, sin
 import pytest
 
 import twinform
-from tests.unit.passes.told import findings
+from tests.unit.passes.reported import findings
 from twinform.diagnostics import DiagnosticSink, Location, Origins
 from twinform.passes import parse_pipeline
 from twinform.passes.structure.model_edit import in_new_words

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import twinform
-from tests.unit.passes.told import entries, findings
+from tests.unit.passes.reported import entries, findings
 from twinform.ir import Axis, Dynamics, Format, Limit
 from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import Solid

@@ -118,7 +118,7 @@ def _with_doubt(part: Opaque, joints: Container[str]) -> Opaque:
 
 
 def _unpacked(part: Opaque) -> tuple[Opaque, ...]:
-    """What is in a carrier of SDF, if the model does not say it already in words of its own; else the carrier."""
+    """What is in a carrier of SDF, if the model does not say it already in elements of its own; else the carrier."""
     pieces = unpack(part) if is_carrier(part, "sdf") and part.element and part.element.get("index") is None else ()
     fit = all(piece.element and not piece.at and piece.element.name not in _typed_in_sdf() for piece in pieces)
     return pieces if pieces and fit else (part,)

@@ -20,7 +20,7 @@ from twinform.passes.carriers.joint_chains import (
     metres_per_radian,
     part_of,
 )
-from twinform.passes.carriers.sdf_versions import Terms
+from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.passes.carriers.token_mass import is_chain_token, is_token
 from twinform.passes.legalise.to_sdf.mimic_references import with_reference
 from twinform.schemas import parse_version, table
@@ -229,7 +229,7 @@ def _unpacked(joint: Joint, names: tuple[str, ...]) -> Joint:
             opaque.append(part)
     newest = parse_version(table("sdf").versions[-1])
     try:
-        return absorb(joint.model_copy(update={"opaque": tuple(opaque)}), pieces, Terms(), newest)
+        return absorb(joint.model_copy(update={"opaque": tuple(opaque)}), pieces, VersionCondition(), newest)
     except CarrierError as error:
         raise StaleChainError(str(error)) from error
 

@@ -20,7 +20,7 @@ class DeclareQuaternions(ModelPass):
     name: ClassVar[str] = "declare-quaternions"
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
-        """The model with quaternions that say what they are."""
+        """The model with quaternions that declare their format."""
         return rewrite(model, Pose, _declared)
 
 

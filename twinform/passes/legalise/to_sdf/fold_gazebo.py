@@ -37,7 +37,7 @@ class FoldGazebo(ModelPass):
     else is read as SDF at the place of the reference: sensors, plugins, lights, joints, poses; an `<axis>` or
     `<physics>` adds to what is there; 4. what means nothing where it stands is carried, or dropped with `carriers`
     false.
-    Never touches: what the link, joint or model says already; the other one stays, with `gazebo-conflict`.
+    Never touches: what the link, joint or model has already; the other one stays, with `gazebo-conflict`.
     Diagnostics: `gazebo-conflict`, `gazebo-tag-without-target`, and those of reading SDF.
     """
 
@@ -231,7 +231,7 @@ class _Fold:
         return merged
 
     def _again(self, node: Node, field: str, extensions: list[GazeboExtension]) -> None:
-        """Report what is said again, and carry the elements that say it."""
+        """Report what is repeated, and carry the elements that repeat it."""
         again = [(extension, each) for extension in extensions for each in extension.content if each.name == field]
         if not again:
             # it is deeper inside, beside what was merged

@@ -27,7 +27,7 @@ class FoldGearboxes(ModelPass):
     name: ClassVar[str] = "fold-gearboxes"
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
-        """The model with each coupling said once."""
+        """The model with each coupling written once."""
         marked = [joint for joint in model.joints if find_annotation(joint, GEARED) and joint.axis and joint.axis.mimic]
         if not marked:
             return model

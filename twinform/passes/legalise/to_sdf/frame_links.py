@@ -108,7 +108,7 @@ class FrameLinks(ModelPass):
         return self._keep(frame, rest, f"the axis of the fixed joint {joint.name!r} has no effect", sink)
 
     def _keep_physics(self, model: Model, joints: list[Joint], sink: DiagnosticSink) -> Model:
-        """What `<gazebo>` says of the physics of a joint that becomes a frame: it is carried in such an element."""
+        """What `<gazebo>` sets for the physics of a joint that becomes a frame: it is carried in such an element."""
         kept: list[Opaque] = []
         for joint in joints:
             parts = [part.element for part in joint.opaque if part.element and part not in _carriers(joint)]
@@ -122,7 +122,7 @@ class FrameLinks(ModelPass):
         return carry(model, kept, "urdf") if self.carriers else model
 
     def _keep_flags(self, model: Model, links: list[Link], sink: DiagnosticSink) -> Model:
-        """What `<gazebo>` says of a link that becomes a frame, and that has no body to act on."""
+        """What `<gazebo>` sets for a link that becomes a frame, and that has no body to act on."""
         kept: list[Opaque] = []
         for link in links:
             said = {field: getattr(link, field) for field in _FLAGS}

@@ -53,7 +53,7 @@ def _report(found: DiagnosticSink, step: str, reference: str, sink: DiagnosticSi
 
 
 def with_mass(link: Link) -> Link:
-    """A link that says nothing about its mass has 1 kg in SDF; in URDF it has none."""
+    """A link without a written mass has 1 kg in SDF; in URDF it has none."""
     return link if link.inertial is not None else link.model_copy(update={"inertial": INERTIAL})
 
 

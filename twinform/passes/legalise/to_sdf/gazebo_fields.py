@@ -28,12 +28,12 @@ Values = Iterable[tuple[Tag, Any]]
 
 
 def set_model_fields(model: Model, values: Values) -> Model:
-    """The model with what tags say of it."""
+    """The model with the fields that tags set."""
     return model.model_copy(update={tag.field: value for tag, value in values})
 
 
 def set_link_fields(link: Link, values: Values) -> Link:
-    """The link with what tags say of it as a whole."""
+    """The link with the fields that tags set as a whole."""
     said = {tag.field: value for tag, value in values if tag.target == "link"}
     update: dict[str, object] = {field: value for field, value in said.items() if field != "velocity_decay"}
     if "velocity_decay" in said:

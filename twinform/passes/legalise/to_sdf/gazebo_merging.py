@@ -16,7 +16,7 @@ _ONCE = frozenset({"physics"})
 
 
 def merge(mine: AnyNode, fields: Mapping[str, Any], conflicts: list[str], *, replace: bool = False) -> AnyNode:
-    """The node with more fields. Where both say something, mine stays, or goes with `replace`; `conflicts` names it."""
+    """The node with more fields. Of a field in both the first stays, unless `replace`; `conflicts` gets its name."""
     update: dict[str, Any] = {}
     lists = node_fields(type(mine))
     for field, value in fields.items():
@@ -40,7 +40,7 @@ def merge(mine: AnyNode, fields: Mapping[str, Any], conflicts: list[str], *, rep
 
 
 def written(node: Node) -> dict[str, Any]:
-    """The fields that a node says something in."""
+    """The fields that are written in a node."""
     return {name: value for name, value in node.__dict__.items() if value is not None and value != ()}
 
 

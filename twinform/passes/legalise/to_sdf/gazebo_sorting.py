@@ -32,8 +32,8 @@ class _Value(NamedTuple):
         return place_of(self.element, self.extension)
 
 
-class Overruled(NamedTuple):
-    """A tag behind which another one says the same field."""
+class OverriddenTag(NamedTuple):
+    """A tag behind which another one sets the same field."""
 
     element: Element
     extension: GazeboExtension
@@ -84,7 +84,7 @@ class Sorter:
         self._unfit = unfit
         self._idle = idle
         self._read: dict[tuple[str, str], _Value] = {}
-        self.overruled: list[Overruled] = []
+        self.overruled: list[OverriddenTag] = []
         self.blobs: list[Blob] = []
         self.rest: list[GazeboExtension] = []
         self.misplaced: list[tuple[GazeboExtension, list[Element]]] = []
@@ -93,7 +93,7 @@ class Sorter:
 
     @property
     def values(self) -> list[tuple[Tag, Any]]:
-        """The tags that were there and what they say."""
+        """The tags that were there and their values."""
         return [(read.tag, read.value) for read in self._read.values()]
 
     def forget(self, names: Iterable[str]) -> None:
@@ -173,7 +173,7 @@ class Sorter:
             self._notes.report(
                 to_sdf.GAZEBO_CONFLICT, message, read.where, found=value_text(read.element), related=related
             )
-            self.overruled.append(Overruled(before.element, before.extension, message))
+            self.overruled.append(OverriddenTag(before.element, before.extension, message))
         self._read[key] = read
 
     def _extra_attributes(self, element: Element, where: Location, known: tuple[str, ...]) -> None:

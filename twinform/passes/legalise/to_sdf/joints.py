@@ -22,7 +22,7 @@ Made = TypeVar("Made", Link, Joint)
 
 
 class UrdfJoints(ModelPass):
-    """Say the types, default axes and default limits of URDF in SDF's terms.
+    """Convert the types, default axes and default limits of URDF to SDF.
 
     Changes: 1. a `fixed` joint loses its axis, limits and the like, which are carried; 2. a `continuous` joint is
     `revolute` without limits, as no engine of Gazebo knows the other, and loses lower and upper, which URDF ignores; 3.
@@ -152,7 +152,7 @@ _HIGHER = ("acceleration", "deceleration", "jerk")
 
 
 def _limit(joint: Joint, limit: Limit | None) -> tuple[Limit | None, list[Opaque]]:
-    """The limit in SDF's terms, and the attributes of URDF's that it has no place for."""
+    """The limit in SDF, and the attributes of URDF's that it has no place for."""
     if limit is None:
         return None, []
     unsaid = (*_HIGHER, "lower", "upper") if joint.type == "continuous" else _HIGHER

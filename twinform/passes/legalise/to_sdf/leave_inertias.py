@@ -15,7 +15,7 @@ from twinform.passes.analyses.meshes import Meshes
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.carriers import is_carrier, unpack
-from twinform.passes.carriers.sdf_versions import Terms
+from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.passes.framework.assets import AssetPass
 from twinform.passes.framework.base import ModelPass
 from twinform.schemas import parse_version, table
@@ -32,7 +32,7 @@ class LeaveInertias(ModelPass, AssetPass):
     Changes: 1. an inertial that carries `auto`, and has the numbers that its collisions give, is automatic again, with
     what was written beside; 2. where the numbers or the collisions were edited, the numbers stay and are no longer
     automatic.
-    Never touches: anything for an SDF before 1.11, which cannot say it: the numbers stay, and their carriers too.
+    Never touches: anything for an SDF before 1.11, which cannot express it: the numbers stay, and their carriers too.
     Diagnostics: `stale-carrier`.
     """
 
@@ -77,11 +77,11 @@ def _unpacked(inertial: Inertial) -> Inertial:
     pieces = tuple(piece for part in inertial.opaque if is_carrier(part, "sdf") for piece in unpack(part))
     kept = tuple(part for part in inertial.opaque if not is_carrier(part, "sdf"))
     newest = parse_version(table("sdf").versions[-1])
-    return absorb(inertial.model_copy(update={"opaque": kept}), pieces, Terms(), newest)
+    return absorb(inertial.model_copy(update={"opaque": kept}), pieces, VersionCondition(), newest)
 
 
 def _is_the_same(found: Solid, inertial: Inertial) -> bool:
-    """Whether an inertial says the same mass, center and inertia, whichever way its axes are turned."""
+    """Whether an inertial has the same mass, center and inertia, whichever way its axes are turned."""
     if inertial.mass is None or inertial.inertia is None:
         return False
     said = placed(written_solid(inertial, Format.URDF), Transform.from_pose(inertial.pose))

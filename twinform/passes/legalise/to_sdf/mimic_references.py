@@ -11,7 +11,7 @@ from twinform.passes.legalise.to_urdf.map_joints import MIMIC
 def with_reference(joint: Joint) -> Joint | None:
     """The joint whose mimic has the annotated `reference`; None where there is no mimic, or the text is no number.
 
-    multiplier (leader - reference) + offset is what URDF says as multiplier leader + offset.
+    multiplier (leader - reference) + offset is what URDF writes as multiplier leader + offset.
     """
     found = find_annotation(joint, MIMIC)
     if found is None:

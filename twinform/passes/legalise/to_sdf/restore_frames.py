@@ -56,7 +56,7 @@ class RestoreFrames(ModelPass):
     """Whether the model's frame is called by the word before 1.7 where an annotation has that."""
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
-        """The model in the terms of its SDF file."""
+        """The model as its SDF file has it."""
         if not came_from(model, Format.SDF):
             return self._with_offsets(model, sink)
         model = _without_made_root(model)

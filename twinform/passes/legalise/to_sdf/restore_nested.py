@@ -11,7 +11,7 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.provenance import wrote_scopes
-from twinform.passes.carriers.sdf_versions import Terms
+from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.names import renamed
 from twinform.passes.legalise.to_sdf.restore_frames import SCOPE
@@ -76,10 +76,10 @@ def _report_outside(frame: Frame, model: Model, sink: DiagnosticSink) -> None:
 class RestoreNested(ModelPass):
     """Put links, joints and frames with scoped names back into the models that SDF had inside the model.
 
-    Changes: 1. `inner::link` is `link` in the model `inner`, and so on; 2. the model has again what else it said. With
+    Changes: 1. `inner::link` is `link` in the model `inner`, and so on; 2. the model has again its other content. With
     `scopes`, a file before 1.8, where `::` may stand in any name, has such models by these names too, as since 1.8.
     Never touches: names without a scope, so what was added or renamed since stays where it is.
-    Diagnostics: `stale-carrier` where what a nested model said does not fit it, `nested-model` where a frame of one
+    Diagnostics: `stale-carrier` where what a nested model had does not fit it, `nested-model` where a frame of one
     moves with a link outside of it by now.
     """
 
@@ -119,7 +119,7 @@ def _report_frames_outside(model: Model, said: Iterable[str], sink: DiagnosticSi
 
 
 def _with_rest(model: Model, path: str, said: dict[str, Element], sink: DiagnosticSink) -> Model:
-    """A nested model with what it said besides its links, joints, frames and pose; and so those in it."""
+    """A nested model with what it had besides its links, joints, frames and pose; and so those in it."""
     models = tuple(_with_rest(inner, f"{path}{SCOPE}{inner.name}", said, sink) for inner in model.models)
     model = model.model_copy(update={"models": models})
     found = said.get(path)
@@ -130,7 +130,7 @@ def _with_rest(model: Model, path: str, said: dict[str, Element], sink: Diagnost
         *(Opaque(element=child) for child in found.children),
     )
     try:
-        whole = absorb(model.model_copy(update={"canonical_link": None}), pieces, Terms(), _NEWEST)
+        whole = absorb(model.model_copy(update={"canonical_link": None}), pieces, VersionCondition(), _NEWEST)
         return _placed(_with_known_links(whole))
     except CarrierError as error:
         message = f"what nested model {path!r} said does not fit it any more: {error}"
@@ -174,7 +174,7 @@ def _tidy(model: Model) -> Model:
 
 
 def _posed(node: AnyNode) -> AnyNode:
-    """The node without a pose that says nothing, or a frame that is the usual one."""
+    """The node without an empty pose, or a frame that is the usual one."""
     pose: Pose | None = node.__dict__["pose"]
     if pose is None:
         return node

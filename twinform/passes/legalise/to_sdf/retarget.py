@@ -32,7 +32,7 @@ class RetargetSdf(Pass):
     mixed: bool = False
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
-        """The document in terms of SDF."""
+        """The document as SDF."""
         kept = tuple((prefix, uri) for prefix, uri in document.namespaces if prefix not in {"", PREFIX})
         models = tuple(self._from_urdf(model, document) for model in document.models)
         before = source_version(document, Format.SDF)

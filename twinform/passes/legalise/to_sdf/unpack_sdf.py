@@ -10,7 +10,7 @@ from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.carriers import is_carrier, is_memory, unpack
 from twinform.passes.carriers.material_annotations import COLORS, SCRIPTS
-from twinform.passes.carriers.sdf_versions import Terms
+from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.transforms.urdf_color import urdf_color
 from twinform.schemas import parse_version, table
@@ -23,10 +23,10 @@ _ABOUT = frozenset({"opaque", "source", "spelling"})
 
 
 class UnpackSdf(ModelPass):
-    """Put what URDF could not say, and carriers of SDF hold, back where it stood.
+    """Put what URDF could not express, and carriers of SDF hold, back where it stood.
 
     Changes: carriers of shapes, scripts, colors of light, surfaces, axes of fixed joints and the like become what they
-    were, where the model leaves open what they say, in words of URDF and in `<gazebo>`: with `of` "bodies" those of the
+    were, where the model leaves open what they say, in URDF and in `<gazebo>`: with `of` "bodies" those of the
     model and its links, with "parts" the others.
     Never touches: what does not fit; these carriers stay, and the last pass reports them.
     Diagnostics: `stale-carrier` for colors of a visual that has another one now.
@@ -64,12 +64,12 @@ def _without_carriers(node: AnyNode) -> AnyNode:
 
 
 def _is_blank_pose(carrier: Opaque) -> bool:
-    """Whether it is a pose that says nothing, which the link says by now."""
+    """Whether it is an empty pose, which the link has by now."""
     return all(piece.element is not None and piece.element == Element(name="pose") for piece in unpack(carrier))
 
 
 def _is_overruled(carrier: Opaque, node: Node) -> bool:
-    """Whether URDF says otherwise by leaving something out.
+    """Whether URDF means another value by leaving an element out.
 
     Limits of a joint that turns, a whole material, or the first of two things, of which the carrier has the second.
     """
@@ -139,8 +139,8 @@ def _absorbed(node: AnyNode, carriers: Iterable[Opaque]) -> AnyNode:
     """
     for carrier in carriers:
         index = carrier.element.get("index") if carrier.element else None
-        terms = Terms(index=int(index) if index and index.isdecimal() else None)
-        node = absorb(node, unpack(carrier), terms, parse_version(table("sdf").versions[-1]))
+        condition = VersionCondition(index=int(index) if index and index.isdecimal() else None)
+        node = absorb(node, unpack(carrier), condition, parse_version(table("sdf").versions[-1]))
     return node
 
 
@@ -155,7 +155,7 @@ def _with(node: AnyNode, carrier: Opaque) -> AnyNode | None:
 
 
 def _defaults(node: Node) -> dict[str, object]:
-    """What the fields hold of a node that says nothing."""
+    """The field values of an empty node."""
     fields = type(node).model_fields.items()
     return {name: field.default for name, field in fields if name not in _ABOUT and not field.is_required()}
 

@@ -65,7 +65,7 @@ class Keeper:
 class ToUrdfPass(Pass):
     """A pass over the one model that becomes the robot. After an error there is nothing left to do.
 
-    `carriers` says whether parts that URDF cannot say travel in carriers or only into the ledger.
+    `carriers` says whether parts that URDF cannot express travel in carriers or only into the ledger.
     """
 
     carriers: bool = True

@@ -12,12 +12,12 @@ from twinform.passes.carriers.provenance import came_from, with_provenance, with
 from twinform.passes.framework.base import Pass
 from twinform.passes.legalise.to_urdf.base import Keeper
 from twinform.passes.legalise.to_urdf.map_geometry import UrdfVersion
-from twinform.passes.legalise.to_urdf.remainder import Words, take_remainder, urdf_words
+from twinform.passes.legalise.to_urdf.remainder import KnownFields, take_remainder, urdf_fields
 from twinform.passes.transforms.notation import BODY
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
-_IMPLIED: Words = {"relative_to": None}
+_IMPLIED: KnownFields = {"relative_to": None}
 """The frame of a joint's or link's pose, which URDF does not write because it cannot be another."""
 
 
@@ -36,7 +36,7 @@ class CarryTheRest(Pass):
     urdf_version: UrdfVersion = "1.0"
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
-        """The document in terms of URDF."""
+        """The document as URDF."""
         if sink.has_errors:
             return document
         keeper = Keeper(sink, self.carriers, any(came_from(model, Format.URDF) for model in document.models))
@@ -52,12 +52,12 @@ class CarryTheRest(Pass):
 
 
 def _finish(model: Model, document: Document, keeper: Keeper) -> Model:
-    rest = _Rest(keeper)
+    rest = _RemainderCarrier(keeper)
     model = _without_usual_root(model, keeper)
     model = model.model_copy(
         update={"links": tuple(map(rest.link, model.links)), "joints": tuple(map(rest.joint, model.joints))}
     )
-    model = rest.take(model, "model", urdf_words("robot"))
+    model = rest.take(model, "model", urdf_fields("robot"))
     model = model.model_copy(update={"links": tuple(_marked_world(link, keeper) for link in model.links)})
     has_world = any(link.name == WORLD for link in model.links)  # which SDF before 1.7 did not forbid
     if not has_world and any(joint.parent == WORLD for joint in model.joints):
@@ -83,34 +83,34 @@ def _without_usual_root(model: Model, keeper: Keeper) -> Model:
     return model.model_copy(update={"canonical_link": None}) if usual else model
 
 
-class _Rest:
+class _RemainderCarrier:
     """Takes the remainders off, from the inside out."""
 
     def __init__(self, keeper: Keeper) -> None:
         self.keeper = keeper
-        self.link_words: Words = {**urdf_words("link"), "pose": _IMPLIED, "inertial": None}
-        joint = urdf_words("joint")
-        self.joint_words: Words = {**joint, "pose": {**(joint["pose"] or {}), **_IMPLIED}}
+        self.link_fields: KnownFields = {**urdf_fields("link"), "pose": _IMPLIED, "inertial": None}
+        joint = urdf_fields("joint")
+        self.joint_fields: KnownFields = {**joint, "pose": {**(joint["pose"] or {}), **_IMPLIED}}
 
     def link(self, link: Link) -> Link:
         update: dict[str, object] = {
-            "visuals": tuple(self.take(visual, "visual", urdf_words("link", "visual")) for visual in link.visuals),
+            "visuals": tuple(self.take(visual, "visual", urdf_fields("link", "visual")) for visual in link.visuals),
             "collisions": tuple(
-                self.take(one, "collision", urdf_words("link", "collision")) for one in link.collisions
+                self.take(one, "collision", urdf_fields("link", "collision")) for one in link.collisions
             ),
         }
         if link.inertial is not None:
-            update["inertial"] = self.take(link.inertial, "inertial", urdf_words("link", "inertial"))
-        return self.take(link.model_copy(update=update), "link", self.link_words)
+            update["inertial"] = self.take(link.inertial, "inertial", urdf_fields("link", "inertial"))
+        return self.take(link.model_copy(update=update), "link", self.link_fields)
 
     def joint(self, joint: Joint) -> Joint:
-        words = self.joint_words
+        known = self.joint_fields
         if joint.type == "fixed":  # its axis would be written, and mean nothing
-            words = {name: inner for name, inner in words.items() if name != "axis"}
-        return self.take(joint, "joint", words)
+            known = {name: inner for name, inner in known.items() if name != "axis"}
+        return self.take(joint, "joint", known)
 
-    def take(self, node: AnyNode, tag: str, words: Words) -> AnyNode:
-        kept, pieces, endless = take_remainder(node, tag, words)
+    def take(self, node: AnyNode, tag: str, known: KnownFields) -> AnyNode:
+        kept, pieces, endless = take_remainder(node, tag, known)
         name = getattr(node, "name", None)
         of = f"{tag} {name!r}" if name else f"an {tag}"
         for piece in pieces:

@@ -111,7 +111,7 @@ def _link_content(link: Link) -> tuple[list[Element], Link]:
 
 
 def _truths(link: Link) -> Iterator[Element]:
-    """What a link says of gravity and of touching itself, as tags."""
+    """Gravity and self-collision of a link, as tags."""
     for field, (tag, same) in _TRUTHS.items():
         value = getattr(link, field)
         if value is not None:

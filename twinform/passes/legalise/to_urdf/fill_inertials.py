@@ -11,7 +11,7 @@ _ELEMENTS = {name: getattr(INERTIAL.inertia, name) for name in ELEMENTS}
 
 
 class FillInertials(ToUrdfPass):
-    """Write the mass and inertia that SDF gives to every link that says nothing about them.
+    """Write the mass and inertia that SDF gives to every link without them.
 
     Changes: a missing mass is 1 kg, a missing `ixx`, `iyy`, `izz` 1 kg m^2 and a missing product of inertia 0. These
     are the values that every reader of SDF takes; a reader of URDF would take none.

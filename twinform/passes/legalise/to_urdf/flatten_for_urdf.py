@@ -21,7 +21,7 @@ class FlattenForUrdf(ToUrdfPass):
 
     Changes: 1. they are called `inner__name`, and what names them does so too, also where a file before 1.8 calls its
     parts `inner::name` without a model of that name; 2. a frame called `inner` stands for the
-    nested model's own frame, and poses that were relative to it name it; 3. all else that the nested model says is
+    nested model's own frame, and poses that were relative to it name it; 3. all else that the nested model has is
     carried on that frame.
     Diagnostics: `include-not-expanded` for includes in any of the models; in the ledger `nested-model`.
     """
@@ -42,7 +42,7 @@ class FlattenForUrdf(ToUrdfPass):
 
 
 def _keep(keeper: Keeper, frame: Frame, shell: Model) -> Frame:
-    """The frame of a nested model with all else that the model says; its pose is the frame's."""
+    """The frame of a nested model with all else that the model has; its pose is the frame's."""
     message = f"nested model {frame.name!r} is flattened"
     keeper.account(rules.NESTED_MODEL, message, shell.location, count_parts(shell))
     if not keeper.carriers:

@@ -21,13 +21,13 @@ _WITHOUT_STRENGTH = ("effort", "velocity", "stiffness", "dissipation")
 """What goes from the limit of a continuous joint without strength: URDF would ask for the strength beside the rest."""
 _LIMITS = ("lower", "upper", "effort", "velocity")
 CONTINUOUS = "continuous"
-"""The annotation on a continuous joint that is called so in SDF, where most say revolute without limits."""
+"""The annotation on a continuous joint that is called so in SDF, where most files have revolute without limits."""
 MIMIC = "mimic"
 """The annotation on a mimic joint with a `reference` in SDF, the position of the leader that counts as zero."""
 _TYPES = frozenset({"fixed", "revolute", "continuous", "prismatic", "floating", "planar"})
 _FORCES = ("effort", "velocity")
 _NEEDS_STRENGTH = frozenset({"1.0", "1.1"})
-"""The versions of URDF in which a limit says effort and velocity."""
+"""The versions of URDF in which a limit has to have effort and velocity."""
 
 
 class MapJoints(ToUrdfPass):
@@ -105,7 +105,7 @@ def _continuous(joint: Joint, limit: Limit, strength: float | None, keeper: Keep
 
 
 def _fill(joint: Joint, limit: Limit, numbers: Mapping[str, float | None], keeper: Keeper) -> Limit:
-    """The limit with these numbers where it has none that URDF can say; None is a number that URDF does not need."""
+    """The limit with these numbers where URDF needs one; None is a number that it does not need."""
     strength = _is_finite if keeper.back else _is_strength
     said = {"lower": _is_finite, "upper": _is_finite, "effort": strength, "velocity": strength}
     missing = {name: number for name, number in numbers.items() if not said[name](getattr(limit, name))}

@@ -42,7 +42,7 @@ class MapSurfaces(ToUrdfPass):
 
 
 def _shared(collisions: tuple[Collision, ...]) -> tuple[list[Element], list[str]]:
-    """What all collisions say alike, as tags, and the fields that it was in."""
+    """What all collisions have in common, as tags, and the fields that it was in."""
     if not collisions:
         return [], []
     first, content, fields = collisions[0], list[Element](), list[str]()

@@ -16,7 +16,7 @@ class RelateGearboxes(ToUrdfPass):
     """Let one of the two joints that a gearbox couples mimic the other.
 
     Changes: 1. the joint between the reference body and the gearbox's child mimics the one between the reference body
-    and its parent; 2. the gearbox itself, with all that it says, is a `<joint>` in a `<gazebo>` element.
+    and its parent; 2. the gearbox itself, with all that it contains, is a `<joint>` in a `<gazebo>` element.
     Never touches: a joint that mimics another already.
     Diagnostics: `gearbox`, a warning where only Gazebo couples anything; in the ledger `gearbox`.
     """

@@ -11,7 +11,7 @@ from twinform.passes.carriers.carriers import is_ours, to_element
 from twinform.schemas import Fact, format_value, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)
-Words = dict[str, Union["Words", None]]
+KnownFields = dict[str, Union["KnownFields", None]]
 """The fields of a node that URDF has, each with the fields inside; None where that is a plain value."""
 
 _IDENTITY = frozenset({"name", "type", "kind"})
@@ -19,7 +19,7 @@ _ABOUT = frozenset({"source", "spelling", "opaque"})
 _APART = _IDENTITY | _ABOUT
 _NONE: tuple[()] = ()
 """There is only one empty tuple."""
-_UNKNOWN: Words = {}
+_UNKNOWN: KnownFields = {}
 """The inner fields of one that URDF does not have."""
 
 
@@ -37,53 +37,53 @@ class Split:
 
 
 @cache
-def urdf_words(definition: str, *steps: str) -> Words:
+def urdf_fields(definition: str, *steps: str) -> KnownFields:
     """The fields that URDF has for the node of a definition, or of the rows below it that the steps name."""
     facts = table("urdf")
     fact = facts.definitions[definition]
     for step in steps:
         fact = facts.resolve(next(row for row in fact.children if row.name == step))
-    words: Words = {}
-    _collect(fact, words)
-    return words
+    known: KnownFields = {}
+    _collect(fact, known)
+    return known
 
 
-def _collect(fact: Fact, words: Words) -> None:
+def _collect(fact: Fact, known: KnownFields) -> None:
     if fact.any and fact.place:
-        words[fact.place] = None
+        known[fact.place] = None
     for row in fact.rows:
         if row.place == ".":
-            _collect(table("urdf").resolve(row), words)
+            _collect(table("urdf").resolve(row), known)
         elif row.place:
-            _place(row, words)
+            _place(row, known)
 
 
-def _place(row: Fact, words: Words) -> None:
+def _place(row: Fact, known: KnownFields) -> None:
     *outer, last = row.place.split(".") if row.place else [""]
     for step in outer:
-        inner = words.setdefault(step, {})
-        words = inner if inner is not None else {}
+        inner = known.setdefault(step, {})
+        known = inner if inner is not None else {}
     if row.is_attribute or row.type:
-        words[last] = None
+        known[last] = None
         return
-    inside: Words = {}
+    inside: KnownFields = {}
     _collect(table("urdf").resolve(row), inside)
     if row.kind is None:
-        words[last] = {**(words.get(last) or {}), **inside}
+        known[last] = {**(known.get(last) or {}), **inside}
     else:
-        kinds = words.setdefault(last, {})
+        kinds = known.setdefault(last, {})
         if kinds is not None:
             kinds[row.kind] = inside
 
 
-def take_remainder(node: AnyNode, tag: str, words: Words) -> tuple[AnyNode, list[Opaque], list[tuple[str, str]]]:
+def take_remainder(node: AnyNode, tag: str, known: KnownFields) -> tuple[AnyNode, list[Opaque], list[tuple[str, str]]]:
     """The node with only what URDF can write, the rest as pieces of the SDF element that the node is, and bad numbers.
 
     Nodes in tuples (links, visuals, ...) stay where URDF has them: they have remainders of their own.
     """
-    if all(is_ours(part) or _is_foreign(part) for part in node.opaque) and _fits(node, words):
+    if all(is_ours(part) or _is_foreign(part) for part in node.opaque) and _fits(node, known):
         return node, [], []
-    split = _split(node, words, "", own_element=True)
+    split = _split(node, known, "", own_element=True)
     if not split.left:
         return node, [], split.endless
     kept = node.model_copy(update=split.kept)
@@ -92,12 +92,12 @@ def take_remainder(node: AnyNode, tag: str, words: Words) -> tuple[AnyNode, list
     return kept, list(pieces), split.endless
 
 
-def _fits(node: Node, words: Words) -> bool:
+def _fits(node: Node, known: KnownFields) -> bool:
     """Whether URDF can write all that is in a node, as it nearly always can."""
     for name, value in node.__dict__.items():
         if value is None or value is _NONE or name in _APART:
             continue
-        inner = words.get(name, _UNKNOWN)
+        inner = known.get(name, _UNKNOWN)
         if inner is None:
             if _is_endless(value):
                 return False
@@ -111,15 +111,15 @@ def _fits(node: Node, words: Words) -> bool:
     return True
 
 
-def _split(node: Node, words: Words, path: str, *, own_element: bool) -> Split:
+def _split(node: Node, known: KnownFields, path: str, *, own_element: bool) -> Split:
     split = Split()
     for name, value in node.__dict__.items():
         if value is None or value is _NONE or name in _APART:
             continue
-        if name not in words:
+        if name not in known:
             split.left[name], split.kept[name] = value, _blank(node, name)
             continue
-        inner = words[name]
+        inner = known[name]
         if inner is None:
             if _is_endless(value):
                 split.endless.append((f"{path}/{name}" if path else name, format_value(value)))
@@ -129,16 +129,16 @@ def _split(node: Node, words: Words, path: str, *, own_element: bool) -> Split:
     return split
 
 
-def _split_inner(split: Split, name: str, value: Node, words: Words, path: str) -> None:
+def _split_inner(split: Split, name: str, value: Node, known: KnownFields, path: str) -> None:
     kind = value.__dict__.get("kind")
     if kind is not None:
-        found = words.get(str(kind))
+        found = known.get(str(kind))
         if found is None:
             split.left[name], split.kept[name] = value, None
             return
-        words = found
+        known = found
     below = f"{path}/{kind or name}" if path else str(kind or name)
-    inner = _split(value, words, below, own_element=False)
+    inner = _split(value, known, below, own_element=False)
     split.endless += inner.endless
     if not inner.left:
         return

@@ -72,7 +72,7 @@ def _carried(part: Opaque) -> Material | None:
 
 
 def _material(element: Element) -> Material | None:
-    """The material that an element says; None where it was edited into nonsense."""
+    """The material that an element defines; None where it was edited into nonsense."""
     sink = DiagnosticSink()
     context = Context(sink, "", "urdf", table("urdf").newest)
     data = reader("urdf", context.version).read(element_xml(element), context, "material")

@@ -8,7 +8,7 @@ from twinform.passes.carriers.annotations import without_annotation
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.material_annotations import LOOK, look_of
 from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
-from twinform.passes.legalise.to_urdf.remainder import take_remainder, urdf_words
+from twinform.passes.legalise.to_urdf.remainder import take_remainder, urdf_fields
 from twinform.passes.transforms.gazebo_tags import LINK_TAGS
 
 _COLORS = ("ambient", "diffuse")
@@ -61,7 +61,7 @@ def _shared(link: Link) -> tuple[Link, list[Element]]:
 
 
 def _shared_look(visuals: tuple[Visual, ...], look: tuple[str, ...]) -> Material | None:
-    """What the materials of all visuals say alike in these fields, which are of SDF."""
+    """What the materials of all visuals have in common in these fields, which are of SDF."""
     looks = [_only(visual.material, look) for visual in visuals]
     return looks[0] if looks[0] != Material() and all(one == looks[0] for one in looks[1:]) else None
 
@@ -80,7 +80,7 @@ def _without_look(visual: Visual, look: tuple[str, ...]) -> Visual:
 
 
 def _said(material: Material | None) -> Iterator[tuple[str, object]]:
-    """The fields of SDF that a material has, and what they say."""
+    """The fields of SDF that a material has, and their values."""
     for name in Material.model_fields if material else ():
         value = getattr(material, name)
         if name not in _NOT_FIELDS and value not in (None, ()):
@@ -90,7 +90,7 @@ def _said(material: Material | None) -> Iterator[tuple[str, object]]:
 def _rest(visual: Visual) -> tuple[Element, ...]:
     """What only SDF has, besides materials."""
     bare = visual.model_copy(update={"material": None, "pose": None, "geometry": None})
-    _, pieces, _ = take_remainder(bare, "visual", urdf_words("link", "visual"))
+    _, pieces, _ = take_remainder(bare, "visual", urdf_fields("link", "visual"))
     elements = tuple(piece.element for piece in pieces if piece.element and not piece.at)
     if len(elements) != len(pieces) or any(_is_special(element) for element in elements):
         return ()
@@ -103,5 +103,5 @@ def _is_special(element: Element) -> bool:
 
 
 def _without_rest(visual: Visual) -> Visual:
-    kept, _, _ = take_remainder(visual.model_copy(update={"material": None}), "visual", urdf_words("link", "visual"))
+    kept, _, _ = take_remainder(visual.model_copy(update={"material": None}), "visual", urdf_fields("link", "visual"))
     return kept.model_copy(update={"material": visual.material})

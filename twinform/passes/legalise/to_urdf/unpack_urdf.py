@@ -17,18 +17,18 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 
 
 class UnpackUrdf(ModelPass):
-    """Put what SDF could not say, and carriers of URDF hold, back into the robot.
+    """Put what SDF could not express, and carriers of URDF hold, back into the robot.
 
     Changes: 1. transmissions, ros2_control, safety limits, parts that other tools read and the like stand where they
     stood; 2. the link `world` has its body again.
-    Never touches: what the model says by now; what names a link or joint that is gone.
+    Never touches: what the model has by now; what names a link or joint that is gone.
     Diagnostics: `stale-carrier` for these.
     """
 
     name: ClassVar[str] = "unpack-urdf"
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
-        """The model without carriers of what URDF can say."""
+        """The model without carriers of what URDF can express."""
         if sink.has_errors:
             return model
         model = map_children(model, lambda child: rewrite(child, Node, partial(_unpack, sink), enter=holds_opaque))

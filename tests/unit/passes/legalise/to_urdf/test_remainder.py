@@ -7,22 +7,22 @@ from hypothesis import given
 
 from twinform.ir import Collision, Document, Element, Inertial, Joint, Link, Node, Opaque, Pose, Visual, walk
 from twinform.passes.legalise.to_urdf import remainder
-from twinform.passes.legalise.to_urdf.remainder import Words, urdf_words
+from twinform.passes.legalise.to_urdf.remainder import KnownFields, urdf_fields
 from twinform.testing import strategies
 
-WORDS: dict[type[Node], Words] = {
-    Link: urdf_words("link"),
-    Joint: urdf_words("joint"),
-    Inertial: urdf_words("link", "inertial"),
-    Visual: urdf_words("link", "visual"),
-    Collision: urdf_words("link", "collision"),
+WORDS: dict[type[Node], KnownFields] = {
+    Link: urdf_fields("link"),
+    Joint: urdf_fields("joint"),
+    Inertial: urdf_fields("link", "inertial"),
+    Visual: urdf_fields("link", "visual"),
+    Collision: urdf_fields("link", "collision"),
 }
 
 
 def _both(node: Node) -> tuple[bool, bool]:
-    words = WORDS[type(node)]
-    split = remainder._split(node, words, "", own_element=True)  # pyright: ignore[reportPrivateUsage] - the judge
-    fits = remainder._fits(node, words)  # pyright: ignore[reportPrivateUsage] - what is judged
+    known = WORDS[type(node)]
+    split = remainder._split(node, known, "", own_element=True)  # pyright: ignore[reportPrivateUsage] - the judge
+    fits = remainder._fits(node, known)  # pyright: ignore[reportPrivateUsage] - what is judged
     return fits, not split.left and not split.endless
 
 
