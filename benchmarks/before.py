@@ -1,8 +1,9 @@
 """This tree beside an older one: `python -m benchmarks.before CHECKOUT [--every N] [--times N] [--all]`.
 
-Every file of the corpus is converted to the other format by the package of both checkouts, one after the other, each in
-a process of its own. Compared are text, findings and ledger, byte by byte, and CPU time: the least of several times for
-each file, and the sums of these. The processes take turns, so that whatever else the machine does slows both.
+Every file of the corpus is converted to the other format by the package of both checkouts, one after the other, each
+in a process of its own. Compared are the output, byte by byte, findings with the ledger, and CPU time: the least of
+several times for each file, and the sums of these. The processes take turns, so that whatever else the machine does
+slows both.
 
 With `--all` each file is also converted to its own format, to JSON and without carriers, checked, checked strictly, and
 converted with three passes, which are others for each file.
@@ -49,14 +50,16 @@ for line in sys.stdin:
     try:
         made = getattr(twinform, function)(path, **options)
         taken = time.process_time() - start
-        said = "\\n".join(words(made.diagnostics))
+        text, said = getattr(made, "text", ""), words(made.diagnostics)
         if function == "convert":
-            said = "\\n".join([made.text, said, str(made.ledger.expressed), *entries(made.ledger)])
+            said = [*said, str(made.ledger.expressed), *entries(made.ledger)]
     except twinform.CompileError as error:
-        taken, said = -1.0, "\\n".join(words(error.diagnostics))
+        taken, text, said = -1.0, "", words(error.diagnostics)
     except Exception as error:
-        taken, said = -1.0, repr(error)
-    print(taken, hashlib.sha256(said.encode("utf-8", "surrogatepass")).hexdigest(), flush=True)
+        taken, text, said = -1.0, "", [repr(error)]
+    encoded = [each.encode("utf-8", "surrogatepass") for each in (text, "\\n".join(said))]
+    print(taken, *(hashlib.sha256(each).hexdigest() for each in encoded))
+    sys.stdout.flush()
 """
 
 
@@ -95,21 +98,22 @@ class Checkout:
         pipe = subprocess.PIPE
         return cls(name, subprocess.Popen([python, "-c", _WORKER], cwd=folder, stdin=pipe, stdout=pipe, text=True))
 
-    def answer(self, call: Call) -> tuple[float, str]:
-        """The CPU time in seconds, below 0 where the file is refused, and a hash of all that came out."""
+    def answer(self, call: Call) -> tuple[float, str, str]:
+        """The CPU time in seconds, below 0 where the file is refused; hashes of the output, of findings and ledger."""
         if self.process.stdin is None or self.process.stdout is None:
             raise ValueError("the process has no pipes")
         self.process.stdin.write(f"{call.line}\n")
         self.process.stdin.flush()
-        taken, said = self.process.stdout.readline().split()
-        return float(taken), said
+        taken, text, said = self.process.stdout.readline().split()
+        return float(taken), text, said
 
 
 @dataclass(slots=True)
 class Figures:
     """What was seen of one kind of call."""
 
-    differ: list[str] = field(default_factory=list[str])
+    other_output: list[str] = field(default_factory=list[str])
+    other_findings: list[str] = field(default_factory=list[str])
     calls: int = 0
     answered: int = 0
     seconds: dict[str, float] = field(default_factory=lambda: defaultdict[str, float](float))
@@ -132,7 +136,7 @@ def main(arguments: list[str] | None = None) -> int:
         for call in _all_calls(file) if options.all else [_other_format(file)]:
             _measure(call, both, figures[call.kind], options.times)
     _report(figures)
-    return int(any(each.differ for each in figures.values()))
+    return int(any(each.other_output or each.other_findings for each in figures.values()))
 
 
 def _other_format(file: CorpusFile, **options: object) -> Call:
@@ -160,14 +164,15 @@ def _all_calls(file: CorpusFile) -> Iterator[Call]:
 
 def _measure(call: Call, both: tuple[Checkout, ...], figures: Figures, times: int) -> None:
     taken: dict[str, list[float]] = defaultdict(list)
-    said: dict[str, str] = {}
+    texts, said = dict[str, str](), dict[str, str]()
     for _ in range(times):
         for checkout in both:
-            seconds, said[checkout.name] = checkout.answer(call)
+            seconds, texts[checkout.name], said[checkout.name] = checkout.answer(call)
             taken[checkout.name].append(seconds)
     figures.calls += 1
-    if len({*said.values()}) > 1:
-        figures.differ.append(call.name)
+    for seen, differing in ((texts, figures.other_output), (said, figures.other_findings)):
+        if len({*seen.values()}) > 1:
+            differing.append(call.name)
     if all(min(each) >= 0 for each in taken.values()):
         figures.answered += 1
         for name, each in taken.items():
@@ -179,7 +184,8 @@ def _report(figures: dict[str, Figures]) -> None:
         [
             kind,
             str(each.calls),
-            str(each.calls - len(each.differ)),
+            str(each.calls - len(each.other_output)),
+            str(each.calls - len(each.other_findings)),
             str(each.answered),
             f"{each.seconds['before']:.2f} s",
             f"{each.seconds['now']:.2f} s",
@@ -187,10 +193,13 @@ def _report(figures: dict[str, Figures]) -> None:
         ]
         for kind, each in figures.items()
     ]
-    print(table(["", "calls", "the same bytes", "neither refuses", "before", "now", "times as fast"], rows))
+    print(
+        table(["", "calls", "same output", "same findings", "neither refuses", "before", "now", "times as fast"], rows)
+    )
     for kind, each in figures.items():
-        for name in each.differ[:_SHOWN]:
-            print(f"{kind}, not the same: {name}")
+        for what, names in (("output", each.other_output), ("findings", each.other_findings)):
+            for name in names[:_SHOWN]:
+                print(f"{kind}, other {what}: {name}")
 
 
 if __name__ == "__main__":
