@@ -1,20 +1,44 @@
 """Facts tables of both formats, and what is made from them: readers, writers, XSDs and validators."""
 
+from twinform.schemas.element_reader import ElementReader
 from twinform.schemas.facts import Fact, Table, Version, parse_version, print_version, rows_by_name, table
 from twinform.schemas.messages import Context
 from twinform.schemas.packaged import json_schema_text, schema_text
 from twinform.schemas.reader import Reader, reader
-from twinform.schemas.untyped_parts import element_data
-from twinform.schemas.validator import Engine, SchemaError, libxml2_errors, refusals, validate, xmlschema_errors
-from twinform.schemas.values import format_value, parse_value
+from twinform.schemas.text_output import Item, NeedsTree
+from twinform.schemas.text_writer import root_text
+from twinform.schemas.untyped_parts import element_data, keep_element, locate
+from twinform.schemas.validator import (
+    Engine,
+    SchemaError,
+    is_valid_text,
+    libxml2_errors,
+    refusals,
+    validate,
+    xmlschema_errors,
+)
+from twinform.schemas.value_stores import Data
+from twinform.schemas.values import VALUE_TYPES, format_value, parse_value
 from twinform.schemas.writer import LAST_LINE, Writer, element_xml, in_order, writer
-from twinform.schemas.xml import XmlElement, declared_namespaces, path_of, undeclared_namespace, undeclared_prefix
+from twinform.schemas.xml import (
+    XmlElement,
+    declared_namespaces,
+    has_prefixed_attributes,
+    path_of,
+    undeclared_namespace,
+    undeclared_prefix,
+)
 
 __all__ = [
     "LAST_LINE",
+    "VALUE_TYPES",
     "Context",
+    "Data",
+    "ElementReader",
     "Engine",
     "Fact",
+    "Item",
+    "NeedsTree",
     "Reader",
     "SchemaError",
     "Table",
@@ -25,15 +49,20 @@ __all__ = [
     "element_data",
     "element_xml",
     "format_value",
+    "has_prefixed_attributes",
     "in_order",
+    "is_valid_text",
     "json_schema_text",
+    "keep_element",
     "libxml2_errors",
+    "locate",
     "parse_value",
     "parse_version",
     "path_of",
     "print_version",
     "reader",
     "refusals",
+    "root_text",
     "rows_by_name",
     "schema_text",
     "table",

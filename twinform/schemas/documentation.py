@@ -17,16 +17,16 @@ class Documentation:
 
     def of(self, path: Path, row: Fact, like: Sequence[Fact] = ()) -> str:
         """The documentation of a row; `like` are all rows of its name, one for each group of versions."""
-        said = [self.texts.get(path, "")]
+        sentences = [self.texts.get(path, "")]
         if row.unit is not None:
-            said.append(f"Unit: {_UNIT_WORDS.get(row.unit, row.unit)}.")
+            sentences.append(f"Unit: {_UNIT_WORDS.get(row.unit, row.unit)}.")
         if row.default is not None:
-            said.append(f"Default: {row.default}.")
-        said += self._range(row)
-        said += self._versions(like or (row,))
+            sentences.append(f"Default: {row.default}.")
+        sentences += self._range(row)
+        sentences += self._versions(like or (row,))
         if row.deprecated:
-            said.append("Deprecated.")
-        return " ".join(filter(None, said))
+            sentences.append("Deprecated.")
+        return " ".join(filter(None, sentences))
 
     def of_definition(self, name: str) -> str:
         """The documentation of a definition, wherever it is used."""

@@ -10,12 +10,12 @@ below it stand rows, two blanks deeper for each level:
           @expressed_in  ?  string  since=1.7          -> expressed_in
       pose             ?  &pose                        -> pose
 
-A row is a name (`@` marks an attribute), a count (`1`, `?`, `*`, `+`), a value type or a `&definition` (neither: a
-container), then keys, flags and the place in the IR.
+A row is a name (with `@` that of an attribute), a count (`1`, `?`, `*`, `+`), a value type or a `&definition` (neither:
+a container), then keys, flags and the place in the IR.
 
-Keys are `default`, `min`, `max`, `enum`, `since`, `until`, `unit`, `dialect` (whose word it is where it is not the
-format's) and `also` (words of dialects beside those of `enum`). Flags are `any` (free content), `deprecated`,
-`expected` (readers want it written although it has a default, or its element says nothing without it) and `aside`
+Keys are `default`, `min`, `max`, `enum`, `since`, `until`, `unit`, `dialect` (whose element it is where it is not the
+format's) and `also` (values of dialects beside those of `enum`). Flags are `any` (free content), `deprecated`,
+`expected` (readers want it written although it has a default, or its element has no effect without it) and `aside`
 (readers of the robot itself skip it).
 
 Places are:
@@ -33,7 +33,8 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cache
-from importlib import resources
+
+from twinform.package_files import package_files
 
 Version = tuple[int, int]
 
@@ -47,7 +48,7 @@ _FLAGS = frozenset({"any", "aside", "deprecated", "expected"})
 class Fact:
     """One row: an element or, where the name begins with `@`, an attribute.
 
-    `elsewhere` holds the words that only other versions have among its `enum`, with the row of one of them.
+    `elsewhere` holds the values that only other versions have among its `enum`, with the row of one of them.
     """
 
     name: str
@@ -157,7 +158,7 @@ _TABLES = {
 def table(format: str) -> Table:
     """The facts of `urdf` or `sdf`."""
     root, versions = _TABLES[format]
-    folder = resources.files("twinform.schemas").joinpath(format, "facts")
+    folder = package_files("twinform.schemas").joinpath(format, "facts")
     files = sorted((file for file in folder.iterdir() if file.name.endswith(".facts")), key=lambda file: file.name)
     definitions: dict[str, Fact] = {}
     for file in files:
@@ -234,7 +235,7 @@ def _set(fact: Fact, key: str, value: str, where: str) -> None:
 
 
 def _note_other_words(fact: Fact) -> None:
-    """Tell each row of the words that rows of the same name have in other versions."""
+    """Give each row the values that rows of the same name have in other versions."""
     for row in fact.rows:
         if row.enum:
             others = (other for other in fact.rows if other.name == row.name)

@@ -1,21 +1,18 @@
-"""Fast path of the schema reader, for an element in which nothing is unusual, which is nearly every one.
+"""Fast path of the schema reader, for what is usual, which is nearly everything.
 
-It is for documents that the schema has accepted and that have no namespaces: there, an element that the facts give no
-children has none. Everything here may give up: it then says so, has done nothing, and the reader takes the long way,
-which knows what to report. So nothing here checks twice, and none of it reports.
+Everything here may give up: it then has done nothing, and the reader takes the long way, which reports. So nothing here
+reports.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
-from twinform.schemas.facts import Fact, Version
-from twinform.schemas.value_stores import Data
+from twinform.schemas.facts import Fact, Version, rows_by_name
+from twinform.schemas.messages import Context
 from twinform.schemas.values import ValueType
-from twinform.schemas.xml import XmlElement
+from twinform.schemas.xml import XmlElement, is_blank
 
 Parse = Callable[[Any], Any]
-Quick = Callable[[XmlElement, Data], bool]
-"""Reads an element into the dict of its node and returns whether it did: (element, node)"""
 
 GIVE_UP = (ValueError, KeyError, TypeError)
 """What a quick parser raises: bad text, an unknown name, no text at all."""
@@ -24,22 +21,24 @@ _VECTORS = frozenset({"vector3", "vector2d", "color", "color4"})
 _BOOLS: dict[str, bool] = {"true": True, "false": False}
 
 
-def quick_parse(row: Fact, types: dict[str, ValueType], version: Version) -> Parse | None:
+def quick_parse(row: Fact, types: Mapping[str, ValueType], version: Version) -> Parse | None:
     """A parser that gives up on every value that needs a diagnostic, or None where the row itself is unusual."""
     place = row.place
-    if (
-        not place
-        or "." in place
-        or place[0] == "/"
-        or row.type is None
-        or row.fills_tuple
-        or not row.exists_in(version)
-        or row.dialect
-    ):
+    if not place or "." in place or place[0] == "/" or row.type is None or row.fills_tuple:
         return None
-    if row.type == "bool":
-        return _BOOLS.__getitem__
-    parse: Parse = types[row.type].parse
+    if not _is_usual(row, version):
+        return None
+    return _BOOLS.__getitem__ if row.type == "bool" else bounded_parse(row, types)
+
+
+def _is_usual(row: Fact, version: Version) -> bool:
+    """Whether the row itself calls for no diagnostic."""
+    return row.exists_in(version) and not row.dialect and not row.deprecated
+
+
+def bounded_parse(row: Fact, types: Mapping[str, ValueType]) -> Parse:
+    """A parser that gives up on every value that needs a diagnostic."""
+    parse: Parse = types[row.type or "string"].parse
     if row.enum:
         return {word: word for word in row.enum}.__getitem__
     if row.min is None and row.max is None:
@@ -62,50 +61,97 @@ def quick_parse(row: Fact, types: dict[str, ValueType], version: Version) -> Par
     return parse_vector if row.type in _VECTORS else parse_bounded
 
 
-def quick_attributes(fact: Fact, types: dict[str, ValueType], version: Version) -> Quick | None:
-    """Reads an element that has attributes and nothing else; None for one that has more."""
-    if fact.any or fact.type is not None or fact.children or not fact.attributes:
-        return None
-    parses: dict[str, tuple[str, Parse]] = {}
-    for row in fact.attributes:
-        parse = quick_parse(row, types, version)
-        if parse is not None:
-            parses[row.name[1:]] = (row.place or "", parse)
-    rows = [row for row in fact.attributes if row.exists_in(version)]
-    needed = frozenset(row.place or row.name for row in rows if row.required or row.expected)
+class UsualElement:
+    """Checks elements of which nothing goes into fields: whether one needs no diagnostic, nor any in it.
 
-    def read(element: XmlElement, node: Data) -> bool:
-        found: Data = {}
+    Most elements of real files are of this sort: transmissions, sensors, physics, plugins.
+    """
+
+    def __init__(self, fact: Fact, types: Mapping[str, ValueType], version: Version, usual: "UsualOf") -> None:
+        self._attributes = {
+            name[1:]: bounded_parse(row, types) if _is_usual(row, version) else _give_up
+            for name, row in rows_by_name(fact.attributes, version).items()
+        }
+        present = [row for row in fact.rows if row.exists_in(version)]
+        self._needed_attributes = frozenset(
+            row.name[1:] for row in present if row.is_attribute and (row.required or row.expected)
+        )
+        self._needed = frozenset(row.name for row in present if not row.is_attribute and row.required)
+        self._rows = rows_by_name(fact.children, version)
+        self._usual_rows = {name: row for name, row in self._rows.items() if _is_usual(row, version)}
+        self._repeating = frozenset(name for name, row in self._rows.items() if row.repeats)
+        self._kinds = frozenset(row.name for row in fact.children if row.kind)
+        self._made: dict[str, UsualElement] = {}
+        self._usual, self._free, self._type = usual, fact.any, fact.type
+        self._parse = bounded_parse(fact, types) if fact.type else None
+        self._has_meaning = fact.needs_text or bool(fact.default)
+        self._needs_text = fact.needs_text
+
+    def holds(self, element: XmlElement, context: Context) -> bool:
+        """Whether the element is as usual."""
+        names = element.items()
+        if names and not self._takes_attributes(names):
+            return False
+        if self._needed_attributes and not self._needed_attributes.issubset(element.keys()):
+            return False
+        if self._parse is not None:
+            if not self._takes_text(element, self._parse, context):
+                return False
+        elif not self._free and not is_blank(element.text or ""):
+            return False
+        return self._takes_children(element, context) if len(element) else not self._needed
+
+    def _takes_attributes(self, items: list[tuple[str, str]]) -> bool:
+        for name, text in items:
+            parse = self._attributes.get(name)
+            if parse is None:
+                if not self._free or name[0] == "{":
+                    return False
+                continue
+            try:
+                parse(text)
+            except GIVE_UP:
+                return False
+        return True
+
+    def _takes_text(self, element: XmlElement, parse: Parse, context: Context) -> bool:
+        text = element.text or ""
+        if self._type == "string":
+            text = text.strip(" \t\r\n")
+            if not text and self._has_meaning and context.format == "sdf":
+                return False
+        elif is_blank(text):
+            return self._type == "pose" and not self._needs_text
         try:
-            for name, text in element.items():
-                place, parse = parses[name]
-                found[place] = parse(text)
+            value = parse(text)
         except GIVE_UP:
             return False
-        if not found or not needed <= found.keys():
-            return False
-        node.update(found)
-        return True
+        return self._type != "pose" or (len(value) == 6 and element.get("rotation_format") != "quat_xyzw")
 
-    return read
+    def _takes_children(self, element: XmlElement, context: Context) -> bool:
+        found: set[str] = set()
+        for child in element:
+            tag: str = child.tag  # pyright: ignore[reportAssignmentType] - the parser removes comments
+            if tag not in self._usual_rows:
+                if not self._free or tag in self._rows:
+                    return False
+                continue
+            if tag in found and tag not in self._repeating:
+                return False
+            found.add(tag)
+            usual = self._made.get(tag) or self._usual_child(tag)
+            if not usual.holds(child, context) or not (context.clean or self._free or is_blank(child.tail or "")):
+                return False
+        return self._needed <= found and (not self._kinds or len(self._kinds & found) <= 1)
+
+    def _usual_child(self, tag: str) -> "UsualElement":
+        self._made[tag] = usual = self._usual(self._usual_rows[tag])
+        return usual
 
 
-def quick_pose(fact: Fact, types: dict[str, ValueType]) -> Quick | None:
-    """Reads a pose of six numbers and no attributes; None for what is no pose."""
-    if fact.type != "pose":
-        return None
-    parse: Parse = types["pose"].parse
+def _give_up(text: str) -> None:
+    raise ValueError(text)
 
-    def read(element: XmlElement, node: Data) -> bool:
-        if element.keys():
-            return False
-        try:
-            values = parse(element.text)
-        except (*GIVE_UP, AttributeError):
-            return False
-        if len(values) != 6:
-            return False
-        node["xyz"], node["rpy"] = values[:3], values[3:]
-        return True
 
-    return read
+UsualOf = Callable[[Fact], UsualElement]
+"""The usual form of a row's element: that of the definition that the row refers to, or its own."""

@@ -1,4 +1,7 @@
-"""Writes the XSDs and the JSON Schema: `python -m twinform.schemas.generate`, or with `--check` only compares them."""
+"""Writes what is made from the facts, XSDs, the JSON Schema and Python: `python -m twinform.schemas.generate`.
+
+With `--check` the files are only compared.
+"""
 
 import sys
 from collections.abc import Iterator, Sequence
@@ -7,19 +10,21 @@ from typing import get_args
 
 from twinform.schemas.facts import parse_version, table
 from twinform.schemas.json_schema import generate_json_schema
-from twinform.schemas.packaged import XsdVersion, json_schema_file, schema_file
+from twinform.schemas.packaged import XsdVersion, code_file, json_schema_file, schema_file
+from twinform.schemas.text_generator import generate_text_writer
 from twinform.schemas.xsd import generate_schema
 
 FORMATS = ("urdf", "sdf")
 
 
 def generated() -> Iterator[tuple[Path, str]]:
-    """Every schema: its file and its text."""
+    """Every file that is made from the facts, and its text."""
     for name in FORMATS:
         facts = table(name)
         for version in map(parse_version, facts.versions):
             for xsd in get_args(XsdVersion):
                 yield Path(str(schema_file(name, version, xsd))), generate_schema(facts, version, xsd)
+        yield Path(str(code_file(f"{name}_text"))), generate_text_writer(facts)
     yield Path(str(json_schema_file())), generate_json_schema()
 
 
@@ -29,7 +34,7 @@ def stale() -> list[Path]:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Write all schemas, or check them; the exit code."""
+    """Write all files, or check them; the exit code."""
     if "--check" in arguments:
         for file in (files := stale()):
             sys.stderr.write(f"{file}: not what the facts say; run python -m twinform.schemas.generate\n")

@@ -80,7 +80,7 @@ def _other(format_: str) -> str:
 
 def _elsewhere(format_: str, name: str) -> str | None:
     parents = sorted(_parents(format_).get(name, ()))
-    if not 0 < len(parents) <= _MOST_PARENTS:  # what may stand in many is told nothing by them
+    if not 0 < len(parents) <= _MOST_PARENTS:  # where it may stand in many they are no hint
         return None
     return f"it belongs in {' or '.join(f'<{parent}>' for parent in parents)}"
 
@@ -135,16 +135,16 @@ _DRAKE = """
     tendon_constraint_upper_limit visual wall_boundary_condition youngs_modulus
 """
 
-_WORDS = {"drake": frozenset(_DRAKE.split())}
-"""The words of each prefix. It is also the name of the dialect."""
+_NAMES = {"drake": frozenset(_DRAKE.split())}
+"""The names that have each prefix. It is also the name of the dialect."""
 
 
 def dialect_of(element: XmlElement, name: str) -> tuple[str, str] | None:
-    """The prefix and the word of an element or attribute, where the prefix is that of a known reader."""
+    """The prefix and the local name of an element or attribute, where the prefix is that of a known reader."""
     prefix = prefix_of(element, name)
-    return (prefix, name.partition("}")[2]) if prefix in _WORDS else None
+    return (prefix, name.partition("}")[2]) if prefix in _NAMES else None
 
 
 def words_of(prefix: str) -> frozenset[str]:
     """What the reader that a prefix stands for knows."""
-    return _WORDS[prefix]
+    return _NAMES[prefix]

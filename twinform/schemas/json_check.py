@@ -86,7 +86,7 @@ class _Check:
     def reference(self, task: _Task) -> Iterator[_Task]:
         yield task._replace(schema=self._resolved(task.schema))
 
-    def words(self, task: _Task) -> Iterator[Fault]:
+    def constants(self, task: _Task) -> Iterator[Fault]:
         value, schema, path = task
         words = schema.get("enum", [schema.get("const")])
         if not isinstance(value, str) or value not in words:
@@ -133,24 +133,24 @@ class _Check:
             yield tries[0][0]
 
     def one_of(self, task: _Task) -> "Iterator[Fault | _Task]":
-        """Branches are objects, told apart by a field with one value, or by which field is there."""
+        """Branches are objects, distinguished by a field with one value, or by which field is there."""
         value, schema, path = task
         branches = [self._resolved(each) for each in schema["oneOf"]]
         if not is_object(value):
             yield Fault(path, f"is {_shown(value)}; expected {_CALLED['object']}", _shown(value), _CALLED["object"])
             return
-        mark = next(iter(_constants(branches[0])), None)
-        if mark is None:
+        tag = next(iter(_constants(branches[0])), None)
+        if tag is None:
             yield from self._by_field(task, branches)
-        elif mark not in value:
-            yield Fault(path, f"has no {mark!r}", None, mark)
+        elif tag not in value:
+            yield Fault(path, f"has no {tag!r}", None, tag)
         else:
-            known = {_constants(each)[mark]: each for each in branches}
-            word = value[mark]
+            known = {_constants(each)[tag]: each for each in branches}
+            word = value[tag]
             if isinstance(word, str) and word in known:
                 yield task._replace(schema=known[word])
             else:
-                yield from self.words(_Task(word, {"enum": list(known)}, (*path, mark)))
+                yield from self.constants(_Task(word, {"enum": list(known)}, (*path, tag)))
 
     def _by_field(self, task: _Task, branches: list[Schema]) -> Iterator[Fault | _Task]:
         names = [str(each["required"][0]) for each in branches]
@@ -196,8 +196,8 @@ _CALLED = {
 }
 _KEYWORDS: Mapping[str, Callable[[_Check, _Task], Iterator[Fault | _Task]]] = {
     "$ref": _Check.reference,
-    "enum": _Check.words,
-    "const": _Check.words,
+    "enum": _Check.constants,
+    "const": _Check.constants,
     "pattern": _Check.pattern,
     "minimum": _Check.bounds,
     "properties": _Check.fields,

@@ -1,7 +1,7 @@
 """Makes the JSON Schema of documents as JSON (`--to json`) from the facts tables of both formats.
 
 A document is an object with the fields that the facts name as places in the IR. So each format has its own objects:
-what it cannot say has no place in its JSON either. Beside its fields, an object may have `opaque` (parts without a
+what it cannot express has no place in its JSON either. Beside its fields, an object may have `opaque` (parts without a
 typed field), `spelling` (how values were written that have several spellings), and where parts of several kinds may
 stand mixed, `order`.
 """
@@ -53,7 +53,7 @@ def generate_json_schema() -> str:
 class _Object:
     """An object of the schema while it is put together; `inner` are objects in it that several rows fill.
 
-    `keeps` says whether it may hold parts without a field.
+    `keeps` is whether it may hold parts without a field.
     """
 
     text: str = ""
@@ -106,7 +106,7 @@ class _Format:
 
     def __init__(self, facts: Table) -> None:
         self.table = facts
-        self.words = Documentation(facts)
+        self.documentation = Documentation(facts)
         self.orders = writer(facts.format, facts.newest).repeated
         self.header: dict[str, Json] = {}
         self.wanted: list[str] = []
@@ -123,7 +123,7 @@ class _Format:
 
     def _document(self, root: _Object) -> Json:
         """The document: in SDF the root's own node, in URDF the one around that of its robot."""
-        made = _Object(text=self.words.of_definition(self.table.root))
+        made = _Object(text=self.documentation.of_definition(self.table.root))
         if self.table.format == "urdf":
             robot = {"$ref": f"#/$defs/urdf.{self.table.root}"}
             made.fields = {**self.header, "models": _array(robot, "The robot.") | {"minItems": 1, "maxItems": 1}}
@@ -141,7 +141,7 @@ class _Format:
 
     def _node(self, fact: Fact, path: Path, text: str = "") -> _Object:
         """The object of an element that is a node of its own."""
-        made = _Object(text=text or self.words.of_definition(path[0]))
+        made = _Object(text=text or self.documentation.of_definition(path[0]))
         if len(path) == 1:
             made.order = self.orders[path[0]]
         self._fill(made, fact, path)
@@ -162,7 +162,7 @@ class _Format:
         """The field of all rows of one name."""
         row = next(row for row in reversed(rows) if row.place)
         outer, _, name = (row.place or "").rpartition(".")
-        text = self.words.of(path, row, rows)
+        text = self.documentation.of(path, row, rows)
         if row.type is None and row.place == ".":
             self._fill(made, row, path, needed=needed)
         elif name.startswith("/"):
@@ -179,15 +179,15 @@ class _Format:
         else:
             self._child(made.within(outer), name, rows, path, needed=needed and not outer)
         if outer:  # such as <axis>, of whose object several elements are parts
-            made.within(outer).text = self.words.texts.get((*path[:1], outer), "")
+            made.within(outer).text = self.documentation.texts.get((*path[:1], outer), "")
 
     def _child(self, made: _Object, name: str, rows: list[Fact], path: Path, *, needed: bool) -> None:
         row = max(rows, key=lambda row: len(self.table.resolve(row).rows))
-        text = self.words.of(path, rows[-1], rows)
+        text = self.documentation.of(path, rows[-1], rows)
         schema = {"description": text} | self._reference(row, path, text)
         if any(each.fills_tuple for each in rows):
             made.add(name, _array(schema, text) | ({"minItems": 1} if needed else {}), needed=needed)
-        else:  # one that is there and says nothing, such as <geometry/>, is a part without a field
+        else:  # one that is there and empty, such as <geometry/>, is a part without a field
             made.add(name, schema, needed=False)
 
     def _reference(self, row: Fact, path: Path, text: str) -> Json:

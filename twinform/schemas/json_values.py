@@ -72,7 +72,7 @@ SHARED: dict[str, Json] = {
     "uri": {"type": "string", "pattern": rf"^[^{{}}{_NOT_IN_XML}]+{_END}"},
     "number": {"description": "A finite number.", "type": "number", "minimum": -_LARGEST, "maximum": _LARGEST},
     "number-or-infinite": {
-        "description": "A number; JSON has none that is infinite or undefined, so these are words.",
+        "description": "A number; JSON has none that is infinite or undefined, so these are text.",
         "anyOf": [_reference("number"), {"enum": _INFINITE}],
     },
     "vector2": _numbers(2, 2, "x and y."),
@@ -119,7 +119,7 @@ _TYPES: dict[str, Json] = {
 
 
 def value_schema(format: str, rows: Sequence[Fact]) -> Json:
-    """The schema of a value: that of all rows of one name, whose words it has together."""
+    """The schema of a value: that of all rows of one name, whose values it has together."""
     words = [word for row in rows for word in (*row.enum, *(other for other, _ in row.also))]
     if words:
         return {"enum": list(dict.fromkeys(words))}

@@ -17,8 +17,8 @@ name that has several rows, one for each version, has one text.
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
-from importlib import resources
 
+from twinform.package_files import package_files
 from twinform.schemas.facts import Fact, Table, table
 
 Path = tuple[str, ...]
@@ -30,7 +30,7 @@ _LINE = re.compile(r"(?P<indent> *)(?:= (?P<like>[\w. @]+)|(?P<name>@?[\w.]+): (
 @cache
 def meanings(format: str) -> Mapping[Path, str]:
     """The meaning of every definition and row of a format."""
-    folder = resources.files("twinform.schemas").joinpath(format, "facts")
+    folder = package_files("twinform.schemas").joinpath(format, "facts")
     files = sorted((file for file in folder.iterdir() if file.name.endswith(".meanings")), key=lambda file: file.name)
     found: dict[Path, str] = {}
     likes: list[tuple[Path, Path]] = []

@@ -2,9 +2,9 @@
 
 from collections.abc import Collection
 from dataclasses import dataclass, field
-from typing import TypedDict, Unpack
+from typing import Any, Protocol, TypedDict, Unpack
 
-from twinform.diagnostics import DiagnosticSink, Location, Rule, Severity, nearest_name
+from twinform.diagnostics import DiagnosticSink, Location, Rule, Severity, Source, nearest_name
 from twinform.diagnostics.rules import structure
 from twinform.schemas.facts import Fact, Version, print_version
 from twinform.schemas.hints import dialect_of, hint_for_attribute, hint_for_element, hint_for_word, words_of
@@ -36,17 +36,33 @@ class Details(TypedDict, total=False):
     severity: Severity | None
 
 
+class PartMaker(Protocol):
+    """Makes nodes of what has no typed field."""
+
+    def element(self, element: XmlElement, above: Source | None, *, kept: bool) -> object:
+        """An untyped element; one that is `kept` stands alone, without the text that follows it."""
+        ...
+
+    def opaque(self, part: dict[str, Any]) -> object:
+        """A part of a node that has no field."""
+        ...
+
+
 @dataclass(slots=True)
 class Context:
     """One run of the schema reader over one document.
 
+    `clean` is whether the XSD has accepted the document, and `simple` whether, besides, no attribute has a namespace:
+    then text is only where the facts have it, and an element that they give nothing but text has nothing else.
+
     `tolerated` holds the elements, and the attributes and texts of elements, that are reported and kept although the
     schema does not have them: the XSD validation sees the document without them. `#text` is the text in an element,
-    `#tail` the one that follows it. `replaced` holds the words of other versions: the attribute or text that one stands
+    `#tail` the one that follows it. `replaced` holds the syntax of other versions: the attribute or text that one is
     in, and a value for the validation in its place. `outside` lists elements and attributes of other versions. `aside`
-    is true inside of what the readers of the robot itself skip: nothing there is an error. `declared` says whether the
-    version is the file's own word; where it is not, an old word is nothing to warn of. `header` holds what the root
-    element says about the document rather than about its node.
+    is true inside of what the readers of the robot itself skip: nothing there is an error. `declared` is whether the
+    version is the file's own; where it is not, old syntax is nothing to warn of. `header` holds what the root
+    element has about the document rather than about its node. `parts` makes nodes of the IR of what has no field;
+    without it, that is data like all else.
     """
 
     sink: DiagnosticSink
@@ -62,6 +78,7 @@ class Context:
     declared: bool = True
     outside: list[tuple[XmlElement, Fact]] = field(default_factory=list[tuple[XmlElement, Fact]])
     header: dict[str, object] = field(default_factory=dict[str, object])
+    parts: "PartMaker | None" = None
     places: Places = field(default_factory=dict[XmlElement, int], repr=False)
 
     def report(self, rule: Rule, element: XmlElement, message: str, step: str = "", **more: Unpack[Details]) -> None:
@@ -114,8 +131,8 @@ def outside_version(context: Context, element: XmlElement, fact: Fact) -> None:
     context.report(structure.OUTSIDE_VERSION, element, message, step, found=name, severity=severity)
 
 
-def word_outside_version(context: Context, element: XmlElement, fact: Fact, word: str) -> None:
-    """A word that only other versions have here."""
+def value_outside_version(context: Context, element: XmlElement, fact: Fact, word: str) -> None:
+    """A value that only other versions have here."""
     step = fact.name if fact.is_attribute else ""
     context.replaced.append((element, step[1:] or "#text", fact.enum[0]))
     subject = f"{step[1:]!r} of <{element.tag}>" if step else f"<{element.tag}>"
@@ -174,8 +191,8 @@ def dialect_attribute(context: Context, element: XmlElement, name: str, dialect:
     context.report(structure.DIALECT, element, message, f"@{name}", found=dialect)
 
 
-def dialect_word(context: Context, element: XmlElement, step: str, word: str, dialect: str) -> None:
-    """A value of somebody's dialect, which stands where the schema has a list of words."""
+def dialect_value(context: Context, element: XmlElement, step: str, word: str, dialect: str) -> None:
+    """A value of somebody's dialect, which stands where the schema has a list of values."""
     message = (
         f"{step[1:]!r} of <{element.tag}> is {word!r}, which is not {context.format.upper()}; {_DIALECTS[dialect]}"
     )
@@ -261,8 +278,8 @@ def invalid_value(context: Context, element: XmlElement, step: str, text: str, e
     context.report(structure.INVALID_VALUE, element, message, step, found=text, expected=expected)
 
 
-def invalid_word(context: Context, element: XmlElement, step: str, word: str, known: tuple[str, ...]) -> None:
-    """A word that is none of those that there are."""
+def unlisted_value(context: Context, element: XmlElement, step: str, word: str, known: tuple[str, ...]) -> None:
+    """A value that is none of those that there are."""
     subject = f"{step[1:]!r} of <{element.tag}>" if step else f"<{element.tag}>"
     shown = word if len(word) <= 60 else word[:57] + "..."
     expected = f"one of {', '.join(known)}"

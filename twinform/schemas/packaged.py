@@ -1,19 +1,21 @@
-"""The XSDs and the JSON Schema that come with the package."""
+"""The files of the package that are made from the facts: XSDs, the JSON Schema, Python."""
 
 from functools import cache
-from importlib import resources
-from importlib.resources.abc import Traversable
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
+from twinform.package_files import package_files
 from twinform.schemas.facts import Version, print_version
+
+if TYPE_CHECKING:
+    from importlib.resources.abc import Traversable
 
 XsdVersion = Literal["1.0", "1.1"]
 """A version of the schema language."""
 
 
-def schema_file(format: str, version: Version, xsd: XsdVersion = "1.1") -> Traversable:
+def schema_file(format: str, version: Version, xsd: XsdVersion = "1.1") -> "Traversable":
     """Where the schema of a format's version lies."""
-    folder = resources.files("twinform.schemas").joinpath(format, f"xsd{xsd.replace('.', '')}")
+    folder = package_files("twinform.schemas").joinpath(format, f"xsd{xsd.replace('.', '')}")
     return folder.joinpath(f"{format}-{print_version(version)}.xsd")
 
 
@@ -27,12 +29,17 @@ def schema_text(format: str, version: Version, xsd: XsdVersion = "1.1") -> str:
     return schema_file(format, version, xsd).read_text(encoding="utf-8")
 
 
-def json_schema_file() -> Traversable:
+def json_schema_file() -> "Traversable":
     """Where the JSON Schema of documents lies."""
-    return resources.files("twinform.schemas").joinpath("json", "document.schema.json")
+    return package_files("twinform.schemas").joinpath("json", "document.schema.json")
 
 
 @cache
 def json_schema_text() -> str:
     """The JSON Schema of documents as JSON."""
     return json_schema_file().read_text(encoding="utf-8")
+
+
+def code_file(module: str) -> "Traversable":
+    """Where a generated module lies."""
+    return package_files("twinform.schemas").joinpath("generated", f"{module}.py")

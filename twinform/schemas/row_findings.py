@@ -16,7 +16,7 @@ ReadChild = Callable[[XmlElement, Data, str, int, Context], None]
 def with_row_findings(row: Fact, version: Version, read: ReadChild, *, has_text: bool, keep: bool) -> ReadChild:
     """The reader of a child in a version, with the diagnostics of every such child.
 
-    `has_text` says whether its element has text by the facts, and `keep` whether what has no field is kept.
+    `has_text` is whether its element has text by the facts, and `keep` whether what has no field is kept.
     """
     if row.deprecated and row.exists_in(version):
         return _after(messages.deprecated, read)

@@ -1,6 +1,7 @@
 """Elements, attributes and texts that have no typed field: kept as they were written, with their position."""
 
 from collections.abc import Callable
+from typing import Any
 
 from twinform.diagnostics import Source
 from twinform.schemas.messages import Context
@@ -18,31 +19,44 @@ def element_data(element: XmlElement, context: Context, above: Source | None = N
     if above is not None:
         line, key = element.sourceline or 0, element.get("name")
         above = data["source"] = locate(Source, (context.file, line, above, tag, key))
-    if element.attrib:
-        data["attributes"] = tuple(element.items())
-    if element.text and not element.text.isspace():
-        data["text"] = element.text.strip()
-    if element.tail and not element.tail.isspace():
-        data["tail"] = element.tail.strip()
+    if attributes := element.items():
+        data["attributes"] = tuple(attributes)
+    text = element.text
+    if text and not text.isspace():
+        data["text"] = text.strip()
+    tail = element.tail
+    if tail and not tail.isspace():
+        data["tail"] = tail.strip()
     if len(element):
         data["children"] = tuple([element_data(child, context, above) for child in element])
     return data
 
 
+def keep_content(child: XmlElement, node: Data, field: str, context: Context) -> None:
+    """Keep a child in a field for free content, where it knows where it was written."""
+    above: Source | None = node.get("source")
+    parts = context.parts
+    element = parts.element(child, above, kept=False) if parts else element_data(child, context, above)
+    node.setdefault(field, []).append(element)
+
+
 def keep_part(element: XmlElement, node: Data, context: Context, part: Data) -> None:
     """Keep a part that has no typed field, with where it stood."""
-    called = (
-        part["element"]["name"]
-        if "element" in part
-        else f"@{part['attribute'][0]}"
-        if "attribute" in part
-        else "text()"
-    )
-    step = f"{part['at']}/{called}" if part["at"] else called
-    source = Source(context.file, element.sourceline or 0, node.get("source"), step)
-    node.setdefault("opaque", []).append({"source": source, **part})
+    called = f"@{part['attribute'][0]}" if "attribute" in part else "text()"
+    _keep(element, node, context, part, called)
 
 
 def keep_element(child: XmlElement, node: Data, at: str, context: Context) -> None:
     """Keep a child with all that is in it."""
-    keep_part(child, node, context, {"at": at, "element": element_data(child, context) | {"tail": None}})
+    parts = context.parts
+    element = parts.element(child, None, kept=True) if parts else element_data(child, context) | {"tail": None}
+    _keep(child, node, context, {"at": at, "element": element}, str(child.tag))
+
+
+def _keep(element: XmlElement, node: Data, context: Context, part: Data, called: str) -> None:
+    at: str = part["at"]
+    step = f"{at}/{called}" if at else called
+    source = locate(Source, (context.file, element.sourceline or 0, node.get("source"), step, None))
+    data = {"source": source, **part}
+    opaque: list[Any] = node.setdefault("opaque", [])
+    opaque.append(context.parts.opaque(data) if context.parts else data)

@@ -22,6 +22,7 @@ from twinform.schemas.xsd_assertions import without_assertions
 from twinform.schemas.xsd_names import without_names
 
 if TYPE_CHECKING:
+    from lxml.etree import ParserTarget
     from xmlschema import XMLSchema11
 
 Engine = Literal["libxml2", "xmlschema"]
@@ -43,7 +44,7 @@ dialect does where it is a value in a list."""
 
 
 _CROWDED = etree.XPath("descendant::*[4001] and (*[2001] or descendant::*/*[2001])")
-"""Whether an element has more than 2,000 children; small documents are told at once."""
+"""Whether an element has more than 2,000 children; small documents are checked at once."""
 
 
 class SchemaError(NamedTuple):
@@ -98,6 +99,26 @@ def _errors_without_places(root: XmlElement, schema: etree.XMLSchema) -> list[Sc
     return []
 
 
+def is_valid_text(text: str, format: str, version: Version) -> bool:
+    """Whether libxml2 takes the text of a file, and accepts it by the XSD 1.0 projection.
+
+    A parser whose target has no methods for elements makes no tree, and validates as it parses.
+    """
+    parser = _validating_parser(format, version)
+    try:
+        etree.fromstring(text, parser)
+    except etree.XMLSyntaxError:
+        return False
+    return not len(parser.error_log)
+
+
+class _Nothing:
+    """The target of a parser that makes nothing of what it reads."""
+
+    def close(self) -> None:
+        """All is read."""
+
+
 def xmlschema_errors(
     root: XmlElement,
     format: str,
@@ -112,6 +133,20 @@ def xmlschema_errors(
         return [SchemaError(error.sourceline or 0, error.reason or error.message) for error in errors]
     except KeyError as error:  # xmlschema 4.3 does not catch its own when xsi:type names a type that there is not
         return [SchemaError(root.sourceline or 0, str(error))]
+
+
+_parsers = local()  # as schemas are
+
+
+def _validating_parser(format_: str, version: Version) -> etree.XMLParser:
+    """A parser that asks a schema and makes no tree. To make one takes longer than to parse a small file with it."""
+    built = cast("dict[tuple[str, Version], etree.XMLParser]", _parsers.__dict__)
+    if (format_, version) not in built:
+        target = cast("ParserTarget[None]", _Nothing())  # lxml calls those of the methods that there are
+        schema = _libxml2_schema(format_, version)
+        made = etree.XMLParser(schema=schema, target=target, resolve_entities=False, no_network=True, collect_ids=False)
+        built[format_, version] = cast("etree.XMLParser", made)
+    return built[format_, version]
 
 
 _schemas = local()  # threads that share a schema of libxml2 share its error log as well

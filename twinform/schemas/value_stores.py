@@ -45,12 +45,12 @@ def _word_check(row: Fact) -> Callable[[XmlElement, Any, Context], None]:
 
     def check(element: XmlElement, value: str, context: Context) -> None:
         if value in dialects:
-            messages.dialect_word(context, element, row.name, value, dialects[value])
+            messages.dialect_value(context, element, row.name, value, dialects[value])
         elif value in row.elsewhere:
-            messages.word_outside_version(context, element, row, value)
+            messages.value_outside_version(context, element, row, value)
         elif value not in allowed:
             step = row.name if row.is_attribute else ""
-            messages.invalid_word(context, element, step, value, row.enum)
+            messages.unlisted_value(context, element, step, value, row.enum)
 
     return check
 

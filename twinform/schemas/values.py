@@ -67,7 +67,7 @@ def _loose_float(text: str) -> float:
     value = float(text)
     if math.isfinite(value):
         return _float(text)
-    # 1e400 is no number, although float() says infinity
+    # 1e400 is no number, although float() gives infinity
     if _ascii(text).strip().lstrip("+-").lower() not in {"inf", "nan"}:
         raise ValueError
     return value

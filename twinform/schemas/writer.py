@@ -1,7 +1,7 @@
 """The schema writer, from the IR to XML: closures built once for each format and version from the reader's facts.
 
-A writer writes what the node says, in the order of the facts, and decides nothing. It knows nodes only by the names of
-their fields. Children that came from a file keep the order that they had in it.
+A writer writes the content of the node, in the order of the facts, and decides nothing. It knows nodes only by the
+names of their fields. Children that came from a file keep the order that they had in it.
 """
 
 from collections.abc import Callable, Iterable
@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 from lxml import etree
 from lxml.etree import SubElement
 
-from twinform.schemas.facts import Fact, Table, Version, table
+from twinform.schemas.facts import Fact, Table, Version, rows_by_name, table
 from twinform.schemas.values import format_numbers, format_value, parse_bool
 from twinform.schemas.xml import XmlElement
 
@@ -54,21 +54,31 @@ class Writer:
         self.table = facts
         self.version = version
         self.writes: dict[str, Write] = {}
+        """The writers of the definitions, and of the containers in them that were asked for, by their paths."""
         self.repeated: dict[str, tuple[str, ...]] = {}
         """The fields of each definition that hold several parts, in the order in which they are written."""
         for name, definition in facts.definitions.items():
             self.writes[name] = self._node(definition)
-            self.repeated[name] = tuple(row.place or "" for row in self._rows(definition.rows) if _makes_many(row))
+            self.repeated[name] = tuple(row.place or "" for row in self._rows(definition.rows) if makes_many(row))
 
     def write(self, node: Any, element: XmlElement, definition: str | None = None) -> None:
-        """Write a node into an element that is there already."""
-        self.writes[definition or self.table.root](node, element)
+        """Write a node into an element that is there already; `definition` may go further in, as `joint/axis` does."""
+        self._write_of(definition or self.table.root)(node, element)
+
+    def _write_of(self, path: str) -> Write:
+        if path not in self.writes:
+            first, *steps = path.split("/")
+            fact = self.table.definitions[first]
+            for step in steps:
+                fact = self.table.resolve(next(row for row in self._rows(fact.rows) if row.name == step))
+            self.writes[path] = self._node(fact)
+        return self.writes[path]
 
     def _node(self, fact: Fact) -> Write:
         """The writer of an element that is a node of its own."""
         rows = self._rows(fact.rows)
         steps = self._steps(rows)
-        many = [(row.place or "", self._many(row)) for row in rows if _makes_many(row)]
+        many = [(row.place or "", self._many(row)) for row in rows if makes_many(row)]
         text = _pose_text if fact.type == "pose" else None
         content = fact.place if fact.any else None
 
@@ -96,20 +106,11 @@ class Writer:
     def _steps(self, rows: list[Fact]) -> list[Step]:
         """What writes the fields that are written once, in the order of the facts."""
         kinds = [row for row in rows if row.kind]
-        steps = [self._step(row) for row in rows if not row.kind and not _makes_many(row)]
+        steps = [self._step(row) for row in rows if not row.kind and not makes_many(row)]
         return [*steps, (kinds[0].place or "", self._kinds(kinds))] if kinds else steps
 
     def _rows(self, rows: list[Fact]) -> list[Fact]:
-        """One row with a place for each name; this version's where it has one."""
-        best: dict[str, Fact] = {}
-        for row in rows:
-            if (
-                row.place
-                and row.place[0] != "/"
-                and (row.name not in best or not best[row.name].exists_in(self.version))
-            ):
-                best[row.name] = row
-        return list(best.values())
+        return rows_to_write(rows, self.version)
 
     def _step(self, row: Fact) -> Step:
         outer, _, field = (row.place or "").rpartition(".")
@@ -199,7 +200,7 @@ class Writer:
         def write(child: Any, _: Any, element: XmlElement) -> None:
             made = SubElement(element, name)
             inner(child, made)
-            if not len(made) and not made.keys() and not made.text:
+            if is_empty(made):
                 element.remove(made)
 
         return write
@@ -226,8 +227,20 @@ def writer(format: str, version: Version) -> Writer:
     return Writer(table(format), version)
 
 
-def _makes_many(row: Fact) -> bool:
+def rows_to_write(rows: Iterable[Fact], version: Version) -> list[Fact]:
+    """One row with a place in the node for each name; this version's where it has one."""
+    placed = (row for row in rows if row.place and row.place[0] != "/")
+    return list(rows_by_name(placed, version).values())
+
+
+def makes_many(row: Fact) -> bool:
+    """Whether its field holds any number of nodes, which are written in the order of the file."""
     return row.fills_tuple and row.type is None
+
+
+def is_empty(element: XmlElement) -> bool:
+    """Whether an element has neither children, attributes nor text."""
+    return not len(element) and not element.keys() and not element.text
 
 
 def _value(node: Any, place: list[str]) -> Any:
@@ -289,10 +302,13 @@ def in_order(items: list[tuple[Any, _Each]]) -> list[tuple[Any, _Each]]:
     if len(items) < 2:
         return items
     keys: list[int] = []
-    file = next((child.source.file for child, _ in items if child.source), "")
+    file, line = None, 0
     for child, _ in items:
-        source = child.source
-        keys.append(source.line if source and source.file == file else keys[-1] if keys else 0)
+        source = child.__dict__["source"]
+        if source is not None:
+            file = source.file if file is None else file
+            line = source.line if source.file == file else line
+        keys.append(line)
     return [item for _, item in sorted(zip(keys, items, strict=True), key=itemgetter(0))]
 
 

@@ -10,6 +10,7 @@ __all__ = [
     "XmlElement",
     "children",
     "declared_namespaces",
+    "has_prefixed_attributes",
     "is_blank",
     "path_of",
     "prefix_of",
@@ -24,6 +25,7 @@ _UNDECLARED = "urn:twinform:undeclared:"
 """The beginning of the namespace that an undeclared prefix is given; the prefix is the end."""
 _ATTRIBUTE = etree.XPath("name(@*[local-name() = $local and namespace-uri() = $namespace])")
 """The name of an attribute as it was written."""
+_PREFIXED = etree.XPath("boolean(/descendant::*/@*[namespace-uri()])")
 
 
 def children(element: XmlElement) -> Iterator[XmlElement]:
@@ -97,3 +99,8 @@ def declared_namespaces(root: XmlElement) -> set[tuple[str, str]]:
     """
     found = cast("Iterable[tuple[str, tuple[str, str]]]", etree.iterwalk(root, events=("start-ns",)))
     return {(undeclared_prefix(uri) or prefix, uri) for _, (prefix, uri) in found if prefix}
+
+
+def has_prefixed_attributes(root: XmlElement) -> bool:
+    """Whether any attribute has a namespace; some say that an element is to be checked in another way."""
+    return bool(_PREFIXED(root))

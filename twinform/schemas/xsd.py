@@ -6,7 +6,7 @@ repeated choice, without counts and without keys, so it accepts whatever the nor
 
 What other namespaces add is skipped rather than checked: a `robot` inside of a foreign element is not ours.
 
-A lenient schema, for editors of real files, also takes the words of other versions and of dialects, and any attribute;
+A lenient schema, for editors of real files, also takes the syntax of other versions and of dialects, and any attribute;
 in XSD 1.1 any other element too, which XSD 1.0 cannot tell from those that it knows.
 """
 
@@ -72,9 +72,9 @@ class _Generator:
         """What the schema is, for whoever opens it."""
         name = f"{self.table.format.upper()} {print_version(self.version)}"
         if self.lenient:
-            return f"{name}, with the words of other versions and of dialects, and any attribute."
+            return f"{name}, with the syntax of other versions and of dialects, and any attribute."
         strict = f"{name}, strict: what is no word of this version is refused, unless it is in a namespace."
-        return strict if self.normative else f"{strict} How often elements may stand is for the XSD 1.1 to say."
+        return strict if self.normative else f"{strict} How often elements may stand is checked by the XSD 1.1 alone."
 
     def _fill(self, fact: Fact, complex_type: XmlElement, path: Path) -> None:
         """Declare in a complex type what an element holds. `path` also tells apart the names of the keys on the way."""

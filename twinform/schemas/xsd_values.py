@@ -21,7 +21,7 @@ _BOOL = "[tT][rR][uU][eE]|[fF][aA][lL][sS][eE]|0|1"
 
 
 @dataclass(frozen=True, slots=True)
-class Words:
+class Tokens:
     """Text of so many tokens of one pattern."""
 
     pattern: str
@@ -30,26 +30,26 @@ class Words:
 
 
 _URDF = {
-    "bool": Words(_BOOL),
-    "int": Words(_INT),
-    "uint": Words(_UINT),
-    "double": Words(_FINITE),
-    "vector3": Words(_FINITE, 3, 3),
-    "quaternion": Words(_FINITE, 4, 4),
-    "color4": Words(_FINITE, 4, 4),
+    "bool": Tokens(_BOOL),
+    "int": Tokens(_INT),
+    "uint": Tokens(_UINT),
+    "double": Tokens(_FINITE),
+    "vector3": Tokens(_FINITE, 3, 3),
+    "quaternion": Tokens(_FINITE, 4, 4),
+    "color4": Tokens(_FINITE, 4, 4),
 }
 
 _SDF = _URDF | {
-    "double": Words(_NUMBER),
-    "vector2d": Words(_FINITE, 2, 2),
-    "vector2i": Words(_INT, 2, 2),
-    "quaternion": Words(_FINITE, 3, 4),
-    "color": Words(_FINITE, 3, 4),
-    "pose": Words(_FINITE, 6, 7),
-    "time": Words(_FINITE, 1, 2),
+    "double": Tokens(_NUMBER),
+    "vector2d": Tokens(_FINITE, 2, 2),
+    "vector2i": Tokens(_INT, 2, 2),
+    "quaternion": Tokens(_FINITE, 3, 4),
+    "color": Tokens(_FINITE, 3, 4),
+    "pose": Tokens(_FINITE, 6, 7),
+    "time": Tokens(_FINITE, 1, 2),
 }
 
-WORDS = {"urdf": _URDF, "sdf": _SDF}
+TOKENS = {"urdf": _URDF, "sdf": _SDF}
 """By format and value type; `string` is any text."""
 
 _WORD = "word"
@@ -65,7 +65,7 @@ class Values:
     """The value types that one schema uses. Asking for one puts it on the list of those to declare."""
 
     def __init__(self, format: str, *, lenient: bool = False) -> None:
-        self.words = WORDS[format]
+        self.tokens = TOKENS[format]
         self.lenient = lenient
         self.used: set[str] = set()
         self.blank: set[str] = set()
@@ -108,7 +108,7 @@ class Values:
             union = xs(schema, "simpleType", name=f"{name}-or-blank")
             xs(union, "union", memberTypes=f"{name}-value blank")
         for name in sorted(self.used):
-            _declare_words(xs(schema, "simpleType", name=f"{name}-value"), self.words[name])
+            _declare_tokens(xs(schema, "simpleType", name=f"{name}-value"), self.tokens[name])
         if self.blank:
             blank = xs(xs(schema, "simpleType", name="blank"), "restriction", base="xs:token")
             xs(blank, "length", value="0")
@@ -142,16 +142,16 @@ def _enumerate(restriction: XmlElement, words: tuple[str, ...]) -> None:
         xs(restriction, "enumeration", value=word)
 
 
-def _declare_words(simple_type: XmlElement, words: Words) -> None:
+def _declare_tokens(simple_type: XmlElement, tokens: Tokens) -> None:
     restriction = xs(simple_type, "restriction")
-    if words.least == words.most == 1:
+    if tokens.least == tokens.most == 1:
         restriction.set("base", "xs:token")
-        xs(restriction, "pattern", value=words.pattern)
+        xs(restriction, "pattern", value=tokens.pattern)
         return
     items = xs(xs(xs(restriction, "simpleType"), "list"), "simpleType")
-    xs(xs(items, "restriction", base="xs:token"), "pattern", value=words.pattern)
-    if words.least == words.most:
-        xs(restriction, "length", value=str(words.least))
+    xs(xs(items, "restriction", base="xs:token"), "pattern", value=tokens.pattern)
+    if tokens.least == tokens.most:
+        xs(restriction, "length", value=str(tokens.least))
     else:
-        xs(restriction, "minLength", value=str(words.least))
-        xs(restriction, "maxLength", value=str(words.most))
+        xs(restriction, "minLength", value=str(tokens.least))
+        xs(restriction, "maxLength", value=str(tokens.most))

@@ -4,10 +4,9 @@ import math
 from typing import Any
 
 import pytest
-from lxml import etree
 
 from twinform.schemas import Fact
-from twinform.schemas.fast_path import GIVE_UP, quick_attributes, quick_parse, quick_pose
+from twinform.schemas.fast_path import GIVE_UP, quick_parse
 from twinform.schemas.values import VALUE_TYPES
 
 TYPES = VALUE_TYPES["sdf"]
@@ -66,78 +65,3 @@ def test_bounds_of_urdf_colors_are_those_of_vectors() -> None:
     assert parse("0 1 0 1") == (0.0, 1.0, 0.0, 1.0)
     with pytest.raises(GIVE_UP):
         parse("0 2 0 1")
-
-
-ROWS = [
-    Fact("@must", "1", type="double", place="must"),
-    Fact("@may", "?", type="int", place="may"),
-    Fact("@asked", "?", type="int", place="other", expected=True, default="1"),
-    Fact("@gone", "1", type="int", place="gone", until=(1, 4)),
-    Fact("@kept", "?", type="int"),
-]
-
-
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        ("<a must='1' asked='2'/>", {"must": 1.0, "other": 2}),
-        ("<a must='1' may='3' asked='2'/>", {"must": 1.0, "may": 3, "other": 2}),
-        ("<a/>", None),
-        ("<a must='1'/>", None),
-        ("<a asked='2'/>", None),
-        ("<a must='x' asked='2'/>", None),
-        ("<a must='1' asked='2' gone='1'/>", None),
-        ("<a must='1' asked='2' kept='1'/>", None),
-        ("<a must='1' asked='2' strange='1'/>", None),
-    ],
-)
-def test_attributes_are_read_at_once_or_not_at_all(text: str, expected: dict[str, object] | None) -> None:
-    read = quick_attributes(Fact("a", rows=ROWS), TYPES, NOW)
-    assert read
-    node: dict[str, object] = {"before": 1}
-    assert read(etree.fromstring(text), node) is (expected is not None)
-    assert node == {"before": 1, **(expected or {})}
-
-
-def test_an_element_without_attributes_says_nothing() -> None:
-    read = quick_attributes(Fact("a", rows=[ROWS[1]]), TYPES, NOW)
-    assert read
-    assert not read(etree.fromstring("<a/>"), {})
-
-
-@pytest.mark.parametrize(
-    "fact",
-    [
-        Fact("a"),
-        Fact("a", any=True, rows=ROWS),
-        Fact("a", type="string", rows=ROWS),
-        Fact("a", rows=[*ROWS, Fact("child")]),
-        Fact("a", rows=[Fact("child")]),
-    ],
-)
-def test_what_has_more_than_attributes_has_no_short_way(fact: Fact) -> None:
-    assert quick_attributes(fact, TYPES, NOW) is None
-
-
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        ("<pose>1 2 3 4 5 6</pose>", {"xyz": (1.0, 2.0, 3.0), "rpy": (4.0, 5.0, 6.0)}),
-        ("<pose relative_to='a'>1 2 3 4 5 6</pose>", None),
-        ("<pose>1 2 3 0 0 0 1</pose>", None),
-        ("<pose>1 2 3</pose>", None),
-        ("<pose>1 2 3 4 5 x</pose>", None),
-        ("<pose/>", None),
-    ],
-)
-def test_a_pose_is_six_numbers(text: str, expected: dict[str, object] | None) -> None:
-    read = quick_pose(Fact("pose", type="pose"), TYPES)
-    assert read
-    node: dict[str, object] = {}
-    assert read(etree.fromstring(text), node) is (expected is not None)
-    assert node == (expected or {})
-
-
-@pytest.mark.parametrize("type", [None, "vector3", "string"])
-def test_what_is_no_pose_is_not_read_as_one(type: str | None) -> None:
-    assert quick_pose(Fact("pose", type=type), TYPES) is None

@@ -49,11 +49,11 @@ def test_every_field_of_the_json_schema_is_documented() -> None:
     assert [name for name, field in fields if not field.get("description")] == []
 
 
-def test_units_defaults_and_versions_are_said() -> None:
+def test_units_defaults_and_versions_are_documented() -> None:
     words = Documentation(table("sdf"))
     rows = dict(rows_with_paths(table("sdf")))
-    said = words.of(("inertial", "density"), rows["inertial", "density"])
-    assert said.endswith("Unit: kg/m^3. Default: 1000. Since SDF 1.11.")
+    sentence = words.of(("inertial", "density"), rows["inertial", "density"])
+    assert sentence.endswith("Unit: kg/m^3. Default: 1000. Since SDF 1.11.")
     old = words.of(("physics", "update_rate"), rows["physics", "update_rate"])
     assert old.endswith("Unit: Hz. Default: 1000. Until SDF 1.3.")
     ranged = words.of(("noise", "stddev"), rows["noise", "stddev"])

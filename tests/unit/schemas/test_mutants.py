@@ -47,11 +47,13 @@ def test_a_mutant_gets_one_verdict(seed: int):
         for engine in engines:
             context = _read(root, name, version)
             validate(root, context, engine)
-            said = [found.message for found in context.sink.diagnostics]
-            assert said == [found.message for found in table_reading.sink.diagnostics], etree.tostring(root).decode()
+            messages = [found.message for found in context.sink.diagnostics]
+            assert messages == [found.message for found in table_reading.sink.diagnostics], etree.tostring(
+                root
+            ).decode()
 
 
-def test_a_reader_that_trusts_the_schema_says_the_same():
+def test_a_reader_that_trusts_the_schema_reports_the_same():
     random = Random(1)
     for root in [mutant(random.choice(_sources()), random) for _ in range(300)]:
         name, version = _version(root)

@@ -1,6 +1,6 @@
 """The schema reader over a small table that has every kind of row: all that comes out, kept in `schema_reader.json`.
 
-There, a case has its `text` and the `definition` of its root, the `data` with sources as text, all that is `said`, and
+There, a case has its `text` and the `definition` of its root, the `data` with sources as text, all `findings`, and
 what the context remembers.
 """
 
@@ -96,13 +96,13 @@ def shown(data: object) -> object:
 def read(text: str, definition: str, *, simple: bool = False) -> dict[str, object]:
     """All that becomes of a text."""
     sink = DiagnosticSink(file="notes")
-    context = Context(sink, "file", "sdf", (1, 1), clean=simple, simple=simple)
+    context = Context(sink, "file", "sdf", (1, 1), clean=simple)
     data = Reader(TABLE, (1, 1)).read(etree.fromstring(text), context, definition)
     return {
         "text": text,
         "definition": definition,
         "data": shown(data),
-        "said": [
+        "findings": [
             [
                 each.rule.name,
                 str(each.severity),
@@ -122,7 +122,7 @@ def read(text: str, definition: str, *, simple: bool = False) -> dict[str, objec
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_every_row_is_read_and_every_fault_is_said(name: str) -> None:
+def test_every_row_is_read_and_every_fault_is_reported(name: str) -> None:
     case = CASES[name]
     assert read(case["text"], case["definition"]) == case
 

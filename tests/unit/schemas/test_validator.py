@@ -61,7 +61,7 @@ LEAVES = {
     "an invalid leaf": "<static>perhaps</static>",
     "an invalid second shape": "<link name='l'><collision name='c'><geometry><polyline/><polyline><height>low</height>"
     "</polyline></geometry></collision></link>",
-    "words in a leaf": "<link name='l'><sensor name='s' type='camera'><camera><image>"
+    "text in a leaf": "<link name='l'><sensor name='s' type='camera'><camera><image>"
     "<format>L8<a/>text</format></image></camera></sensor></link>",
 }  # fmt: skip
 DOCUMENTS = {
@@ -91,18 +91,18 @@ def _of_two_minds(context: Context) -> list[int]:
 @pytest.mark.parametrize("strict", [False, True], ids=["compat", "strict"])
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("what", DOCUMENTS)
-def test_the_gate_agrees_with_the_table_pass(what: str, engine: Engine, strict: bool):
+def test_the_xsd_agrees_with_the_schema_reader(what: str, engine: Engine, strict: bool):
     name, text = DOCUMENTS[what]
     root = etree.fromstring(text)
     context = _read(name, root, strict=strict)
-    said = list(context.sink.diagnostics)
+    found = list(context.sink.diagnostics)
     validate(root, context, engine)
-    assert context.sink.diagnostics == said
+    assert context.sink.diagnostics == found
 
 
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("what", DOCUMENTS)
-def test_the_gate_leaves_the_tree_alone(what: str, engine: Engine):
+def test_xsd_validation_leaves_the_tree_alone(what: str, engine: Engine):
     name, text = DOCUMENTS[what]
     root = etree.fromstring(text)
     before = etree.tostring(root)

@@ -59,15 +59,15 @@ def on(text: str = "<a/>") -> tuple[Any, Context]:
 
 
 @pytest.mark.parametrize(("row", "value", "expected"), CHECKS)
-def test_what_is_wrong_with_a_value_is_said(
+def test_what_is_wrong_with_a_value_is_reported(
     row: Fact, value: object, expected: tuple[str, str, str | None] | None
 ) -> None:
     element, context = on()
     check = value_check(row)
     assert check
     check(element, value, context)
-    said = [(each.rule.name, each.message, each.expected) for each in context.sink.diagnostics]
-    assert said == ([expected] if expected else [])
+    findings = [(each.rule.name, each.message, each.expected) for each in context.sink.diagnostics]
+    assert findings == ([expected] if expected else [])
     step = f"/a/{row.name}" if row.is_attribute else "/a"
     assert {each.location.path for each in context.sink.diagnostics} <= {step}
     named = row.name[1:] if row.is_attribute else "#text"
@@ -156,7 +156,7 @@ STORES: list[tuple[Fact, str, dict[str, Any], object, dict[str, Any]]] = [
 
 
 @pytest.mark.parametrize(("row", "place", "node", "value", "expected"), STORES)
-def test_a_value_goes_where_the_table_says(
+def test_a_value_goes_where_the_table_puts_it(
     row: Fact, place: str, node: dict[str, Any], value: object, expected: dict[str, Any]
 ) -> None:
     element, context = on()
@@ -166,7 +166,7 @@ def test_a_value_goes_where_the_table_says(
     assert context.header == {}
 
 
-def test_what_is_said_about_the_document_goes_into_its_header() -> None:
+def test_what_is_about_the_document_goes_into_its_header() -> None:
     element, context = on()
     value_store(Fact("@version", type="string"), "/version")(element, {}, ("1.1", "1.1"), context)
     assert context.header == {"version": "1.1"}

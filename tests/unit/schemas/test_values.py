@@ -36,9 +36,9 @@ EXPECTED = {
 }
 
 
-def test_every_type_says_what_it_expects() -> None:
-    said = {format: {name: each.expected for name, each in types.items()} for format, types in VALUE_TYPES.items()}
-    assert said == EXPECTED
+def test_every_type_has_what_it_expects() -> None:
+    expected = {format: {name: each.expected for name, each in types.items()} for format, types in VALUE_TYPES.items()}
+    assert expected == EXPECTED
 
 
 ARABIC_ONE = "\N{ARABIC-INDIC DIGIT ONE}"
@@ -117,11 +117,11 @@ BAD = {
 @pytest.mark.parametrize(("words", "text"), [(words, text) for words, texts in BAD.items() for text in texts])
 def test_what_does_not_fit_is_refused(words: str, text: str) -> None:
     format, type = words.split()
-    with pytest.raises(ValueError):  # noqa: PT011 - the parsers leave the words to those who call them
+    with pytest.raises(ValueError):  # noqa: PT011 - the parsers leave the message to those who call them
         parse_value(type, text, format)
 
 
-def test_a_bool_is_one_of_four_words() -> None:
+def test_a_bool_is_one_of_four_texts() -> None:
     assert [parse_bool(word) for word in ("true", "1", "TRUE", "false", "0")] == [True, True, True, False, False]
 
 

@@ -65,7 +65,7 @@ def test_an_unknown_version_has_no_schema():
         schema_text("sdf", (9, 9))
 
 
-def test_children_of_a_free_element_cannot_be_told_from_others():
+def test_children_of_a_free_element_cannot_be_distinguished_from_others():
     facts = table("urdf")
     (robot,) = parse_facts(["robot any", "  link *"], "robot.facts")
     odd = type(facts)("urdf", ("1.0",), "robot", {"robot": robot})

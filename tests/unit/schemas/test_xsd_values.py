@@ -8,7 +8,7 @@ from lxml import etree
 
 from twinform.schemas import Fact, XmlElement, generate
 from twinform.schemas.values import VALUE_TYPES
-from twinform.schemas.xsd_values import WORDS, XS, Values, xs
+from twinform.schemas.xsd_values import TOKENS, XS, Values, xs
 
 NUMBERS = "1|-1|+1|007|1.|.5|-.5|1.5|1e5|1E-5|+.5e+3|-0|-0.0|12345678901234567890"
 WORD_TEXTS = "true|True|TRUE|tRuE|false|FALSE|inf|-inf|+INF|Inf|nan|-NaN|infinity|yes|on|abc|tru|None"
@@ -30,7 +30,7 @@ def _schema_of_values(name: str) -> str:
     values = Values(name)
     holder = xs(xs(schema, "element", name="values"), "complexType")
     choice = xs(holder, "choice", minOccurs="0", maxOccurs="unbounded")
-    for word in WORDS[name]:
+    for word in TOKENS[name]:
         values.leaf(Fact(word, type=word, default="0"), xs(choice, "element", name=word))
         needed = xs(choice, "element", name=f"{word}.needed")
         values.leaf(Fact(word, type=word), needed)
@@ -62,10 +62,10 @@ def _holders(word: str, text: str) -> list[XmlElement]:
 
 @pytest.mark.parametrize("name", generate.FORMATS)
 def test_every_value_type_but_text_has_a_pattern(name: str):
-    assert WORDS[name].keys() == VALUE_TYPES[name].keys() - {"string"}
+    assert TOKENS[name].keys() == VALUE_TYPES[name].keys() - {"string"}
 
 
-@pytest.mark.parametrize(("name", "word"), [(name, word) for name in generate.FORMATS for word in WORDS[name]])
+@pytest.mark.parametrize(("name", "word"), [(name, word) for name in generate.FORMATS for word in TOKENS[name]])
 def test_patterns_take_what_the_parsers_take(name: str, word: str):
     libxml2 = etree.XMLSchema(etree.fromstring(_schema_of_values(name)))
     reference = _reference(name)
@@ -76,7 +76,7 @@ def test_patterns_take_what_the_parsers_take(name: str, word: str):
             assert reference.is_valid(root) is expected, etree.tostring(root)
 
 
-@pytest.mark.parametrize(("name", "word"), [(name, word) for name in generate.FORMATS for word in WORDS[name]])
+@pytest.mark.parametrize(("name", "word"), [(name, word) for name in generate.FORMATS for word in TOKENS[name]])
 def test_only_blanks_of_xml_are_blank(name: str, word: str):
     # xmlschema 4.3 is no judge here: it strips and splits as Python does
     libxml2 = etree.XMLSchema(etree.fromstring(_schema_of_values(name)))
