@@ -1,5 +1,6 @@
 """The intermediate representation: frozen Pydantic nodes, one family in each file, and pure functions over them."""
 
+from twinform.ir.census import OPAQUE, PLAIN, PREFIXED, bits_named, bits_of, census_of, holds_opaque, untyped_elements
 from twinform.ir.document import Document, Format
 from twinform.ir.element import Element, Opaque
 from twinform.ir.extension import GazeboExtension
@@ -24,7 +25,6 @@ from twinform.ir.light import Light
 from twinform.ir.link import Inertia, Inertial, Link
 from twinform.ir.model import Include, Model
 from twinform.ir.node import Color, Node, Quaternion, Vector3
-from twinform.ir.opaque_inside import holds_opaque, untyped_elements
 from twinform.ir.plugin import Plugin
 from twinform.ir.pose import Frame, Pose
 from twinform.ir.references import IN_MODELS, ReferenceChange, ReferenceKind, map_references
@@ -36,6 +36,9 @@ from twinform.ir.world import World
 
 __all__ = [
     "IN_MODELS",
+    "OPAQUE",
+    "PLAIN",
+    "PREFIXED",
     "Axis",
     "Box",
     "Capsule",
@@ -83,6 +86,9 @@ __all__ = [
     "Vector3",
     "Visual",
     "World",
+    "bits_named",
+    "bits_of",
+    "census_of",
     "children_of",
     "count_parts",
     "holds_opaque",

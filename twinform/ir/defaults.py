@@ -15,8 +15,8 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 AXIS: Mapping[Format, Vector3] = {Format.URDF: (1.0, 0.0, 0.0), Format.SDF: (0.0, 0.0, 1.0)}
 """The direction of a joint's axis, in the frame of the joint."""
 RANGE: Mapping[Format, Limit] = {
-    Format.URDF: Limit(lower=0.0, upper=0.0),
-    Format.SDF: Limit(lower=-math.inf, upper=math.inf),
+    Format.URDF: Limit.unchecked(lower=0.0, upper=0.0),
+    Format.SDF: Limit.unchecked(lower=-math.inf, upper=math.inf),
 }
 """The ends of a `<limit>` that is written without them, in rad or m."""
 UNLIMITED = 1e16
@@ -33,7 +33,7 @@ MASS: Mapping[Format, float | None] = {Format.URDF: None, Format.SDF: 1.0}
 """In kg; URDF has no default, and a link without `<inertial>` weighs nothing there."""
 MOMENT: Mapping[Format, float | None] = {Format.URDF: None, Format.SDF: 1.0}
 """Of inertia about each axis, in kg m^2; products are zero."""
-INERTIAL = Inertial(mass=1.0, inertia=Inertia(ixx=1.0, ixy=0.0, ixz=0.0, iyy=1.0, iyz=0.0, izz=1.0))
+INERTIAL = Inertial.unchecked(mass=1.0, inertia=Inertia.unchecked(ixx=1.0, ixy=0.0, ixz=0.0, iyy=1.0, iyz=0.0, izz=1.0))
 """The mass of a link of SDF that has none written."""
 DENSITY = 1000.0
 """In kg/m^3, of a collision of SDF: that of water."""

@@ -133,31 +133,31 @@ class FrameGraph:
 
     def _add_links(self, links: Iterable[Link], scope: str) -> None:
         for link in links:
-            base = _base(link.pose, MODEL)
+            base = base_of(link.pose, MODEL)
             self._add(_Vertex("link", scope + link.name, scope, link.pose, base, "joint", "", link.source))
 
     def _add_members(self, frames: Iterable[Frame], joints: Iterable[Joint], scope: str, around: str) -> None:
         for joint in joints:
             child = joint.child or around
-            base = _base(joint.pose, child)
+            base = base_of(joint.pose, child)
             self._add(_Vertex("joint", scope + joint.name, scope, joint.pose, base, "link", child, joint.source))
         for frame in frames:
             holder = frame.attached_to or around
-            base = _base(frame.pose, holder)
+            base = base_of(frame.pose, holder)
             self._add(_Vertex("frame", scope + frame.name, scope, frame.pose, base, "link", holder, frame.source))
 
     def _add_inner(self, models: Iterable[Model], includes: Iterable[Include], scope: str, around: str) -> None:
         """Nested models, from the outside in; an include that was not expanded has at least a place."""
         for include in includes:
             if include.name is not None and include.placement_frame is None:
-                base = _base(include.pose, around)
+                base = base_of(include.pose, around)
                 name = scope + include.name
                 self._add(_Vertex("model", name, scope, include.pose, base, "link", around, include.source))
         stack = [(model, scope, around) for model in models]
         while stack:
             model, scope, around = stack.pop()
             inside = f"{scope}{model.name}::"
-            base, link = _base(model.pose, around), _canonical(model)
+            base, link = base_of(model.pose, around), _canonical(model)
             body = f"{model.name}::{link}" if link else ""
             vertex = _Vertex("model", scope + model.name, scope, model.pose, base, "link", body, model.source, inside)
             vertex.placement = model.placement_frame
@@ -187,7 +187,7 @@ class FrameGraph:
             named_in = source or self.root.source
             where = named_in.location if named_in else NOWHERE
             raise FrameError(rules.DANGLING_FRAME, f"there is no frame {scope + name!r}", where, name)
-        return next((vertex for vertex in found if vertex.kind == kind), found[0])
+        return found[0] if len(found) == 1 else next((vertex for vertex in found if vertex.kind == kind), found[0])
 
     def _vertices(self, name: str) -> list[_Vertex]:
         """What has a name; where models were flattened, `inner` stands for `inner::__model__` too."""
@@ -238,6 +238,8 @@ class FrameGraph:
         if start is base:
             return _IDENTITY
         self._settle(start)
+        if start.parent is base:
+            return self._local(start).compose(_IDENTITY)
         self._settle(base)
         in_common, base_in_common = _IDENTITY, _IDENTITY
         first, second = start, base
@@ -283,7 +285,8 @@ def _vertex(kind: Kind, scope: str, name: str, source: Source | None, moves_with
     return _Vertex(kind, name, scope, None, "", "model", moves_with, source)
 
 
-def _base(pose: Pose | None, default: str) -> str:
+def base_of(pose: Pose | None, default: str) -> str:
+    """The frame that a pose is in; `default` where it names none."""
     return pose.relative_to if pose is not None and pose.relative_to else default
 
 
@@ -312,7 +315,7 @@ def _circle(path: list[_Vertex], relation: str) -> FrameError:
 
 
 def _place(vertex: _Vertex, relation: str) -> Location:
-    """Where a vertex says what it is relative or attached to; where it stands, if it does not say so."""
+    """Where the vertex that something is relative or attached to is named; its own place, if none is."""
     if relation == "is given relative to" and vertex.pose and vertex.pose.source:
         return vertex.pose.location.at("@relative_to") if vertex.pose.relative_to else vertex.pose.location
     where = vertex.source.location if vertex.source else NOWHERE

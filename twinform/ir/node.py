@@ -23,8 +23,6 @@ class Node(Sourced):
     `true`); like `source`, it takes no part in equality.
     """
 
-    __slots__ = ("_holds_opaque",)  # what `holds_opaque` has found, once it was asked
-
     opaque: tuple[Opaque, ...] = ()
     spelling: SkipJsonSchema[Annotated[Mapping[str, str] | None, SkipValidation]] = Field(
         default=None, exclude=True, repr=False

@@ -5,6 +5,7 @@ from functools import cache, partial
 from operator import is_
 from typing import Any, TypeVar
 
+from twinform.ir.census import ANYTHING, bits_of, census_of
 from twinform.ir.node import Node
 from twinform.ir.sourced import Sourced
 from twinform.ir.tree import classes_below, classes_in, node_fields
@@ -19,24 +20,24 @@ def rewrite(
     kind: type[Wanted],
     change: Callable[[Wanted], Wanted],
     *,
-    enter: Callable[[Node], bool] | None = None,
+    having: int | None = None,
 ) -> AnyNode:
     """The node with every node of a class changed, in it and then itself: from the inside out, in the order of fields.
 
-    So `change` sees a node in which all is changed already. A node for which `enter` is false stays as it is, with all
-    that is in it.
+    So `change` sees a node in which all is changed already. A node without any of the bits `having` in its census stays
+    as it is, with all that is in it; where none are given, those of the class are meant.
     """
-    return _rewritten(kind, change, enter, node)
+    if having is None:
+        having = ANYTHING if kind is Node else bits_of(kind)
+    return _rewritten(kind, change, having, node)
 
 
-def _rewritten(
-    kind: type[Node], change: Callable[[Any], Node], enter: Callable[[Node], bool] | None, node: Node
-) -> Any:
-    fields, is_wanted = _plan(type(node), kind)
-    if not (fields or is_wanted) or (enter and not enter(node)):
+def _rewritten(kind: type[Node], change: Callable[[Any], Node], having: int, node: Node) -> Any:
+    if not census_of(node) & having:
         return node
+    fields, is_wanted = _plan(type(node), kind)
     if fields:
-        node = _with_changed(node, fields, partial(_rewritten, kind, change, enter))
+        node = _with_changed(node, fields, partial(_rewritten, kind, change, having))
     return change(node) if is_wanted else node
 
 

@@ -1,6 +1,6 @@
 """Base class of parts with a source location."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cache
 from typing import Annotated, Any, Self, TypeVar
 
@@ -17,6 +17,8 @@ _UNSEEN = frozenset({"source", "spelling"})
 class Sourced(BaseModel):
     """A frozen part of a document. `source`, the place it was read from, takes no part in equality or in JSON."""
 
+    __slots__ = ("_census",)  # what `twinform.ir.census` has found, once it was asked
+
     model_config = ConfigDict(frozen=True, extra="forbid", ser_json_inf_nan="strings", defer_build=True)
 
     source: SkipJsonSchema[Annotated[Source | None, SkipValidation]] = Field(default=None, exclude=True, repr=False)
@@ -29,7 +31,7 @@ class Sourced(BaseModel):
     @classmethod
     def unchecked(cls, **values: Any) -> Self:
         """A part with values that need no validation, since they come from parts or trees that had it."""
-        return _assembled(cls, {**_defaults(cls), **values}, set(values))
+        return assembled(cls, {**_defaults(cls), **values}, set(values))
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
         """The same part with other values, which are not validated.
@@ -39,7 +41,7 @@ class Sourced(BaseModel):
         """
         if deep or not update:
             return super().model_copy(update=update, deep=deep)
-        return _assembled(type(self), {**self.__dict__, **update}, self.__pydantic_fields_set__ | update.keys())
+        return assembled(type(self), {**self.__dict__, **update}, self.__pydantic_fields_set__ | update.keys())
 
     def __eq__(self, other: object) -> bool:
         if self.__class__ is not other.__class__:
@@ -51,13 +53,71 @@ class Sourced(BaseModel):
         return hash((self.__class__, *(value for name, value in self.__dict__.items() if name not in _UNSEEN)))
 
 
-def _assembled(kind: type[AnyPart], values: dict[str, Any], written: set[str]) -> AnyPart:
+_new = object.__new__
+_set_values, _set_written, _set_extra, _set_private, _set_census = (
+    vars(kind)[slot].__set__
+    for kind, slot in (
+        (BaseModel, "__dict__"),
+        (BaseModel, "__pydantic_fields_set__"),
+        (BaseModel, "__pydantic_extra__"),
+        (BaseModel, "__pydantic_private__"),
+        (Sourced, "_census"),
+    )
+)
+"""The slots of a part, without the detour through its `__setattr__`, which refuses because parts are frozen."""
+_MOST_SHARED = 256
+
+
+def _unknown(_: tuple[str, ...]) -> None:
+    """The census where nobody knows it yet."""
+
+
+def maker(
+    kind: type[AnyPart], census: Callable[[tuple[str, ...]], int | None] = _unknown
+) -> Callable[[dict[str, Any]], AnyPart]:
+    """What makes parts of a class from the values that were written, where these need no validation.
+
+    Parts in which the same fields were written share the set of their names: nobody changes it, and a set for each part
+    would be most of what small parts need. They also have one `census`, where the names of the fields tell it.
+    """
+    defaults = _defaults(kind)
+    shared: dict[tuple[str, ...], tuple[set[str], int | None]] = {}
+
+    def share(fields: tuple[str, ...]) -> tuple[set[str], int | None]:
+        if len(shared) >= _MOST_SHARED:
+            shared.clear()
+        found = shared[fields] = set(fields), census(fields)
+        return found
+
+    def make(values: dict[str, Any]) -> AnyPart:
+        fields = tuple(values)
+        written, bits = shared.get(fields) or share(fields)
+        made = _new(kind)
+        _set_values(made, {**defaults, **values})
+        _set_written(made, written)
+        _set_extra(made, None)
+        _set_private(made, None)
+        _set_census(made, bits)
+        return made
+
+    return make
+
+
+def amend(part: Sourced, field: str, value: object) -> None:
+    """Write a value into a part that was just made and that nobody else has seen: others are frozen."""
+    part.__dict__[field] = value  # pyright: ignore[reportIndexIssue] - typeshed has the view that classes have
+    _set_written(part, {*part.__pydantic_fields_set__, field})
+    _set_census(part, None)
+
+
+def assembled(kind: type[AnyPart], values: dict[str, Any], written: set[str]) -> AnyPart:
     """A part with all its values, of which some were written. `model_construct` would look at each field again."""
-    made = object.__new__(kind)
-    object.__setattr__(made, "__dict__", values)
-    object.__setattr__(made, "__pydantic_fields_set__", written)
-    object.__setattr__(made, "__pydantic_extra__", None)
-    object.__setattr__(made, "__pydantic_private__", None)
+    made = _new(kind)
+    _set_values(made, values)
+    _set_written(made, written)
+    _set_extra(made, None)
+    _set_private(made, None)
+    _set_census(made, None)
     return made
 
 

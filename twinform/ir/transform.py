@@ -49,7 +49,7 @@ class Transform:
             return written.model_copy(update={"relative_to": relative_to, "opaque": ()})
         xyz = rounded(self.translation) if self.translation != _ORIGIN else None
         rpy = rounded(self.rpy()) if self.rotation != _UNTURNED else None
-        return Pose(xyz=xyz, rpy=rpy, relative_to=relative_to)
+        return Pose.unchecked(xyz=xyz, rpy=rpy, relative_to=relative_to)
 
     @property
     def is_identity(self) -> bool:

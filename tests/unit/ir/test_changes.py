@@ -17,7 +17,7 @@ ROBOT = """
 OLD = twinform.loads(ROBOT)
 
 
-def said(text: str) -> list[str]:
+def summaries(text: str) -> list[str]:
     """The changes that lead to a text, without their values where a node is new or gone."""
     new = twinform.loads(text)
     return [f"{each.how} {each.path}" for each in changes(OLD, new)]
@@ -61,7 +61,7 @@ def said(text: str) -> list[str]:
     ],
 )
 def test_each_change_has_its_path(old: str, new: str, expected: list[str]) -> None:
-    assert said(ROBOT.replace(old, new, 1) if old else ROBOT) == expected
+    assert summaries(ROBOT.replace(old, new, 1) if old else ROBOT) == expected
 
 
 def test_a_part_without_fields_belongs_to_its_node() -> None:
@@ -74,7 +74,7 @@ def test_a_part_without_fields_belongs_to_its_node() -> None:
     ]
 
 
-def test_a_value_is_said_with_its_node_and_what_it_was() -> None:
+def test_a_value_is_reported_with_its_node_and_what_it_was() -> None:
     body = "/models['m']/links['a']/inertial"
     heavy = twinform.loads(ROBOT.replace("<mass>1", "<mass>2"))
     assert list(changes(OLD, heavy)) == [Change(ChangeKind.CHANGED, body, f"{body}/mass", 1.0, 2.0)]

@@ -73,7 +73,7 @@ def test_inertials() -> None:
 
 
 @pytest.mark.parametrize(("holder", "values"), [("link", ir.BODY), ("forcetorque", ir.FORCE_TORQUE)])
-def test_words(holder: str, values: Mapping[str, object]) -> None:
+def test_enumerations(holder: str, values: Mapping[str, object]) -> None:
     assert values == {name: default(Format.SDF, f"{holder}/{name}") for name in values}
 
 

@@ -155,7 +155,7 @@ def test_a_world_places_its_models() -> None:
     assert graph.body("stake") == "world"
 
 
-def test_a_link_and_a_joint_of_one_name_are_told_apart() -> None:
+def test_a_link_and_a_joint_of_one_name_are_distinguished() -> None:
     robot = Model(
         name="r",
         links=(Link(name="base"), Link(name="hip", pose=Pose(relative_to="hip"))),

@@ -21,7 +21,7 @@ NO_REFERENCES = {
     "Heightmap.uri", "Image.uri", "Include.uri", "Material.albedo_map", "Material.texture", "Mesh.uri",
     "Plugin.filename", "Plugin.text", "Script.name", "Script.uris", "Sensor.topic",
 }  # fmt: skip
-"""Names of a node itself, words of a fixed list, and files, topics and texts, which name nothing in the document."""
+"""Names of a node itself, values of a fixed list, and files, topics and texts, which name nothing in the document."""
 
 
 def _kinds(kind: type[Node] = Node) -> Iterator[type[Node]]:

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from twinform.ir import (
+    OPAQUE,
     Document,
     Element,
     GazeboExtension,
@@ -108,7 +109,7 @@ def test_copies_that_nothing_checks_are_those_that_validation_makes(document: Do
 @given(DOCUMENTS)
 def test_what_is_not_entered_stays(document: Document) -> None:
     seen: list[Node] = []
-    assert rewrite(document, Node, noted(seen), enter=holds_opaque) is document
+    assert rewrite(document, Node, noted(seen), having=OPAQUE) is document
     assert ids(seen) == ids([node for node in outside_last(document) if holds_opaque(node)])
 
 

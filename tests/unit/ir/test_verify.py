@@ -1,4 +1,4 @@
-"""What the verifier says where it says several things, or has to keep quiet."""
+"""What the verifier reports where it finds several things, or has to keep quiet."""
 
 from twinform.compiler import check
 from twinform.diagnostics import DiagnosticSink
@@ -6,7 +6,7 @@ from twinform.ir import Pose
 from twinform.ir.verify import verify
 
 
-def _said(text: str, kind: str = "sdf") -> list[tuple[str, int]]:
+def _findings(text: str, kind: str = "sdf") -> list[tuple[str, int]]:
     found = check(text.encode(), name=f"r.{kind}").diagnostics
     return [(each.rule.name, each.location.line) for each in found]
 
@@ -30,12 +30,14 @@ def test_a_circle_of_frames_is_found_in_a_model_after_one_with_an_error() -> Non
     wrong = '<model name="one"><link name="x"/><link name="x"/></model>'
     circle = f'<model name="two"><link name="y"/>{_CIRCLE}</model>'
     world = f'<sdf version="1.9"><world name="w">\n{wrong}{circle}</world></sdf>'
-    assert _said(world) == [("duplicate-name", 2), ("frame-cycle", 3)]
+    assert _findings(world) == [("duplicate-name", 2), ("frame-cycle", 3)]
 
 
 def test_ends_of_joints_are_looked_at_once_the_frames_lead_somewhere() -> None:
-    assert _said(f'<sdf version="1.9"><model name="m">{_ON_ONE_LINK}</model></sdf>') == [("self-joint", 2)]
-    assert _said(f'<sdf version="1.9"><model name="m">{_ON_ONE_LINK}{_CIRCLE}</model></sdf>') == [("frame-cycle", 3)]
+    assert _findings(f'<sdf version="1.9"><model name="m">{_ON_ONE_LINK}</model></sdf>') == [("self-joint", 2)]
+    assert _findings(f'<sdf version="1.9"><model name="m">{_ON_ONE_LINK}{_CIRCLE}</model></sdf>') == [
+        ("frame-cycle", 3)
+    ]
 
 
 def test_a_pose_that_a_pass_made_is_where_its_link_is() -> None:

@@ -28,7 +28,7 @@ def verify(document: Document, sink: DiagnosticSink) -> None:
 def verify_again(document: Document, sink: DiagnosticSink) -> None:
     """Report what is wrong with what passes have made: errors, and what cannot be seen in URDF.
 
-    About the source as it was written, all is said already.
+    The source as it was written has been reported on already.
     """
     found = DiagnosticSink(file=sink.file, strict=sink.strict)
     verify(document, found)

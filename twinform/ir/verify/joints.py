@@ -60,7 +60,7 @@ def _verify_axis(joint: Joint, name: str, axis: Axis, sink: DiagnosticSink, *, m
 
 
 def _place(joint: Joint, name: str, axis: Axis) -> Location:
-    """Where the axis is written. Where URDF's <limit> stands first, the axis was made there."""
+    """Where the axis is written. Where URDF's <limit> stands first, the axis was synthesized there."""
     return axis.location if axis.source and axis.source.step == name else joint.location.at(name)
 
 

@@ -15,6 +15,7 @@ from twinform.ir.pose import Pose
 from twinform.ir.verify.inertia import verify_inertial
 from twinform.ir.verify.joints import verify_joint, verify_mimics
 from twinform.ir.verify.names import Kinds, report_names, report_reserved, report_scope
+from twinform.ir.verify.plain_frames import has_plain_frames
 from twinform.ir.verify.poses import verify_rotation
 from twinform.ir.verify.references import References
 from twinform.ir.verify.sensors import verify_grippers, verify_joint_sensors, verify_sensors
@@ -121,16 +122,18 @@ class _Verifier:
             self.sink.report(rules.WORLD_CHILD, message, joint.location.at("child"))
 
     def _link(self, link: Link, model: Model) -> None:
-        kinds: Kinds = (
+        every = (
             ("visual", link.visuals),
             ("collision", link.collisions),
             ("sensor", link.sensors),
             ("light", link.lights),
         )
+        kinds = [(kind, nodes) for kind, nodes in every if nodes]
         for kind, nodes in kinds:
             report_names(kind, [node for node in nodes if node.name is not None], self.sink)
         self._reserved(kinds)
-        self._siblings(link)
+        if link.visuals and link.collisions:
+            self._siblings(link)
         verify_inertial(link, MOMENT[Format.SDF], self.sink)
         verify_shapes(link, self.sink, geometry_is_required=False)
         if link.sensors:
@@ -159,6 +162,8 @@ class _Verifier:
         """Report frames that go round in a circle, where all names lead somewhere, and what they resolve to."""
         if any(each.is_error for each in self.sink.diagnostics[before:]):
             return
+        if isinstance(holder, Model) and has_plain_frames(holder):
+            return
         seen: set[str] = set()
         try:
             graph = FrameGraph(holder)
@@ -176,7 +181,7 @@ class _Verifier:
                 self._ends_inside(model, graph, "")
 
     def _ends_inside(self, model: Model, graph: FrameGraph, scope: str) -> None:
-        """Nested models too; libsdformat does not look there, so it is no error until a format cannot say it."""
+        """Nested models too; libsdformat does not look there, so it is no error until a format cannot express it."""
         scope = f"{scope}{model.name}::"
         self._ends(model, graph, scope, None if self.sink.strict else Severity.WARNING)
         for nested in model.models:

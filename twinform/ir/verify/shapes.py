@@ -31,12 +31,12 @@ def _verify_shape(kind: str, shape: Visual | Collision, link: Link, sink: Diagno
     geometry = shape.geometry
     if geometry is not None and geometry.shape is not None:
         _verify_sizes(geometry, kind, link, sink)
-    elif _says_nothing(shape, required=required):
+    elif _is_empty(shape, required=required):
         message = f"a {kind} of link {link.name!r} has no shape"
         sink.report(rules.MISSING_SHAPE, message, shape.location, expected="<geometry> with a shape in it")
 
 
-def _says_nothing(shape: Visual | Collision, *, required: bool) -> bool:
+def _is_empty(shape: Visual | Collision, *, required: bool) -> bool:
     """Whether no shape is written, not even one that the schema does not know."""
     if shape.geometry is not None:
         return not any(part.element for part in shape.geometry.opaque)

@@ -19,7 +19,7 @@ from twinform.ir.visual import Material
 
 
 def verify_robot(model: Model, sink: DiagnosticSink, *, optional: bool) -> None:
-    """Report what is wrong with a robot; `optional` says whether limits may lack effort and velocity."""
+    """Report what is wrong with a robot; `optional` is whether limits may lack effort and velocity."""
     if not model.name.strip():
         message = "the robot has an empty name"
         sink.report(rules.EMPTY_NAME, message, model.location, severity=Severity.WARNING)
@@ -107,7 +107,7 @@ def _report_unnamed(model: Model, sink: DiagnosticSink) -> None:
 
 
 def _unnamed(holder: Node, materials: Iterable[Material]) -> Iterator[Location]:
-    """Where materials without a name are; one that says nothing at all is an opaque part of what it is in."""
+    """Where materials without a name are; one with nothing in it is an opaque part of what it is in."""
     yield from (material.location for material in materials if material.name is None)
     blank = (part for part in holder.opaque if part.element and part.element.name == "material" and not part.at)
     yield from (part.location for part in blank if part.element and "name" not in dict(part.element.attributes))

@@ -8,7 +8,7 @@ from twinform.ir import Document, Element, GazeboExtension, Link, Node, Opaque, 
 from twinform.ir.sourced import Sourced
 from twinform.testing import strategies
 
-MARK = Opaque(element=Element(name="{urn:x}mark"))
+OPAQUE = Opaque(element=Element(name="{urn:x}mark"))
 
 
 def _is_there(node: Node) -> bool:
@@ -25,9 +25,9 @@ def test_what_a_walk_finds_is_found(robot: Document) -> None:
 def test_a_copy_is_asked_for_itself() -> None:
     link = Link(name="a", visuals=(Visual(name="v"),))
     assert not holds_opaque(link)
-    marked = link.model_copy(update={"visuals": (Visual(name="v", opaque=(MARK,)),)})
-    assert holds_opaque(marked)
-    assert not holds_opaque(marked.model_copy(update={"visuals": ()}))
+    with_opaque = link.model_copy(update={"visuals": (Visual(name="v", opaque=(OPAQUE,)),)})
+    assert holds_opaque(with_opaque)
+    assert not holds_opaque(with_opaque.model_copy(update={"visuals": ()}))
 
 
 @given(strategies.robots())
