@@ -2,9 +2,10 @@
 
 from functools import cache
 from importlib import import_module
-from pkgutil import iter_modules
 
 from twinform.diagnostics.rule import Rule
+
+_PACKAGE = "twinform.diagnostics.rules"
 
 
 @cache
@@ -15,14 +16,21 @@ def catalog() -> dict[str, Rule]:
         ValueError: two rules share a name.
     """
     rules: dict[str, Rule] = {}
-    for rule in sorted(_defined(), key=lambda rule: rule.name):
+    for rule in sorted((rule for found in defined_rules().values() for rule in found), key=lambda rule: rule.name):
         if rule.name in rules:
             raise ValueError(f"two rules are called {rule.name!r}")
         rules[rule.name] = rule
     return rules
 
 
-def _defined() -> list[Rule]:
-    package = import_module("twinform.diagnostics.rules")
-    modules = [import_module(f"{package.__name__}.{info.name}") for info in iter_modules(package.__path__)]
-    return [value for module in modules for value in vars(module).values() if isinstance(value, Rule)]
+def defined_rules() -> dict[str, list[Rule]]:
+    """The rules by the name of the module that they are written in."""
+    from pkgutil import iter_modules  # noqa: PLC0415 - few commands need all rules
+
+    names = [info.name for info in iter_modules(import_module(_PACKAGE).__path__)]
+    return {name: rules_of(name) for name in names}
+
+
+def rules_of(module: str) -> list[Rule]:
+    """The rules that are written in a module."""
+    return [value for value in vars(import_module(f"{_PACKAGE}.{module}")).values() if isinstance(value, Rule)]

@@ -1,7 +1,6 @@
 """Did you mean: suggests the known name that is nearest to one that is not known, as the help of a finding."""
 
 from collections.abc import Callable, Iterable
-from difflib import SequenceMatcher
 from itertools import islice
 
 _LONGEST = 80
@@ -46,6 +45,8 @@ def _nearest(name: str, others: Iterable[str], alike: float) -> str:
     Which letters there are bounds how much alike two names can be. The order of letters takes much longer to compare,
     so that is done from the highest bound on, until no other name can be nearer.
     """
+    from difflib import SequenceMatcher  # noqa: PLC0415 - most files have no slip
+
     matcher = SequenceMatcher(b=name)
 
     def measured(other: str, measure: Callable[[], float]) -> tuple[float, str]:

@@ -1,6 +1,5 @@
 """The ledger: what a conversion could not express exactly in the target format, and what became of it."""
 
-import json
 from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
@@ -41,6 +40,8 @@ class Ledger:
 
     def to_json(self) -> str:
         """The ledger as `--ledger` writes it."""
+        import json  # noqa: PLC0415 - few commands write it
+
         return json.dumps({"expressed": self.expressed, "entries": list(_rows(self.entries))}, indent=2) + "\n"
 
 

@@ -3,10 +3,14 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
-from importlib.metadata import EntryPoint, entry_points
+from typing import TYPE_CHECKING
 
-from twinform.diagnostics.catalog import catalog
+from twinform.diagnostics.built_in import BUILT_IN
+from twinform.diagnostics.catalog import catalog, rules_of
 from twinform.diagnostics.rule import Rule
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
 
 GROUP = "twinform.rules"
 OWN = "twinform"
@@ -31,10 +35,23 @@ def rules() -> dict[str, RegisteredRule]:
     Raises:
         RuleRegistryError: two have one name, or one is not as it should be.
     """
+    from importlib.metadata import entry_points  # noqa: PLC0415 - few commands look at every package
+
     return collect_rules(catalog().values(), entry_points(group=GROUP))
 
 
-def collect_rules(own: Iterable[Rule], entries: Iterable[EntryPoint]) -> dict[str, RegisteredRule]:
+def find_rule(name: str) -> RegisteredRule | None:
+    """An installed rule. A built-in one is found without a look at other packages.
+
+    Raises:
+        RuleRegistryError: there is no built-in one of this name, and others contradict each other.
+    """
+    if name in BUILT_IN:
+        return next(RegisteredRule(rule, OWN) for rule in rules_of(BUILT_IN[name]) if rule.name == name)
+    return rules().get(name)
+
+
+def collect_rules(own: Iterable[Rule], entries: "Iterable[EntryPoint]") -> dict[str, RegisteredRule]:
     """Our own rules and those of these entry points, sorted by name.
 
     Raises:
@@ -50,7 +67,7 @@ def collect_rules(own: Iterable[Rule], entries: Iterable[EntryPoint]) -> dict[st
     return dict(sorted(found.items()))
 
 
-def _load(entry: EntryPoint) -> RegisteredRule:
+def _load(entry: "EntryPoint") -> RegisteredRule:
     owner = entry.dist.name if entry.dist else "an unknown distribution"
     try:
         rule: object = entry.load()

@@ -27,7 +27,7 @@ class DiagnosticSink:
     """Collects diagnostics and ledger entries, in the order in which they are made.
 
     `file` completes the locations, which know only a line and a path. `origins` lead from the lines of expanded texts
-    to where they were written. `has_errors` says whether anything here stops a conversion. `side_files` are the files
+    to where they were written. `has_errors` is whether anything here stops a conversion. `side_files` are the files
     that passes make to lie beside the result.
     """
 

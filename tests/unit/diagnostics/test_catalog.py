@@ -40,7 +40,7 @@ def test_rules_are_sorted_and_unique() -> None:
 
 def test_two_rules_of_one_name_are_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     module = import_module("twinform.diagnostics.catalog")
-    monkeypatch.setattr(module, "_defined", lambda: [RULES[0], RULES[0]])
+    monkeypatch.setattr(module, "defined_rules", lambda: {"one": [RULES[0]], "two": [RULES[0]]})
     with pytest.raises(ValueError, match=f"two rules are called '{RULES[0].name}'"):
         catalog.__wrapped__()
 

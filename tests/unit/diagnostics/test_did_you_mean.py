@@ -25,7 +25,7 @@ from twinform.diagnostics import did_you_mean, nearest_name
         ("a" * 81, ["a" * 80], None),
     ],
 )
-def test_a_slip_is_told_from_another_name(name: str, known: list[str | None], near: str | None) -> None:
+def test_a_slip_is_distinguished_from_another_name(name: str, known: list[str | None], near: str | None) -> None:
     assert nearest_name(name, known) == near
     assert did_you_mean(name, known) == (f"did you mean {near!r}?" if near else None)
 

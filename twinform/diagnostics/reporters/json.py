@@ -1,6 +1,5 @@
 """The report for programs: one JSON object."""
 
-import json as jsonlib
 from collections.abc import Sequence
 
 from twinform.diagnostics.diagnostic import Diagnostic
@@ -13,6 +12,8 @@ def json(files: Sequence[Findings]) -> str:
 
     Only a finding in another file than the one that was asked for, such as an included one, names its `file`.
     """
+    import json as jsonlib  # noqa: PLC0415 - few runs write it
+
     rows = [{"path": path, "diagnostics": [row(each, path) for each in found]} for path, found in files]
     return jsonlib.dumps({"files": rows}, indent=2) + "\n"
 

@@ -1,8 +1,6 @@
 """The report for code scanning: SARIF 2.1.0."""
 
-import json
 from collections.abc import Sequence
-from importlib.metadata import version
 from pathlib import Path
 from urllib.parse import quote
 
@@ -18,6 +16,9 @@ _LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: 
 
 def sarif(files: Sequence[Findings]) -> str:
     """A log of one run: all rules of the catalog, and a result for each finding."""
+    import json  # noqa: PLC0415 - few runs write it
+    from importlib.metadata import version  # noqa: PLC0415 - see above
+
     rules = _rules(files)
     order = {name: index for index, name in enumerate(rules)}
     driver = {"name": "twinform", "version": version("twinform"), "rules": [_rule(rule) for rule in rules.values()]}

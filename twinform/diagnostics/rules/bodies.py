@@ -9,7 +9,7 @@ MISSING_SHAPE = Rule(
     matters="There is nothing to see or touch. urdfdom drops the rest of the link with it; libsdformat puts an empty "
     "shape there.",
     example="`<collision name='c'><geometry/></collision>`",
-    better="Write the shape or delete the visual or collision; in SDF `<empty/>` says that none is meant.",
+    better="Write the shape or delete the visual or collision; in SDF `<empty/>` means that none is meant.",
 )
 ZERO_SIZE = Rule(
     name="zero-size",
@@ -67,7 +67,7 @@ UNKNOWN_COLLISION = Rule(
     name="unknown-collision",
     severity=Severity.WARNING,
     finds="A contact sensor that names a collision which does not exist.",
-    matters="It never reports a contact, and no reader says why.",
+    matters="It never reports a contact, and no reader reports why.",
     example="`<contact><collision>foot</collision></contact>` where the collision is called `foot_collision`.",
     better="Correct the name.",
 )

@@ -20,7 +20,7 @@ PLUGIN_WITHOUT_COUNTERPART = Rule(
     finds="A plugin of Gazebo Classic that has no counterpart in gz-sim, with the reason.",
     matters="gz-sim cannot load it. It is left out, or stays with the option `keep`.",
     example="`libgazebo_ros_vacuum_gripper.so`",
-    better="Port it to a system of gz-sim, or do what the reason says.",
+    better="Port it to a system of gz-sim, or follow the reason.",
     references=_REFERENCES,
 )
 PARAMETER_WITHOUT_COUNTERPART = Rule(
@@ -29,7 +29,7 @@ PARAMETER_WITHOUT_COUNTERPART = Rule(
     finds="A parameter of a migrated plugin that gz-sim has no counterpart for, with the reason.",
     matters="What it asked for does not happen any more, or happens in another way.",
     example="`<covariance_x>` of `libgazebo_ros_planar_move.so`",
-    better="Do what the reason says, or leave the parameter out of the source.",
+    better="Follow the reason, or leave the parameter out of the source.",
     references=_REFERENCES,
 )
 UNKNOWN_PLUGIN = Rule(
@@ -65,7 +65,7 @@ UNREAD_WORLD_PART = Rule(
     finds="A part of a world that Gazebo Classic reads and gz-sim does not.",
     matters="It is kept in the file, but has no effect.",
     example="`<physics><ode>`, `<scene><fog>`, `<population>`",
-    better="Leave it out, or do what the reason says.",
+    better="Leave it out, or follow the reason.",
     references=_REFERENCES,
 )
 SHIPPED_MODEL = Rule(

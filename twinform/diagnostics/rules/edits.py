@@ -24,7 +24,7 @@ UNFOLLOWED_NAME = Rule(
     severity=Severity.INFO,
     finds="A text or attribute that is the old name of something that was renamed, where it is not "
     "known whether it refers to it.",
-    matters="It may be a reference that now leads nowhere, or only a label that looks like one.",
+    matters="It may be a reference that now leads nowhere, or only a label that resembles one.",
     example="`<cameraName>wrist</cameraName>` in a plugin, after the link `wrist` was renamed.",
     better="Check it, and change it by hand where it is a reference.",
 )

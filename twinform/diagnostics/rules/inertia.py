@@ -18,7 +18,7 @@ NON_POSITIVE_MASS = Rule(
     "pass `check-inertia` finds that the link moves.",
     matters="The equations of motion have no solution: simulators refuse the link, drop it, or fling the robot away.",
     example="`<mass value='0'/>`, `<mass>-0.2</mass>`",
-    better="Write the mass in kilograms; a link that only marks a place needs no inertial and a fixed joint.",
+    better="Write the mass in kilograms; a link that is only a place needs no inertial and a fixed joint.",
     references="SDF specification, `inertial/mass`; URDF, `inertial/mass`.",
 )
 INDEFINITE_INERTIA = Rule(
@@ -95,7 +95,7 @@ FILLED_INERTIA = Rule(
     finds="A link whose mass and inertia were computed from its shapes.",
     matters="The numbers are those of evenly filled shapes, not of the real part.",
     example="`fill-inertia{density=2700}` on a link with a collision and no `<inertial>`.",
-    better="Write what the drawing or a scale says into the source; then there is nothing to compute.",
+    better="Write the numbers of a drawing or a scale into the source; then there is nothing to compute.",
 )
 UNFILLED_INERTIA = Rule(
     name="unfilled-inertia",
@@ -112,7 +112,7 @@ BALANCED_INERTIA = Rule(
     severity=Severity.WARNING,
     finds="A link whose impossible inertia was replaced by the nearest one that a body can have; an info where they "
     "differ by no more than digits that were cut off.",
-    matters="The new numbers let a simulator run; they need not be those of the real part. The message says how "
+    matters="The new numbers let a simulator run; they need not be those of the real part. The message tells how "
     "far they are from the old ones.",
     example="`balance-inertia` on `<inertia ixx='1' iyy='0.1' izz='0.1' .../>`, which becomes 0.733, 0.367, 0.367.",
     better="Compute the inertia from the shape and the mass, as `fill-inertia{replace=impossible}` does.",

@@ -54,7 +54,7 @@ IMPLAUSIBLE_LIMIT = Rule(
     "rad/s (or m/s).",
     matters="It is usually a placeholder, and controllers and planners use it as if it were real.",
     example="`<limit effort='1e6' velocity='10000' .../>`",
-    better="Write what the data sheet of the actuator says.",
+    better="Write the numbers in the data sheet of the actuator.",
 )
 SOFT_LIMIT_OUTSIDE = Rule(
     name="soft-limit-outside",

@@ -16,7 +16,7 @@ TOKEN_MASS = Rule(
     severity=Severity.WARNING,
     finds="A body that moves, weighs nothing and carries nothing, and that got a small ball as its mass; or one whose "
     "joint was made fixed instead.",
-    matters="The robot weighs a little more than its file said, or can do one thing less.",
+    matters="The robot weighs a little more than in its file, or can do one thing less.",
     example="`split-massless` on a wheel without `<inertial>`.",
     better="Write the mass of the part, or let `fill-inertia` compute it from its shapes.",
 )

@@ -44,7 +44,7 @@ EMPTY_NAME = Rule(
 UNPRINTABLE_NAME = Rule(
     name="unprintable-name",
     severity=Severity.ERROR,
-    finds="A name with a character that cannot be seen: a line break, a tab, a command to a terminal, a mark that "
+    finds="A name with a character that cannot be seen: a line break, a tab, a command to a terminal, a character that "
     "turns the direction of writing, a space of another width.",
     matters="No topic or frame of ROS can have the name, logs and scripts that print it break or lie, and two names "
     "that look the same are not.",
@@ -154,7 +154,7 @@ UNKNOWN_REFERENCE = Rule(
     severity=Severity.WARNING,
     strict=Severity.ERROR,
     finds="A `<gazebo reference='...'>` that names neither a link nor a joint.",
-    matters="libsdformat drops its content without a word: the sensor, friction or color is simply not there.",
+    matters="libsdformat drops its content silently: the sensor, friction or color is simply not there.",
     example="`<gazebo reference='bse_link'>` where the link is called `base_link`.",
     better="Correct the name.",
     references="sdformat issue 1372",

@@ -9,7 +9,7 @@ UNKNOWN_PLUGIN_PARAMETER = Rule(
     severity=Severity.WARNING,
     strict=Severity.ERROR,
     finds="A parameter that the plugin does not read, or not in the chosen release.",
-    matters="It is ignored without a word, and the plugin goes on with its default.",
+    matters="It is ignored silently, and the plugin goes on with its default.",
     example="`<odom_publisher_frequency>30</odom_publisher_frequency>` for DiffDrive, as the official ROS 2 migration "
     "tutorial has it: the odometry comes at 50 Hz.",
     better="Use the name that the source reads: `odom_publish_frequency`.",
@@ -31,7 +31,7 @@ PLUGIN_PARAMETER_COUNT = Rule(
     strict=Severity.ERROR,
     finds="A parameter without which a plugin does not work and that is not there, or one that stands twice although "
     "only the first is read.",
-    matters="Without it the plugin gives up when the simulation starts, and says so only in the console.",
+    matters="Without it the plugin gives up when the simulation starts, and reports it only in the console.",
     example="A joint position controller without `<joint_name>`; DiffDrive with two `<wheel_radius>`.",
     better="Write it once.",
     references=_SOURCES,

@@ -9,7 +9,7 @@ UNREADABLE_FILE = Rule(
     matters="There is nothing to compile. The limit keeps a hostile file from filling the memory; robots stay far "
     "below.",
     example="`twinform check no_such_robot.urdf`",
-    better="Check the path.",
+    better="Check the path. A larger file that is your own is read with `--max-size`.",
 )
 OVERSIZED_FILE = Rule(
     name="oversized-file",
@@ -19,7 +19,8 @@ OVERSIZED_FILE = Rule(
     matters="A hostile file could fill the memory, or keep the machine busy for hours. Robots stay far below: a chain "
     "of 10,000 links has 280,000 tags.",
     example="A million `<x/>`; a link in a link in a link, a thousand deep.",
-    better="Split the world into files, and include them.",
+    better="Split the world into files, and include them. For a file that is your own, `--max-size` and `--max-tags` "
+    "lift the first two limits.",
 )
 NOT_WELL_FORMED = Rule(
     name="not-well-formed",
@@ -27,7 +28,7 @@ NOT_WELL_FORMED = Rule(
     finds="Text that is not XML, in a way that cannot be repaired with certainty.",
     matters="The parser cannot tell what was meant, and a guess may be another robot.",
     example="An end tag that does not match, an attribute without quotes, a file cut off in the middle.",
-    better="Correct the line that the message names, as its help says.",
+    better="Correct the line that the message names, as its help proposes.",
     references="XML 1.0, section 2.1",
 )
 REPAIRED_XML = Rule(
@@ -45,9 +46,8 @@ DOCTYPE = Rule(
     name="doctype",
     severity=Severity.ERROR,
     finds="A document type declaration.",
-    matters="Entities and default attributes change what a document says, can read other files and fill the memory. "
-    "No robot "
-    "needs one.",
+    matters="Entities and default attributes change a document's content, can read other files and fill the memory. "
+    "No robot needs one.",
     example="`<!DOCTYPE robot [<!ENTITY mass '1.0'>]>`",
     better="Write the values out, or use xacro properties.",
 )

@@ -7,7 +7,7 @@ UNKNOWN_ELEMENT = Rule(
     severity=Severity.WARNING,
     strict=Severity.ERROR,
     finds="An element that no version of the format has at this place, nor any dialect that is known here.",
-    matters="Every reader ignores it without a word, so a misspelt tag looks as if it worked.",
+    matters="Every reader ignores it silently, so a misspelt tag seems to work.",
     example="`<joint ...><limits lower='0' upper='1'/></joint>`: the tag is `<limit>`.",
     better="Correct the name, or move what belongs to another tool into a namespace of its own (`<my:limits "
     "xmlns:my=...>`).",
@@ -17,7 +17,7 @@ UNKNOWN_ATTRIBUTE = Rule(
     severity=Severity.WARNING,
     strict=Severity.ERROR,
     finds="An attribute that no version of the format has on this element.",
-    matters="Every reader ignores it without a word, so a misspelt attribute leaves its default in place.",
+    matters="Every reader ignores it silently, so a misspelt attribute leaves its default in place.",
     example="`<limit min='0' max='1'/>`: the attributes are `lower` and `upper`.",
     better="Correct the name, or give it a namespace prefix.",
 )
@@ -81,7 +81,7 @@ REPEATED_ELEMENT = Rule(
     severity=Severity.WARNING,
     strict=Severity.ERROR,
     finds="An element that may stand once stands again.",
-    matters="Readers take the first one, or the last one, and ignore the others without a word.",
+    matters="Readers take the first one, or the last one, and ignore the others silently.",
     example="A joint with two `<limit>` elements.",
     better="Keep the one that is meant.",
 )

@@ -1,4 +1,4 @@
-"""Rules of the way from URDF to SDF: what becomes of parts that SDF has no word for."""
+"""Rules of conversions from URDF to SDF: what becomes of parts that SDF has no syntax for."""
 
 from twinform.diagnostics.rule import Rule, Severity
 
@@ -24,7 +24,7 @@ WORLD_LINK = Rule(
     name="world-link",
     severity=Severity.WARNING,
     finds="A root link called `world` that has a body: mass, shapes or sensors.",
-    matters="The link becomes SDF's own world, which has none of these; libsdformat drops them without a word.",
+    matters="The link becomes SDF's own world, which has none of these; libsdformat drops them silently.",
     example="`<link name='world'><visual>...</visual></link>`",
     better="Put the shapes on a link of their own that is fixed to `world`.",
 )
@@ -103,7 +103,7 @@ GAZEBO_TAG_WITHOUT_TARGET = Rule(
     name="gazebo-tag-without-target",
     severity=Severity.WARNING,
     finds="A tag in a `<gazebo>` element that has no effect for what the element refers to.",
-    matters="libsdformat ignores it without a word.",
+    matters="libsdformat ignores it silently.",
     example="`<mu1>` in a `<gazebo>` for the whole model or for a joint; `<static>` for a link.",
     better="Refer to the link or joint that is meant.",
 )

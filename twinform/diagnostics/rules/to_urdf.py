@@ -1,4 +1,4 @@
-"""Rules of the way from SDF to URDF: what becomes of parts that URDF has no word for."""
+"""Rules of conversions from SDF to URDF: what becomes of parts that URDF has no syntax for."""
 
 from twinform.diagnostics.rule import Rule, Severity
 
@@ -179,7 +179,7 @@ STALE_CARRIER = Rule(
     matters=(
         "The rest of the file is used. A carrier holds only what the format lacks, so this one is dropped, and what "
         "it held is lost: a second color, a name, the frame that a pose was written in. The robot is the one that the "
-        "file describes. Of a file that a version before 0.2 wrote, all that it kept about its source "
+        "file describes. Of a file that an early version of twinform wrote, all that it kept about its source "
         "(`<tf:source>` and the like) is ignored, with one warning."
     ),
     example=(
