@@ -1,4 +1,4 @@
-"""What a conversion says, with all that a finding or an entry of the ledger has."""
+"""What a conversion reports, with all that a finding or an entry of the ledger has."""
 
 import twinform
 

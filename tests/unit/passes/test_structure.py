@@ -53,7 +53,7 @@ def test_a_pipeline_is_printed_as_it_was_read(text: str) -> None:
     assert str(parse_pipeline(text)) == text
 
 
-def test_a_pass_that_needs_files_says_so_where_nobody_reads_them() -> None:
+def test_a_pass_that_needs_files_reports_where_nobody_reads_them() -> None:
     sink, document = DiagnosticSink(), robot("tool0")
     assert Pipeline((Attach(file="gripper.urdf", to="tool0"),)).run(document, sink) is document
     assert errors(sink) == ["unread-document"]
@@ -115,5 +115,5 @@ def test_shapes_are_called_as_libsdformat_calls_them(link: str, name: str | None
         ("frameRate", None), ("parent", "link"),
     ],
 )  # fmt: skip
-def test_words_say_what_they_name(word: str, kind: str | None) -> None:
+def test_parameter_names_show_what_they_name(word: str, kind: str | None) -> None:
     assert kind_of_word(word) == kind

@@ -1,4 +1,4 @@
-"""Inertias marked `auto` in SDF, computed from the collisions as SDF readers do."""
+"""Inertias with `auto` in SDF, computed from the collisions as SDF readers do."""
 
 from collections.abc import Callable, Iterable
 
@@ -16,7 +16,7 @@ COMPUTED_MASS = "computed-mass"
 
 
 class NoInertiaError(Exception):
-    """Why an inertia cannot be computed, and where that is said."""
+    """Why an inertia cannot be computed, and where the cause is."""
 
     def __init__(self, message: str, location: Location, help: str | None = None) -> None:
         super().__init__(message)

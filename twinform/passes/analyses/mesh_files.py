@@ -18,7 +18,7 @@ Scene = Any
 
 
 class RefusedMeshError(ValueError):
-    """A mesh file that is not given to any reader; the message says why."""
+    """A mesh file that is not given to any reader; the message has the reason."""
 
 
 def kind_of(path: Path) -> str:

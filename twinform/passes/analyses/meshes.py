@@ -14,7 +14,7 @@ from twinform.ir.principal_moments import times_each
 from twinform.ir.scaling import common_exponent, times_power
 from twinform.ir.solids import Solid
 from twinform.passes.analyses.mesh_files import EXTRA, READ, kind_of, open_scene
-from twinform.passes.framework.assets import AssetError, Assets
+from twinform.passes.framework.asset_access import AssetError, Assets
 
 _Triangles = Any
 """A `trimesh.Trimesh`."""
@@ -34,8 +34,8 @@ class MeshError(Exception):
 class Meshes:
     """The mesh files of a document, each read once. Where `hull`, an open mesh stands for its convex hull.
 
-    Lengths are in meters: COLLADA says its unit, and all other formats are taken to be in meters, as simulators do.
-    Like Gazebo and RViz this does not turn a mesh whose file says that another axis than z points up.
+    Lengths are in meters: a COLLADA file names its unit, and other formats are taken to be in meters, as in simulators.
+    Like Gazebo and RViz this does not turn a mesh whose file has another axis than z pointing up.
     """
 
     assets: Assets
@@ -191,5 +191,5 @@ def _part(trimesh: Any, scene: Any, name: str) -> _Triangles:
 
 def _unit(trimesh: Any, geometry: Iterable[Any]) -> float:
     """The unit of a COLLADA file in meters, which `trimesh` leaves in the notes of its meshes."""
-    said = next((str(each.metadata["units"]) for each in geometry if each.metadata.get("units")), "meters")
-    return float(trimesh.units.unit_conversion(said, "meters"))
+    unit = next((str(each.metadata["units"]) for each in geometry if each.metadata.get("units")), "meters")
+    return float(trimesh.units.unit_conversion(unit, "meters"))

@@ -48,5 +48,5 @@ def _color(value: object) -> Color | None:
     """Red, green, blue, and an alpha of one."""
     if not isinstance(value, list):
         return None
-    parts: list[object] = value  # pyright: ignore[reportUnknownVariableType] - TOML says no more than list
+    parts: list[object] = value  # pyright: ignore[reportUnknownVariableType] - TOML promises no more than a list
     return (*(float(str(part)) for part in parts), 1.0)

@@ -24,7 +24,7 @@ class Materials(Pass):
     Changes, on links whose name matches `links`:
 
     1. with `scripts`, in SDF, a `<script>` that names a material of Classic: the colors of it are written instead, but
-       for those that the visual says itself;
+       for those that the visual sets itself;
     2. with `scripts`, in URDF, the tag `<material>Gazebo/Red</material>` of a `<gazebo>` element, which becomes a
        `<visual>` with the colors; the materials of URDF itself stay, ROS shows them;
     3. with `pbr`, materials that have a color and no `<pbr>`: they get its `metalness` and `roughness`; where that is

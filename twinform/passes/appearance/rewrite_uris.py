@@ -8,7 +8,8 @@ from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules.appearance import UNMAPPED_URI
 from twinform.ir import Document
 from twinform.passes.appearance.uri_schemes import Roots, Scheme, UnmappedError, rewritten, scheme_of
-from twinform.passes.framework.assets import AssetError, AssetPass
+from twinform.passes.framework.asset_access import AssetError
+from twinform.passes.framework.assets import AssetPass
 from twinform.passes.transforms.uris import Kind, map_uris
 
 
@@ -23,7 +24,7 @@ class RewriteUris(AssetPass):
     3. to `package` and `model`, files and paths are relative to the folder around them that is in `roots`, has a
        package.xml, or a model.config.
 
-    Never touches: URIs that are in the scheme already, words such as `__default__`, and the parameters of plugins.
+    Never touches: URIs that are in the scheme already, names such as `__default__`, and the parameters of plugins.
     Diagnostics: `unmapped-uri` for each URI that cannot be written so; it stays.
     """
 

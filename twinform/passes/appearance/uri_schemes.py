@@ -9,7 +9,7 @@ from posixpath import normpath
 from typing import Literal, Self
 from urllib.parse import unquote
 
-from twinform.passes.framework.assets import Assets
+from twinform.passes.framework.asset_access import Assets
 
 Scheme = Literal["package", "model", "file", "relative"]
 Known = Literal["package", "model", "file", "relative", "http"]
@@ -27,7 +27,7 @@ class UnmappedError(Exception):
 
 
 def scheme_of(uri: str) -> Known | None:
-    """How a file is named; None for words and for schemes that are not known."""
+    """How a file is named; None for plain names and for schemes that are not known."""
     uri = uri.strip()
     found = _SCHEME.match(uri)
     if found:
@@ -46,7 +46,7 @@ class Roots:
 
     @classmethod
     def of(cls, words: tuple[str, ...], assets: Assets) -> Self:
-        """From words such as `arm=/models/arm`."""
+        """From texts such as `arm=/models/arm`."""
         pairs = (word.partition("=") for word in words)
         return cls(tuple((name, Path(folder)) for name, _, folder in pairs), assets)
 
@@ -72,8 +72,8 @@ class Roots:
         for name, folder in (*self._named(), *self._around(file, kind)):
             if file.is_relative_to(folder):
                 return name, file.relative_to(folder).as_posix()
-        mark = "package.xml" if kind == "package" else "model.config"
-        raise UnmappedError(f"no folder around {str(file)!r} has a {mark}", "name it: roots=[NAME=FOLDER]")
+        manifest = "package.xml" if kind == "package" else "model.config"
+        raise UnmappedError(f"no folder around {str(file)!r} has a {manifest}", "name it: roots=[NAME=FOLDER]")
 
     def _named(self) -> Iterator[tuple[str, Path]]:
         return ((name, _absolute(folder)) for name, folder in self.named)
@@ -107,5 +107,5 @@ def rewritten(uri: str, scheme: Known, to: Scheme, roots: Roots) -> str:
 
 
 def _absolute(path: Path) -> Path:
-    """From the root of the file system, in the words in which the file was named: links are not followed."""
+    """From the root of the file system, as the file was named: links are not followed."""
     return Path(os.path.normpath(path.absolute()))

@@ -15,7 +15,7 @@ from twinform.schemas import Context, Version, XmlElement, element_xml, reader
 AnyNode = TypeVar("AnyNode", bound=Node)
 
 _REQUIRED = frozenset({"name", "type", "format", "version", "kind"})
-"""Fields that a node cannot be made without; where a piece sets them, it says so."""
+"""Fields that a node cannot be made without; where a piece sets them, its class has them here."""
 _ABOUT = frozenset({"source", "spelling"})
 
 
@@ -38,7 +38,7 @@ def absorb(node: AnyNode, pieces: tuple[Opaque, ...], condition: VersionConditio
     return node
 
 
-def says_already(node: Node, piece: Opaque, condition: VersionCondition) -> bool:
+def is_already_there(node: Node, piece: Opaque, condition: VersionCondition) -> bool:
     """Whether a mimic, which no older version has, was written by hand where one is carried."""
     if condition.without or condition.instead or piece.element is None or piece.element.name != "mimic":
         return False
@@ -123,11 +123,11 @@ def _merged_value(node: Node, name: str, value: object, index: int | None) -> ob
     if not isinstance(value, Node):
         return value
     if isinstance(mine, Node) and type(value) is type(mine):
-        return _merged(mine, _said(value))
+        return _merged(mine, _written(value))
     return value.model_copy(update={"source": mine.source if isinstance(mine, Node) else node.source})
 
 
-def _said(node: Node) -> dict[str, Any]:
+def _written(node: Node) -> dict[str, Any]:
     """The fields of a node, as the data of another one."""
     fields = type(node).model_fields
     return {

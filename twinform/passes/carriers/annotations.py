@@ -1,6 +1,6 @@
 """Annotations: elements of our namespace that record how the source wrote a part that the target writes differently.
 
-An annotation never repeats what the target says; it holds the rest, so that it stays true when the other part is
+An annotation never repeats what the target states; it holds the rest, so that it stays true when the other part is
 edited:
 
     <tf:made/>                                   a conversion made this link, joint or frame up
@@ -8,7 +8,7 @@ edited:
     <tf:offset xyz="0 0 0.1" rpy="0 0 0"/>       the frame that the source had, in the frame that stands here
     <tf:pose relative_to="base"/>                the frame, and the notation, in which the source wrote this pose
     <tf:axis expressed_in="base"/>               the frame in which the source wrote this axis
-    <tf:extension/>                              the source says this joint in a `<gazebo>` element
+    <tf:extension/>                              the source has this joint in a `<gazebo>` element
 
 Other annotations stand beside what uses them: `joint_chains.py`, `to_sdf/shared_materials.py` and so on. They are
 elements and never attributes: other readers skip foreign elements, and some fail on foreign attributes.
@@ -17,8 +17,8 @@ elements and never attributes: other readers skip foreign elements, and some fai
 from collections.abc import Mapping
 from typing import TypeVar
 
-from twinform.ir import Element, Node, Opaque, holds_opaque, rewrite
-from twinform.passes.carriers.carriers import NAMESPACE
+from twinform.ir import Element, Node, Opaque, rewrite
+from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -48,25 +48,30 @@ def is_annotation(part: Opaque, kind: str) -> bool:
 
 def find_annotation(node: Node, kind: str) -> Element | None:
     """The first annotation of a kind on the node."""
-    return next((part.element for part in node.opaque if is_annotation(part, kind)), None) if node.opaque else None
+    if not node.opaque:
+        return None
+    name = f"{{{NAMESPACE}}}{kind}"
+    return next((part.element for part in node.opaque if part.element is not None and part.element.name == name), None)
 
 
 def without_annotation(node: AnyNode, *kinds: str) -> AnyNode:
     """The node without its annotations of these kinds."""
+    if not node.opaque:
+        return node
     kept = tuple(part for part in node.opaque if not any(is_annotation(part, kind) for kind in kinds))
     return node if len(kept) == len(node.opaque) else node.model_copy(update={"opaque": kept})
 
 
-def mark_synthesized(node: AnyNode) -> AnyNode:
-    """The node, annotated as made up by a pass, so that the reverse conversion leaves it out."""
+def annotate_synthesized(node: AnyNode) -> AnyNode:
+    """The node, annotated as synthesized by a pass, so that the reverse conversion leaves it out."""
     return node if is_synthesized(node) else with_annotation(node, SYNTHESIZED)
 
 
 def is_synthesized(node: Node) -> bool:
-    """Whether a pass has made the node up."""
+    """Whether a pass has synthesized the node."""
     return find_annotation(node, SYNTHESIZED) is not None
 
 
 def without_synthesized(node: AnyNode) -> AnyNode:
-    """The node without annotations of what was made up, on it and in it."""
-    return rewrite(node, Node, lambda each: without_annotation(each, SYNTHESIZED), enter=holds_opaque)
+    """The node without annotations of what was synthesized, on it and in it."""
+    return rewrite(node, Node, lambda each: without_annotation(each, SYNTHESIZED), having=bits_of_ours(SYNTHESIZED))

@@ -21,7 +21,7 @@ from typing import TypeVar
 
 from lxml import etree
 
-from twinform.ir import Element, Node, Opaque, untyped_elements
+from twinform.ir import Element, Node, Opaque, bits_named, untyped_elements
 from twinform.schemas import XmlElement, parse_version, table, writer
 
 NAMESPACE = "urn:twinform:1"
@@ -32,15 +32,15 @@ Attributes = tuple[tuple[str, str], ...]
 
 _EMPTY = f"{_OURS}empty"
 SOURCE = "source"
-"""What versions before 0.2 wrote at the end of a model: changes that lead back to the source."""
+"""What early versions of twinform wrote at the end of a model: changes that lead back to the source."""
 
 DANGLING: Attributes = (("dangling", "true"),)
-"""What a carrier says about a piece that named what was not there, so that this is no sign of an edit."""
+"""The attribute of a carrier about a piece that named what was not there, so that this is no sign of an edit."""
 
 OVERRULED: Attributes = (("overruled", "true"),)
-"""What a carrier says about a tag behind which another one of the same field stood."""
+"""The attribute of a carrier about a tag behind which another one of the same field stood."""
 SECOND: Attributes = (("index", "1"),)
-"""What a carrier says about a piece that stood beside another one of its kind, and is no rest of that."""
+"""The attribute of a carrier about a piece that stood beside another one of its kind, and is no rest of that."""
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -54,6 +54,11 @@ def carry(node: AnyNode, pieces: Iterable[Opaque], dialect: str, about: Attribut
 def pack(pieces: Iterable[Opaque], dialect: str, about: Attributes = ()) -> tuple[Opaque, ...]:
     """A carrier for each of the pieces, with these attributes besides."""
     return tuple([Opaque(element=_carrier(piece, dialect, about)) for piece in pieces])
+
+
+def bits_of_ours(*kinds: str) -> int:
+    """The bits of the census for carriers and annotations of these kinds."""
+    return bits_named(*(f"{_OURS}{kind}" for kind in kinds))
 
 
 def is_carrier(part: Opaque, dialect: str) -> bool:
@@ -78,7 +83,7 @@ def is_ours(part: Opaque) -> bool:
 
 
 def is_memory(part: Opaque) -> bool:
-    """Whether only versions before 0.2 wrote such a part, which remembered the source.
+    """Whether only early versions of twinform wrote such a part, which remembered the source.
 
     That is `<tf:source>`, attributes of our namespace, and carriers of what stood outside the model (`at="/sdf"`).
     """

@@ -1,7 +1,7 @@
 """Chains of URDF joints that represent one multi-axis SDF joint, and their annotations.
 
-The last joint of a chain keeps the name and the child of the one that it stands for and says its type; the joints above
-it, and the links between, say whose parts they are:
+The last joint of a chain keeps the name and the child of the one that it stands for and names its type; the joints
+above it, and the links between, name the joint whose parts they are:
 
     <joint name="neck_axis" type="revolute"><tf:part joint="neck"/>
     <link name="neck_axis_link"><tf:part joint="neck"/></link>
@@ -26,7 +26,7 @@ CHAINS: dict[JointType, tuple[str, ...]] = {
     "ball": ("z", "y"),
     "screw": ("slide",),
 }
-"""The words that stand behind the name of the joint in those of the others, from the parent's side."""
+"""The suffixes that stand behind the name of the joint in those of the others, from the parent's side."""
 
 BALL_AXES: tuple[Vector3, ...] = ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0))
 """What the joints of a ball turn about: Rz Ry Rx is the orientation that URDF writes as yaw, pitch and roll."""
@@ -50,7 +50,7 @@ def part_of(node: Joint | Link) -> str | None:
 
 
 def metres_per_radian(joint: Joint) -> float | None:
-    """How far a screw joint moves along its axis for each radian; None where a pitch of 0 rad/m says nothing.
+    """How far a screw joint moves along its axis for each radian; None where the pitch is 0 rad/m.
 
     `screw_thread_pitch` is in m per turn and wins; `thread_pitch` is in rad/m with the sign of a left-handed thread.
     Without either, SDF's default is 1 m per turn: the SDF description of <joint>.

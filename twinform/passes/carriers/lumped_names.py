@@ -46,7 +46,7 @@ def followed(element: Element, names: Mapping[str, Followed], *, carriers: bool)
     return element if same else element.model_copy(update={"children": tuple(children)})
 
 
-def has_marks(model: Model) -> bool:
+def has_annotations(model: Model) -> bool:
     """Whether an annotation has the name of a lumped collision."""
     return any(one.name == _LUMPED for each in model.extensions for part in each.content for one in part.walk())
 

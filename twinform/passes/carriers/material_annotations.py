@@ -4,7 +4,7 @@
 <tf:scripts>file://a.material</tf:scripts>          in a visual of URDF: where the material of its link's tag is
 <tf:material>rubber</tf:material>                   in a visual of SDF: the name that URDF has for its material
 <tf:shared-material>rubber</tf:shared-material>     in a model of SDF: the robot defines this material
-<tf:look>ambient script</tf:look>                   in a link of SDF: what URDF says of all its visuals in a `<gazebo>`
+<tf:look>ambient script</tf:look>                   in a link of SDF: what URDF sets for all its visuals in a `<gazebo>`
 """
 
 from collections.abc import Iterable

@@ -9,7 +9,7 @@ from twinform.passes.carriers.annotations import find_annotation, with_annotatio
 from twinform.schemas import parse_version, table
 
 _SCOPES = (1, 8)
-"""Since this version `::` in a name says that it is in a nested model."""
+"""Since this version `::` in a name means that it is in a nested model."""
 FROM = "from"
 """The annotation on a model with the format and the version that it was converted from."""
 _MIXED = "mixed"

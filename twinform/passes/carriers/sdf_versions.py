@@ -1,6 +1,6 @@
 """Carriers of parts of other SDF versions, inside a file of a version that lacks them.
 
-Such a carrier says which versions have its part:
+Such a carrier names the versions that have its part:
 
     <tf:version since="1.11" at="axis"><mimic/></tf:version>       an element that 1.11 brought
     <tf:version until="1.6" at="pose" attribute="frame" value=""/> an attribute that went after 1.6
@@ -42,14 +42,14 @@ class VersionCondition:
 
     def attributes(self) -> Attributes:
         """What the carrier has as attributes."""
-        said = {
+        bounds = {
             "since": print_version(self.since) if self.since else "",
             "until": print_version(self.until) if self.until else "",
             "index": "" if self.index is None else str(self.index),
             "without": " ".join(self.without),
             "instead": self.instead,
         }
-        return tuple((name, text) for name, text in said.items() if text)
+        return tuple((name, text) for name, text in bounds.items() if text)
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,15 +102,15 @@ def is_version_carrier(part: Opaque) -> bool:
 
 
 def condition_of(part: Opaque) -> VersionCondition:
-    """What a carrier says about its part; one that was edited into nonsense fits no version."""
-    said = dict(part.element.attributes) if part.element else {}
+    """The versions that a carrier names for its part; one that was edited into nonsense fits no version."""
+    bounds = dict(part.element.attributes) if part.element else {}
     try:
         return VersionCondition(
-            parse_version(said["since"]) if "since" in said else None,
-            parse_version(said["until"]) if "until" in said else None,
-            int(said["index"]) if "index" in said else None,
-            tuple(said.get("without", "").split()),
-            said.get("instead", ""),
+            parse_version(bounds["since"]) if "since" in bounds else None,
+            parse_version(bounds["until"]) if "until" in bounds else None,
+            int(bounds["index"]) if "index" in bounds else None,
+            tuple(bounds.get("without", "").split()),
+            bounds.get("instead", ""),
         )
     except ValueError:
         return VersionCondition()

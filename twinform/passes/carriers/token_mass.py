@@ -11,9 +11,9 @@ CHAIN_MASS = 2e-6
 
 That is `CreateSDF` of parser_urdf.cc, where a mass equals 0.0 by the tolerance of gz-math.
 """
-TOKEN = Inertial(
+TOKEN = Inertial.unchecked(
     mass=TOKEN_MASS,
-    inertia=Inertia(ixx=TOKEN_MOMENT, ixy=0.0, ixz=0.0, iyy=TOKEN_MOMENT, iyz=0.0, izz=TOKEN_MOMENT),
+    inertia=Inertia.unchecked(ixx=TOKEN_MOMENT, ixy=0.0, ixz=0.0, iyy=TOKEN_MOMENT, iyz=0.0, izz=TOKEN_MOMENT),
 )
 CHAIN_TOKEN = TOKEN.model_copy(update={"mass": CHAIN_MASS})
 MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
@@ -53,13 +53,13 @@ def has_token_inertia(inertial: Inertial) -> bool:
 
 def is_token(inertial: Inertial | None) -> bool:
     """Whether an inertial has the token at the origin of its link, and no more."""
-    return inertial is not None and has_token_mass(inertial) and _says_no_more(inertial)
+    return inertial is not None and has_token_mass(inertial) and _is_empty_besides(inertial)
 
 
 def is_chain_token(inertial: Inertial | None) -> bool:
     """Whether an inertial is that of a link in a chain, at the origin of its link, and no more."""
-    return inertial is not None and inertial.mass == CHAIN_MASS and _says_no_more(inertial)
+    return inertial is not None and inertial.mass == CHAIN_MASS and _is_empty_besides(inertial)
 
 
-def _says_no_more(inertial: Inertial) -> bool:
+def _is_empty_besides(inertial: Inertial) -> bool:
     return inertial.pose is None and not inertial.opaque and has_token_inertia(inertial)

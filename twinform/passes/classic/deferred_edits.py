@@ -23,15 +23,15 @@ from twinform.passes.plugins.sites import Site
 
 Path = tuple[str, ...]
 """The names of the world, or nothing, and of the models on the way to one."""
-Deed = Callable[[Model], Model]
+Change = Callable[[Model], Model]
 
 
 @dataclass(slots=True)
 class DeferredEdits:
-    """Deeds for models, by their paths, and systems for worlds, by their names."""
+    """Changes to models, by their paths, and systems for worlds, by their names."""
 
     format: Format
-    models: dict[Path, list[Deed]] = field(default_factory=lambda: defaultdict(list))
+    models: dict[Path, list[Change]] = field(default_factory=lambda: defaultdict(list))
     worlds: dict[str, list[Plugin]] = field(default_factory=lambda: defaultdict(list))
 
     def sensor(self, site: Site, holder: str, sensor: Sensor) -> None:
@@ -42,9 +42,9 @@ class DeferredEdits:
         """Let a joint follow another."""
         self.models[path_of(site)].append(lambda model: _with_mimic(model, follower, mimic))
 
-    def change(self, site: Site, deed: Deed) -> None:
+    def change(self, site: Site, change: Change) -> None:
         """Do something else to a model."""
-        self.models[path_of(site)].append(deed)
+        self.models[path_of(site)].append(change)
 
     def run(self, document: Document) -> Document:
         """The document with everything done."""
@@ -64,8 +64,8 @@ class DeferredEdits:
     def _model(self, model: Model, above: Path) -> Model:
         path = (*above, model.name)
         model = replace_fields(model, models=tuple(self._model(each, path) for each in model.models))
-        for deed in self.models.get(path, ()):
-            model = deed(model)
+        for change in self.models.get(path, ()):
+            model = change(model)
         return model
 
 

@@ -14,7 +14,7 @@ _FRAMES = ("frameName", "frame_name")
 
 
 class OtherQuantityError(Exception):
-    """The model's pose in the world is not what the plugin reported; the message says why."""
+    """The model's pose in the world is not what the plugin reported; the message has the reason."""
 
 
 def offset_of(plugin: Plugin, bodies: tuple[str, ...], model: Model | None, format_: Format) -> tuple[Element, ...]:

@@ -16,8 +16,8 @@ from twinform.passes.control.carried_elements import declare_carriers
 from twinform.passes.control.ros2_control_from_transmissions import Ros2ControlFromTransmissions
 from twinform.passes.framework.base import Pass
 from twinform.passes.plugins.catalog import release
-from twinform.passes.plugins.check_plugins import ReleaseName
 from twinform.passes.plugins.parts import Release
+from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.sites import map_plugins, map_sensors
 from twinform.passes.sdf_versions import change_version, known_version
 from twinform.schemas import parse_version
@@ -46,7 +46,7 @@ class MigrateGazeboClassic(Pass):
     9. SDF that is older is upgraded to the version that the release reads.
 
     Never touches: plugins that are neither of Gazebo Classic nor of gz-sim, and parts of worlds that gz-sim skips; it
-    says which these are.
+    lists these.
     Diagnostics: `migrated-plugin`, `migrated-sensor`, `ignition-name`, `shipped-model` and `added-world-system` for
     what was done; `plugin-without-counterpart`, `parameter-without-counterpart`, `sensor-without-counterpart`,
     `unread-world-part` and `unknown-plugin` for what could not be; `incomplete-migration` and `world-system-needed` for
@@ -77,18 +77,18 @@ class MigrateGazeboClassic(Pass):
         return declare_carriers(changed) if carried else changed
 
     def _migrated(self, document: Document, target: Release, sink: DiagnosticSink) -> Document:
-        deeds = DeferredEdits(document.format)
+        edits = DeferredEdits(document.format)
         sensed = map_sensors(document, SensorMigration(target, sink))
         migration = PluginMigration(
             release=target,
             format=document.format,
             sink=sink,
-            deeds=deeds,
+            edits=edits,
             keep=self.keep,
             controllers=self.controllers,
             control=lambda model: self._controlled(model, document.format, sink),
         )
-        done = deeds.run(without_emptied(sensed, map_plugins(sensed, migration)))
+        done = edits.run(without_emptied(sensed, map_plugins(sensed, migration)))
         done = ship_models(modern_hardware(done, target, sink), sink)
         done = in_colors(complete_worlds(done, target, sink), sink)
         if done is not document:

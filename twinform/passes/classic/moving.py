@@ -13,12 +13,12 @@ _TRUTHS = {"true": "true", "True": "true", "1": "true", "false": "false", "False
 _FIELD_OF_VIEW = 1.047
 """What SDF has for a camera's field of view where nothing is written, in rad."""
 _DRIFT_TIME = "3600"
-"""The time, in s, in which a bias wanders where nobody says: that of hector_gazebo's sensor models."""
+"""The time, in s, in which a bias wanders where it is not given: that of hector_gazebo's sensor models."""
 
 
 @dataclass(frozen=True, slots=True)
 class DroppedParameter:
-    """A parameter that went nowhere, and why; `harmless` where it said nothing that matters."""
+    """A parameter that went nowhere, and why; `harmless` where its value does not matter."""
 
     parameter: Element
     reason: str
@@ -29,7 +29,7 @@ class DroppedParameter:
 class Moved:
     """What the parameters made: the element that they went into, and what went nowhere.
 
-    Where a name `repeats`, values stand beside each other; else the first one stays. `is_valid` says whether the
+    Where a name `repeats`, values stand beside each other; else the first one stays. `is_valid` is whether the
     element can be as it is; a parameter after which it cannot goes nowhere.
     """
 

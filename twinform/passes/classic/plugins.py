@@ -34,7 +34,7 @@ class PluginMigration:
     release: Release
     format: Format
     sink: DiagnosticSink
-    deeds: DeferredEdits
+    edits: DeferredEdits
     keep: bool
     controllers: str | None
     control: Callable[[Model], Model]
@@ -65,10 +65,10 @@ class PluginMigration:
         modern = modern_plugin(plugin, self.release)
         if modern is not plugin:
             report.renamed(modern)
-        elif site.scope != "gui" and not systems_of_file(plugin.filename or "") and _looks_built(plugin):
+        elif site.scope != "gui" and not systems_of_file(plugin.filename or "") and _is_called_like_a_library(plugin):
             message = f"{report.what} is neither of Gazebo Classic nor of gz-sim; it is kept unchanged"
             self.sink.report(rules.UNKNOWN_PLUGIN, message, report.where, found=plugin.filename)
-        elif site.scope == "gui" and _looks_built(plugin):
+        elif site.scope == "gui" and _is_called_like_a_library(plugin):
             return self._without(plugin, report, "the GUI of gz-sim has plugins of its own")
         return (modern,)
 
@@ -90,7 +90,7 @@ class PluginMigration:
         here: list[Plugin] = []
         for each, row in made:
             if row.scope == "world" and site.world is not None:
-                self.deeds.worlds[site.world.name].append(each)
+                self.edits.worlds[site.world.name].append(each)
             elif row.measured and site.model is not None:
                 measured, missing = with_measures(each, row.system, site.model, self.format)
                 here.append(measured)
@@ -103,7 +103,7 @@ class PluginMigration:
 
     def _controlled(self, plugin: Plugin, site: Site, report: Report) -> Plugin:
         """A controller manager with its parameters, in a model whose joints are in `<ros2_control>`."""
-        self.deeds.change(site, self.control)
+        self.edits.change(site, self.control)
         if any(child.name == "parameters" for child in plugin.content):
             return plugin
         if self.controllers is not None:
@@ -124,22 +124,22 @@ class PluginMigration:
         if sensor is None:
             return self._without(plugin, report, "a value in it is not of the type that sensors have")
         accept(self.sink, trial.sink)
-        self.deeds.sensor(site, holder, sensor)
+        self.edits.sensor(site, holder, sensor)
         return ()
 
     def _mimic(self, plugin: Plugin, site: Site, migration: Migration, report: Report) -> Iterable[Plugin]:
         moved = Moved(Element(name="mimic"), repeats=False)
         moved.apply(plugin.content, {**migration.shared, **migration.moves})
-        said = {child.name: child.text or "" for child in moved.element.children}
+        parameters = {child.name: child.text or "" for child in moved.element.children}
         joints = {joint.name: joint for joint in site.model.joints} if site.model else {}
-        follower, leader = said.get("mimicJoint", ""), said.get("joint", "")
+        follower, leader = parameters.get("mimicJoint", ""), parameters.get("joint", "")
         for name in (follower, leader):
             if name not in joints:
                 return self._without(plugin, report, f"there is no joint {name!r}")
         if self.format is Format.SDF and _number_of(self.release.sdf) < (1, 11):
             reason = f"SDF {self.release.sdf}, which gz-sim of {self.release.name} reads, has no <mimic>"
             return self._without(plugin, report, reason)
-        mimic = _mimic(leader, said)
+        mimic = _mimic(leader, parameters)
         if mimic is None:
             return self._without(plugin, report, "its multiplier or offset is not a number")
         written = _written(joints[follower])
@@ -148,13 +148,13 @@ class PluginMigration:
         lost: list[DroppedParameter] = [*moved.lost, *unused(plugin, moved.moved, RosNames(plugin))]
         report.migrated(f"the <mimic> of joint {follower!r}", lost)
         if written is None:
-            self.deeds.mimic(site, follower, mimic)
+            self.edits.mimic(site, follower, mimic)
         return ()
 
 
-def _mimic(leader: str, said: dict[str, str]) -> Mimic | None:
+def _mimic(leader: str, parameters: dict[str, str]) -> Mimic | None:
     try:
-        numbers = {name: float(said[name]) for name in ("multiplier", "offset") if name in said}
+        numbers = {name: float(parameters[name]) for name in ("multiplier", "offset") if name in parameters}
     except ValueError:
         return None
     return Mimic(joint=leader, multiplier=numbers.get("multiplier"), offset=numbers.get("offset"))
@@ -184,7 +184,7 @@ def _number_of(version: str) -> tuple[int, ...]:
     return tuple(map(int, version.split(".")))
 
 
-def _looks_built(plugin: Plugin) -> bool:
+def _is_called_like_a_library(plugin: Plugin) -> bool:
     """Whether it is called like a library: what is not may be a name that a program looks up itself."""
     name = plugin.filename or ""
     return name.startswith("lib") or name.endswith((".so", ".dll", ".dylib"))

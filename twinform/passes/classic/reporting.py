@@ -13,7 +13,7 @@ from twinform.passes.plugins.sites import Site
 
 
 def scratch(sink: DiagnosticSink) -> DiagnosticSink:
-    """Notes for something that may fail, to be accepted when it has not."""
+    """Findings about something that may fail, to be accepted when it has not."""
     return DiagnosticSink(sink.file, sink.strict, origins=sink.origins)
 
 
@@ -102,7 +102,7 @@ def reasons_to_look(migration: Migration, plugin: Plugin, sensor: str | None = N
         yield migration.geometry
     for caveat in migration.caveats:
         if caveat.type in {None, sensor} and _applies(caveat, plugin):
-            yield caveat.says
+            yield caveat.text
 
 
 def _applies(caveat: Caveat, plugin: Plugin) -> bool:

@@ -22,7 +22,7 @@ def made_systems(
     """The systems that take a plugin's place, with their rows, and the parameters that went nowhere.
 
     Raises:
-        LookupError: the release has no such system; the error says which.
+        LookupError: the release has no such system; the error names it.
     """
     names, lost, taken = RosNames(plugin), list[DroppedParameter](), set[str]()
     made: list[tuple[Plugin, SystemRow]] = []
@@ -73,7 +73,7 @@ def _sets(row: SystemRow, site: Site, element: Element) -> Iterator[Element]:
 
 
 def _transforms(row: SystemRow, plugin: Plugin, names: RosNames) -> Iterator[Element]:
-    """Where the transforms of the odometry go; a system cannot be told to publish none."""
+    """Where the transforms of the odometry go; no system has an option to publish none."""
     if row.transforms is None:
         return
     on = dict(row.transforms)

@@ -42,9 +42,9 @@ class Move(_Row):
     (`negative_times`). `each` takes the numbers of a vector apart; `same` are more places
     for the value, `mirror` one for the value with the other sign, `also` what is written beside it. `noise` makes the
     noise around it Gaussian and `drifts` lets its bias wander. `split` divides a list, `first` takes one of several,
-    `least` the smaller of the old value and the new. `choose` says what to write for each value.
+    `least` the smaller of the old value and the new. `choose` gives what to write for each value.
 
-    Without any of that, `drop` is the reason why it goes nowhere; it is only reported where it says more than one of
+    Without any of that, `drop` is the reason why it goes nowhere; it is only reported where its value is not one of
     the `harmless` values.
     """
 
@@ -71,11 +71,11 @@ Moves = Mapping[str, Move]
 class Caveat(_Row):
     """What is otherwise afterwards, and the author has to know.
 
-    It `says` so, unless one of the parameters in `unless` is written: then the table has a place or a reason for it.
-    With `where` it does only where one of these parameters is true, with `type` only of such sensors.
+    The `text` is reported, unless one of the parameters in `unless` is written: then the table has a place or a reason
+    for it. With `where` it is only where one of these parameters is true, with `type` only of such sensors.
     """
 
-    says: str
+    text: str
     unless: tuple[str, ...] = ()
     where: tuple[str, ...] = ()
     type: str | None = None

@@ -18,7 +18,7 @@ from twinform.passes.plugins.worlds import (
     kind_of_sensor,
     missing_defaults,
     needed_by_plugins,
-    needed_for,
+    requirements_of,
     system_plugin,
 )
 
@@ -53,7 +53,7 @@ def report_needs(document: Document, release: Release, sink: DiagnosticSink) -> 
         kind = kind_of_sensor(sensor, release.name)
         if kind is None or site.world is not None:
             continue
-        for needed in needed_for(kind).systems:
+        for needed in requirements_of(kind).systems:
             if needed.name not in noted:
                 noted.add(needed.name)
                 where = sensor.location if sensor.source or site.model is None else site.model.location
@@ -74,7 +74,7 @@ def report_unread(document: Document, sink: DiagnosticSink) -> None:
 
 def _complete(world: World, release: Release, sink: DiagnosticSink) -> World:
     kinds = _kinds(world, release)
-    needed = [kind for each in kinds for kind in needed_for(each).systems]
+    needed = [kind for each in kinds for kind in requirements_of(each).systems]
     needed += needed_by_plugins(Document(format=Format.SDF, worlds=(world,)), world, release.name)
     defaults = missing_defaults(world.plugins) if world.plugins or needed else ()
     missing = [kind for kind in dict.fromkeys((*defaults, *needed)) if not has_system(world, kind)]
@@ -84,7 +84,9 @@ def _complete(world: World, release: Release, sink: DiagnosticSink) -> World:
         listed = ", ".join(kind.class_name for kind in missing)
         message = f"world {world.name!r} got the systems that it needs: {listed}"
         sink.report(plugin_rules.ADDED_WORLD_SYSTEM, message, world.location)
-    for name in sorted({name for kind in kinds for name in needed_for(kind).elements if not has_element(world, name)}):
+    for name in sorted(
+        {name for kind in kinds for name in requirements_of(kind).elements if not has_element(world, name)}
+    ):
         message = f"world {world.name!r} has no <{name}>, without which a sensor in it measures nothing"
         sink.report(rules.INCOMPLETE_MIGRATION, message, world.location, expected=f"<{name}>")
     return world

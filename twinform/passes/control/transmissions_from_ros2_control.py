@@ -15,7 +15,7 @@ from twinform.passes.control.transmission import End, Transmission, old_transmis
 from twinform.passes.framework.base import Pass
 from twinform.passes.transforms.nodes import unique_name
 
-_SAID = frozenset({"hardware", "joint", "transmission"})
+_EXPRESSED = frozenset({"hardware", "joint", "transmission"})
 
 
 class TransmissionsFromRos2Control(Pass):
@@ -31,7 +31,7 @@ class TransmissionsFromRos2Control(Pass):
     4. a joint that has a transmission of ROS 1 beside its system keeps that one.
 
     Never touches: sensors and inputs and outputs (`gpio`): a system that has some stays, without its joints. What ROS
-    1 has no word for (the hardware plugin and its parameters, limits and parameters of joints, other interfaces) is
+    1 has no syntax for (the hardware plugin and its parameters, limits and parameters of joints, other interfaces) is
     reported and, where the element goes, dropped.
     Diagnostics: `converted-ros2-control`, `unsayable-in-transmissions` and `foreign-transmission`; each system has an
     entry of the ledger, *approximated*, and each part that ROS 1 lacks one, *dropped*.
@@ -133,7 +133,7 @@ def _unsayable(system: Element) -> Iterator[tuple[str, bool]]:
     for child in system.children:
         if child.name == "hardware":
             yield f"the hardware {_text(child)!r}", goes
-        elif child.name not in _SAID:
+        elif child.name not in _EXPRESSED:
             yield f"<{child.name}> {child.get('name')!r}", False
         elif child.name == "joint":
             yield from ((each, True) for each in _unsayable_of_joint(child))

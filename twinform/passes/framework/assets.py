@@ -1,66 +1,17 @@
-"""Asset access: an interface for passes that read files beside a model, implemented by the compiler."""
+"""`AssetPass`: the base class of passes that read files beside a model."""
 
-from pathlib import Path
-from typing import Literal, Protocol, Self
+from typing import Self
 
 from pydantic import PrivateAttr
 
-from twinform.diagnostics import Rule
-from twinform.diagnostics.rules import files as rules
+from twinform.passes.framework.asset_access import NO_ASSETS, Assets
 from twinform.passes.framework.base import Pass
-
-
-class AssetError(Exception):
-    """Why a URI leads to no file that may be read, as a diagnostic would say it."""
-
-    def __init__(self, rule: Rule, message: str, help: str | None = None) -> None:
-        super().__init__(message)
-        self.rule = rule
-        self.message = message
-        self.help = help
-
-
-class Assets(Protocol):
-    """Where the files are that a document names."""
-
-    @property
-    def folder(self) -> Path | None:
-        """The folder of the document; None for a text that came from no file."""
-        ...
-
-    def find(self, uri: str) -> Path:
-        """The file or folder that a URI names.
-
-        Raises:
-            AssetError: there is none, or it must not be read.
-        """
-        ...
-
-    def holder(self, folder: Path, kind: Literal["package", "model"]) -> str | None:
-        """What the package of ROS or the model of Gazebo is called that a folder is; None where it is none."""
-        ...
-
-
-class _NoAssets:
-    """A document by itself, of which the origin is not known."""
-
-    folder: Path | None = None
-
-    def find(self, uri: str) -> Path:
-        raise AssetError(rules.UNRESOLVED_URI, f"{uri!r} cannot be looked up: only the text of the model is known")
-
-    def holder(self, folder: Path, kind: Literal["package", "model"]) -> str | None:
-        del folder, kind
-        return None
-
-
-NO_ASSETS: Assets = _NoAssets()
 
 
 class AssetPass(Pass):
     """A pass that opens files which the document names.
 
-    Files are not among its options: whoever runs it says where they are, by `with_assets`. Otherwise there are none.
+    Files are not among its options: whoever runs it gives their places, by `with_assets`. Otherwise there are none.
     """
 
     _assets: Assets = PrivateAttr(default_factory=lambda: NO_ASSETS)  # one object, so that equal passes are equal

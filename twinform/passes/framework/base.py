@@ -15,7 +15,7 @@ class Pass(BaseModel, ABC):
     Valid IR goes in and valid IR comes out; a pass keeps no state between runs, prints nothing, and opens no file
     unless that is its purpose. What it finds, and what becomes of parts that it cannot keep, goes into the diagnostics.
 
-    Its docstring says what it does in an imperative sentence, then what it `Changes`, in numbered cases where there are
+    Its docstring is an imperative sentence on what it does, then what it `Changes`, in numbered cases where there are
     several, what it `Never touches:`, and its `Diagnostics:`.
     """
 

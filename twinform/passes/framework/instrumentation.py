@@ -9,7 +9,7 @@ from twinform.passes.framework.errors import PassError
 
 
 class PassInstrumentation:
-    """Is told of each pass before and after it runs, and where it fails. Does nothing until a subclass says what.
+    """Is called before and after each pass, and where one fails. Does nothing until a subclass does.
 
     A watch must not change anything: documents are frozen, and the notes are there to be read.
     """
@@ -25,7 +25,7 @@ class PassInstrumentation:
 
 
 class CombinedInstrumentation(PassInstrumentation):
-    """Several as one. They nest like brackets: what is told first before a pass is told last after it.
+    """Several as one. They nest like brackets: what is called first before a pass is called last after it.
 
     So the last one is nearest to the pass, which is the place for a clock.
     """

@@ -1,7 +1,6 @@
 """Pass options: parsing and printing them, for pipelines as text and as tables."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from difflib import get_close_matches
 from enum import Enum
 from pathlib import PurePath
 from typing import cast, get_origin
@@ -48,6 +47,8 @@ def _installed(name: str) -> type[Pass]:
 
 def nearest(name: str, known: Sequence[str], there: str = "there are") -> str:
     """A guess at what was meant, or all that there is, as the end of a sentence."""
+    from difflib import get_close_matches  # noqa: PLC0415 - most names are right
+
     near = get_close_matches(name, known, n=1)
     return f"; did you mean {near[0]}?" if near else f"; {there} {', '.join(known) or 'none'}"
 
@@ -116,4 +117,4 @@ def _scalar(value: object) -> Scalar:
         return str(value)
     if value is None or isinstance(value, str | int | float):
         return value
-    raise TypeError(f"a pipeline cannot say {value!r}")
+    raise TypeError(f"a pipeline cannot express {value!r}")

@@ -25,7 +25,7 @@ class DocumentReader(Protocol):
 
 
 Refusal = Callable[[str], str | None]
-"""Says why a pass must not have the file of a path; None where it may."""
+"""The reason why a pass must not have the file of a path; None where it may."""
 
 
 class DocumentPass(Pass):

@@ -26,7 +26,7 @@ _WORDS: dict[object, str] = {str: "text", float: "number", int: "whole number", 
 class OptionPage(NamedTuple):
     """What a user has to know about an option.
 
-    `default` is in words and `value` for programs; where nothing is `given` by default, the user has to.
+    `default` is for people and `value` for programs; where nothing is `given` by default, the user has to.
     """
 
     name: str

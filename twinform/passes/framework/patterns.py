@@ -8,7 +8,7 @@ EVERY = ("*",)
 
 
 def with_such_a_name(what: str) -> str:
-    """The description of an option that says by patterns what is meant."""
+    """The description of an option that selects by patterns."""
     return f"{what} with such a name; `*`, `?` and `[...]` are wildcards."
 
 

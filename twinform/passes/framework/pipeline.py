@@ -5,16 +5,15 @@ from dataclasses import dataclass
 
 from twinform.diagnostics import Diagnostic, DiagnosticSink
 from twinform.ir import Document
-from twinform.passes.framework.assets import AssetPass, Assets
+from twinform.passes.framework.asset_access import Assets
+from twinform.passes.framework.assets import AssetPass
 from twinform.passes.framework.base import Pass
 from twinform.passes.framework.errors import BrokenPassError, FailedPassError
 from twinform.passes.framework.instrumentation import PassInstrumentation
-from twinform.passes.framework.options import chosen
 from twinform.passes.framework.other_documents import DocumentPass, DocumentReader
-from twinform.passes.framework.syntax import print_call
 
 Verifier = Callable[[Document, DiagnosticSink], None]
-"""Notes what is wrong with a document; `twinform.ir.verify` has it."""
+"""Reports what is wrong with a document; it is a function of `twinform.ir.verify`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +56,9 @@ class Pipeline:
         Raises:
             TypeError: an option has a value that has no form in the text.
         """
+        from twinform.passes.framework.options import chosen  # noqa: PLC0415 - few pipelines are printed
+        from twinform.passes.framework.syntax import print_call  # noqa: PLC0415 - see above
+
         return ",".join(print_call(each.name, dict(chosen(each))) for each in self)
 
 
@@ -89,7 +91,7 @@ def _run(
 
 
 def _problems(document: Document, verify: Verifier) -> tuple[Diagnostic, ...]:
-    """Warnings are left out: the document had them before, or the pass has said so itself."""
+    """Warnings are left out: the document had them before, or the pass has reported them itself."""
     found = DiagnosticSink()
     verify(document, found)
     return tuple(each for each in found.diagnostics if each.is_error) if found.has_errors else ()

@@ -1,13 +1,24 @@
-"""Registry of installed passes, found by entry points, the built-in ones too."""
+"""Registry of installed passes, found by entry points.
+
+The built-in ones are registered like all others, but there is a table of them too, so that they are found without a
+look at every package that is installed.
+"""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
-from importlib.metadata import EntryPoint, entry_points
+from importlib import import_module
+from typing import TYPE_CHECKING, Protocol
 
 from twinform.passes.framework.base import Pass
+from twinform.passes.framework.built_in import BUILT_IN
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
 
 GROUP = "twinform.passes"
+HOME = f"{GROUP}."
+"""What the names of all our modules with passes begin with."""
 OWN = "twinform"
 """The distribution that brings the built-in passes."""
 
@@ -20,13 +31,37 @@ class UnknownPassError(LookupError):
     """No installed pass has this name."""
 
 
+class Entry(Protocol):
+    """What an entry point says: `value` is the module of a class, a colon, and its name."""
+
+    @property
+    def value(self) -> str:
+        """The text of it."""
+        ...
+
+    def load(self) -> object:
+        """Import what it names."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class _BuiltIn:
+    """A row of the table of built-in passes."""
+
+    value: str
+
+    def load(self) -> object:
+        module, _, name = self.value.partition(":")
+        return getattr(import_module(module), name)
+
+
 @dataclass(frozen=True, slots=True)
 class Registered:
     """A pass that is installed, perhaps not imported yet. `owner` is the distribution that brings it."""
 
     name: str
     owner: str
-    entry: EntryPoint
+    entry: Entry
 
     def load(self) -> type[Pass]:
         """Import the pass.
@@ -52,10 +87,12 @@ def registered_passes() -> dict[str, Registered]:
     Raises:
         RegistryError: two passes have one name.
     """
+    from importlib.metadata import entry_points  # noqa: PLC0415 - few commands look at every package
+
     return collect(entry_points(group=GROUP))
 
 
-def collect(entries: Iterable[EntryPoint]) -> dict[str, Registered]:
+def collect(entries: "Iterable[EntryPoint]") -> dict[str, Registered]:
     """The passes of these entry points by name, sorted.
 
     Raises:
@@ -69,17 +106,19 @@ def collect(entries: Iterable[EntryPoint]) -> dict[str, Registered]:
     return found
 
 
-def _registered(entry: EntryPoint) -> Registered:
+def _registered(entry: "EntryPoint") -> Registered:
     return Registered(entry.name, entry.dist.name if entry.dist else "an unknown distribution", entry)
 
 
 def find_pass(name: str) -> type[Pass]:
-    """The class of an installed pass.
+    """The class of an installed pass. A built-in one is found without a look at other packages.
 
     Raises:
         UnknownPassError: there is none of this name.
         RegistryError: it is installed, but not as it should be.
     """
+    if name in BUILT_IN:
+        return Registered(name, OWN, _BuiltIn(HOME + BUILT_IN[name])).load()
     found = registered_passes().get(name)
     if found is None:
         raise UnknownPassError(name)

@@ -10,7 +10,7 @@
 
 `pass` is the name of a pass, or `@` and that of another pipeline, which takes no options. No option can be called
 `pass`: options are fields in Python, where it is a keyword. TOML has no null; an empty table, `{}`, stands
-for what the text of a pipeline says as `null`.
+for what is `null` in the text of a pipeline.
 """
 
 import json
@@ -28,7 +28,7 @@ Table = dict[str, object]
 
 
 class TableError(ValueError):
-    """A table is no pipeline. `key` says where, in the notation of TOML's keys with places in brackets."""
+    """A table is no pipeline. `key` is its place, in the notation of TOML's keys with places in brackets."""
 
     def __init__(self, problem: str, key: str) -> None:
         super().__init__(f"{key}: {problem}")

@@ -147,7 +147,7 @@ class _Expansion:
         return tuple(include for include in includes if self.found.get(id(include)) is None)
 
     def _ready(self, source: Included) -> Document:
-        """The document of an include in the words and with the paths of this one."""
+        """The document of an include in the version and with the paths of this one."""
         done = self.ready.get(id(source))
         if done is None:
             done = upgrade_document(source.document, self.version, self.sink, carriers=self.carriers)

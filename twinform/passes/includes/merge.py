@@ -97,8 +97,8 @@ class _Contents:
 
 def _account_settings(model: Model, sink: DiagnosticSink) -> None:
     """What the merged model has as a whole does not count."""
-    said = [name for name in _SETTINGS if getattr(model, name) is not None]
+    written = [name for name in _SETTINGS if getattr(model, name) is not None]
     attributes = [part for part in model.opaque if part.element is None]
-    for name in (*said, *(part.name for part in attributes)):
+    for name in (*written, *(part.name for part in attributes)):
         message = f"{name} of the merged model {model.name!r} is left out; that of the model around it is used"
         sink.account(Fate.DROPPED, rules.MERGED_AWAY, message, model.location.at(name))

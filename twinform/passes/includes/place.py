@@ -40,13 +40,13 @@ def placed_model(include: Include, model: Model, sink: DiagnosticSink, frame: Tr
 def frame_of_sdf(robot: Model) -> Transform:
     """The frame that a robot of URDF had in the SDF that it was converted from, in that of its root link."""
     found = find_annotation(robot, OFFSET) if came_from(robot, Format.SDF) else None
-    with suppress(ValueError):  # the conversion says what is wrong with it
+    with suppress(ValueError):  # the conversion reports what is wrong with it
         return read_offset(found) if found else Transform()
     return Transform()
 
 
 def _pose(include: Include, frame: Transform) -> Pose | None:
-    """Where the model's frame is; a frame that the include places by name is where it says."""
+    """Where the model's frame is; a frame that the include places by name is at that place."""
     if include.pose is None or include.placement_frame is not None or frame.is_identity:
         return include.pose
     return Transform.from_pose(include.pose).compose(frame).to_pose(include.pose.relative_to)

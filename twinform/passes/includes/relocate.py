@@ -7,7 +7,7 @@ from twinform.ir import Document
 from twinform.passes.transforms.uris import map_uris
 
 _ABSOLUTE = re.compile(r"[A-Za-z][\w+.-]*:|/|__")
-"""A scheme, a path from the root, or a word such as `__default__`."""
+"""A scheme, a path from the root, or a name such as `__default__`."""
 
 _HERE = frozenset({"", "."})
 

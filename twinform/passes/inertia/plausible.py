@@ -15,7 +15,7 @@ from twinform.ir.solids import ORIGIN, Solid, combined, placed
 from twinform.ir.verify.inertia import inertia_matrix
 from twinform.passes.analyses.meshes import Meshes
 from twinform.passes.analyses.shapes import NoSolidError, PlacedShape, Places, bounds_of, solid_of, united_bounds
-from twinform.passes.framework.assets import NO_ASSETS
+from twinform.passes.framework.asset_access import NO_ASSETS
 from twinform.passes.inertia.physical_consistency import has_mass
 
 _SLACK = 0.01

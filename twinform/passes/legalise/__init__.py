@@ -14,8 +14,8 @@ __all__ = ["Target", "legalisation"]
 class Target:
     """What a conversion is to make.
 
-    `carriers` says whether parts that the target cannot express travel along; `model` names the one of several models
-    that becomes a URDF; `mixed` says that the file may use syntax that its version does not have, as its source had,
+    `carriers` is whether parts that the target cannot express travel along; `model` names the one of several models
+    that becomes a URDF; `mixed` means that the file may use syntax that its version does not have, as its source had,
     and `mixed_source` that the file at hand is such a one.
     """
 

@@ -5,8 +5,8 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
-from twinform.ir import Document, Format, Model, Node, Opaque, holds_opaque, map_children
-from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, SOURCE, has_ours, is_carrier, is_memory
+from twinform.ir import Document, Format, Model, Node, Opaque, census_of, map_children
+from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, SOURCE, bits_of_ours, has_ours, is_carrier, is_memory
 from twinform.passes.carriers.provenance import came_from, without_provenance
 from twinform.passes.framework.base import ModelPass
 
@@ -24,16 +24,17 @@ _IN_SDF = frozenset(
     {"urdf", "material", "shared-material", "unnamed", "floating", "link", "unsaid", "look", "extension"}
 )
 """What an SDF file holds for the reverse conversion."""
+_OF_MEMORY = ("sdf", "urdf", SOURCE)
+"""Elements of which early versions of twinform wrote some that only remembered the source."""
 
-
-_IGNORED = "what twinform before 0.2 kept about the source file is ignored; the contents of this file are used"
+_IGNORED = "what an early version of twinform kept about the source file is ignored; the contents of this file are used"
 
 
 class DropStale(ModelPass):
     """Drop the carriers and annotations of the other format that fit nothing in the model any more.
 
-    Changes: 1. a carrier whose part was deleted, renamed or contradicted by an edit goes; 2. so does all that versions
-    before 0.2 remembered of the source. What the file says stays.
+    Changes: 1. a carrier whose part was deleted, renamed or contradicted by an edit goes; 2. so does all that early
+    versions of twinform kept of the source. The rest of the file stays.
     Never touches: what the reverse conversion of the result will read.
     Diagnostics: `stale-carrier` for each, and one for all that is remembered.
     """
@@ -53,8 +54,9 @@ class DropStale(ModelPass):
         """The model without stale carriers."""
         if self.to is Format.URDF and came_from(model, self.to):  # for SDF the last pass needs it
             model = without_provenance(model)
-        kinds = frozenset(f"{{{NAMESPACE}}}{kind}" for kind in (_IN_URDF if self.to is Format.SDF else _IN_SDF))
-        dropping = _Dropping(kinds)
+        kinds = _IN_URDF if self.to is Format.SDF else _IN_SDF
+        having = bits_of_ours(*kinds, *_OF_MEMORY)
+        dropping = _Dropping(frozenset(f"{{{NAMESPACE}}}{kind}" for kind in kinds), having)
         model = dropping.without(model)
         dropping.report(sink)
         return model
@@ -62,14 +64,15 @@ class DropStale(ModelPass):
 
 @dataclass(frozen=True, slots=True)
 class _Dropping:
-    """One run over one model; `dropped` is what was stale, and in what."""
+    """One run over one model, `having` what may be stale; `dropped` is what was, and in what."""
 
     kinds: frozenset[str]
+    having: int
     dropped: list[tuple[Opaque, Node]] = field(default_factory=list[tuple[Opaque, Node]])
 
     def without(self, node: AnyNode) -> AnyNode:
         """The node without stale carriers, on it and in it."""
-        if not holds_opaque(node):
+        if not census_of(node) & self.having:
             return node
         parts = node.opaque
         kept = tuple([part for part in parts if not self._is_stale(part)]) if parts else parts

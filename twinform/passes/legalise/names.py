@@ -39,11 +39,11 @@ def with_old_names(model: Model, names: Names) -> Model:
     """The model of URDF with annotations on what was renamed; it has the new names by now."""
     old = {(part, new): name for (part, name), new in names.items()}
 
-    def marked(part: Part, node: Link | Joint | Frame) -> Link | Joint | Frame:
+    def annotated(part: Part, node: Link | Joint | Frame) -> Link | Joint | Frame:
         name = old.get((part, node.name))
         return node if name is None else with_annotation(node, SCOPED_NAME, name, {"instead_of": node.name})
 
-    update = {field: tuple(marked(part, node) for node in getattr(model, field)) for part, field in _FIELDS.items()}
+    update = {field: tuple(annotated(part, node) for node in getattr(model, field)) for part, field in _FIELDS.items()}
     return model.model_copy(update=update)
 
 
@@ -69,14 +69,14 @@ class RestoreNames(ModelPass):
         if kind == NAME and self.to is Format.URDF:
             model = _model_by_its_name(model)
         back = kind == SCOPED_NAME or came_from(model, self.to)
-        marked = list(_marked(model, kind)) if back else []
-        if not marked:
+        annotated = list(_annotated(model, kind)) if back else []
+        if not annotated:
             return model
         names: Names = {}
         taken = {self._key(part, node.name) for part, field in _FIELDS.items() for node in getattr(model, field)}
         scopes = _scopes(model)
         sensed = {each.reference for each in model.extensions if any(one.name == "sensor" for one in each.content)}
-        for part, node, now, old in marked:
+        for part, node, now, old in annotated:
             why = None
             if self.unique and part == "joint" and now == node.name and self._key(part, old) in taken:
                 names[part, node.name] = f"{old.strip('_')}_joint"
@@ -108,7 +108,7 @@ def _scopes(model: Model) -> set[str]:
     """The names of the models that were in this one, as far as frames still stand for them."""
     own = [frame for frame in model.frames if find_annotation(frame, NESTED) is not None]
     annotations = [(find_annotation(frame, SCOPED_NAME), frame.name) for frame in own]
-    return {(mark.text or "") if mark else name for mark, name in annotations}
+    return {(annotation.text or "") if annotation else name for annotation, name in annotations}
 
 
 def _scopes_in(name: str) -> set[str]:
@@ -117,7 +117,7 @@ def _scopes_in(name: str) -> set[str]:
     return {"::".join(parts[: count + 1]) for count in range(len(parts))}
 
 
-def _marked(model: Model, kind: str) -> Iterator[tuple[Part, Link | Joint | Frame, str, str]]:
+def _annotated(model: Model, kind: str) -> Iterator[tuple[Part, Link | Joint | Frame, str, str]]:
     """What has an annotation: its kind, the node, the name at the time of renaming and the one to restore."""
     for part, field in _FIELDS.items():
         for node in getattr(model, field):

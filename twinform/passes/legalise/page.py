@@ -16,7 +16,7 @@ _INTRODUCTION = """\
 # The pipeline
 
 What happens to a document between reading and writing, in order. `twinform convert --print-pipeline` prints it for one
-file, `--dump-ir-after PASS` and `--print-changes` show it happening, `--time-passes` says how long each takes.
+file, `--dump-ir-after PASS` and `--print-changes` show it happening, `--time-passes` prints how long each takes.
 This file is made by `python -m twinform.passes.legalise.page docs/explanation/pipeline.md`; do not edit it.
 
 1. **Reading.** Parsing, the schema of the format and version, the typed document, and what it must keep beyond its
@@ -29,14 +29,14 @@ This file is made by `python -m twinform.passes.legalise.page docs/explanation/p
 5. **Writing**, and the schema of the target once more.
 """
 _CARRIERS = """\
-Without `--no-carriers`, what the target cannot express travels in our own namespace; each of these passes says
+Without `--no-carriers`, what the target cannot express travels in our own namespace; each of these passes documents
 in its docstring what it changes, what it never touches and what it reports.
 """
 _SOURCE = "../.."
 """From the page to the folder that the package is in."""
 
 
-class Way(NamedTuple):
+class Direction(NamedTuple):
     """From one format and version to another."""
 
     title: str
@@ -46,28 +46,28 @@ class Way(NamedTuple):
     remark: str
 
 
-def ways() -> Iterator[Way]:
+def directions() -> Iterator[Direction]:
     """Those of the page; between them they have every pass."""
     versions = table("sdf").versions
     oldest, newest = versions[0], versions[-1]
     older = "An older version takes some of the passes of the last chapter, before the last one of these."
     usual = Target(Format.SDF)
-    yield Way(f"From URDF to SDF {usual.sdf_version}", Format.URDF, None, usual, older)
+    yield Direction(f"From URDF to SDF {usual.sdf_version}", Format.URDF, None, usual, older)
     remark = "A document of another version is upgraded to the newest one first."
-    yield Way("From SDF to URDF", Format.SDF, newest, Target(Format.URDF), remark)
+    yield Direction("From SDF to URDF", Format.SDF, newest, Target(Format.URDF), remark)
     remark = "Of these, those run that lie between the two versions."
-    yield Way("From older SDF to newer", Format.SDF, oldest, Target(Format.SDF, newest), remark)
-    yield Way("From newer SDF to older", Format.SDF, newest, Target(Format.SDF, oldest), remark)
+    yield Direction("From older SDF to newer", Format.SDF, oldest, Target(Format.SDF, newest), remark)
+    yield Direction("From newer SDF to older", Format.SDF, newest, Target(Format.SDF, oldest), remark)
 
 
 def pipeline_page() -> str:
     """The whole page in Markdown."""
-    return "\n".join([_INTRODUCTION, "## Legalisation", "", _CARRIERS, *map(_chapter, ways())])
+    return "\n".join([_INTRODUCTION, "## Legalisation", "", _CARRIERS, *map(_chapter, directions())])
 
 
-def _chapter(way: Way) -> str:
-    passes = legalisation(way.source, way.version, way.target)
-    return "\n".join([f"### {way.title}", "", way.remark, "", *_items(passes), ""])
+def _chapter(direction: Direction) -> str:
+    passes = legalisation(direction.source, direction.version, direction.target)
+    return "\n".join([f"### {direction.title}", "", direction.remark, "", *_items(passes), ""])
 
 
 def _items(passes: Iterable[Pass]) -> Iterator[str]:

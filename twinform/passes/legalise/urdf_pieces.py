@@ -7,7 +7,7 @@ from twinform.passes.transforms.gazebo_tags import LINK_TAGS
 
 _ABOUT_JOINTS = frozenset({"transmission", "ros2_control"})
 OF_AN_AXIS = frozenset({"axis", "limit", "dynamics", "mimic"})
-"""What a joint of URDF has once, and says of its axis."""
+"""What a joint of URDF has once, and has about its axis."""
 WITHOUT_AXIS = frozenset({"fixed", "floating", "planar"})
 _ENDS = frozenset({"lower", "upper"})
 _ENDLESS = frozenset({"continuous"})
@@ -22,7 +22,7 @@ def joints_of(element: Element) -> Iterator[str]:
 
 
 def misfit(piece: Opaque, node: Node) -> str:
-    """Why a piece cannot stand in a node as that is by now; empty where it can. The node says things as URDF does."""
+    """Why a piece cannot stand in a node as that is by now; empty where it can. The node is in the notation of URDF."""
     if isinstance(node, Model):
         return _misfit_of_model(piece, node)
     if isinstance(node, Link):
@@ -33,8 +33,8 @@ def misfit(piece: Opaque, node: Node) -> str:
 def _misfit_of_link(piece: Opaque) -> str:
     """An inertial travels if it weighs nothing, where the link is a frame in SDF."""
     mass = piece.element.find("mass") if piece.element and piece.element.name == "inertial" else None
-    said = (mass.get("value") if mass else None) or "0"
-    return "" if is_zero(said) else f"a frame of SDF has no mass, and it says {said}"
+    written = (mass.get("value") if mass else None) or "0"
+    return "" if is_zero(written) else f"a frame of SDF has no mass, and this one has {written}"
 
 
 def is_zero(text: str) -> bool:
@@ -54,7 +54,7 @@ def _misfit_of_joint(piece: Opaque, joint: Joint) -> str:
     if piece.at == "limit" and attribute in _ENDS and joint.type not in _ENDLESS:
         return f"the joint is {joint.type} and has limits of its own"
     if piece.element and not piece.at and piece.element.name in OF_AN_AXIS and joint.type not in WITHOUT_AXIS:
-        return f"the joint is {joint.type} and says so itself"
+        return f"the joint is {joint.type} and has that type itself"
     return ""
 
 
@@ -74,7 +74,7 @@ def _misfit_of_model(piece: Opaque, model: Model) -> str:
     if element.name == "link":
         return "the robot has no such link any more"
     if element.name == "material":
-        return "it says nothing that URDF understands"
+        return "it has nothing that URDF understands"
     names = {joint.name for joint in model.joints}
     names |= {each.get("name") or "" for one in model.extensions for each in one.content if each.name == "joint"}
     reference = element.get("reference") if element.name == "gazebo" else None

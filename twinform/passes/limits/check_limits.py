@@ -79,8 +79,8 @@ class CheckLimits(Pass):
         yield from _soft(joint)
 
     def _range(self, joint: Joint, limit: Limit, format_: Format) -> Iterator[_Finding]:
-        said = with_range(limit, format_) if format_ is Format.URDF and limit.source else limit
-        lower, upper = said.lower, said.upper
+        written = with_range(limit, format_) if format_ is Format.URDF and limit.source else limit
+        lower, upper = written.lower, written.upper
         if lower is None or upper is None or not lower <= upper:
             return
         where, found = _place(joint, limit), f"{lower:g} to {upper:g}"
@@ -109,7 +109,7 @@ class CheckLimits(Pass):
 
 
 def _is_open(value: float | None) -> bool:
-    """Whether a limit is none: SDF also says so by a negative one, and by a number that stands for infinity."""
+    """Whether a limit is none: in SDF so is a negative one, and one that stands for infinity."""
     return value is None or value < 0 or value >= UNLIMITED
 
 
@@ -127,15 +127,15 @@ def _soft(joint: Joint) -> Iterator[_Finding]:
     soft, limit = soft_limits(joint), joint.axis.limit if joint.axis else None
     if soft is None:
         return
-    said, where = str(soft), joint.location.at("safety_controller")
+    written, where = str(soft), joint.location.at("safety_controller")
     if _less(soft.upper, soft.lower):
-        message = f"the lower soft limit of joint {joint.name!r} is above the upper one: {said}"
-        yield _Finding(rules.SOFT_LIMIT_OUTSIDE, message, where, said)
+        message = f"the lower soft limit of joint {joint.name!r} is above the upper one: {written}"
+        yield _Finding(rules.SOFT_LIMIT_OUTSIDE, message, where, written)
         return
     hard = limit if joint.type in _BOUNDED else None
     if hard and (_less(soft.lower, hard.lower) or _less(hard.upper, soft.upper)):
-        message = f"the soft limits of joint {joint.name!r}, {said}, are outside of the hard ones"
-        yield _Finding(rules.SOFT_LIMIT_OUTSIDE, message, where, said)
+        message = f"the soft limits of joint {joint.name!r}, {written}, are outside of the hard ones"
+        yield _Finding(rules.SOFT_LIMIT_OUTSIDE, message, where, written)
 
 
 def _less(one: float | None, other: float | None) -> bool:

@@ -23,7 +23,7 @@ class SoftLimits(NamedTuple):
 
 
 def soft_limits(joint: Joint) -> SoftLimits | None:
-    """The soft limits of a joint; None where it says none, which a lower and an upper one of zero stand for."""
+    """The soft limits of a joint; None where it has none, which a lower and an upper one of zero stand for."""
     for element in _elements(joint):
         lower, upper = (_number(element.get(name)) for name in ("soft_lower_limit", "soft_upper_limit"))
         if lower or upper:
@@ -42,7 +42,7 @@ def _elements(joint: Joint) -> Iterator[Element]:
 
 
 def _number(text: str | None) -> float | None:
-    """The number of an attribute; readers skip what is none, and the schema has said so."""
+    """The number of an attribute; readers skip what is none, and the schema reader has reported it."""
     try:
         value = float(text) if text is not None else None
     except ValueError:

@@ -13,7 +13,8 @@ from twinform.passes.plugins.catalog import nearest, releases, system
 from twinform.passes.plugins.editing import add_plugin, add_visual_plugin, add_world_plugin
 from twinform.passes.plugins.options import MissingError, content_of, field_of, options_of
 from twinform.passes.plugins.parameters import names_in
-from twinform.passes.plugins.parts import PluginKind, ReleaseName
+from twinform.passes.plugins.parts import PluginKind
+from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.selecting import Fields, SelectingPass
 from twinform.passes.plugins.sites import Site, map_sensors
 from twinform.passes.plugins.targets import find_model, find_world, missing, world_of
@@ -154,8 +155,8 @@ class AddPlugin(SelectingPass):
 
     def _values(self) -> dict[str, object]:
         """The options of the system that are given."""
-        said = {option: getattr(self, option.replace("-", "_"), None) for option in options_of(self._kind())}
-        return {option: value for option, value in said.items() if value is not None}
+        written = {option: getattr(self, option.replace("-", "_"), None) for option in options_of(self._kind())}
+        return {option: value for option, value in written.items() if value is not None}
 
     def _plugin(self, measured: Mapping[str, object]) -> Plugin:
         kind = self._kind()
@@ -193,7 +194,7 @@ class AddPlugin(SelectingPass):
         return {}
 
     def _measured(self, model: Model, document: Document, sink: DiagnosticSink) -> dict[str, object]:
-        """What is not given and the model says."""
+        """What is not given and the model has."""
         kind, found = self._kind(), dict[str, object]()
 
         def names(option: str) -> tuple[str, ...]:

@@ -12,13 +12,14 @@ from twinform.ir import Document, Element, Format, Joint, Link, Model, Opaque, P
 from twinform.ir.frames import WORLD
 from twinform.passes.plugins.catalog import release, releases, sensor
 from twinform.passes.plugins.editing import add_sensor
-from twinform.passes.plugins.parts import ReleaseName, SensorKind
+from twinform.passes.plugins.parts import SensorKind
+from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.selecting import Fields, SelectingPass
 from twinform.passes.plugins.sensor_settings import addable, element_of, fields_of, settings_of
 from twinform.passes.plugins.sites import sensors_of
 from twinform.passes.plugins.targets import find_model, missing, world_of
 from twinform.passes.plugins.values import is_topic
-from twinform.passes.plugins.worlds import as_xml, has_element, has_system, needed_for, with_systems
+from twinform.passes.plugins.worlds import as_xml, has_element, has_system, requirements_of, with_systems
 from twinform.passes.transforms.nodes import unique_name
 
 _Number = Annotated[float, Field(allow_inf_nan=False)]
@@ -40,7 +41,7 @@ class AddSensor(SelectingPass):
     2. the world around the model, which gets the system that the sensor needs, if it has none; and if it had no plugin
        at all, those that gz-sim adds only to such worlds.
 
-    For a file without a world it says what the world has to have; `convert --world FILE` writes such a world.
+    For a file without a world it reports what the world has to have; `convert --world FILE` writes such a world.
     Never touches: a sensor that is there: another one gets another name and topic, and the same one is not added
     again.
     Diagnostics: `nothing-to-add-to`, `missing-world-system`, `world-system-needed`, `added-world-system`.
@@ -114,7 +115,7 @@ class AddSensor(SelectingPass):
     def _named(
         self, document: Document, model: Model, holder: Link | Joint, content: tuple[Opaque, ...]
     ) -> tuple[Sensor, bool]:
-        """The sensor under the first name that no other has, and whether it is new; one that says the same is it."""
+        """The sensor under the first name that no other has, and whether it is new; one with the same content is it."""
         everywhere = list(sensors_of(document))
         here = [each for each, site in everywhere if site.model is model and site.link_or_joint == holder.name]
         taken, first = {each.name for each, _ in everywhere}, self.sensor_name or settings_of(self.type).name
@@ -149,8 +150,8 @@ class AddSensor(SelectingPass):
         element = self._contact(model, holder, format_, sink) if is_contact else element_of(self.type, values)
         frame = release(self.release).frame_element
         own = self._frame is not None and frame is not None and frame != "frame_id"
-        said = (Element(name=frame, text=self._frame),) if own and frame else ()
-        return tuple(Opaque(element=each) for each in (*said, element) if each is not None)
+        written = (Element(name=frame, text=self._frame),) if own and frame else ()
+        return tuple(Opaque(element=each) for each in (*written, element) if each is not None)
 
     def _sensor(self, name: str, content: tuple[Opaque, ...]) -> Sensor:
         kind, settings = sensor(self.type), settings_of(self.type)
@@ -177,13 +178,13 @@ class AddSensor(SelectingPass):
         return Element(name="contact", children=tuple(Element(name="collision", text=each) for each in chosen))
 
     def _say_what_is_needed(self, made: Sensor, holder: Link | Joint, sink: DiagnosticSink) -> None:
-        for system in needed_for(sensor(self.type)).systems:
+        for system in requirements_of(sensor(self.type)).systems:
             message = f"sensor {made.name!r} needs {system.class_name} in the world"
             sink.report(rules.WORLD_SYSTEM_NEEDED, message, holder.location, help=f"the world needs {as_xml(system)}")
 
     def _in_world(self, document: Document, name: str, made: Sensor, sink: DiagnosticSink) -> Document:
         world = next(each for each in document.worlds if each.name == name)
-        needed = needed_for(sensor(self.type))
+        needed = requirements_of(sensor(self.type))
         for element in needed.elements:
             if not has_element(world, element):
                 message = f"sensor {made.name!r} needs <{element}>, and world {world.name!r} has none"

@@ -8,7 +8,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.passes.framework.side_files import CompanionPath, SideFilePass
 from twinform.passes.plugins.bridge import bridge_yaml, bridges
-from twinform.passes.plugins.parts import ReleaseName
+from twinform.passes.plugins.release_names import ReleaseName
 
 
 def _yaml(path: str) -> str:
@@ -26,7 +26,7 @@ class BridgeConfig(SideFilePass):
 
     Changes nothing in the document. The file is written together with the result, below its folder, where there is
     no error; without `-o` there is no such folder. A file that is there is only replaced if it was written by twinform.
-    `twinform convert --bridge FILE` writes the same for the result, wherever it says.
+    `twinform convert --bridge FILE` writes the same for the result, into FILE.
     Never bridges: topics whose message ROS does not know, nor those whose name depends on an unknown world.
     Diagnostics: `unbridged-topic`.
     """

@@ -56,7 +56,7 @@ _IGNITION_CLASS = re.compile(r"^(?:::)?(?:ignition::gazebo|gz::sim)(?:::v\d+)?::
 
 
 class UnknownNameError(LookupError):
-    """The catalog has nothing of this name; the message says what is near."""
+    """The catalog has nothing of this name; the message proposes what is near."""
 
     def __init__(self, what: str, name: str, known: Iterator[str] | list[str]) -> None:
         listed = list(known)

@@ -21,7 +21,8 @@ from twinform.passes.plugins.catalog import (
     systems_of_file,
 )
 from twinform.passes.plugins.parameters import Names, ParameterContext, check_parameters
-from twinform.passes.plugins.parts import PluginKind, ReleaseName, SensorKind
+from twinform.passes.plugins.parts import PluginKind, SensorKind
+from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.sites import Site, plugins_of, sensors_of
 from twinform.passes.plugins.worlds import (
     as_xml,
@@ -29,7 +30,7 @@ from twinform.passes.plugins.worlds import (
     has_system,
     kind_of_sensor,
     missing_defaults,
-    needed_for,
+    requirements_of,
 )
 
 _NATIVE_IGNITION = "fortress"
@@ -169,7 +170,7 @@ def _check_sensor(sensor: Sensor, site: Site, release: str, noted: set[str], sin
     if site.world is not None:
         _check_world_of(sensor, kind, site.world, sink)
         return
-    for needed in needed_for(kind).systems:
+    for needed in requirements_of(kind).systems:
         if needed.name not in noted:
             noted.add(needed.name)
             message = f"sensor {sensor.name!r} needs {needed.class_name} in the world"
@@ -177,7 +178,7 @@ def _check_sensor(sensor: Sensor, site: Site, release: str, noted: set[str], sin
 
 
 def _check_world_of(sensor: Sensor, kind: SensorKind, world: World, sink: DiagnosticSink) -> None:
-    needed = needed_for(kind)
+    needed = requirements_of(kind)
     for lacking in needed.systems:
         if not has_system(world, lacking):
             message = f"sensor {sensor.name!r} needs {lacking.class_name}, and world {world.name!r} has none"

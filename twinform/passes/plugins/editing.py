@@ -14,7 +14,7 @@ def add_plugin(model: Model, plugin: Plugin, format_: Format) -> Model:
 def add_visual_plugin(model: Model, on: str, plugin: Plugin, format_: Format) -> Model | None:
     """The model with a plugin on the visual `on`, or on all visuals of the link `on`; None where there is neither.
 
-    In URDF all visuals of a link share what `<gazebo>` says of them.
+    In URDF all visuals of a link share what `<gazebo>` sets for them.
     """
     if format_ is Format.URDF:
         link = next((link for link in model.links if on == link.name or any(on == v.name for v in link.visuals)), None)
@@ -41,7 +41,7 @@ def _with_visual_plugin(link: Link, on: str, plugin: Plugin) -> Link:
 def add_sensor(model: Model, holder: str, sensor: Sensor, format_: Format, *, kept: bool = False) -> Model:
     """The model with one more sensor on a link or joint of its own; a link where both have the name.
 
-    `kept` says of a fixed joint of URDF that Gazebo must not lump its links, as the joint would go with its sensor.
+    `kept` requires of a fixed joint of URDF that Gazebo must not lump its links, as the joint would go with its sensor.
     """
     if format_ is Format.URDF:
         keep = (Element(name="preserveFixedJoint", text="true"),) if kept else ()

@@ -27,14 +27,14 @@ def plugin_of(element: Element) -> Plugin:
 
 def plugin_element(plugin: Plugin) -> Element:
     """The element that stands for a plugin; the elements in it keep their places."""
-    said = [
+    written = [
         (name, value) for name, value in (("name", plugin.name), ("filename", plugin.filename)) if value is not None
     ]
     others = [part.attribute for part in plugin.opaque if part.attribute]
     inside = tuple(part.element for part in plugin.opaque if part.element)
     return Element(
         name="plugin",
-        attributes=(*said, *others),
+        attributes=(*written, *others),
         text=plugin.text,
         children=(*plugin.content, *inside),
         source=plugin.source,

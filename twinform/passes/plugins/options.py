@@ -73,7 +73,7 @@ def _option(path: Path) -> str:
 
 def _word(name: str) -> str:
     plain = name.lstrip("@").replace("_", "-")
-    # The derivatives of hydrodynamics (`xUabsU`) and of airfoils (`CLa`) are words without humps.
+    # The derivatives of hydrodynamics (`xUabsU`) and of airfoils (`CLa`) are names without capitals between words.
     return plain.lower() if plain[:1].isupper() or plain[1:2].isupper() else _HUMP.sub("-", plain).lower()
 
 
@@ -84,10 +84,10 @@ def field_of(path: Path, row: Parameter, kind: PluginKind) -> tuple[Any, FieldIn
     checked: Any = Annotated[one, AfterValidator(_checker(row))]
     kind_of: Any = Annotated[tuple[checked, ...], BeforeValidator(_listed)] if many else checked
     unit = f", in {' or '.join(row.unit.split('|'))}" if row.unit else ""
-    says = f"<{'><'.join(path)}>{unit}" + (f"; by default {row.default}" if row.default is not None else "")
+    text = f"<{'><'.join(path)}>{unit}" + (f"; by default {row.default}" if row.default is not None else "")
     if row.is_required and len(path) == 1:
-        return kind_of, Field(description=says)
-    optional: Any = Field(default=None, description=says)  # typed as its default
+        return kind_of, Field(description=text)
+    optional: Any = Field(default=None, description=text)  # typed as its default
     return _optional(kind_of), optional
 
 
@@ -138,32 +138,32 @@ def _content(text: str) -> tuple[Element, ...]:
 
 
 class MissingError(Exception):
-    """A parameter is needed because of another one; the message says which."""
+    """A parameter is needed because of another one; the message names it."""
 
 
 def content_of(kind: PluginKind, values: Mapping[str, object]) -> tuple[Element, ...]:
     """The content of a plugin with these values, by option.
 
     A thing that may stand several times stands as often as the longest list of its options has values; an option with
-    one value says the same in all of them.
+    one value means the same in all of them.
 
     Raises:
         MissingError: an element that is there lacks one that it needs.
     """
     options = options_of(kind)
-    said = {options[name][0]: value for name, value in values.items() if value is not None}
-    return tuple(_elements((), kind.parameters, said, None))
+    chosen = {options[name][0]: value for name, value in values.items() if value is not None}
+    return tuple(_elements((), kind.parameters, chosen, None))
 
 
 def _elements(
-    above: Path, rows: tuple[Parameter, ...], said: Mapping[Path, object], turn: int | None
+    above: Path, rows: tuple[Parameter, ...], chosen: Mapping[Path, object], turn: int | None
 ) -> Iterator[Element]:
     for row in rows:
         if row.is_attribute:
             continue
         for name in _names(row.name):
             path = (*above, name)
-            inside = {each: value for each, value in said.items() if each[: len(path)] == path}
+            inside = {each: value for each, value in chosen.items() if each[: len(path)] == path}
             turns = _turns(inside, turn) if inside and row.is_many else [turn]
             for each in turns if inside else ():
                 yield _element(path, row, inside, each)
@@ -180,18 +180,18 @@ def _length(value: object) -> int:
     return len(cast("tuple[object, ...]", value)) if isinstance(value, tuple) else 1
 
 
-def _element(path: Path, row: Parameter, said: Mapping[Path, object], turn: int | None) -> Element:
+def _element(path: Path, row: Parameter, chosen: Mapping[Path, object], turn: int | None) -> Element:
     attributes: list[tuple[str, str]] = []
     for each in row.children:
-        value = _text(said.get((*path, each.name)), turn)
+        value = _text(chosen.get((*path, each.name)), turn)
         if each.is_attribute and value is not None:
             attributes.append((each.name[1:], value))
-        elif each.is_required and not any(key[: len(path) + 1] == (*path, each.name) for key in said):
+        elif each.is_required and not any(key[: len(path) + 1] == (*path, each.name) for key in chosen):
             raise MissingError(_option((*path, each.name)))
-    own = _text(said.get(path), turn)
+    own = _text(chosen.get(path), turn)
     if row.type == "element" and row.free:
         return Element(name=path[-1], attributes=tuple(attributes), children=_content(own or ""))
-    children = tuple(_elements(path, row.children, said, turn))
+    children = tuple(_elements(path, row.children, chosen, turn))
     return Element(name=path[-1], attributes=tuple(attributes), text=own, children=children)
 
 

@@ -12,7 +12,7 @@ from twinform.passes.plugins.sensor_settings import addable, settings_of
 _INTRODUCTION = """\
 # Systems and sensors of Gazebo
 
-What `add-plugin`, `add-sensor` and `check-plugins` know. An option of `add-plugin` is written as the first column says;
+What `add-plugin`, `add-sensor` and `check-plugins` know. An option of `add-plugin` is written as in the first column;
 one that may stand several times takes a list. This file is made by
 `python -m twinform.passes.plugins.pages docs/reference/plugins.md`; do not edit it.
 """
@@ -77,8 +77,8 @@ def _system(kind: PluginKind) -> str:
         lines.append(_table("| option | parameter | type | default | |", rows))
     for channel in kind.channels:
         verb = "reads" if channel.direction == ">" else "writes"
-        told = f", or `{channel.parameter}`" if channel.parameter else ""
-        lines.append(f"It {verb} {channel.message} on `{channel.pattern}`{told}.\n")
+        renamed = f", or `{channel.parameter}`" if channel.parameter else ""
+        lines.append(f"It {verb} {channel.message} on `{channel.pattern}`{renamed}.\n")
     return "\n".join(lines)
 
 
@@ -96,8 +96,8 @@ def _row(option: str, path: tuple[str, ...], row: Parameter, kind: PluginKind) -
     choices = f": {', '.join(row.choices)}" if row.choices else ""
     default = f"`{row.default}`" if row.default is not None else ""
     unit = f", {' or '.join(row.unit.split('|'))}" if row.unit else ""
-    told = [_TIMES[row.count], _needed(row), _since(row.releases & kind.releases, kind.releases).strip(" ()")]
-    more = ", ".join(filter(None, told))
+    remarks = [_TIMES[row.count], _needed(row), _since(row.releases & kind.releases, kind.releases).strip(" ()")]
+    more = ", ".join(filter(None, remarks))
     dots = ", ..." if "[" in row.name else ""
     return f"| `{option}`{dots} | `{shown}` | {row.type}{choices}{unit} | {default} | {more} |"
 

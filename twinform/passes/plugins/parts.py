@@ -13,9 +13,6 @@ ParameterType = Literal[
     "element",
 ]  # fmt: skip
 
-ReleaseName = Literal["fortress", "garden", "harmonic", "ionic", "jetty"]
-"""The releases of Gazebo, oldest first."""
-
 Scope = Literal["world", "model", "link", "joint", "sensor", "visual", "actor", "gui"]
 """What a plugin stands in."""
 

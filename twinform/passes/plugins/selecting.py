@@ -16,7 +16,7 @@ Fields = Mapping[str, tuple[Any, Any]]
 
 
 class SelectingPass(Pass):
-    """A pass with one option, the `selector`, that says which others there are.
+    """A pass with one option, the `selector`, that decides which others there are.
 
     A pass that is made is of a class of its own, which has the options of what was selected: so they are typed,
     validated and printed as those of any other pass.
@@ -30,7 +30,7 @@ class SelectingPass(Pass):
     @classmethod
     @abstractmethod
     def fields_for(cls, word: str) -> Fields:
-        """The options besides those of the class, for what the selector says.
+        """The options besides those of the class, for the value of the selector.
 
         Raises:
             UnknownNameError: there is nothing of this name.

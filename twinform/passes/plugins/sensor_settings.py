@@ -92,8 +92,8 @@ def fields_of(type_: str) -> Iterator[tuple[str, tuple[Any, Any]]]:
         text = "`typical` is what such a device usually has; one that is given counts."
         yield "noise", (Noise, Field(default=get_args(Noise)[0], description=text))
     for option, noise in settings.noises.items():
-        says = f"{noise.text} Typical is {noise.typical:g}."
-        optional: Any = Field(default=None, description=says)  # typed as its default
+        text = f"{noise.text} Typical is {noise.typical:g}."
+        optional: Any = Field(default=None, description=text)  # typed as its default
         yield option, (_STDDEV, optional)
 
 

@@ -25,7 +25,7 @@ _OWN_INFO = "camera"
 class Topic:
     """A topic, and what makes it: `direction` is `<` for what Gazebo writes and `>` for what it reads.
 
-    `short` is what is left of it inside of the model. `needs_world` says that its name contains that of a world which
+    `short` is what is left of it inside of the model. `needs_world` means that its name contains that of a world which
     the document does not have. `source` is the plugin or sensor, `model` the name of the model around it.
     """
 

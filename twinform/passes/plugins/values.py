@@ -16,11 +16,11 @@ def problem_of(row: Parameter, text: str) -> str | None:
     value = text.strip()
     if row.choices and value not in row.choices:
         return f"one of {', '.join(row.choices)}"
-    fits, expected = _TYPES.get(row.type, (_is_said, "text"))
+    fits, expected = _TYPES.get(row.type, (_is_given, "text"))
     return None if fits(value) else expected
 
 
-def _is_said(text: str) -> bool:
+def _is_given(text: str) -> bool:
     return bool(text)
 
 
@@ -63,9 +63,9 @@ _TYPES: dict[str, tuple[Callable[[str], bool], str]] = {
     "pose": (_has_numbers(6, 7), "a pose: six numbers"),
     "color": (_has_numbers(3, 4), "a color: three or four numbers"),
     "topic": (is_topic, "a topic, without blanks and `@`, `~`, `:=`, `//`"),
-    "joint": (_is_said, "the name of a joint"),
-    "link": (_is_said, "the name of a link"),
-    "collision": (_is_said, "the name of a collision"),
+    "joint": (_is_given, "the name of a joint"),
+    "link": (_is_given, "the name of a link"),
+    "collision": (_is_given, "the name of a collision"),
     "text": (lambda _: True, "text"),
     "element": (lambda _: True, "elements"),
 }

@@ -18,14 +18,14 @@ _PARALLEL = 0.999
 
 
 class NotMeasuredError(Exception):
-    """The model does not say what was asked for; the message says why."""
+    """The model does not have what was asked for; the message has the reason."""
 
 
 @dataclass(frozen=True, slots=True)
 class Wheel:
     """A wheel: the origin of its joint, the middle of its shape, the direction of its axle, and its radius.
 
-    Where no shape says the radius it is None, and the middle is the origin.
+    Where no shape gives the radius it is None, and the middle is the origin.
     """
 
     origin: Vector3

@@ -21,7 +21,7 @@ _LAYERS = {"default_density": "1000", "above_depth": "0", "density": "1"}
 
 
 @dataclass(frozen=True, slots=True)
-class Needed:
+class WorldRequirements:
     """What a world has to have for a sensor."""
 
     systems: tuple[PluginKind, ...]
@@ -39,13 +39,13 @@ def kind_of_sensor(node: Sensor, release: str) -> SensorKind | None:
 
 def _custom_type(node: Sensor) -> str:
     """The `gz:type` of a sensor, whatever its prefix stands for."""
-    said = (part.attribute for part in node.opaque if part.attribute is not None and not part.at)
-    return next((value for name, value in said if name.startswith("{") and name.endswith("}type")), "")
+    attributes = (part.attribute for part in node.opaque if part.attribute is not None and not part.at)
+    return next((value for name, value in attributes if name.startswith("{") and name.endswith("}type")), "")
 
 
-def needed_for(kind: SensorKind) -> Needed:
+def requirements_of(kind: SensorKind) -> WorldRequirements:
     """What a world has to have for sensors of a kind."""
-    return Needed(tuple(system(name) for name in kind.systems), kind.world_elements)
+    return WorldRequirements(tuple(system(name) for name in kind.systems), kind.world_elements)
 
 
 def lacking_for(kind: PluginKind, world: World | None) -> PluginKind | None:

@@ -58,7 +58,7 @@ def raise_version(declared: str | None, asked: str, *, carriers: bool = True) ->
 def raise_words(declared: str | None, *, carriers: bool = True, mixed: bool = False) -> tuple[Pass, ...]:
     """The same for the newest version, with the file's own names and with the parts that only older versions have.
 
-    `mixed` says that the file has syntax of newer versions too.
+    `mixed` means that the file has syntax of newer versions too.
     """
     old, newest = known_version(declared), table("sdf").versions[-1]
     back = PutBack(version=newest, source=old, carriers=carriers)

@@ -20,7 +20,7 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 class VersionPass(Pass):
     """A pass in the conversion to `version`. After an error there is nothing left to do.
 
-    `carriers` says whether parts that this version lacks travel in carriers or only into the ledger.
+    `carriers` is whether parts that this version lacks travel in carriers or only into the ledger.
     """
 
     version: str

@@ -2,7 +2,7 @@
 
 from typing import TypeVar
 
-from twinform.ir import Element, Node, Opaque, holds_opaque, node_fields, replace_fields, rewrite
+from twinform.ir import OPAQUE, Element, Node, Opaque, node_fields, replace_fields, rewrite
 from twinform.passes.carriers.sdf_versions import carried, is_version_carrier
 from twinform.passes.transforms.nodes import map_elements
 
@@ -12,7 +12,7 @@ _ABOUT = frozenset({"source", "spelling"})
 
 def without_carriers(node: AnyNode) -> AnyNode:
     """The node without carriers of other versions, all the way down."""
-    return rewrite(node, Node, _bare, enter=holds_opaque)
+    return rewrite(node, Node, _bare, having=OPAQUE)
 
 
 def _bare(node: Node) -> Node:
@@ -34,11 +34,11 @@ def _comparable(node: Node) -> Node:
     if len(node.opaque) > 1 or any(part.element for part in node.opaque):
         parts = sorted((_sorted(part) for part in node.opaque), key=_place)
         node = node.model_copy(update={"opaque": tuple(parts)})
-    empty = [name for name in node_fields(type(node)) if _says_nothing(getattr(node, name))]
+    empty = [name for name in node_fields(type(node)) if _is_empty(getattr(node, name))]
     return node.model_copy(update=dict.fromkeys(empty)) if empty else node
 
 
-def _says_nothing(value: object) -> bool:
+def _is_empty(value: object) -> bool:
     """Whether it is a node of which nothing would be written."""
     if not isinstance(value, Node):
         return False
@@ -50,8 +50,8 @@ def _place(part: Opaque) -> tuple[str, ...]:
     """Where a part goes: by its own name, or by that of what it carries."""
     if not is_version_carrier(part):
         return (part.at, part.name, "", "")
-    said = part.element.get("at") if part.element else None
-    return (part.at, part.name, said or "", " ".join(piece.name for piece in carried(part)))
+    written = part.element.get("at") if part.element else None
+    return (part.at, part.name, written or "", " ".join(piece.name for piece in carried(part)))
 
 
 def _sorted(part: Opaque) -> Opaque:

@@ -15,7 +15,7 @@ from twinform.schemas import Version, format_value, print_version
 
 _NEWER: dict[str, Version] = {"gearbox": (1, 4), "fixed": (1, 5), "screw": (1, 5), "continuous": (1, 6)}
 _OLDER: dict[str, Version] = {"piston": (1, 4)}
-_STILL = Axis(xyz=AXIS[Format.SDF], limit=Limit(lower=0.0, upper=0.0))
+_STILL = Axis.unchecked(xyz=AXIS[Format.SDF], limit=Limit.unchecked(lower=0.0, upper=0.0))
 
 
 class FitJointTypes(VersionPass):

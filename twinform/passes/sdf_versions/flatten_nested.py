@@ -35,7 +35,7 @@ class FlattenNested(VersionPass):
         if not model.models:
             return model
         flat = without_synthesized(flatten(model, lambda frame, shell: frame))
-        since = parse_version(self.source)  # whose words the nested model is in
+        since = parse_version(self.source)  # whose syntax the nested model is in
         for index in reversed(range(len(model.models))):
             nested = model.models[index]
             message = f"model {nested.name!r} is in model {model.name!r}, which SDF has since 1.5"

@@ -5,10 +5,11 @@ from typing import Any, ClassVar
 from twinform.diagnostics import Location
 from twinform.diagnostics.rules import sdf_versions as rules
 from twinform.diagnostics.rules import to_sdf as shared_rules
-from twinform.ir import Collision, Document, Element, Node, Opaque, Pose, Visual, node_fields, replace_fields
+from twinform.ir import Collision, Document, Element, Node, Opaque, Pose, Visual, census_of, node_fields, replace_fields
 from twinform.passes.carriers.definitions import definition_of
 from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition, is_version_carrier
 from twinform.passes.sdf_versions.base import VersionPass, is_foreign
+from twinform.passes.sdf_versions.lacking import bits_lacking
 from twinform.passes.sdf_versions.leftovers import Leftover, node_pieces
 from twinform.passes.sdf_versions.spans import Shape, Span, shape, shape_of, whole
 from twinform.schemas import Fact, Version, print_version
@@ -40,10 +41,13 @@ class _UndefinedRemover:
         self.keeper = keeper
         self.version = version
         self.whole = whole(version)
+        self.lacking = bits_lacking(version)
         self.elements = _Elements(keeper, version)
 
     def whole_node(self, node: Any, form: Shape) -> Any:
         """A node whose element can hold carriers, with all that was left over in it."""
+        if not census_of(node) & self.lacking:
+            return node
         changed, left = self.node(node, form)
         for each in left:
             changed = self._carry(changed, node_pieces(node, each), each)

@@ -18,7 +18,7 @@ class NameAxisFrames(VersionPass):
     Changes: 1. every axis of a file before 1.5 (`source`), where all are in the model frame; 2. from 1.7 on, those with
     `use_parent_model_frame` true. A joint of a world has no model around it: its axis is in the world.
     Never touches: `use_parent_model_frame` false, which 1.7 does not have; nor, with `both`, where it is true: a
-    file with words of many versions has each of them back.
+    file with syntax of many versions has each of them back.
     """
 
     name: ClassVar[str] = "name-axis-frames"

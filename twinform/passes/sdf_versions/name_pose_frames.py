@@ -2,18 +2,7 @@
 
 from typing import ClassVar, TypeVar
 
-from twinform.ir import (
-    Document,
-    Element,
-    Model,
-    Node,
-    Opaque,
-    Pose,
-    holds_opaque,
-    map_children,
-    replace_fields,
-    rewrite,
-)
+from twinform.ir import OPAQUE, Document, Element, Model, Node, Opaque, Pose, map_children, replace_fields, rewrite
 from twinform.passes.carriers.sdf_versions import Keeper
 from twinform.passes.sdf_versions.base import VersionPass, is_foreign, map_own_elements
 
@@ -46,7 +35,7 @@ def _renamed_model(model: Model) -> Model:
 
 
 def _all_renamed(node: AnyNode) -> AnyNode:
-    return rewrite(node, Node, _renamed, enter=holds_opaque)
+    return rewrite(node, Node, _renamed, having=OPAQUE)
 
 
 def _renamed(node: Node) -> Node:

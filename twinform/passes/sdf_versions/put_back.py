@@ -18,8 +18,8 @@ from twinform.ir import (
     untyped_elements,
 )
 from twinform.ir.verify.joints import verify_mimics
-from twinform.passes.carriers.absorb import CarrierError, absorb, says_already
-from twinform.passes.carriers.carriers import NAMESPACE
+from twinform.passes.carriers.absorb import CarrierError, absorb, is_already_there
+from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours
 from twinform.passes.carriers.sdf_versions import DIALECT, Keeper, carried, condition_of, is_version_carrier
 from twinform.passes.sdf_versions.base import VersionPass, is_foreign
 from twinform.passes.sdf_versions.comparison import same, without_carriers
@@ -34,8 +34,8 @@ class PutBack(VersionPass):
     """Put the parts in carriers of other versions back where they stood.
 
     Changes: every carrier whose part the version has; the last one that was made comes first. That a file of an older
-    version (`source`) still means what the carriers were made from is proved by repetition: the restored model is said
-    in its syntax once more, and has to say what the file says. Where it does not, because the file was edited, the
+    version (`source`) still means what the carriers were made from is proved by repetition: the restored model is
+    written in its syntax once more, and has to equal the file. Where it does not, because the file was edited, the
     model or world stays as it is, and its carriers with it.
     Diagnostics: `stale-carrier`; `unknown-leader` where what a joint mimics is gone.
     """
@@ -72,7 +72,7 @@ class PutBack(VersionPass):
         return node
 
     def _means_the_same(self, made: Node, node: Node) -> bool:
-        """Whether a restored model or world says in the file's version what the file says there."""
+        """Whether a restored model or world, written in the file's version, equals what the file has there."""
         if self.number < parse_version(self.source):  # parts that are gone stand for nothing else
             return True
         if isinstance(node, Model):
@@ -82,7 +82,7 @@ class PutBack(VersionPass):
         return True
 
     def _again(self, node: Node, field: str) -> Document:
-        """What a node says in the syntax of the file's version."""
+        """A node in the syntax of the file's version."""
         sink = DiagnosticSink()
         document = Document.model_validate({"format": "sdf", "version": self.version}).model_copy(
             update={field: (node,)}
@@ -112,7 +112,7 @@ def restored_itself(node: AnyNode, version: Version) -> AnyNode:
         node = node.model_copy(update={"opaque": kept})
         for part in reversed(own):
             condition = condition_of(part)
-            if any(says_already(node, piece, condition) for piece in carried(part)):
+            if any(is_already_there(node, piece, condition) for piece in carried(part)):
                 raise CarrierError("the file now has its own element for what it holds")
             node = absorb(node, carried(part), condition, version)
     parts = (_inside(part, version) for part in node.opaque)
@@ -127,7 +127,7 @@ def _inside(part: Opaque, version: Version) -> Opaque | None:
 
 
 def _restored_element(element: Element, version: Version) -> Element | None:
-    """The element with what carriers in it hold; None for one that was made up."""
+    """The element with what carriers in it hold; None for a synthesized one."""
     children: list[Element] = []
     made: list[Opaque] = []
     changed = False
@@ -169,4 +169,4 @@ def _with_attribute(element: Element, piece: Opaque) -> Element:
 
 def _has_carriers(document: Document) -> bool:
     carrier = f"{{{NAMESPACE}}}{DIALECT}"
-    return any(element.name == carrier for element in untyped_elements(document))
+    return any(element.name == carrier for element in untyped_elements(document, having=bits_of_ours(DIALECT)))

@@ -61,8 +61,8 @@ class _Renaming:
         if name is None or (row := self._row(around, name)) is None:
             return child
         changed = self.inside(child, child.name if self.back else name)
-        told = {inner.name for inner in table("sdf").resolve(row).rows}
-        lost = [inner for inner in changed.children if not is_foreign(inner) and inner.name not in told]
+        known = {inner.name for inner in table("sdf").resolve(row).rows}
+        lost = [inner for inner in changed.children if not is_foreign(inner) and inner.name not in known]
         return child if lost else changed.model_copy(update={"name": name})
 
     def _row(self, around: str, name: str) -> Fact | None:

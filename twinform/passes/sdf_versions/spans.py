@@ -13,7 +13,7 @@ _LAST: Version = (99, 99)
 
 @dataclass(slots=True)
 class Span:
-    """When one part exists: every row of the table that speaks of it, and from when to when."""
+    """When one part exists: every row of the table that describes it, and from when to when."""
 
     rows: list[tuple[Version, Version, Fact]] = field(default_factory=list[tuple[Version, Version, Fact]])
     _found: dict[Version, Fact | None] = field(default_factory=dict[Version, Fact | None])

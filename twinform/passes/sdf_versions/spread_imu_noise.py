@@ -3,7 +3,7 @@
 from functools import partial
 from typing import ClassVar
 
-from twinform.ir import Document, Element, Sensor, rewrite
+from twinform.ir import PLAIN, Document, Element, Sensor, rewrite
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.carriers.sdf_versions import Keeper
 from twinform.passes.sdf_versions.base import VersionPass, map_own_elements
@@ -11,8 +11,8 @@ from twinform.passes.sdf_versions.element_paths import has, put, take
 
 _MEASURED = {"rate": "angular_velocity", "accel": "linear_acceleration"}
 _NUMBERS = ("mean", "stddev", "bias_mean", "bias_stddev")
-_MARK = f"{{{NAMESPACE}}}noise"
-"""Says in an IMU that its noise was written once for all axes: `<tf:noise/>`."""
+_ANNOTATION = f"{{{NAMESPACE}}}noise"
+"""In an IMU whose noise was written once for all axes: `<tf:noise/>`."""
 _DEFAULT = "gaussian"
 """The noise of an IMU that does not say of what type it is; on an axis the default is none."""
 
@@ -21,47 +21,47 @@ class SpreadImuNoise(VersionPass):
     """Write the noise of an IMU on each of its axes.
 
     Changes: `imu/noise`, whose `rate` becomes the noise of `angular_velocity` and whose `accel` that of
-    `linear_acceleration`. With `mark`, it says so beside, for the conversion back.
-    Never touches: an axis that says its noise already.
+    `linear_acceleration`. With `annotate`, an annotation records it for the conversion back.
+    Never touches: an axis that has its noise already.
     """
 
     name: ClassVar[str] = "spread-imu-noise"
-    mark: bool = False
+    annotate: bool = False
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with noise on axes."""
-        return rewrite(document, Sensor, partial(_sensor, self.mark))
+        return rewrite(document, Sensor, partial(_sensor, self.annotate), having=PLAIN)
 
 
 class GatherImuNoise(VersionPass):
     """Write the noise of an IMU once for all of its axes, as SDF did before 1.6.
 
     Changes: where the three axes of `angular_velocity`, and those of `linear_acceleration`, have one noise and say
-    nothing else, it becomes `imu/noise`. With `marked`, only where it was written so before.
+    nothing else, it becomes `imu/noise`. With `annotated`, only where it was written so before.
     Never touches: axes that differ, or noises of two types.
     """
 
     name: ClassVar[str] = "gather-imu-noise"
-    marked: bool = False
+    annotated: bool = False
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with noise once for each IMU."""
 
         def gather(element: Element) -> Element:
-            return element if self.marked and element.find(_MARK) is None else gathered(element)
+            return element if self.annotated and element.find(_ANNOTATION) is None else gathered(element)
 
-        return rewrite(document, Sensor, lambda sensor: map_own_elements(sensor, gather))
+        return rewrite(document, Sensor, lambda sensor: map_own_elements(sensor, gather), having=PLAIN)
 
 
 def gathered(element: Element) -> Element:
-    """An `<imu>` with its noise said once; the same one where that cannot be."""
+    """An `<imu>` with its noise written once; the same one where that cannot be."""
     if element.name != "imu":
         return element
     noises = {old: _common_noise(element, new) for old, new in _MEASURED.items()}
     types = {noise.get("type") for noise in noises.values() if noise is not None}
     if None in noises.values() or len(types) != 1:
         return element
-    kept = tuple(child for child in element.children if child.name not in {*_MEASURED.values(), _MARK})
+    kept = tuple(child for child in element.children if child.name not in {*_MEASURED.values(), _ANNOTATION})
     numbers = tuple(
         Element(name=old, children=noise.children) for old, noise in noises.items() if noise and noise.children
     )
@@ -81,11 +81,11 @@ def _common_noise(imu: Element, measured: str) -> Element | None:
     return first if same and plain and [name for name, _ in first.attributes] == ["type"] else None
 
 
-def _sensor(mark: bool, sensor: Sensor) -> Sensor:
-    return map_own_elements(sensor, partial(_imu, mark))
+def _sensor(annotate: bool, sensor: Sensor) -> Sensor:
+    return map_own_elements(sensor, partial(_imu, annotate))
 
 
-def _imu(mark: bool, element: Element) -> Element:
+def _imu(annotate: bool, element: Element) -> Element:
     if element.name != "imu":
         return element
     imu, noise = take(element, ("noise",))
@@ -100,4 +100,4 @@ def _imu(mark: bool, element: Element) -> Element:
         for axis in ("x", "y", "z"):
             if not has(imu, (new, axis, "noise")):
                 imu = put(imu, (new, axis), made)
-    return imu.model_copy(update={"children": (Element(name=_MARK), *imu.children)}) if mark else imu
+    return imu.model_copy(update={"children": (Element(name=_ANNOTATION), *imu.children)}) if annotate else imu

@@ -12,13 +12,13 @@ from twinform.passes.sdf_versions.base import VersionPass
 from twinform.schemas import Version, format_value
 
 _NAMES: Version = (1, 7)
-_WORDS: Version = (1, 5)
+_SINCE: Version = (1, 5)
 
 
 class TurnAxes(VersionPass):
     """Express axes in the frames that an older version has for them.
 
-    Changes: 1. an axis in `__model__` has `use_parent_model_frame` from 1.5 on, and needs no word before; 2. any other
+    Changes: 1. an axis in `__model__` has `use_parent_model_frame` from 1.5 on, and needs nothing before; 2. any other
     that names a frame is turned into the joint's, or before 1.5 into the model's, as are those that name none.
     Never touches: the numbers of an axis that has the right frame already.
     Diagnostics: in the ledger `other-words`.
@@ -28,24 +28,24 @@ class TurnAxes(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with axes in the syntax of the version."""
-        return rewrite(document, Model, partial(_model, keeper, self.number >= _WORDS))
+        return rewrite(document, Model, partial(_model, keeper, self.number >= _SINCE))
 
 
-def _model(keeper: Keeper, has_word: bool, model: Model) -> Model:
+def _model(keeper: Keeper, has_attribute: bool, model: Model) -> Model:
     axes = [axis for joint in model.joints for axis in (joint.axis, joint.axis2) if axis]
-    if all(axis.expressed_in is None and has_word for axis in axes):
+    if all(axis.expressed_in is None and has_attribute for axis in axes):
         return model
-    turn = _Turner(keeper, FrameGraph(model), has_word=has_word)
+    turn = _Turner(keeper, FrameGraph(model), has_attribute=has_attribute)
     return model.model_copy(update={"joints": tuple(map(turn.joint, model.joints))})
 
 
 class _Turner:
     """Turns the axes of one model."""
 
-    def __init__(self, keeper: Keeper, graph: FrameGraph, *, has_word: bool) -> None:
+    def __init__(self, keeper: Keeper, graph: FrameGraph, *, has_attribute: bool) -> None:
         self.keeper = keeper
         self.graph = graph
-        self.has_word = has_word
+        self.has_attribute = has_attribute
 
     def joint(self, joint: Joint) -> Joint:
         for field in ("axis", "axis2"):
@@ -56,10 +56,10 @@ class _Turner:
 
     def _axis(self, joint: Joint, field: str, axis: Axis) -> Joint:
         frame = axis.expressed_in
-        if self.has_word and frame == MODEL:
-            said = axis.model_copy(update={"expressed_in": None, "use_parent_model_frame": True})
-            return joint.model_copy(update={field: said})
-        if not self.has_word:
+        if self.has_attribute and frame == MODEL:
+            values = axis.model_copy(update={"expressed_in": None, "use_parent_model_frame": True})
+            return joint.model_copy(update={field: values})
+        if not self.has_attribute:
             plain = axis.model_copy(update={"expressed_in": None, "use_parent_model_frame": None})
             in_model = frame == MODEL or axis.use_parent_model_frame
             return joint.model_copy(update={field: plain}) if in_model else self._turned(joint, field, axis, MODEL)

@@ -20,7 +20,7 @@ class WriteInertias(VersionPass, AssetPass):
 
     Changes: mass, pose and inertia of such a link are those of its collisions, filled with their densities; a mass that
     is written stays.
-    Never touches: links without collisions or with shapes without an inside; of these a later pass says that the
+    Never touches: links without collisions or with shapes without an inside; of these a later pass reports that the
     version cannot express it.
     """
 

@@ -5,7 +5,7 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import NOWHERE
 from twinform.diagnostics.rules import sdf_versions as rules
-from twinform.ir import Document, Element, Node, Opaque, Pose, count_parts, map_children, rewrite
+from twinform.ir import PLAIN, Document, Element, Node, Opaque, Pose, bits_of, count_parts, map_children, rewrite
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition, version_carriers
@@ -17,7 +17,8 @@ from twinform.passes.transforms.notation import in_radians
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 _SINCE = (1, 9)
-_WORDS = ("rotation_format", "degrees")
+_ATTRIBUTES = ("rotation_format", "degrees")
+_HAVING = PLAIN | bits_of(Pose, "quat_xyzw", *_ATTRIBUTES)
 
 
 class WritePlainPoses(VersionPass):
@@ -31,7 +32,7 @@ class WritePlainPoses(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with plain poses."""
-        return map_children(document, lambda child: rewrite(child, Node, partial(_plain, keeper)))
+        return map_children(document, lambda child: rewrite(child, Node, partial(_plain, keeper), having=_HAVING))
 
 
 def _plain(keeper: Keeper, node: Node) -> Node:
@@ -50,11 +51,11 @@ def _plain(keeper: Keeper, node: Node) -> Node:
 
 def _element(keeper: Keeper, element: Element) -> Element:
     pose = element.find("pose")
-    if pose is None or all(pose.get(word) is None for word in _WORDS):
+    if pose is None or all(pose.get(word) is None for word in _ATTRIBUTES):
         return element
     read = read_pose(pose)
     plain = to_element(in_radians(Transform.from_pose(read), read.relative_to), "pose", "sdf")
-    rest = tuple(pair for pair in pose.attributes if pair[0] not in (*_WORDS, "relative_to"))
+    rest = tuple(pair for pair in pose.attributes if pair[0] not in (*_ATTRIBUTES, "relative_to"))
     plain = plain.model_copy(update={"attributes": (*plain.attributes, *rest)})
     message = f"the pose of <{element.name}> is written in degrees or as a quaternion"
     keeper.account(rules.OTHER_WORDS, message, NOWHERE, 1 + len(pose.attributes))

@@ -17,7 +17,7 @@ _DEFAULT = 1.0
 
 
 class WriteThreadPitches(VersionPass):
-    """Write the pitch of a screw joint in words that the version understands.
+    """Write the pitch of a screw joint in the syntax of the version.
 
     Changes: 1. in the conversion to 1.10 a pitch that is not written, 1 rad/m, is written, because another one is meant
     without it from there on; 2. with `back`, a `screw_thread_pitch` of s m per turn becomes a `thread_pitch` of -2 pi/s

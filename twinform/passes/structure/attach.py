@@ -25,7 +25,7 @@ class Attach(DocumentPass):
     the frame of `to`; 3. relative paths of the other file lead to the same files; 4. materials of URDF, transmissions
     and ros2_control blocks that have a name which stands for something else here get the prefix too, or the other
     model's name; 5. a root link `world` of the other model goes, if only fixed joints hang from it and one link.
-    Never touches: anything that this model says.
+    Never touches: anything that this model has.
     Diagnostics: `unread-document`, `unknown-name`, `name-clash`.
     """
 

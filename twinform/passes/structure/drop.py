@@ -37,7 +37,7 @@ _KINDS: dict[type[Node], str] = {
     Plugin: "plugins",
     Light: "lights",
 }
-"""The option that says which nodes of a class go."""
+"""The option that selects the nodes of a class that go."""
 _OPTIONS = tuple(_KINDS.values())
 _FREE_CONTENT = {option.removesuffix("s"): option for option in _OPTIONS}
 """The same for elements in the free content of `<gazebo>`."""
@@ -91,7 +91,7 @@ class Drop(Pass):
         return made
 
     def _node(self, node: Node, removed: RemovedNames, *, meant: bool) -> Node:
-        """The node without what is to go below it; `meant` says whether it is on a link that is meant."""
+        """The node without what is to go below it; `meant` is whether it is on a link that is meant."""
         if isinstance(node, GazeboExtension):
             return self._extension(node, removed)
         if isinstance(node, Link):

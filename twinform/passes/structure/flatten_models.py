@@ -35,7 +35,7 @@ class FlattenModels(ModelEdit):
     since later versions forbid `::` in names.
     Never touches: where anything is; URDF, which has no models in models.
     Diagnostics: `include-not-expanded`; `nested-setting` where a nested model is static, or may not rest, and the outer
-    one says otherwise; `self-joint`; `name-clash`; `unfollowed-name`.
+    one is set otherwise; `self-joint`; `name-clash`; `unfollowed-name`.
     """
 
     name: ClassVar[str] = "flatten-models"
@@ -140,18 +140,18 @@ def _usual(field: str, value: bool | None) -> bool:
 
 
 def _prepared(model: Model) -> Model:
-    """The model, in the models of which links say what their model said for them."""
+    """The model, in the models of which links have the settings that their model had for them."""
     return model.model_copy(update={"models": tuple(map(_inner, model.models))})
 
 
 def _inner(model: Model) -> Model:
-    said = {field: value for field in _OF_LINKS if (value := getattr(model, field)) is not None}
-    links = tuple(_with_settings(link, said) for link in model.links)
+    settings = {field: value for field in _OF_LINKS if (value := getattr(model, field)) is not None}
+    links = tuple(_with_settings(link, settings) for link in model.links)
     return model.model_copy(update={"links": links, "models": tuple(map(_inner, model.models))})
 
 
-def _with_settings(link: Link, said: dict[str, bool]) -> Link:
-    update = {field: value for field, value in said.items() if getattr(link, field) is None}
+def _with_settings(link: Link, settings: dict[str, bool]) -> Link:
+    update = {field: value for field, value in settings.items() if getattr(link, field) is None}
     return link.model_copy(update=update) if update else link
 
 

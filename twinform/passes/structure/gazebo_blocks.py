@@ -49,29 +49,29 @@ def of_shapes(elements: Iterable[Element], field: str) -> tuple[Element, ...]:
 
 
 def of_body(elements: Iterable[Element]) -> dict[str, object]:
-    """What is said of the body of a link; what is usual is left out."""
-    said: dict[str, object] = {}
+    """The settings of the body of a link; what is usual is left out."""
+    settings: dict[str, object] = {}
     for element in elements:
         about = _OF_BODY.get(element.name)
         if about is None:
             continue
         truth = value_text(element).lower() in TRUE
         if about in BODY:
-            said[about] = not truth if element.name == "turnGravityOff" else truth
+            settings[about] = not truth if element.name == "turnGravityOff" else truth
         else:
-            said[about] = value_text(element).lower() if not element.children else element
-    return {about: value for about, value in said.items() if BODY.get(about) != value}
+            settings[about] = value_text(element).lower() if not element.children else element
+    return {about: value for about, value in settings.items() if BODY.get(about) != value}
 
 
 def is_preserved(elements: Iterable[Element]) -> bool:
-    """Whether the author asks for the fixed joint to stay, by a word that libsdformat knows."""
+    """Whether the author asks for the fixed joint to stay, by a tag that libsdformat knows."""
     return any(element.name in _PRESERVE and value_text(element).lower() in TRUE for element in elements)
 
 
 def turns_by_nothing(elements: Iterable[Element]) -> bool:
     """Whether libsdformat makes a joint that turns by nothing of a fixed one that is to stay."""
-    said = {element.name for element in elements if value_text(element).lower() in TRUE}
-    return _DISABLE in said and _PRESERVE[0] not in said
+    settings = {element.name for element in elements if value_text(element).lower() in TRUE}
+    return _DISABLE in settings and _PRESERVE[0] not in settings
 
 
 def measures(elements: Iterable[Element]) -> bool:
@@ -82,7 +82,7 @@ def measures(elements: Iterable[Element]) -> bool:
     )
 
 
-def says_something(element: Element) -> bool:
+def is_set(element: Element) -> bool:
     """Whether a joint's element would do anything in Gazebo."""
     tag = JOINT_TAGS.get(element.name)
     return tag is None or tag.target != "ignored"

@@ -43,7 +43,7 @@ def root_of(model: Model) -> str | None:
 
 
 def join_urdf(model: Model, guest: Model, mount: Mount, sink: DiagnosticSink) -> Model:
-    """A robot with another one attached; the same robot after an error, which the notes have."""
+    """A robot with another one attached; the same robot after an error, which has been reported."""
     guest = _without_place(without_world(guest))
     if any(joint.child == mount.held for joint in guest.joints):
         message = f"link {mount.held!r} of the attached robot hangs from another one; `reroot` makes it the root"
@@ -75,7 +75,7 @@ def join_urdf(model: Model, guest: Model, mount: Mount, sink: DiagnosticSink) ->
 
 
 def join_sdf(model: Model, guest: Model, mount: Mount, sink: DiagnosticSink) -> Model:
-    """A model with another one's parts in it; the same model after an error, which the notes have."""
+    """A model with another one's parts in it; the same model after an error, which has been reported."""
     guest = without_world(guest)
     if _clash(model, guest, mount, sink, (("", "links"), ("", "joints"), ("", "frames"), ("", "models"))):
         return model
@@ -89,7 +89,7 @@ def join_sdf(model: Model, guest: Model, mount: Mount, sink: DiagnosticSink) -> 
 
 
 def _without_place(guest: Model) -> Model:
-    """A robot of URDF without what it says of itself as a whole: where it stands, and what it was converted from."""
+    """A robot of URDF without what it has as a whole: where it stands, and what it was converted from."""
     extensions = (
         each if each.reference else each.model_copy(update={"content": _other_than_pose(each.content)})
         for each in guest.extensions
@@ -133,7 +133,7 @@ def _own_materials(model: Model, guest: Model, prefix: str) -> Model:
 
 
 def _materials(model: Model) -> dict[str, tuple[object, ...]]:
-    """What each name of a material stands for: the robot's own, or else the first visual's that says more."""
+    """What each name of a material stands for: the robot's own, or else the first visual's that has more."""
     inline = (visual.material for link in model.links for visual in link.visuals if visual.material)
     found: dict[str, tuple[object, ...]] = {}
     for material in (*model.materials, *inline):

@@ -34,10 +34,10 @@ from twinform.passes.structure.gazebo_blocks import (
     content,
     in_host,
     is_preserved,
+    is_set,
     named_apart,
     of_shapes,
     posed_names,
-    says_something,
     turns_by_nothing,
 )
 from twinform.passes.structure.lumping_plan import Plan, plan
@@ -178,7 +178,7 @@ class _Lumping:
     def _extension(self, extension: GazeboExtension) -> GazeboExtension | None:
         name = extension.reference or ""
         if any(joint.name == name for joint in self.planned.joints.values()) and name not in self.links:
-            lost = [element for element in extension.content if says_something(element)]
+            lost = [element for element in extension.content if is_set(element)]
             if lost:
                 words = ", ".join(f"<{element.name}>" for element in lost)
                 self._lose(f"{words} of joint {name!r} is lost with the joint", extension, count_parts(extension))

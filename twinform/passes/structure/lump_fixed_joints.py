@@ -19,7 +19,7 @@ class LumpFixedJoints(ModelEdit, AssetPass):
     inertia that SDF leaves to be computed is computed, also from meshes; 2. in SDF the link and its joint become frames
     of their names, and visuals, collisions, sensors and lights move to the link above, posed in the old link's frame,
     each with its own surface; 3. in URDF, which has no frames, the link and its joint stay, without mass; its shapes
-    move as well, unless `<gazebo>` says other things of the two links' shapes; 4. with `compat=libsdformat` URDF
+    move as well, unless `<gazebo>` sets other things for the two links' shapes; 4. with `compat=libsdformat` URDF
     becomes what libsdformat 12 makes of it: the link and the joint go, shapes are called
     `HOST_fixed_joint_lump__NAME`, joints and `<gazebo>` elements of the link go to the link above, and a fixed joint
     with `disableFixedJointLumping` turns by nothing.

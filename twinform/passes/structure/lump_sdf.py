@@ -34,7 +34,7 @@ from twinform.passes.transforms.nodes import unique_name
 
 Posed = TypeVar("Posed", Visual, Collision, Sensor, Light)
 _SETTINGS = {name: BODY.get(name) for name in ("gravity", "enable_wind", "self_collide", "kinematic")}
-"""What a link says of its body, and what it means to say nothing."""
+"""The settings of a link for its body, and what applies where they are not written."""
 _OF_BODY = frozenset({"velocity_decay"})
 
 
@@ -53,7 +53,7 @@ def lump_sdf(
 
 
 class _Obstacles:
-    """What speaks against lumping a link."""
+    """Why a link cannot be lumped."""
 
     def __init__(self, graph: FrameGraph, named: Mentions, meshes: Meshes) -> None:
         self.graph, self.named, self.meshes = graph, named, meshes
@@ -66,7 +66,12 @@ class _Obstacles:
         if child.name in self.named.links:
             return f"{self.named.links[child.name]} names it"
         other = next(
-            (name for name, usual in _SETTINGS.items() if _said(parent, name, usual) != _said(child, name, usual)), ""
+            (
+                name
+                for name, usual in _SETTINGS.items()
+                if _written(parent, name, usual) != _written(child, name, usual)
+            ),
+            "",
         )
         if other:
             return f"its <{other}> is not that of {parent.name!r}"
@@ -92,7 +97,7 @@ class _Obstacles:
         return None
 
 
-def _said(link: Link, name: str, usual: object) -> object:
+def _written(link: Link, name: str, usual: object) -> object:
     value = getattr(link, name)
     return usual if value is None else value
 

@@ -40,7 +40,7 @@ def lump_urdf(model: Model, keep: tuple[str, ...], place: EditContext) -> Model:
 
 
 class _Obstacles:
-    """What speaks against lumping a link; an empty text for one that has nothing to give, or is to stay."""
+    """Why a link cannot be lumped; an empty text for one that has nothing to give, or is to stay."""
 
     def __init__(self, there: Blocks, named: Mentions) -> None:
         self.there, self.named = there, named
@@ -100,7 +100,7 @@ class _Lumping:
         self.links[host] = with_guests(self.links[host], own, solids, self.place.sink)
 
     def _shapes(self, host: str, name: str, field: str, at: Transform) -> None:
-        """Move the shapes of a kind, unless `<gazebo>` or another tool says something else of the two links' shapes."""
+        """Move the shapes of a kind, unless `<gazebo>` or another tool sets other things for the two links' shapes."""
         into, guest = self.links[host], self.links[name]
         shapes = getattr(guest, field)
         if not shapes:
@@ -121,7 +121,7 @@ class _Lumping:
     def _rest(self, extension: GazeboExtension, taken: dict[str, set[tuple[str, str]]]) -> GazeboExtension | None:
         """The extension of a link that gave what it had.
 
-        What the new link of its shapes says in the same words goes. Sensors keep their place; where another one of the
+        What the new link of its shapes has in the same form goes. Sensors keep their place; where another one of the
         body is called so, the link's name comes before theirs.
         """
         name = extension.reference or ""

@@ -11,7 +11,7 @@ from twinform.passes.framework.patterns import matches
 from twinform.passes.structure.model_edit import EditContext
 
 Obstacle = Callable[[Joint, Link, Link], str | None]
-"""Why a link (the last) that a joint fixes to another has to stay; None where nothing speaks against it."""
+"""Why a link (the last) that a joint fixes to another has to stay; None where it may be lumped."""
 
 
 @dataclass(frozen=True, slots=True)

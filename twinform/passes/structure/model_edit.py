@@ -75,7 +75,7 @@ def _has_model(document: Document, name: str | None) -> bool:
 def in_new_words(document: Document, sink: DiagnosticSink, change: Callable[[Document], Document]) -> Document:
     """A document after a change that is made in the syntax of SDF 1.8; the one that came in where that changes nothing.
 
-    URDF, and SDF that is newer, is changed as it is. What raising the version has to say is said only after a change.
+    URDF, and SDF that is newer, is changed as it is. What raising the version reports is reported only after a change.
     """
     own = DiagnosticSink(sink.file, sink.strict, origins=sink.origins)
     modern = _modern(document, own)

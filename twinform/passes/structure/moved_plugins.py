@@ -9,14 +9,14 @@ from twinform.ir.transform import Transform
 from twinform.schemas import format_value
 
 _BODIES = ("bodyName", "frameName")
-"""The words that libsdformat follows."""
+"""The parameters that libsdformat follows."""
 _OFFSETS = ("xyzOffset", "rpyOffset")
 
 
 def moved_plugin(plugin: Element, hosts: Mapping[str, str], graph: FrameGraph) -> Element:
     """The plugin at the same place of another body: `xyzOffset` (m) and `rpyOffset` (rad) are from that body's frame.
 
-    The plugin is moved once, also where both words name the link.
+    The plugin is moved once, also where both of them name the link.
     """
     named = next((child.text for child in plugin.children if child.name in _BODIES and child.text in hosts), None)
     if named is None:

@@ -1,6 +1,6 @@
 """Parameter and element names in plugins and extensions that refer to links, joints and frames.
 
-Nobody declares it, but the words say so themselves: of the 1,600 blocks of the corpus whose texts or attributes are
+Nobody declares it, but the names of parameters show it: of the 1,600 blocks of the corpus whose texts or attributes are
 names of links or joints, the word has `joint`, `link`, `body` or `frame` in it wherever a reference is meant.
 """
 

@@ -92,7 +92,7 @@ class _Renamer:
         return _changed(element, update)
 
     def state_of_model(self, element: Element, scope: Scope, where: Location) -> Element:
-        """What the state of a world says of a model, whose parts have names of their own."""
+        """What the state of a world has of a model, whose parts have names of their own."""
         new = self.scope.own["model"]
         attributes = tuple(
             (key, new.get(value, value) if key == "name" else value) for key, value in element.attributes

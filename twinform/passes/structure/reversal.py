@@ -21,7 +21,7 @@ _SWAPPED = {
 
 
 def with_axis(joint: Joint, direction: Vector3) -> Axis | None:
-    """The axis of a joint in another direction; a joint without a direction keeps what it says."""
+    """The axis of a joint in another direction; a joint without a direction keeps what it has."""
     if joint.type in _WITHOUT_AXIS:
         return joint.axis
     return (joint.axis or Axis()).model_copy(update={"xyz": direction})
@@ -85,10 +85,10 @@ def _block(element: Element) -> Element:
 
 def _torque(element: Element) -> Element:
     """`<force_torque>` with parent and child exchanged; what is not written is `child` and `child_to_parent`."""
-    said = {child.name: (child.text or "").strip() for child in element.children}
+    values = {child.name: (child.text or "").strip() for child in element.children}
     words: dict[str, Any] = {
-        "frame": said.get("frame") or FORCE_TORQUE["frame"],
-        "measure_direction": said.get("measure_direction") or FORCE_TORQUE["measure_direction"],
+        "frame": values.get("frame") or FORCE_TORQUE["frame"],
+        "measure_direction": values.get("measure_direction") or FORCE_TORQUE["measure_direction"],
     }
     others = tuple(child for child in element.children if child.name not in words)
     made = tuple(Element(name=name, text=_SWAPPED.get(word, word)) for name, word in words.items())

@@ -6,12 +6,12 @@ from functools import cache, partial
 from typing import TypeVar
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Element, Node, Opaque, Pose, ReferenceChange, Sensor, holds_opaque, map_references, rewrite
+from twinform.ir import OPAQUE, Element, Node, Opaque, Pose, ReferenceChange, Sensor, map_references, rewrite
 from twinform.ir.frames import FrameGraph, Kind
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import NAMESPACE, to_element
 from twinform.passes.transforms.nodes import map_elements
-from twinform.passes.transforms.notation import POSE, as_marked
+from twinform.passes.transforms.notation import POSE, as_annotated
 from twinform.schemas import Context, element_xml, reader, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -23,7 +23,7 @@ Keep = Callable[[str, Pose], tuple[Element, ...]]
 """What is written beside the moved pose for the one that stood there: (a message, that pose)"""
 
 
-_MARK = f"{{{NAMESPACE}}}{POSE}"
+_ANNOTATION = f"{{{NAMESPACE}}}{POSE}"
 
 
 def _as_named(name: str) -> tuple[str, Kind]:
@@ -56,7 +56,7 @@ class ElementPoses:
 
     def sensor(self, sensor: Sensor, written: Pose | None) -> Sensor:
         """A sensor of the link; a pose in it that names a frame becomes one in the sensor's frame."""
-        if not any(_names_frame(part.element) or _is_marked(part.element) for part in sensor.opaque if part.element):
+        if not any(_names_frame(part.element) or _is_annotated(part.element) for part in sensor.opaque if part.element):
             return sensor
         placed = self._resolve(written)
 
@@ -71,9 +71,9 @@ class ElementPoses:
             child if child.name == "pose" or child.name[0] == "{" else self._move(child, holder, moves=False)
             for child in element.children
         )
-        pose, mark = element.find("pose"), element.find(_MARK)
-        if mark is not None:
-            return self._as_marked(element, children, mark, holder, pose, moves=moves)
+        pose, annotation = element.find("pose"), element.find(_ANNOTATION)
+        if annotation is not None:
+            return self._as_annotated(element, children, annotation, holder, pose, moves=moves)
         if pose is not None and not moves and _frame_of(pose) in _own_frames(element):  # of SDF 1.5 and 1.6
             return element.model_copy(update={"children": children})
         if pose is not None and _frame_of(pose) in self.stays:
@@ -90,11 +90,11 @@ class ElementPoses:
         message = f"the pose of <{element.name}> of {self.kind} {self.holder!r} is in another frame"
         return element.model_copy(update={"children": (*children, *self.keep(message, read))})
 
-    def _as_marked(
+    def _as_annotated(
         self,
         element: Element,
         children: tuple[Element, ...],
-        mark: Element,
+        annotation: Element,
         holder: Transform,
         pose: Element | None,
         *,
@@ -103,15 +103,15 @@ class ElementPoses:
         """An element with its pose in the frame and notation of an annotation in it, which is removed."""
         read = Pose() if pose is None else read_pose(pose)
         placed = self._resolve(read) if moves or read.relative_to else holder.compose(Transform.from_pose(read))
-        name = mark.get("relative_to")
+        name = annotation.get("relative_to")
         around, kind = self.frame(name) if name else ("", "frame")
         known = bool(name) and self.graph.knows(around)
         if known:
             here = self.graph.pose(self.base[0], around, kind=self.base[1], base=kind).compose(placed)
         else:
             here = placed if moves else holder.inverse().compose(placed)
-        made = to_element(as_marked(here, mark, name if known else None) or Pose(), "pose", "sdf")
-        rest = tuple(made if child is pose else child for child in children if child is not mark)
+        made = to_element(as_annotated(here, annotation, name if known else None) or Pose(), "pose", "sdf")
+        rest = tuple(made if child is pose else child for child in children if child is not annotation)
         return element.model_copy(update={"children": rest if pose is not None else (made, *rest)})
 
     def _resolve(self, pose: Pose | None) -> Transform:
@@ -142,8 +142,8 @@ def _names_frame(element: Element) -> bool:
     return own or any(map(_names_frame, element.children))
 
 
-def _is_marked(element: Element) -> bool:
-    return any(each.name == _MARK for each in element.walk())
+def _is_annotated(element: Element) -> bool:
+    return any(each.name == _ANNOTATION for each in element.walk())
 
 
 def read_pose(element: Element) -> Pose:
@@ -155,7 +155,7 @@ def read_pose(element: Element) -> Pose:
 
 def map_frames(node: AnyNode, change: ReferenceChange) -> AnyNode:
     """The node with every reference in it changed, also those of poses in its opaque parts."""
-    return rewrite(map_references(node, change), Node, partial(_map_opaque_poses, change), enter=holds_opaque)
+    return rewrite(map_references(node, change), Node, partial(_map_opaque_poses, change), having=OPAQUE)
 
 
 def _map_opaque_poses(change: ReferenceChange, node: AnyNode) -> AnyNode:

@@ -6,7 +6,7 @@ from typing import TypeVar
 
 from twinform.ir import IN_MODELS, Frame, Joint, Link, Model, Pose, ReferenceKind
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
-from twinform.passes.carriers.annotations import mark_synthesized
+from twinform.passes.carriers.annotations import annotate_synthesized
 from twinform.passes.transforms.element_poses import map_frames
 
 Part = TypeVar("Part", Link, Joint, Frame)
@@ -15,7 +15,7 @@ Part = TypeVar("Part", Link, Joint, Frame)
 def flatten(model: Model, keep: Callable[[Frame, Model], Frame]) -> Model:
     """The model with the links, joints and frames of its nested models, by their scoped names.
 
-    A frame stands for each nested model's own; `keep` may put what else the model says there.
+    A frame stands for each nested model's own; `keep` may put what else the model has there.
     """
     graph = FrameGraph(model)
     links, joints, frames = list(model.links), list(model.joints), list(model.frames)
@@ -73,4 +73,4 @@ def _own_frame(model: Model, around: _Scope, scope: _Scope, graph: FrameGraph) -
     if model.placement_frame:
         pose = graph.pose(name, base, kind="model", base="joint").to_pose(base)
     attached = body if graph.knows(body) and body not in (name, MODEL) else around.frame_name
-    return mark_synthesized(Frame(name=name, attached_to=attached, pose=pose, source=model.source))
+    return annotate_synthesized(Frame(name=name, attached_to=attached, pose=pose, source=model.source))

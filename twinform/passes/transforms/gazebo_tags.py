@@ -45,7 +45,7 @@ def _truth(text: str) -> bool:
 
 
 def _gravity(text: str) -> bool:
-    """turnGravityOff: only these words leave gravity on."""
+    """turnGravityOff: only these values leave gravity on."""
     return text.lower() in FALSE
 
 
@@ -83,7 +83,7 @@ JOINT_TAGS = {
 MODEL_TAGS = {"static": Tag("model", "static", _truth)}
 
 TRUTHS = frozenset({_truth, _gravity})
-"""The readers of words that mean true or false."""
+"""The readers of values that mean true or false."""
 
 SCRIPT_URI = "file://media/materials/scripts/gazebo.material"
 """Where Gazebo Classic keeps the materials that `<material>` names."""

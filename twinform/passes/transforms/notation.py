@@ -18,7 +18,7 @@ def in_radians(transform: Transform, relative_to: str | None = None) -> Pose:
         rpy = transform.rpy()
     elif written.degrees and rpy is not None:
         rpy = (math.radians(rpy[0]), math.radians(rpy[1]), math.radians(rpy[2]))
-    return Pose(xyz=written.xyz, rpy=rpy, relative_to=relative_to, source=written.source)
+    return Pose.unchecked(xyz=written.xyz, rpy=rpy, relative_to=relative_to, source=written.source)
 
 
 POSE = "pose"
@@ -30,16 +30,16 @@ def pose_attributes(written: Pose | None) -> dict[str, str | None]:
     if written is None:
         return {}
     degrees = None if written.degrees is None else str(written.degrees).lower()
-    said = {"relative_to": written.relative_to, "degrees": degrees, "rotation_format": written.rotation_format}
-    return {name: value for name, value in said.items() if value is not None}
+    attributes = {"relative_to": written.relative_to, "degrees": degrees, "rotation_format": written.rotation_format}
+    return {name: value for name, value in attributes.items() if value is not None}
 
 
-def as_marked(transform: Transform, mark: Element | None, relative_to: str | None) -> Pose | None:
-    """The pose in the notation of its annotation; None for the identity, which goes without saying."""
-    if mark is None or not (mark.get("degrees") or mark.get("rotation_format")):
+def as_annotated(transform: Transform, annotation: Element | None, relative_to: str | None) -> Pose | None:
+    """The pose in the notation of its annotation; None for the identity, which need not be written."""
+    if annotation is None or not (annotation.get("degrees") or annotation.get("rotation_format")):
         pose = transform.to_pose(relative_to)
         return None if pose == Pose() else pose
-    degrees, form = mark.get("degrees"), mark.get("rotation_format")
+    degrees, form = annotation.get("degrees"), annotation.get("rotation_format")
     plain = transform.to_pose()
     update: dict[str, object] = {"degrees": None if degrees is None else degrees == "true", "rotation_format": form}
     if form == "quat_xyzw":
@@ -55,7 +55,7 @@ BODY = "body"
 FRAME = "frame"
 """The annotation on a link that is a frame in SDF; what that is attached to, if not the parent of its joint."""
 NESTED = "nested"
-"""The annotation on a link that is the frame of a nested model in SDF, with what else that model says."""
+"""The annotation on a link that is the frame of a nested model in SDF, with what else that model has."""
 LINK = "link"
 """The annotation on a frame of SDF that is a link in URDF; the frame that it is attached to is its joint."""
 OFFSET = "offset"
@@ -68,13 +68,13 @@ def offset_attributes(offset: Transform) -> dict[str, str | None]:
     return {name: format_value(value) for name in ("xyz", "rpy") if (value := getattr(pose, name)) is not None}
 
 
-def read_offset(mark: Element) -> Transform:
+def read_offset(annotation: Element) -> Transform:
     """The offset of an annotation, which may have been edited.
 
     Raises:
         ValueError: it is not three numbers.
     """
-    return Transform.from_pose(Pose(xyz=_vector(mark.get("xyz")), rpy=_vector(mark.get("rpy"))))
+    return Transform.from_pose(Pose(xyz=_vector(annotation.get("xyz")), rpy=_vector(annotation.get("rpy"))))
 
 
 def _vector(text: str | None) -> Vector3:

@@ -6,6 +6,7 @@ from typing import Literal, TypeVar
 
 from twinform.diagnostics import Location
 from twinform.ir import (
+    OPAQUE,
     Element,
     GazeboExtension,
     Heightmap,
@@ -16,8 +17,10 @@ from twinform.ir import (
     Node,
     Plugin,
     Script,
+    bits_of,
     rewrite,
 )
+from twinform.ir.census import union_of
 from twinform.passes.transforms.nodes import map_elements
 
 Kind = Literal["mesh", "texture", "include"]
@@ -34,6 +37,7 @@ _FIELDS: dict[type[Node], tuple[Kind, tuple[str, ...]]] = {
     Include: ("include", ("uri",)),
     Material: ("texture", ("albedo_map", "texture")),
 }
+_HAVING = OPAQUE | union_of(map(bits_of, (*_FIELDS, Script)))
 _ELEMENTS = frozenset(
     {"uri", "albedo_map", "normal_map", "roughness_map", "metalness_map", "emissive_map", "light_map",
      "ambient_occlusion_map", "glossiness_map", "specular_map", "environment_map"}
@@ -46,10 +50,12 @@ _HOLDERS: dict[str, Kind] = {"mesh": "mesh", "skin": "mesh", "animation": "mesh"
 
 def map_uris(node: AnyNode, change: Change) -> AnyNode:
     """The node with every URI of a file in it changed; parameters of plugins are theirs alone."""
-    return rewrite(node, Node, partial(_with_uris, change), enter=lambda each: not isinstance(each, Plugin))
+    return rewrite(node, Node, partial(_with_uris, change), having=_HAVING)
 
 
 def _with_uris(change: Change, node: Node) -> Node:
+    if isinstance(node, Plugin):
+        return node
     update: dict[str, object] = {}
     kind, names = _FIELDS.get(type(node), ("texture", ()))
     for name in names:

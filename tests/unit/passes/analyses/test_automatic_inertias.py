@@ -79,7 +79,7 @@ def test_edited_numbers_or_shapes_are_not_automatic_any_more(old: str, new: str)
     assert inertial(made.text).mass in (5, 6000)
 
 
-def test_an_sdf_that_cannot_say_it_has_the_numbers():
+def test_an_sdf_that_cannot_express_it_has_the_numbers():
     text = urdf(AUTO.format("") + BOX.format(""))
     assert inertial(twinform.convert(text.encode(), to="sdf", sdf_version="1.9").text).mass == pytest.approx(6000)
 

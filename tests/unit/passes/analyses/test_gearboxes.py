@@ -11,7 +11,7 @@ from twinform.ir import Axis, Joint, Link, Mimic, Model, Pose
 from twinform.ir.frames import FrameGraph
 from twinform.ir.node import Vector3
 from twinform.passes.analyses.gearboxes import GEARED, Relation, UngearedError, relation
-from twinform.passes.carriers.annotations import find_annotation, mark_synthesized, with_annotation
+from twinform.passes.carriers.annotations import annotate_synthesized, find_annotation, with_annotation
 from twinform.passes.legalise.to_sdf.fold_gearboxes import FoldGearboxes
 
 ROBOT = """<sdf version='1.11'><model name='m'><link name='body'/><link name='motor'/>
@@ -82,7 +82,7 @@ def test_the_joint_of_the_child_mimics_that_of_the_parent(changed: dict[str, str
         ({"mimic": "<mimic joint='axle'><multiplier>1</multiplier></mimic>"}, "follows"),
     ],
 )
-def test_where_no_mimic_says_the_same_there_is_a_warning(changed: dict[str, str], reason: str):
+def test_where_no_mimic_expresses_the_same_there_is_a_warning(changed: dict[str, str], reason: str):
     made = there(**changed)
     assert rules(made)[-1] == ("gearbox", "warning")
     assert reason in made.diagnostics[-1].message
@@ -128,7 +128,7 @@ def test_names_that_change_change_in_gearboxes_too():
     assert gears.axis2.mimic == Mimic(joint="b_joint")
 
 
-def test_a_mimic_that_was_edited_is_marked_as_made_no_more():
+def test_a_mimic_that_was_edited_is_annotated_as_synthesized_no_more():
     made = back(there().text.replace('multiplier="-4"', 'multiplier="-5"', 1))
     stale = next(each for each in made.diagnostics if each.rule.name == "stale-carrier")
     assert stale.message == "joint 'axle' mimics 'drive', and no gearbox couples them so any more"
@@ -166,12 +166,12 @@ def geared(*joints: Joint) -> Model:
 @pytest.mark.parametrize(
     ("multiplier", "left"), [(-4.0, None), (-5.0, Mimic(joint="drive", multiplier=-5.0)), (None, Mimic(joint="drive"))]
 )
-def test_the_mark_of_the_mimic_goes_and_every_other_stays(multiplier: float | None, left: Mimic | None):
+def test_the_annotation_of_the_mimic_goes_and_every_other_stays(multiplier: float | None, left: Mimic | None):
     axle = turning("axle", "wheel", (0, 1, 0), Mimic(joint="drive", multiplier=multiplier))
     drive = turning("drive", "motor", (0, 0, 1))
     sink = DiagnosticSink()
-    made = FoldGearboxes().run_model(geared(drive, with_annotation(mark_synthesized(axle), GEARED)), sink)
-    assert made.joints == (drive, mark_synthesized(turning("axle", "wheel", (0, 1, 0), left)), GEARS)
+    made = FoldGearboxes().run_model(geared(drive, with_annotation(annotate_synthesized(axle), GEARED)), sink)
+    assert made.joints == (drive, annotate_synthesized(turning("axle", "wheel", (0, 1, 0), left)), GEARS)
     assert [(each.rule.name, each.found) for each in sink.diagnostics] == ([("stale-carrier", "axle")] if left else [])
 
 

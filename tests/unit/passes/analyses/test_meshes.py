@@ -96,7 +96,7 @@ def test_a_mesh_that_is_turned_inside_out_is_turned_back(folder: Path) -> None:
     assert same(meshes(folder).solid(Mesh(uri="inward.stl"), 700), BOX)
 
 
-def test_collada_says_its_unit(folder: Path) -> None:
+def test_a_collada_file_has_its_unit(folder: Path) -> None:
     assert meshes(folder).solid(Mesh(uri="centimeters.dae"), 1e6).mass == pytest.approx(6)
 
 
@@ -135,7 +135,7 @@ def test_a_submesh_is_a_part_and_may_be_centered(folder: Path) -> None:
         ("missing.stl", "unreadable-mesh", "missing.stl"),
     ],
 )
-def test_what_has_no_inside_is_said(folder: Path, uri: str, rule: str, words: str) -> None:
+def test_what_has_no_inside_is_reported(folder: Path, uri: str, rule: str, words: str) -> None:
     with pytest.raises(MeshError, match=words) as caught:
         meshes(folder).solid(Mesh(uri=uri), 1)
     assert caught.value.rule.name == rule
@@ -147,7 +147,7 @@ def test_the_hull_stands_for_an_open_mesh_if_it_may(folder: Path) -> None:
         meshes(folder, hull=True).solid(Mesh(uri="flat.stl"), 1)
 
 
-def test_without_the_library_it_says_what_to_install(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_the_library_it_reports_what_to_install(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "trimesh", None)
     with pytest.raises(MeshError, match="trimesh is not installed") as caught:
         meshes(folder).solid(Mesh(uri="box.stl"), 1)

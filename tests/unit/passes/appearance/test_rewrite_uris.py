@@ -1,4 +1,4 @@
-"""URIs between schemes, where files are really there; round trips come home."""
+"""URIs between schemes, where files are really there; round trips give the same."""
 
 from pathlib import Path
 
@@ -41,7 +41,7 @@ def test_each_scheme_leads_to_each(package: Path) -> None:
     }
     for start, uri in spelt.items():
         for to, expected in spelt.items():
-            if {start, to} != {"package", "model"}:  # these two are only said in other words
+            if {start, to} != {"package", "model"}:  # these two only have other schemes
                 assert rewritten(package, uri, f"to={to}") == (expected, []), f"{start} to {to}"
 
 
@@ -74,12 +74,12 @@ def test_a_root_that_is_named_goes_before_all(package: Path) -> None:
         ("model://", "to=relative"),
     ],
 )
-def test_what_cannot_be_mapped_stays_and_is_said(package: Path, uri: str, options: str) -> None:
+def test_what_cannot_be_mapped_stays_and_is_reported(package: Path, uri: str, options: str) -> None:
     assert rewritten(package, uri, options) == (uri, ["unmapped-uri"])
 
 
 @pytest.mark.parametrize("uri", ["__default__", "ftp://host/a.stl", "data:text/plain,a", "package://arm/a.stl"])
-def test_words_and_other_schemes_are_left_alone(package: Path, uri: str) -> None:
+def test_plain_names_and_other_schemes_are_left_alone(package: Path, uri: str) -> None:
     assert rewritten(package, uri, "to=package") == (uri, [])
 
 

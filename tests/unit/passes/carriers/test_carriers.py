@@ -36,9 +36,9 @@ def test_what_somebody_writes_for_blanks_is_blank_or_nothing(blanks: str) -> Non
     assert not piece.attribute[1].strip(" ")
 
 
-def test_a_blank_attribute_comes_home() -> None:
+def test_a_blank_attribute_comes_back() -> None:
     robot = """<robot name="r"><link name="a"><foo name=" " k="&#9;"/></link></robot>"""
     there = twinform.convert(robot.encode(), name="r.urdf", to="sdf").text
     assert 'name=" "' not in there
-    home = twinform.convert(there.encode(), name="r.sdf", to="urdf").text
-    assert '<foo name=" " k="&#9;"/>' in home
+    back = twinform.convert(there.encode(), name="r.sdf", to="urdf").text
+    assert '<foo name=" " k="&#9;"/>' in back

@@ -135,7 +135,7 @@ def test_a_screw_that_moves_infinitely_far_is_an_error():
     assert [each.rule.name for each in caught.value.diagnostics if each.is_error] == ["joint-type-unsupported"]
 
 
-def test_the_angles_of_a_ball_are_approximate_and_the_ledger_says_why():
+def test_the_angles_of_a_ball_are_approximate_and_the_ledger_has_why():
     entries = there("ball", DAMPED).ledger.entries
     assert [entry.message for entry in entries if entry.fate is Fate.APPROXIMATED] == [
         "2 links between the joints of 'j', of 2e-06 kg",
@@ -248,12 +248,12 @@ def test_an_edited_chain_stays_as_it_stands(kind: str, inside: str, old: str, ne
         ),
     ],
 )
-def test_what_was_edited_is_said(kind: str, inside: str, old: str, new: str, why: str) -> None:
+def test_what_was_edited_is_reported(kind: str, inside: str, old: str, new: str, why: str) -> None:
     urdf = there(kind, inside).text.replace("<robot ", '<robot version="1.2" ')
     assert old in urdf
     made = back(urdf.replace(old, new, 1))
-    said = [each.message for each in made.diagnostics if (each.rule.name, each.found) == ("stale-carrier", "j")]
-    assert said == [f"joint 'j' was {kind}, and the chain that it became has changed: {why}"]
+    messages = [each.message for each in made.diagnostics if (each.rule.name, each.found) == ("stale-carrier", "j")]
+    assert messages == [f"joint 'j' was {kind}, and the chain that it became has changed: {why}"]
 
 
 def test_a_part_that_was_given_a_name_is_one_joint_and_a_warning():
@@ -298,7 +298,7 @@ def test_a_joint_that_closes_a_loop_stays_one_joint():
 
 
 @pytest.mark.parametrize("kind", ["spherical", "ball"])
-def test_a_ball_joint_of_a_dialect_of_urdf_comes_home(kind: str):
+def test_a_ball_joint_of_a_dialect_of_urdf_comes_back(kind: str):
     body = "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>"
     urdf = f"""<robot name='r'><link name='a'>{body}</link><link name='b'>{body}</link>
     <joint name='j' type='{kind}'><parent link='a'/><child link='b'/><dynamics damping='0.1'/></joint></robot>"""

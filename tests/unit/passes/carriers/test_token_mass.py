@@ -1,4 +1,4 @@
-"""Links without mass get a token of it in SDF, and lose it on the way back."""
+"""Links without mass get a token of it in SDF, and lose it in the conversion back."""
 
 import pytest
 
@@ -40,11 +40,11 @@ def test_every_link_that_moves_has_mass_and_inertia(inertial: str) -> None:
 
 
 @pytest.mark.parametrize("inertial", INERTIALS.values(), ids=INERTIALS)
-def test_the_token_is_gone_at_home(inertial: str) -> None:
+def test_the_token_is_gone_after_the_round_trip(inertial: str) -> None:
     sdf = twinform.convert(_robot(inertial), to="sdf").text.encode()
-    home = twinform.convert(sdf, to="urdf").document
+    back = twinform.convert(sdf, to="urdf").document
     source = twinform.loads(_robot(inertial))
-    assert _link(home).inertial == _link(source).inertial
+    assert _link(back).inertial == _link(source).inertial
 
 
 def test_a_token_that_was_edited_counts() -> None:

@@ -46,7 +46,7 @@ def test_each_camera_has_the_parameters_and_topics_of_its_own_name() -> None:
     assert [each.plugins for each in made] == [(), ()]
 
 
-def test_what_is_lost_is_lost_once_and_the_sensor_is_said_to_be_several() -> None:
+def test_what_is_lost_is_lost_once_and_the_sensor_is_reported_as_several() -> None:
     _, sink = split(eyes("l", "r"))
     message = "sensor 'eyes' on 'head' had the type multicamera and is now 2 cameras"
     assert [(each.rule.name, each.found) for each in sink.diagnostics] == [

@@ -27,6 +27,6 @@ def test_the_pass_materials_runs_where_it_is_installed(monkeypatch: pytest.Monke
     assert document_edits.in_colors(DOCUMENT, DiagnosticSink()).version == "recolored"
 
 
-def test_without_it_looks_stay(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_it_materials_stay(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(document_edits, "registered_passes", dict)
     assert document_edits.in_colors(DOCUMENT, DiagnosticSink()) is DOCUMENT

@@ -16,7 +16,7 @@ SYSTEMS = {name: migration for name, migration in migrations().items() if migrat
 def test_every_parameter_that_a_plugin_of_gazebo_ros_reads_has_a_place_or_a_reason(plugin: str) -> None:
     kind = CLASSIC[plugin]
     migration = _migration(kind)
-    assert migration, "nothing is said about it"
+    assert migration, "the table has nothing about it"
     read = {parameter.name for parameter in kind.parameters} - OF_ROS
     assert migration.none or not read - migration.parameters
 
@@ -57,7 +57,7 @@ def test_every_system_is_in_some_release_and_every_type_of_sensor_is_known() -> 
         assert migration.make is None or migration.make.type in sensors()
 
 
-def test_every_table_says_what_becomes_of_its_plugin() -> None:
+def test_every_table_reports_what_becomes_of_its_plugin() -> None:
     for name, migration in migrations().items():
         ends = [migration.systems, migration.sensor is not None, migration.mimic, migration.none]
         assert any(ends), name

@@ -34,8 +34,10 @@ DRIVE = """<transmission name="drive{}"><type>transmission_interface/SimpleTrans
     ],
 )
 def test_a_joint_is_commanded_by_all_that_its_transmissions_say(drives: list[list[str]], commands: list[str]) -> None:
-    said = ["".join(f"<hardwareInterface>{each}Interface</hardwareInterface>" for each in words) for words in drives]
-    text = ARM.format("".join(DRIVE.format(number, each) for number, each in enumerate(said)))
+    interfaces = [
+        "".join(f"<hardwareInterface>{each}Interface</hardwareInterface>" for each in words) for words in drives
+    ]
+    text = ARM.format("".join(DRIVE.format(number, each) for number, each in enumerate(interfaces)))
     made = twinform.convert(text.encode(), to="urdf", passes=THERE)
     [part] = made.document.models[0].opaque
     joint = part.element.find("joint") if part.element else None

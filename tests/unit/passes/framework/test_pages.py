@@ -38,7 +38,7 @@ class Sample(Pass):
         return document
 
 
-def test_options_are_described_in_the_words_of_the_grammar() -> None:
+def test_options_are_described_in_the_terms_of_the_grammar() -> None:
     assert [each[:3] for each in options(Sample)] == [
         ("must", "whole number", "has to be given"),
         ("real", "number", "0.5"),

@@ -96,19 +96,19 @@ PIPELINES = st.lists(SAMPLES | st.builds(Needy, must=st.integers()), max_size=4)
 )
 
 
-@settings(deadline=None)  # how busy the machine is says nothing
+@settings(deadline=None)  # how busy the machine is does not matter
 @given(PIPELINES)
 def test_parsing_a_printed_pipeline_gives_the_pipeline(pipeline: Pipeline) -> None:
     assert parse_pipeline(str(pipeline)) == pipeline
 
 
-@settings(deadline=None)  # how busy the machine is says nothing
+@settings(deadline=None)  # how busy the machine is does not matter
 @given(PIPELINES)
 def test_printing_is_canonical(pipeline: Pipeline) -> None:
     assert str(parse_pipeline(str(pipeline))) == str(pipeline)
 
 
-@settings(deadline=None)  # how busy the machine is says nothing
+@settings(deadline=None)  # how busy the machine is does not matter
 @given(st.text(alphabet='@ab-1{}[],= "\\\t\n.e_', max_size=20))
 def test_any_text_is_a_pipeline_or_a_readable_error(text: str) -> None:
     try:
@@ -203,8 +203,8 @@ def test_an_error_shows_the_line_and_a_caret() -> None:
     assert str(caught.value).splitlines()[1:] == ["    hole=2", "    ^"]
 
 
-def test_an_option_that_the_text_cannot_say_is_an_error() -> None:
-    with pytest.raises(TypeError, match="a pipeline cannot say"):
+def test_an_option_that_the_text_cannot_express_is_an_error() -> None:
+    with pytest.raises(TypeError, match="a pipeline cannot express"):
         str(Pipeline((Sample.model_construct(word=b"bytes"),)))
 
 
@@ -218,7 +218,7 @@ DOCUMENT = Document(format=Format.SDF)
 
 
 class Diary(PassInstrumentation):
-    """Writes down all that it is told."""
+    """Writes down every call."""
 
     def __init__(self, seen: list[str] | None = None, name: str = "") -> None:
         self.seen: list[str] = [] if seen is None else seen
@@ -259,7 +259,7 @@ def test_a_document_that_did_not_change_is_not_verified_again() -> None:
     assert parse_pipeline("needs-2-options{must=1}").run(DOCUMENT, DiagnosticSink(), verify=refuse) is DOCUMENT
 
 
-def test_an_exception_says_in_which_pass_it_was_raised(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_exception_has_in_which_pass_it_was_raised(monkeypatch: pytest.MonkeyPatch) -> None:
     def stop(_pass: Pass, _document: Document, _notes: DiagnosticSink) -> Document:
         raise ZeroDivisionError("no parts")
 
@@ -286,18 +286,18 @@ def test_watches_nest_like_brackets() -> None:
     assert [words.partition(" needs")[0] for words in seen] == ["one before", "two before", "two after", "one after"]
 
 
-def test_every_watch_is_told_the_same() -> None:
-    told: list[tuple[object, ...]] = []
+def test_every_instrument_is_called_alike() -> None:
+    calls: list[tuple[object, ...]] = []
 
     class Teller(PassInstrumentation):
         def before(self, step: Pass, document: Document, sink: DiagnosticSink) -> None:
-            told.append((step, document, sink))
+            calls.append((step, document, sink))
 
         def after(self, step: Pass, old: Document, new: Document, sink: DiagnosticSink) -> None:
-            told.append((step, old, new, sink))
+            calls.append((step, old, new, sink))
 
         def failed(self, step: Pass, error: PassError, sink: DiagnosticSink) -> None:
-            told.append((step, error, sink))
+            calls.append((step, error, sink))
 
     sink, [step] = DiagnosticSink(), parse_pipeline("sample{word=new}")
     with pytest.raises(BrokenPassError) as caught:
@@ -306,7 +306,7 @@ def test_every_watch_is_told_the_same() -> None:
         )
     made = DOCUMENT.model_copy(update={"version": "new"})
     each = [(step, DOCUMENT, sink), (step, DOCUMENT, made, sink), (step, caught.value, sink)]
-    assert told == [one for one in each for _ in range(2)]
+    assert calls == [one for one in each for _ in range(2)]
 
 
 def test_a_name_stands_for_its_pipeline() -> None:

@@ -16,7 +16,7 @@ def _installed(install: Install) -> None:
     install("stranger", {"sample": f"{samples}:Sample", "needs-2-options": f"{samples}:Needy"})
 
 
-@settings(deadline=None)  # how busy the machine is says nothing
+@settings(deadline=None)  # how busy the machine is does not matter
 @given(PIPELINES)
 def test_text_and_table_are_the_same_pipeline(pipeline: Pipeline) -> None:
     text = print_tables(parse_pipeline(str(pipeline)), "a-1_B")

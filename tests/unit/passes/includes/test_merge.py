@@ -26,7 +26,7 @@ def test_an_include_that_was_not_read_stays_where_it_is(holder: Model | World) -
     assert include == INNER.model_copy(update={"pose": Pose(xyz=(0.0, 0.0, 1.0), relative_to=frame.name)})
 
 
-def test_what_the_merged_model_says_as_a_whole_is_accounted_for() -> None:
+def test_what_the_merged_model_has_as_a_whole_is_accounted_for() -> None:
     sink = DiagnosticSink()
     merge_into_model(Model(name="around"), OUTER, Model(name="outer", static=True), sink, Transform())
     words = "static of the merged model 'outer' is left out; that of the model around it is used"

@@ -31,7 +31,7 @@ def test_every_pass_of_legalisation_is_there_with_a_link_that_leads_to_it() -> N
         assert f'"{name}"' in (PAGE.parent / link).read_text()
 
 
-def test_every_pass_of_legalisation_can_be_said_as_text() -> None:
+def test_every_pass_of_legalisation_can_be_written_as_text() -> None:
     for text, _, _ in _ITEM.findall(pipeline_page()):
         assert str(parse_pipeline(text, kinds=legalisation_kinds())) == text
 

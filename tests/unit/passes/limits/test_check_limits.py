@@ -1,4 +1,4 @@
-"""Each finding about limits, with all that it says."""
+"""Each finding about limits, with all that is in it."""
 
 import pytest
 
@@ -156,7 +156,7 @@ TURNED = "the lower soft limit of joint 'j' is above the upper one: {0}"
 
 
 @pytest.mark.parametrize(
-    ("one", "message", "said"),
+    ("one", "message", "text"),
     [
         (soft("-0.9", "0.9"), None, ""),
         (soft("-1", "1"), None, ""),
@@ -167,8 +167,8 @@ TURNED = "the lower soft limit of joint 'j' is above the upper one: {0}"
         (soft("0.5", "-0.5", "continuous"), TURNED, "0.5 to -0.5"),
     ],
 )
-def test_soft_limits_are_inside_of_the_hard_ones(one: Joint, message: str | None, said: str) -> None:
-    expected = ("soft-limit-outside", JOINT, message.format(said), said, None) if message else None
+def test_soft_limits_are_inside_of_the_hard_ones(one: Joint, message: str | None, text: str) -> None:
+    expected = ("soft-limit-outside", JOINT, message.format(text), text, None) if message else None
     assert found(one) == ([expected] if expected else [])
 
 

@@ -186,7 +186,7 @@ def test_what_cannot_be_added_is_an_error_and_changes_nothing(text: str, model: 
     assert help_ in (sink.diagnostics[0].help or "") or help_ in {"did you mean base?", "did you mean a::inner?"}
 
 
-def test_wheels_that_say_no_radius_are_an_error() -> None:
+def test_wheels_without_a_radius_are_an_error() -> None:
     text = """<robot name="r"><link name="base"/>{}</robot>""".format(
         "".join(
             f'<link name="{side}"/><joint name="{side}_joint" type="continuous"><parent link="base"/>'
@@ -202,7 +202,7 @@ def test_wheels_that_say_no_radius_are_an_error() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "says"),
+    ("text", "complaint"),
     [
         ("add-plugin{system=difdrive}", "did you mean diff-drive"),
         ("add-plugin{system=diff-drive lef-joint=a}", "did you mean left-joint"),
@@ -218,8 +218,8 @@ def test_wheels_that_say_no_radius_are_an_error() -> None:
         ('add-plugin{system=breadcrumbs breadcrumb="<a>"}', "XML"),
     ],
 )
-def test_a_wrong_option_is_said_at_its_place(text: str, says: str) -> None:
-    with pytest.raises(PipelineError, match=says):
+def test_a_wrong_option_is_reported_at_its_place(text: str, complaint: str) -> None:
+    with pytest.raises(PipelineError, match=complaint):
         parse_pipeline(text)
 
 
@@ -264,7 +264,7 @@ def test_a_system_gets_the_one_of_the_world_that_it_needs() -> None:
     assert (again, found) == (made, [])
 
 
-def test_a_system_says_what_a_world_has_to_have_where_there_is_none() -> None:
+def test_a_system_reports_what_a_world_has_to_have_where_there_is_none() -> None:
     _, found = run(
         "add-plugin{system=comms-endpoint address=a topic=b}",
         twinform.loads('<sdf version="1.11"><model name="m"><link name="l"/></model></sdf>'),

@@ -116,7 +116,7 @@ def test_a_place_on_earth_is_asked_for_where_a_receiver_needs_one() -> None:
     assert run(pipeline("navsat"), twinform.loads(placed))[1] == ["added-world-system"]
 
 
-def test_a_file_without_a_world_is_told_what_the_world_needs() -> None:
+def test_for_a_file_without_a_world_it_reports_what_the_world_needs() -> None:
     sink = DiagnosticSink()
     parse_pipeline(pipeline("imu")).run(twinform.loads(URDF), sink)
     [found] = sink.diagnostics
@@ -124,7 +124,7 @@ def test_a_file_without_a_world_is_told_what_the_world_needs() -> None:
     assert '<plugin filename="gz-sim-imu-system" name="gz::sim::systems::Imu"/>' in (found.help or "")
 
 
-def test_the_options_say_what_is_written() -> None:
+def test_the_options_decide_what_is_written() -> None:
     more = "sensor-name=eye topic=up rate=5 xyz=[1,2,3] rpy=[0,0,1] width=80 fov=0.5 noise-stddev=0.1 frame-id=optical"
     [(made, _)] = sensors_of(run(pipeline("camera", more), twinform.loads(URDF))[0])
     assert (made.name, made.topic, made.update_rate) == ("eye", "up", 5)
@@ -138,13 +138,13 @@ def test_the_options_say_what_is_written() -> None:
 
 
 @pytest.mark.parametrize(("release", "word"), [("fortress", "ignition_frame_id"), ("jetty", "frame_id")])
-def test_the_frame_is_said_in_the_words_of_the_release(release: str, word: str) -> None:
+def test_the_frame_is_written_in_the_element_of_the_release(release: str, word: str) -> None:
     document = twinform.loads('<sdf version="1.12"><model name="r"><link name="base"/></model></sdf>')
     text = f"add-sensor{{type=imu link=base frame-id=here release={release}}}"
     [(made, _)] = sensors_of(run(text, document)[0])
-    said = {part.element.name for part in made.opaque if part.element}
+    found_names = {part.element.name for part in made.opaque if part.element}
     assert (made.frame_id == "here") == (word == "frame_id")
-    assert (word in said) == (word != "frame_id")
+    assert (word in found_names) == (word != "frame_id")
 
 
 @pytest.mark.parametrize(("more", "topic"), [("", "imu"), ("sensor-name=back", "back/imu"), ("topic=here", "here")])
@@ -170,7 +170,7 @@ def test_the_frame_is_that_of_the_link_unless_the_sensor_is_elsewhere(more: str,
 
 
 @pytest.mark.parametrize("more", ["", "topic=bump"])
-def test_a_contact_sensor_says_its_topic_where_gazebo_reads_it(more: str) -> None:
+def test_a_contact_sensor_has_its_topic_where_gazebo_reads_it(more: str) -> None:
     for model in (URDF, WORLD.format("")):
         made = run(pipeline("contact", more), twinform.loads(model))[0]
         [(node, _)] = sensors_of(made)
@@ -205,13 +205,13 @@ def test_where_there_is_nothing_to_add_to_is_an_error(
 ) -> None:
     document, sink = twinform.loads(URDF), DiagnosticSink()
     assert parse_pipeline(f"add-sensor{text}").run(document, sink) is document
-    [said] = sink.diagnostics
-    assert (said.rule.name, said.is_error, said.location.line) == ("nothing-to-add-to", True, 1)
-    assert (said.message, said.found, said.help) == (message, found, help_)
+    [found_names] = sink.diagnostics
+    assert (found_names.rule.name, found_names.is_error, found_names.location.line) == ("nothing-to-add-to", True, 1)
+    assert (found_names.message, found_names.found, found_names.help) == (message, found, help_)
 
 
 @pytest.mark.parametrize(
-    ("text", "says"),
+    ("text", "complaint"),
     [
         ("add-sensor{type=imo link=a}", "did you mean imu"),
         ("add-sensor{type=imu}", "needs the option link"),
@@ -232,8 +232,8 @@ def test_where_there_is_nothing_to_add_to_is_an_error(
         ('add-sensor{type=imu link=a sensor-name=""}', "option sensor-name"),
     ],
 )
-def test_a_wrong_option_is_said_at_its_place(text: str, says: str) -> None:
-    with pytest.raises(PipelineError, match=says):
+def test_a_wrong_option_is_reported_at_its_place(text: str, complaint: str) -> None:
+    with pytest.raises(PipelineError, match=complaint):
         parse_pipeline(text)
 
 

@@ -49,7 +49,7 @@ SEPARATE = """<sensor name="s" type="camera"><topic>i</topic>
 <camera><camera_info_topic>c</camera_info_topic></camera></sensor>"""
 CASES: dict[str, tuple[str, str, list[tuple[str, str, str]]]] = {
     "a sensor with a topic": ('<sensor name="s" type="imu"><topic>imu</topic></sensor>', "", [("imu", "/imu", "<")]),
-    "a lidar says rays and points": (
+    "a lidar publishes rays and points": (
         '<sensor name="s" type="gpu_lidar"><topic>/front/scan</topic></sensor>',
         "",
         [("front/scan", "/front/scan", "<"), ("front/scan/points", "/front/scan/points", "<")],
@@ -101,7 +101,7 @@ CASES: dict[str, tuple[str, str, list[tuple[str, str, str]]]] = {
         "",
         [("eye/image", "/eye/image", "<"), ("eye/camera_info", "/eye/camera_info", "<")],
     ),
-    "camera info where the sensor says": (
+    "camera info where the sensor puts it": (
         SEPARATE,
         "",
         [("i", "/i", "<"), ("c", "/c", "<")],
@@ -126,7 +126,7 @@ CASES: dict[str, tuple[str, str, list[tuple[str, str, str]]]] = {
             ("enable", "/model/r/enable", ">"),
         ],
     ),
-    "the topics that a drive is told": (
+    "the topics that a drive is given": (
         "",
         plugin("mecanum-drive", "<topic>go</topic><odom_topic>where</odom_topic><tf_topic>/tf</tf_topic>"),
         [("go", "/go", ">"), ("where", "/where", "<"), ("/tf", "/tf", "<")],
@@ -262,7 +262,7 @@ def test_several_models_have_topics_of_their_own() -> None:
     assert [row[:2] for row in rows(two)] == [("r/cmd_vel", "/model/r/cmd_vel"), ("s/cmd_vel", "/model/s/cmd_vel")]
 
 
-def test_one_name_for_two_topics_is_said_in_full() -> None:
+def test_one_name_for_two_topics_is_written_in_full() -> None:
     both = plugin("diff-drive") + plugin("velocity-control", "<topic>/other/cmd_vel</topic>")
     two = plugin("velocity-control", "<topic>/model/r/a/cmd_vel</topic>") + plugin(
         "mecanum-drive", "<topic>/a/cmd_vel</topic>"

@@ -13,7 +13,8 @@ from twinform.passes.plugins.catalog import (
     system,
     systems,
 )
-from twinform.passes.plugins.parts import Parameter, PluginKind, ReleaseName
+from twinform.passes.plugins.parts import Parameter, PluginKind
+from twinform.passes.plugins.release_names import ReleaseName
 
 ALL = [
     *systems().values(),
@@ -45,7 +46,7 @@ def test_a_class_of_ignition_is_the_one_of_gz() -> None:
     assert found is system("diff-drive")
 
 
-def test_a_plugin_of_gazebo_classic_is_told_apart_by_its_ros() -> None:
+def test_a_plugin_of_gazebo_classic_is_distinguished_by_its_ros() -> None:
     found = catalog.classic_plugins_of_file("/opt/ros/lib/libgazebo_ros_diff_drive.so")
     assert found["noetic"].parameter("wheelSeparation")
     assert found["ros2"].parameter("wheel_separation")
@@ -62,7 +63,7 @@ def test_a_parameter_knows_its_releases() -> None:
     assert found.releases & releases().keys() == {"fortress", "harmonic", "ionic", "jetty"}
 
 
-def test_what_is_unknown_is_an_error_that_says_what_is_near() -> None:
+def test_what_is_unknown_is_an_error_that_reports_what_is_near() -> None:
     with pytest.raises(UnknownNameError, match="did you mean diff-drive"):
         system("dif_drive")
     with pytest.raises(UnknownNameError, match="did you mean harmonic"):
@@ -80,9 +81,9 @@ def test_every_row_of_the_tables_makes_sense(kind: PluginKind) -> None:
         _make_sense(path, row)
     names = {row.name for row in kind.parameters}
     for channel in kind.channels:
-        told = {channel.parameter, channel.unless, channel.when, *(channel.each[:1])} - {None}
-        told |= {name for each in channel.alternatives for name in each.parameters}
-        assert told <= names
+        mentioned = {channel.parameter, channel.unless, channel.when, *(channel.each[:1])} - {None}
+        mentioned |= {name for each in channel.alternatives for name in each.parameters}
+        assert mentioned <= names
         assert channel.message.startswith("gz.msgs.")
 
 

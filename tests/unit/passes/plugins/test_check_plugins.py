@@ -20,7 +20,7 @@ def test_what_is_wrong_comes_with_what_was_meant() -> None:
     assert helps["plugin-reference"] == "did you mean left_wheel_joint?"
 
 
-def test_names_of_ignition_are_at_home_in_fortress() -> None:
+def test_names_of_ignition_are_right_in_fortress() -> None:
     sink = noted("error_names_and_scopes.sdf", CheckPlugins(release="fortress"))
     assert "ignition-plugin-name" not in {each.rule.name for each in sink.diagnostics}
 

@@ -6,7 +6,7 @@ from twinform.passes.plugins.parts import Alternative, Channel, Parameter, Plugi
 
 NAMES = ("old", "middle", "new", "main")
 EVER = frozenset(NAMES)
-TABLE = """# what a comment says is no row
+TABLE = """# a comment is no row
 system wheel-slip  file=slip.so class=gz::Slip scope=model|link
 
   wheel         +  element  until=new

@@ -1,4 +1,4 @@
-"""What is said where there is nothing to add to: all of each finding."""
+"""What is reported where there is nothing to add to: all of each finding."""
 
 from collections.abc import Callable
 
@@ -17,11 +17,11 @@ TWO = """<sdf version="1.11"><world name="day">
 </model></world><world name="dusk"/></sdf>"""
 WORLDS = '<sdf version="1.11"><world name="day"/></sdf>'
 
-Said = tuple[str, str | None, str | None]
+Finding = tuple[str, str | None, str | None]
 """The message, what was found, the help."""
 
 
-def said(sink: DiagnosticSink) -> list[Said]:
+def findings(sink: DiagnosticSink) -> list[Finding]:
     assert {(each.rule.name, each.location.line, each.location.path) for each in sink.diagnostics} <= {
         ("nothing-to-add-to", 1, "/sdf")
     }
@@ -61,17 +61,17 @@ def said(sink: DiagnosticSink) -> list[Said]:
         (find_world, TWO, "xyz", None, ("there is no world 'xyz' to add to", "xyz", "there are day, dusk")),
     ],
 )
-def test_a_model_or_world_is_found_or_why_not_is_said(
+def test_a_model_or_world_is_found_or_why_not_is_reported(
     find: Callable[[Document, str | None, DiagnosticSink], Model | World | None],
     text: str,
     name: str | None,
     found: str | None,
-    expected: Said | None,
+    expected: Finding | None,
 ) -> None:
     sink = DiagnosticSink()
     part = find(twinform.loads(text), name, sink)
     assert (part.name if part else None) == found
-    assert said(sink) == ([expected] if expected else [])
+    assert findings(sink) == ([expected] if expected else [])
 
 
 def test_a_model_is_in_the_world_around_it_however_deep() -> None:

@@ -1,4 +1,4 @@
-"""SDF in other versions: each step by itself, the way back, and carriers that nobody can trust any more."""
+"""SDF in other versions: each step by itself, the reverse steps, and carriers that nobody can trust any more."""
 
 import pytest
 from lxml import etree
@@ -47,7 +47,7 @@ def rewrite(text: bytes | str, version: str, *, carriers: bool = True) -> twinfo
     return twinform.convert(data, to="sdf", sdf_version=version, name="x.sdf", carriers=carriers)
 
 
-def said(text: str, path: str) -> list[str]:
+def values_at(text: str, path: str) -> list[str]:
     found = etree.fromstring(text.encode()).xpath(path, namespaces=TF)
     assert isinstance(found, list)
     return [str(each) for each in found]  # pyright: ignore[reportUnknownArgumentType, reportUnknownVariableType] - texts
@@ -180,9 +180,9 @@ UP: list[tuple[str, str, str, list[str]]] = [
 
 
 @pytest.mark.parametrize(("version", "inside", "path", "expected"), UP)
-def test_an_older_file_is_said_in_the_newest_words(version: str, inside: str, path: str, expected: list[str]):
+def test_an_older_file_is_written_in_the_newest_syntax(version: str, inside: str, path: str, expected: list[str]):
     made = rewrite(sdf(version, inside), "1.12").text
-    assert sorted(said(made, path)) == sorted(expected)
+    assert sorted(values_at(made, path)) == sorted(expected)
     assert twinform.check(made.encode()).accepted
 
 
@@ -250,9 +250,11 @@ OLDER: list[tuple[str, str, str, list[str]]] = [
 
 
 @pytest.mark.parametrize(("version", "inside", "path", "expected"), OLDER)
-def test_a_file_of_the_newest_version_is_said_in_older_words(version: str, inside: str, path: str, expected: list[str]):
+def test_a_file_of_the_newest_version_is_written_in_older_syntax(
+    version: str, inside: str, path: str, expected: list[str]
+):
     made = rewrite(sdf("1.12", inside), version).text
-    assert sorted(said(made, path)) == sorted(expected)
+    assert sorted(values_at(made, path)) == sorted(expected)
     found = twinform.check(made.encode())
     assert [
         each.message for each in found.diagnostics if each.rule.name in ("outside-version", "unknown-element")
@@ -260,7 +262,7 @@ def test_a_file_of_the_newest_version_is_said_in_older_words(version: str, insid
 
 
 @pytest.mark.parametrize(("version", "inside"), [row[:2] for row in OLDER])
-def test_what_an_older_version_cannot_say_comes_back(version: str, inside: str):
+def test_what_an_older_version_cannot_express_comes_back(version: str, inside: str):
     source = sdf("1.12", inside)
     older = rewrite(source, version)
     again = rewrite(older.text, "1.12")
@@ -271,7 +273,7 @@ def test_what_an_older_version_cannot_say_comes_back(version: str, inside: str):
 
 
 @pytest.mark.parametrize(("version", "inside"), [row[:2] for row in OLDER])
-def test_without_carriers_the_ledger_says_what_is_dropped(version: str, inside: str):
+def test_without_carriers_the_ledger_has_what_is_dropped(version: str, inside: str):
     made = rewrite(sdf("1.12", inside), version, carriers=False)
     assert NAMESPACE not in made.text
     assert {entry.fate for entry in made.ledger.entries} <= {Fate.DROPPED, Fate.APPROXIMATED}
@@ -281,13 +283,13 @@ def test_a_carrier_is_not_trusted_where_the_file_was_edited():
     older = rewrite(sdf("1.12", FRAMED), "1.6").text.replace("<pose>1 1 0 0 0 0</pose>", "<pose>7 1 0 0 0 0</pose>")
     made = rewrite(older, "1.12")
     assert [each.rule.name for each in made.diagnostics] == ["stale-carrier"]
-    assert said(made.text, "/sdf/model/link/pose/text()") == ["7 1 0 0 0 0"]
+    assert values_at(made.text, "/sdf/model/link/pose/text()") == ["7 1 0 0 0 0"]
 
 
 def test_an_edit_elsewhere_does_not_cost_the_frames():
     older = rewrite(sdf("1.12", FRAMED), "1.6").text.replace("<size>1 1 1</size>", "<size>2 2 2</size>")
     made = rewrite(older, "1.12").text
-    assert said(made, "/sdf/model/frame/@name | //size/text() | /sdf/model/link/pose/@relative_to") == [
+    assert values_at(made, "/sdf/model/frame/@name | //size/text() | /sdf/model/link/pose/@relative_to") == [
         "f", "f", "2 2 2",
     ]  # fmt: skip
 
@@ -303,13 +305,13 @@ def test_a_carrier_with_nonsense_is_reported_and_kept(carrier: str):
     text = f"<sdf version='1.6' xmlns:tf='{NAMESPACE}'><model name='m'><link name='a'/>{carrier}</model></sdf>"
     made = rewrite(text, "1.12")
     assert [each.rule.name for each in made.diagnostics] == ["stale-carrier"]
-    assert len(said(made.text, "//tf:version")) == 1
+    assert len(values_at(made.text, "//tf:version")) == 1
 
 
 @pytest.mark.parametrize(
     ("source", "version", "kind"), [("1.4", "1.5", "piston"), ("1.12", "1.4", "screw"), ("1.12", "1.3", "gearbox")]
 )
-def test_a_joint_that_the_version_has_no_word_for_is_an_error(source: str, version: str, kind: str):
+def test_a_joint_that_the_version_cannot_express_is_an_error(source: str, version: str, kind: str):
     with pytest.raises(twinform.CompileError) as caught:
         rewrite(sdf(source, arm(kind)), version)
     assert "joint-type-unsupported" in {each.rule.name for each in caught.value.diagnostics}

@@ -1,4 +1,4 @@
-"""Axes in the words of versions that have other frames for them."""
+"""Axes in the syntax of versions that have other frames for them."""
 
 from math import pi
 
@@ -74,7 +74,7 @@ def test_an_axis_that_is_not_written_is_written_only_where_it_points_elsewhere(
 
 
 @pytest.mark.parametrize("word", ["1", "0"])
-def test_the_word_for_the_frame_of_the_model_goes_where_there_is_none(word: str) -> None:
+def test_the_name_for_the_frame_of_the_model_goes_where_there_is_none(word: str) -> None:
     text = f"<axis><xyz>1 0 0</xyz><use_parent_model_frame>{word}</use_parent_model_frame></axis>"
     made = joint(rewritten(text, "1.6", "1.4", pi / 2))
     assert made.axis
@@ -102,7 +102,7 @@ def test_an_axis_in_the_frame_that_the_oldest_versions_mean_loses_nothing(
     assert NAMESPACE not in made.text
 
 
-def test_the_ledger_says_which_axis_was_in_which_frame() -> None:
+def test_the_ledger_has_which_axis_was_in_which_frame() -> None:
     made = rewritten('<axis><xyz expressed_in="a">1 0 0</xyz></axis>', "1.11", "1.4")
     assert entries(made) == [
         ("other-words", 4, f"{JOINT}/axis", "the axis of joint 'j' is expressed in a", 2),

@@ -40,8 +40,8 @@ def test_a_block_for_two_parts_follows_the_link(options: str, names: tuple[str, 
     assert (model.links[1].name, joint.name, joint.child) == names
     assert [each.reference for each in model.extensions] == [names[0], "base"]
     message = f"<gazebo> for 'x', a link and a joint, follows the link to {link!r}"
-    said = [("unfollowed-name", 3, f"{ROBOT}/gazebo[1]/@reference", message, "x")]
-    assert findings(made) == (said if link else [])
+    expected = [("unfollowed-name", 3, f"{ROBOT}/gazebo[1]/@reference", message, "x")]
+    assert findings(made) == (expected if link else [])
 
 
 def chain(*joints: tuple[str, str, str, str, str]) -> str:
@@ -84,7 +84,7 @@ def test_there_and_back_no_helper_is_left_wherever_its_joint_stands(
     "block",
     ['<gazebo reference="turn_reversed"><gravity>0</gravity></gazebo>', '<gazebo reference="turn_reversed_joint"/>'],
 )
-def test_a_helper_stays_that_something_is_said_about(block: str) -> None:
+def test_a_helper_stays_that_has_settings(block: str) -> None:
     there = edited(chain(FIX, TURN, BEND), "reroot{link=tip}").text.replace("</robot>", f"{block}</robot>")
     back = edited(there, "reroot{link=base}").document.models[0]
     assert "turn_reversed" in [link.name for link in back.links]
@@ -164,7 +164,7 @@ def test_a_weld_takes_no_name_twice() -> None:
         ("xyz=[1,2,3] rpy=[0,0,0.5]", (1 + sin(0.5), 2 - cos(0.5), 3), (0, 0, 0.5)),
     ],
 )
-def test_a_weld_puts_the_base_where_it_is_told(
+def test_a_weld_puts_the_base_where_its_options_say(
     options: str, xyz: tuple[float, float, float], rpy: tuple[float, float, float] | None
 ) -> None:
     base = "<link name='a'><pose>0 1 0 0 0 0</pose></link>"
@@ -229,7 +229,7 @@ def test_a_sensor_of_force_on_a_reversed_joint_measures_the_other_way(before: st
 
 
 @pytest.mark.parametrize("names", ["m:new", "l:new", "m:new,l:other"])
-def test_the_state_of_a_model_follows_its_parts_and_keeps_what_else_it_says(names: str) -> None:
+def test_the_state_of_a_model_follows_its_parts_and_keeps_what_else_it_has(names: str) -> None:
     world = """<sdf version="1.9"><world name="w"><model name="r"><link name="a"/>
 <model name="{m}"><link name="k"/></model><link name="{l}"/></model>
 <state world_name="w"><model name="r" about="m"><link name="{l}"><pose>1 0 0 0 0 0</pose></link>
@@ -250,7 +250,7 @@ def test_a_name_may_begin_with_the_model(text: str, expected: str) -> None:
     assert made.document == twinform.loads(model.format("new", expected))
 
 
-def test_what_raising_the_version_says_is_said_where_an_expanded_text_was_written() -> None:
+def test_raising_the_version_is_reported_where_an_expanded_text_was_written() -> None:
     text = sdf(
         "a b",
         held(
@@ -261,8 +261,8 @@ def test_what_raising_the_version_says_is_said_where_an_expanded_text_was_writte
     sink = DiagnosticSink("x", origins={"x (expanded)": Origins.of([(1, Location("x.xacro", 30))])})
     made = in_new_words(document, sink, lambda modern: modern.model_copy(update={"models": modern.models * 1}))
     assert made.version == "1.8"
-    said = [(each.rule.name, each.location.file, each.location.line, each.found) for each in sink.diagnostics]
-    assert said == [("raised-version", "x.xacro", 30, "1.6")]
+    found = [(each.rule.name, each.location.file, each.location.line, each.found) for each in sink.diagnostics]
+    assert found == [("raised-version", "x.xacro", 30, "1.6")]
     assert {(each.location.file, each.location.line) for each in sink.entries} == {("x.xacro", 30)}
 
 

@@ -1,4 +1,4 @@
-"""One model attached to another: all that comes out, and what is said where it cannot be."""
+"""One model attached to another: all that comes out, and what is reported where it cannot be."""
 
 import pytest
 
@@ -58,9 +58,9 @@ SLIDE = """<joint name="slide" type="fixed"><parent link="palm"/><child link="fi
 )
 @pytest.mark.parametrize("held", ["", HELD.format("fix", "fixed", "palm", "")])
 def test_a_robot_gets_the_parts_of_another(options: dict[str, object], origin: str, held: str) -> None:
-    made, said = attached(ARM, HAND.format(held), **options)
+    made, reported = attached(ARM, HAND.format(held), **options)
     assert made == twinform.loads(joined(ARM, PARTS + MOUNT.format(origin) + SLIDE))
-    assert said == []
+    assert reported == []
 
 
 @pytest.mark.parametrize(
@@ -71,10 +71,10 @@ def test_a_robot_gets_the_parts_of_another(options: dict[str, object], origin: s
     ],
 )
 def test_what_the_world_holds_by_more_than_one_fixed_joint_stays_there(held: str) -> None:
-    made, said = attached(ARM, HAND.format(held), link="palm")
+    made, reported = attached(ARM, HAND.format(held), link="palm")
     assert made == twinform.loads(ARM)
     message = "link 'palm' of the attached robot hangs from another one; `reroot` makes it the root"
-    assert said == [("unknown-name", 1, "/robot[@name='hand']", message, "palm")]
+    assert reported == [("unknown-name", 1, "/robot[@name='hand']", message, "palm")]
 
 
 @pytest.mark.parametrize(
@@ -84,17 +84,19 @@ def test_what_the_world_holds_by_more_than_one_fixed_joint_stays_there(held: str
         ({}, "'hand' has no root link that could be held", None),
     ],
 )
-def test_what_cannot_be_held_is_said(options: dict[str, object], message: str, found: str | None) -> None:
+def test_what_cannot_be_held_is_reported(options: dict[str, object], message: str, found: str | None) -> None:
     arm = '<sdf version="1.11"><model name="arm"><link name="tool"/></model></sdf>'
     loose = '<sdf version="1.11">\n<model name="hand"><link name="a"/><link name="b"/></model></sdf>'
-    made, said = attached(arm, loose, **options)
+    made, reported = attached(arm, loose, **options)
     assert made == twinform.loads(arm)
-    assert said == [("unknown-name", 2, "/sdf/model[@name='hand']", message, found)]
+    assert reported == [("unknown-name", 2, "/sdf/model[@name='hand']", message, found)]
 
 
 def test_one_model_is_attached_and_not_several() -> None:
     models = "".join(f'<model name="{name}"><link name="l"/></model>' for name in "ab")
     two = f'<sdf version="1.9"><world name="w">{models}</world></sdf>'
-    made, told = attached(ARM, two)
+    made, reported = attached(ARM, two)
     assert [link.name for link in made.models[0].links] == ["tool"]
-    assert told == [("unread-document", 1, "/robot[@name='arm']", "'hand' has 2 models, and one is attached", "hand")]
+    assert reported == [
+        ("unread-document", 1, "/robot[@name='arm']", "'hand' has 2 models, and one is attached", "hand")
+    ]

@@ -151,7 +151,7 @@ LOST = b"""<robot name="r"><link name="base"/>
 </robot>"""
 
 
-def test_what_goes_with_a_link_or_a_joint_is_said_and_counted() -> None:
+def test_what_goes_with_a_link_or_a_joint_is_reported_and_counted() -> None:
     made = lumped(LOST, "{compat=libsdformat}")
     link, block = f"{URDF}/link[@name='box']", f"{URDF}/gazebo[1]"
     gone = "<mine> of link 'box' is lost when the link is lumped"
@@ -170,7 +170,7 @@ WEIGHTS = """<mass value="2"/><inertia ixx="1" ixy="0.1" ixz="0.2" iyy="2" iyz="
     ("origin", "center"),
     [("", (0, 0, 0)), ('<origin xyz="1 2 3"/>', (1, 2, 3))],
 )
-def test_a_body_is_what_its_link_says(origin: str, center: tuple[float, float, float]) -> None:
+def test_a_body_is_what_its_link_has(origin: str, center: tuple[float, float, float]) -> None:
     model = twinform.loads(
         f'<robot name="r"><link name="a"><inertial>{origin}{WEIGHTS}</inertial></link></robot>'
     ).models[0]

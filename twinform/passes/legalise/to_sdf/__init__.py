@@ -32,7 +32,7 @@ __all__ = ["to_sdf"]
 _ONE_SCOPE = (1, 7)
 """Since this version all names in a model are unlike each other."""
 _NAMES_MEAN_MODELS = (1, 8)
-"""Since this version `::` in a name says that it is in a nested model."""
+"""Since this version `::` in a name means that it is in a nested model."""
 
 
 def to_sdf(
@@ -40,7 +40,7 @@ def to_sdf(
 ) -> tuple[Pass, ...]:
     """The passes that make SDF of a version out of a URDF document.
 
-    `mixed` lets it have syntax of newer versions, and `mixed_source` says that the URDF has some. Without `scopes`,
+    `mixed` lets it have syntax of newer versions, and `mixed_source` is for a URDF that has some. Without `scopes`,
     `::` in a name that a file before 1.8 gave is no model since 1.8 either, as where such a file is compared.
     """
     before_named_frames = parse_version(version) < _ONE_SCOPE
@@ -61,7 +61,7 @@ def to_sdf(
         UrdfJoints(carriers=carriers),
         RestoreJoints(),
         FoldGearboxes(),
-        UnpackSdf(of="parts"),  # when all that URDF says is said
+        UnpackSdf(of="parts"),  # when all that URDF has is in its place
         MeshUris(carriers=carriers),
         RestoreNames(to=Format.SDF),
         NameScopes(),

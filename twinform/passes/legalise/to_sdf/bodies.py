@@ -12,8 +12,8 @@ from twinform.passes.carriers.token_mass import MOMENTS, TOKEN, TOKEN_MASS, TOKE
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_sdf.frame_links import is_massless
 
-_NO_INERTIA = Inertia(ixx=0.0, ixy=0.0, ixz=0.0, iyy=0.0, iyz=0.0, izz=0.0)
-_NONE = Inertial(mass=0.0, inertia=_NO_INERTIA)
+_NO_INERTIA = Inertia.unchecked(ixx=0.0, ixy=0.0, ixz=0.0, iyy=0.0, iyz=0.0, izz=0.0)
+_NONE = Inertial.unchecked(mass=0.0, inertia=_NO_INERTIA)
 
 _MASS = ("mass", f"{TOKEN_MASS:g} kg")
 _INERTIA = ("inertia", f"{TOKEN_MOMENT:g} kg m^2")
@@ -21,7 +21,7 @@ _INERTIA = ("inertia", f"{TOKEN_MOMENT:g} kg m^2")
 UNSAID = "unsaid"
 """The annotation on an SDF inertial that lists what URDF leaves out: `<tf:unsaid>inertia</tf:unsaid>`, or `inertial`.
 
-Where URDF says zero, and a token stands in SDF, it is `zero-mass` and `zero-inertia`.
+Where URDF has zero, and a token stands in SDF, it is `zero-mass` and `zero-inertia`.
 """
 
 
@@ -91,18 +91,18 @@ def _has_no_inertia(link: Link) -> bool:
 
 def _with_token(link: Link, *, carriers: bool) -> Link:
     """A link with a token of the mass and the inertia that it does not have."""
-    said = link.inertial
-    if said is None:
+    written = link.inertial
+    if written is None:
         return link.model_copy(update={"inertial": with_annotation(TOKEN, UNSAID, "inertial") if carriers else TOKEN})
     update: dict[str, object] = {}
     words: list[str] = []
     if _has_no_mass(link):
         update["mass"] = TOKEN.mass
-        words.append("mass" if said.mass is None else "zero-mass")
+        words.append("mass" if written.mass is None else "zero-mass")
     if _has_no_inertia(link):
         update["inertia"] = TOKEN.inertia
-        words.append("inertia" if said.inertia is None else "zero-inertia")
-    made = said.model_copy(update=update)
+        words.append("inertia" if written.inertia is None else "zero-inertia")
+    made = written.model_copy(update=update)
     return link.model_copy(update={"inertial": with_annotation(made, UNSAID, " ".join(words)) if carriers else made})
 
 

@@ -7,6 +7,7 @@ from typing import ClassVar, TypeVar
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import to_sdf
 from twinform.ir import (
+    OPAQUE,
     Collision,
     Format,
     GazeboExtension,
@@ -18,7 +19,7 @@ from twinform.ir import (
     Opaque,
     Pose,
     Visual,
-    holds_opaque,
+    bits_of,
     rewrite,
 )
 from twinform.passes.carriers.carriers import DANGLING, carry, is_carrier, is_ours, unpack
@@ -38,7 +39,7 @@ class CarryUrdf(ModelPass):
 
     Changes: 1. opaque elements, attributes and text of URDF (transmissions, ros2_control, other tools' elements) become
     carriers; 2. parts of an origin, which is a plain text in SDF, are carried by what has the origin; 3. carriers of
-    SDF that add to what the model says become parts of it again; the others stay, for nothing may be said twice; 4.
+    SDF that add to what the model has become parts of it again; the others stay, for nothing may be stated twice; 4.
     what Bullet calls `spherical` and Drake `ball` is a `ball` that carries this name. With `carriers` false, none of
     these parts is carried.
     Never touches: typed fields.
@@ -52,10 +53,13 @@ class CarryUrdf(ModelPass):
         """The model without opaque parts of URDF."""
         joints = frozenset(joint.name for joint in model.joints)
         back = came_from(model, Format.SDF)
-        swept = rewrite(model, Node, lambda node: self._sweep(node, sink, back), enter=_may_be_swept)
+        having = OPAQUE | (bits_of(Joint) if any(joint.type in BALLS for joint in model.joints) else 0)
+        swept = rewrite(model, Node, lambda node: self._sweep(node, sink, back), having=having)
         return swept.model_copy(update={"opaque": tuple(_with_doubt(part, joints) for part in swept.opaque)})
 
     def _sweep(self, node: Node, sink: DiagnosticSink, back: bool) -> Node:
+        if isinstance(node, GazeboExtension):  # the next pass knows what may stand in it
+            return node
         if isinstance(node, Joint) and node.type in BALLS:
             message = f"{node.type} joint {node.name!r} has a type that only dialects of URDF have"
             kept = [Opaque(attribute=("type", node.type))]
@@ -95,19 +99,13 @@ class CarryUrdf(ModelPass):
         return carry(node, again, "urdf", DANGLING)
 
 
-def _may_be_swept(node: Node) -> bool:
-    if isinstance(node, GazeboExtension):  # the next pass knows what may stand in it
-        return False
-    return holds_opaque(node) or (isinstance(node, Joint) and node.type in BALLS) or isinstance(node, Model)
-
-
 def _is_foreign(part: Opaque) -> bool:
     name = part.element.name if part.element else part.attribute[0] if part.attribute else ""
     return not part.at and name.startswith("{")
 
 
 def _with_doubt(part: Opaque, joints: Container[str]) -> Opaque:
-    """A carrier that says so, if what it holds is about a joint that the robot never had."""
+    """A carrier that states it, if what it holds is about a joint that the robot never had."""
     if not is_carrier(part, "urdf") or part.element is None:
         return part
     named = [name for piece in unpack(part) if piece.element for name in joints_of(piece.element)]
@@ -126,7 +124,7 @@ def _unpacked(part: Opaque) -> tuple[Opaque, ...]:
 
 @cache
 def _typed_in_sdf() -> frozenset[str]:
-    """Elements that a typed field of the IR stands for, which `unpack-sdf` puts back where nothing else is said."""
+    """Elements that a typed field of the IR stands for, which `unpack-sdf` puts back where nothing else is written."""
     definitions = table("sdf").definitions.values()
     placed = {row.name for definition in definitions for row in _rows(definition) if row.place}
     return frozenset(placed)

@@ -104,12 +104,12 @@ def _check_links(chain: Chain, around: Neighbors) -> None:
     """The links between hold nothing but the chain."""
     inside = {joint.name for joint in (*chain.above, chain.last)}
     for link in chain.between:
-        said = link.inertial
-        weighs = said is not None and not is_token(said) and not is_chain_token(said)
+        written = link.inertial
+        weighs = written is not None and not is_token(written) and not is_chain_token(written)
         if weighs or any(getattr(link, field) for field in _NO_BODY):
             raise StaleChainError(f"link {link.name!r} has a body")
         if any(not is_ours(part) for part in link.opaque):
-            raise StaleChainError(f"link {link.name!r} says something")
+            raise StaleChainError(f"link {link.name!r} is not empty")
     for name in (name for link in chain.between for name in around.below.get(link.name, ())):
         if name not in inside:
             raise StaleChainError(f"joint {name!r} is attached to one of its links")
@@ -162,7 +162,7 @@ def folded(chain: Chain) -> Joint:
     """The joint that a chain stands for, with the values that the chain has now.
 
     Raises:
-        StaleChainError: what it carries says nothing.
+        StaleChainError: what it carries is empty.
     """
     first, last = chain.above[0], chain.last
     if chain.kind in TWO_AXES:
@@ -177,7 +177,7 @@ def folded(chain: Chain) -> Joint:
 
 
 def _in_sdf(joint: Joint) -> Axis:
-    """The axis of a joint of URDF with what URDF means where it says nothing."""
+    """The axis of a joint of URDF with what URDF means where nothing is written."""
     axis = joint.axis or Axis()
     limit = axis.limit
     if limit is not None and joint.type == "continuous":
@@ -212,8 +212,8 @@ def _screw(joint: Joint, chain: Chain) -> Joint:
     mimic = axis.mimic if axis else None
     ratio = multiplier(mimic)
     joint = _unpacked(joint.model_copy(update={"axis": _in_sdf(chain.last)}), PITCHES)
-    said = metres_per_radian(joint)
-    if said is not None and math.isclose(said, ratio, rel_tol=_CLOSE):
+    written = metres_per_radian(joint)
+    if written is not None and math.isclose(written, ratio, rel_tol=_CLOSE):
         return joint
     return joint.model_copy(update={"screw_thread_pitch": ratio * math.tau, "thread_pitch": None})
 

@@ -3,7 +3,7 @@
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Model, Pose, rewrite
+from twinform.ir import Model, Pose, bits_of, rewrite
 from twinform.passes.framework.base import ModelPass
 
 _QUATERNION = "quat_xyzw"
@@ -21,7 +21,7 @@ class DeclareQuaternions(ModelPass):
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with quaternions that declare their format."""
-        return rewrite(model, Pose, _declared)
+        return rewrite(model, Pose, _declared, having=bits_of(Pose, _QUATERNION))
 
 
 def _declared(pose: Pose) -> Pose:

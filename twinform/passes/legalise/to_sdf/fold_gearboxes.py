@@ -17,9 +17,9 @@ _CLOSE = 1e-9
 
 
 class FoldGearboxes(ModelPass):
-    """Take away the mimics that were made for gearboxes in the conversion to URDF.
+    """Take away the mimics that were synthesized for gearboxes in the conversion to URDF.
 
-    Changes: a joint that is annotated as made to mimic another does not, where a gearbox couples the two just so.
+    Changes: a joint annotated as mimicking another for a gearbox does not, where a gearbox couples the two just so.
     Never touches: a mimic that was edited, or whose gearbox is gone; it stands for itself then.
     Diagnostics: `stale-carrier`.
     """
@@ -28,11 +28,13 @@ class FoldGearboxes(ModelPass):
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with each coupling written once."""
-        marked = [joint for joint in model.joints if find_annotation(joint, GEARED) and joint.axis and joint.axis.mimic]
-        if not marked:
+        annotated = [
+            joint for joint in model.joints if find_annotation(joint, GEARED) and joint.axis and joint.axis.mimic
+        ]
+        if not annotated:
             return model
         graph = FrameGraph(model)
-        bare = {joint.name: _without_mimic(joint) for joint in marked}
+        bare = {joint.name: _without_mimic(joint) for joint in annotated}
         joints = {joint.name: bare.get(joint.name, joint) for joint in model.joints if joint.type != "gearbox"}
         gears = [joint for joint in model.joints if joint.type == "gearbox"]
         coupled: dict[str, Mimic] = {}
@@ -42,7 +44,7 @@ class FoldGearboxes(ModelPass):
             except (UngearedError, FrameError):
                 continue
             coupled[found.follower] = Mimic(joint=found.leader, multiplier=found.multiplier)
-        kept = {joint.name: _kept(joint, bare[joint.name], coupled.get(joint.name), sink) for joint in marked}
+        kept = {joint.name: _kept(joint, bare[joint.name], coupled.get(joint.name), sink) for joint in annotated}
         return model.model_copy(update={"joints": tuple(kept.get(joint.name, joint) for joint in model.joints)})
 
 
@@ -52,7 +54,7 @@ def _without_mimic(joint: Joint) -> Joint:
 
 
 def _kept(joint: Joint, bare: Joint, coupled: Mimic | None, sink: DiagnosticSink) -> Joint:
-    """The joint without its mimic, if a gearbox says the same; else with it, as if it had always been there."""
+    """The joint without its mimic, if a gearbox expresses the same; else with it, as if it had always been there."""
     mimic = joint.axis.mimic if joint.axis else None
     if coupled and mimic and _is_the_same(mimic, coupled):
         return bare

@@ -17,7 +17,7 @@ AnyPart = TypeVar("AnyPart", Joint, Link)
 class FoldJoints(ModelPass):
     """Put ball, universal, revolute2 and screw joints of SDF, which are chains in URDF, together again.
 
-    Changes: 1. the last joint of a chain has its type, parent and place again, and the axes as the chain says them now;
+    Changes: 1. the last joint of a chain has its type, parent and place again, and the axes as the chain has them now;
     2. the other joints and the links between go; 3. what mimics the first joint of two mimics `axis` of the one, what
     mimics the last `axis2`.
     Never touches: chains that were edited so that they are not such a joint any more; their annotations go.
@@ -28,7 +28,7 @@ class FoldJoints(ModelPass):
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model without chains."""
-        annotations = [node for node in (*model.joints, *model.links) if _is_marked(node)]
+        annotations = [node for node in (*model.joints, *model.links) if _is_annotated(node)]
         if not annotations:
             return model
         made: dict[str, Joint] = {}
@@ -65,19 +65,19 @@ def _chains(model: Model, sink: DiagnosticSink) -> Iterator[tuple[Chain, Joint]]
 
 
 def _report_names(chain: Chain, sink: DiagnosticSink) -> None:
-    """Report the parts that somebody has given a name: made ones begin with that of their joint."""
+    """Report the parts that somebody has given a name: synthesized ones begin with that of their joint."""
     for part in (*chain.above, *chain.between):
         if not part.name.startswith(chain.last.name):
             message = f"{part.name!r} is a part of the {chain.kind} joint {chain.last.name!r}, and has no name in SDF"
             sink.report(rules.STALE_CARRIER, message, part.location, found=part.name)
 
 
-def _is_marked(node: Joint | Link) -> bool:
+def _is_annotated(node: Joint | Link) -> bool:
     return find_annotation(node, CHAIN) is not None or find_annotation(node, PART) is not None
 
 
 def _unmarked(node: AnyPart) -> AnyPart:
-    """A part of a chain that stays: it was made, and stands for itself now."""
+    """A part of a chain that stays: it was synthesized, and stands for itself now."""
     return without_annotation(node, CHAIN, PART)
 
 

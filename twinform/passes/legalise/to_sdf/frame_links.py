@@ -87,9 +87,9 @@ class FrameLinks(ModelPass):
         pose = joint.pose.model_copy(update={"relative_to": None}) if joint.pose else None
         if pose == Pose():
             pose = None
-        mark = find_annotation(link, FRAME)
-        if mark is not None and is_synthesized(joint):
-            return (_as_before(joint, link, mark, pose),)
+        annotation = find_annotation(link, FRAME)
+        if annotation is not None and is_synthesized(joint):
+            return (_as_before(joint, link, annotation, pose),)
         mount = Frame(
             name=joint.name, attached_to=joint.parent, pose=pose, opaque=_carriers(joint), source=joint.source
         )
@@ -125,12 +125,12 @@ class FrameLinks(ModelPass):
         """What `<gazebo>` sets for a link that becomes a frame, and that has no body to act on."""
         kept: list[Opaque] = []
         for link in links:
-            said = {field: getattr(link, field) for field in _FLAGS}
-            if all(value is None for value in said.values()):
+            written = {field: getattr(link, field) for field in _FLAGS}
+            if all(value is None for value in written.values()):
                 continue
-            bare = to_element(Link(name="", spelling=link.spelling, **said), "link", "sdf")
+            bare = to_element(Link(name="", spelling=link.spelling, **written), "link", "sdf")
             element = Element(name="gazebo", attributes=(("reference", link.name),), children=bare.children)
-            names = ", ".join(field for field, value in said.items() if value is not None)
+            names = ", ".join(field for field, value in written.items() if value is not None)
             message = f"{names} of {link.name!r} have no body to act on"
             fate = Fate.CARRIED if self.carriers else Fate.DROPPED
             sink.account(fate, to_sdf.FRAME_LINK, message, link.location, len(bare.children))
@@ -179,9 +179,9 @@ def _moves_with(graph: FrameGraph, holder: str, parent: str) -> bool:
         return False
 
 
-def _as_before(joint: Joint, link: Link, mark: Element, pose: Pose | None) -> Frame:
+def _as_before(joint: Joint, link: Link, annotation: Element, pose: Pose | None) -> Frame:
     """The one frame of SDF that a link and its joint were made of; it is still where they are."""
-    holder = mark.get("attached_to")
+    holder = annotation.get("attached_to")
     if holder is not None:
         pose = (pose or Pose()).model_copy(update={"relative_to": joint.parent})
     opaque = without_annotation(link, FRAME).opaque

@@ -34,10 +34,10 @@ def set_model_fields(model: Model, values: Values) -> Model:
 
 def set_link_fields(link: Link, values: Values) -> Link:
     """The link with the fields that tags set as a whole."""
-    said = {tag.field: value for tag, value in values if tag.target == "link"}
-    update: dict[str, object] = {field: value for field, value in said.items() if field != "velocity_decay"}
-    if "velocity_decay" in said:
-        text = format_value(said["velocity_decay"])
+    written = {tag.field: value for tag, value in values if tag.target == "link"}
+    update: dict[str, object] = {field: value for field, value in written.items() if field != "velocity_decay"}
+    if "velocity_decay" in written:
+        text = format_value(written["velocity_decay"])
         parts = (Element(name="linear", text=text), Element(name="angular", text=text))
         update["opaque"] = (*link.opaque, Opaque(element=Element(name="velocity_decay", children=parts)))
     return link.model_copy(update=update) if update else link

@@ -7,7 +7,7 @@ from twinform.diagnostics.rules import to_sdf
 from twinform.ir import Axis, Element, Format, Joint, Limit, Link, Model, Opaque, count_parts
 from twinform.ir.defaults import AXIS, with_range
 from twinform.ir.frames import WORLD
-from twinform.passes.carriers.annotations import is_synthesized, mark_synthesized
+from twinform.passes.carriers.annotations import annotate_synthesized, is_synthesized
 from twinform.passes.carriers.carriers import NAMESPACE, carry, to_element
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_sdf.planar import planar_chain
@@ -16,7 +16,7 @@ from twinform.passes.legalise.urdf_pieces import OF_AN_AXIS
 from twinform.schemas import format_value
 
 FLOATING = "floating"
-"""The annotation on a link of SDF that a floating joint of URDF leaves free, with what else the joint says."""
+"""The annotation on a link of SDF that a floating joint of URDF leaves free, with what else the joint has."""
 _BESIDE_AXIS = OF_AN_AXIS - {"axis"}
 Made = TypeVar("Made", Link, Joint)
 
@@ -27,7 +27,7 @@ class UrdfJoints(ModelPass):
     Changes: 1. a `fixed` joint loses its axis, limits and the like, which are carried; 2. a `continuous` joint is
     `revolute` without limits, as no engine of Gazebo knows the other, and loses lower and upper, which URDF ignores; 3.
     a joint that moves gets its axis written, 1 0 0 where URDF leaves it out; 4. a revolute or prismatic joint gets its
-    limits written, 0 where URDF leaves them out; 5. a `floating` joint goes, and so does one that was made to fix a
+    limits written, 0 where URDF leaves them out; 5. a `floating` joint goes, and so does one synthesized to fix a
     static model to the world; its child link is posed where it was; 6. limits of acceleration and jerk, which SDF
     lacks, are carried; 7. a `planar` joint becomes two sliding joints and a turning one, with two links without mass
     between them, all of them annotated so that they become one again.
@@ -67,7 +67,7 @@ class UrdfJoints(ModelPass):
         return model.model_copy(update={"links": every, "joints": tuple(joints)})
 
     def _made(self, node: Made) -> Made:
-        return mark_synthesized(node) if self.carriers else node
+        return annotate_synthesized(node) if self.carriers else node
 
     def _was_planar(self, turn: Joint, joint: Joint, sink: DiagnosticSink) -> Joint:
         message = f"planar joint {joint.name!r} is two sliding joints and a turning one in SDF, with links without mass"
@@ -87,8 +87,8 @@ class UrdfJoints(ModelPass):
             return freed
         rest = tuple(child for child in element.children if child.name not in {"parent", "child"})
         attributes = (("joint", joint.name), ("parent", joint.parent or ""))
-        mark = Element(name=f"{{{NAMESPACE}}}{FLOATING}", attributes=attributes, children=rest)
-        return freed.model_copy(update={"opaque": (*freed.opaque, Opaque(element=mark))})
+        annotation = Element(name=f"{{{NAMESPACE}}}{FLOATING}", attributes=attributes, children=rest)
+        return freed.model_copy(update={"opaque": (*freed.opaque, Opaque(element=annotation))})
 
     def _joint(self, joint: Joint, sink: DiagnosticSink) -> Joint:
         match joint.type:
@@ -168,7 +168,7 @@ def _is_free(joint: Joint, model: Model) -> bool:
 
 
 def _without(limit: Limit, names: tuple[str, ...]) -> tuple[Limit, list[Opaque]]:
-    """The limit without what it says by these names, and that as attributes of URDF."""
+    """The limit without what it has by these names, and that as attributes of URDF."""
     written = [(name, getattr(limit, name)) for name in names if getattr(limit, name) is not None]
     rest = [Opaque(at="limit", attribute=(name, format_value(value))) for name, value in written]
     return (limit.model_copy(update={name: None for name, _ in written}) if written else limit), rest

@@ -27,7 +27,7 @@ _CLOSE = 1e-9
 
 
 class LeaveInertias(ModelPass, AssetPass):
-    """Say `<inertial auto="true">` where SDF said so before.
+    """Write `<inertial auto="true">` where SDF had it before.
 
     Changes: 1. an inertial that carries `auto`, and has the numbers that its collisions give, is automatic again, with
     what was written beside; 2. where the numbers or the collisions were edited, the numbers stay and are no longer
@@ -84,11 +84,11 @@ def _is_the_same(found: Solid, inertial: Inertial) -> bool:
     """Whether an inertial has the same mass, center and inertia, whichever way its axes are turned."""
     if inertial.mass is None or inertial.inertia is None:
         return False
-    said = placed(written_solid(inertial, Format.URDF), Transform.from_pose(inertial.pose))
+    written = placed(written_solid(inertial, Format.URDF), Transform.from_pose(inertial.pose))
     return (
-        math.isclose(found.mass, said.mass, rel_tol=_CLOSE)
-        and _are_close(found.center, said.center, max(1.0, *map(abs, found.center)))
-        and _are_close(found.inertia, said.inertia, max(map(abs, found.inertia)))
+        math.isclose(found.mass, written.mass, rel_tol=_CLOSE)
+        and _are_close(found.center, written.center, max(1.0, *map(abs, found.center)))
+        and _are_close(found.inertia, written.inertia, max(map(abs, found.inertia)))
     )
 
 

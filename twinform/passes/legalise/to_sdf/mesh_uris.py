@@ -33,7 +33,7 @@ class MeshUris(ModelPass):
 
 @dataclass(frozen=True, slots=True)
 class _Links:
-    """One run over the links; `marks` says whether the scheme of a URI is to be annotated."""
+    """One run over the links; `annotations`: whether the scheme of a URI is to be annotated."""
 
     sink: DiagnosticSink
     annotations: bool
@@ -68,10 +68,10 @@ class _Links:
         """The URI for Gazebo, and the shape with what has to be known for the reverse conversion."""
         if scheme_of(written) not in {ROS, GAZEBO}:
             return without_annotation(shape, kind), written
-        mark = find_annotation(shape, kind)
-        if mark is not None:
+        annotation = find_annotation(shape, kind)
+        if annotation is not None:
             bare = without_annotation(shape, kind)
-            return bare, written if mark.get("scheme") == scheme_of(written) == ROS else model_uri(written)[0]
+            return bare, written if annotation.get("scheme") == scheme_of(written) == ROS else model_uri(written)[0]
         uri, lost = model_uri(written)
         if not lost:
             return shape, uri

@@ -5,7 +5,7 @@ import math
 from twinform.ir import Axis, Joint
 from twinform.ir.defaults import multiplier
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
-from twinform.passes.legalise.to_urdf.map_joints import MIMIC
+from twinform.passes.carriers.joint_words import MIMIC
 
 
 def with_reference(joint: Joint) -> Joint | None:

@@ -6,30 +6,19 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import (
-    Axis,
-    Element,
-    Format,
-    Frame,
-    Joint,
-    Link,
-    Model,
-    Node,
-    Pose,
-    holds_opaque,
-    rewrite,
-)
+from twinform.ir import Axis, Element, Format, Frame, Joint, Link, Model, Node, Pose, rewrite
 from twinform.ir.defaults import direction
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph, Kind
 from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.annotations import SYNTHESIZED, find_annotation, is_synthesized, without_annotation
+from twinform.passes.carriers.carriers import bits_of_ours
+from twinform.passes.carriers.joint_words import OLD_NAME
 from twinform.passes.carriers.provenance import came_from
 from twinform.passes.carriers.token_mass import has_token_mass
 from twinform.passes.framework.base import ModelPass
-from twinform.passes.legalise.to_urdf.express_axes import OLD_WORD
 from twinform.passes.transforms.element_poses import ElementPoses
 from twinform.passes.transforms.joint_ends import ENDS
-from twinform.passes.transforms.notation import NESTED, OFFSET, POSE, as_marked, read_offset
+from twinform.passes.transforms.notation import NESTED, OFFSET, POSE, as_annotated, read_offset
 from twinform.passes.transforms.rebasing import AnyPosed, Base, Posed, Rebasing
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -53,7 +42,7 @@ class RestoreFrames(ModelPass):
 
     name: ClassVar[str] = "restore-frames"
     old_words: bool = False
-    """Whether the model's frame is called by the word before 1.7 where an annotation has that."""
+    """Whether the model's frame is called as before 1.7 where an annotation has that."""
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model as its SDF file has it."""
@@ -97,7 +86,10 @@ class _Restoring:
 
     def run(self) -> Model:
         helpers = tuple(self._helpers())
-        posed = {"frames": (*self.model.frames, *helpers), "placement_frame": None}  # as yet the root is where it says
+        posed = {
+            "frames": (*self.model.frames, *helpers),
+            "placement_frame": None,
+        }  # as yet the root is where its pose puts it
         graph = FrameGraph(self.model.model_copy(update=posed))
         self.frames = {helper.name.removesuffix(_BASE) or MODEL: (helper.name, "frame") for helper in helpers}
         model = self.model.model_copy(
@@ -110,7 +102,7 @@ class _Restoring:
         placement = self._placement(graph)
         name, kind = self._in_frame(placement) if placement else self._base(MODEL, "model")
         placed = graph.pose(name, WORLD, kind=kind, base="world")
-        pose = as_marked(placed, find_annotation(model, POSE), None)
+        pose = as_annotated(placed, find_annotation(model, POSE), None)
         model = model.model_copy(update={"pose": pose, "placement_frame": placement})
         return without_annotation(model, OFFSET, POSE)
 
@@ -167,7 +159,7 @@ class _Restoring:
         written_in = self._written_in(node, graph, usual)
         (name, own), (base, held) = self._base(node.name, kind), self._in_frame(written_in or usual)
         placed = graph.pose(name, base, kind=own, base=held if base != WORLD else "world")
-        return as_marked(placed, find_annotation(node, POSE), written_in)
+        return as_annotated(placed, find_annotation(node, POSE), written_in)
 
     def _link(self, link: Link, graph: FrameGraph) -> Link:
         base = self._base(link.name, "link")
@@ -193,7 +185,7 @@ class _Restoring:
         if written_in is not None:
             name, kind = self._in_frame(written_in)
             transform = graph.pose(base[0], name, kind=base[1], base=kind).compose(transform)
-        pose = as_marked(transform, find_annotation(holder, POSE), written_in)
+        pose = as_annotated(transform, find_annotation(holder, POSE), written_in)
         return without_annotation(holder.model_copy(update={"pose": pose}), POSE)
 
     def _joint(self, joint: Joint, graph: FrameGraph) -> Joint:
@@ -228,7 +220,7 @@ class _Restoring:
     def _axis(self, joint: Joint, field: str, graph: FrameGraph) -> Axis | None:
         axis: Axis | None = getattr(joint, field)
         found = find_annotation(joint, field)
-        old = found is not None and found.get(OLD_WORD) == "true"
+        old = found is not None and found.get(OLD_NAME) == "true"
         name = (found and found.get("expressed_in")) or (MODEL if old else None)
         if axis is None or not name:
             return axis
@@ -237,7 +229,7 @@ class _Restoring:
             self._stale(f"there is no frame {name!r} any more, in which the axis of {joint.name!r} was written", joint)
             return axis
         turn = graph.pose(joint.name, base, kind="joint", base=kind)
-        frame = {OLD_WORD: True} if old and self.old_words else {"expressed_in": name}
+        frame = {OLD_NAME: True} if old and self.old_words else {"expressed_in": name}
         return axis.model_copy(update={"xyz": rounded(turn.rotate(direction(axis, Format.SDF))), **frame})
 
     def _frame(self, frame: Frame, graph: FrameGraph) -> Frame:
@@ -267,7 +259,7 @@ def _is_left(holder: Posed) -> bool:
 
 
 def _without_made_root(model: Model) -> Model:
-    """The model without the link that was made because URDF needs one, if that still holds nothing."""
+    """The model without the link that was synthesized because URDF needs one, if that still holds nothing."""
     link = model.links[0] if len(model.links) == 1 else None
     if link is None or not is_synthesized(link):
         return model
@@ -291,4 +283,5 @@ def _off_root(frame: Frame, root: str) -> Frame:
 
 def _without_frames(node: AnyNode) -> AnyNode:
     """The node without annotations of the frames in which it was written, on it and in it."""
-    return rewrite(node, Node, lambda each: without_annotation(each, POSE, ENDS, *_AXES), enter=holds_opaque)
+    annotations = (POSE, ENDS, *_AXES)
+    return rewrite(node, Node, lambda each: without_annotation(each, *annotations), having=bits_of_ours(*annotations))

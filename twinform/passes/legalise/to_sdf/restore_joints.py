@@ -7,10 +7,10 @@ from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Axis, Format, Joint, Limit, Model
 from twinform.ir.defaults import UNLIMITED
 from twinform.passes.carriers.annotations import SYNTHESIZED, find_annotation, without_annotation
+from twinform.passes.carriers.joint_words import CONTINUOUS, MIMIC
 from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_sdf.mimic_references import with_reference
-from twinform.passes.legalise.to_urdf.map_joints import CONTINUOUS, MIMIC
 
 _AXES = ("axis", "axis2")
 _NUMBERS = ("lower", "upper", "effort", "velocity")

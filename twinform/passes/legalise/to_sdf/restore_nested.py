@@ -88,28 +88,28 @@ class RestoreNested(ModelPass):
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with the models in it."""
-        said = {
+        annotated = {
             frame.name.removesuffix(_OWN): found for frame in model.frames if (found := find_annotation(frame, NESTED))
         }
         free = self.scopes and wrote_scopes(model)
-        if not said and not free:
+        if not annotated and not free:
             return model
         try:
-            _report_frames_outside(model, said, sink)
-            nested = nest(model, DiagnosticSink(), None if free else frozenset(said))
-            models = tuple(_with_rest(inner, inner.name, said, sink) for inner in nested.models)
+            _report_frames_outside(model, annotated, sink)
+            nested = nest(model, DiagnosticSink(), None if free else frozenset(annotated))
+            models = tuple(_with_rest(inner, inner.name, annotated, sink) for inner in nested.models)
             return _tidy(nested.model_copy(update={"models": models}))
         except FrameError as error:
             error.report(sink)
             return model
 
 
-def _report_frames_outside(model: Model, said: Iterable[str], sink: DiagnosticSink) -> None:
+def _report_frames_outside(model: Model, annotated: Iterable[str], sink: DiagnosticSink) -> None:
     """A frame in a nested model moves with a link of that model."""
     graph = FrameGraph(model)
     links = {link.name for link in model.links}
     for frame in model.frames:
-        scope = next((path + SCOPE for path in said if frame.name.startswith(path + SCOPE)), "")
+        scope = next((path + SCOPE for path in annotated if frame.name.startswith(path + SCOPE)), "")
         if frame.name.endswith(_OWN) or not any(scope and name.startswith(scope) for name in links):
             continue
         body = graph.body(frame.name, kind="frame")
@@ -118,11 +118,11 @@ def _report_frames_outside(model: Model, said: Iterable[str], sink: DiagnosticSi
             sink.report(NESTED_MODEL, message, frame.location, found=body, severity=Severity.ERROR)
 
 
-def _with_rest(model: Model, path: str, said: dict[str, Element], sink: DiagnosticSink) -> Model:
+def _with_rest(model: Model, path: str, annotated: dict[str, Element], sink: DiagnosticSink) -> Model:
     """A nested model with what it had besides its links, joints, frames and pose; and so those in it."""
-    models = tuple(_with_rest(inner, f"{path}{SCOPE}{inner.name}", said, sink) for inner in model.models)
+    models = tuple(_with_rest(inner, f"{path}{SCOPE}{inner.name}", annotated, sink) for inner in model.models)
     model = model.model_copy(update={"models": models})
-    found = said.get(path)
+    found = annotated.get(path)
     if found is None:
         return model
     pieces = (
@@ -133,7 +133,7 @@ def _with_rest(model: Model, path: str, said: dict[str, Element], sink: Diagnost
         whole = absorb(model.model_copy(update={"canonical_link": None}), pieces, VersionCondition(), _NEWEST)
         return _placed(_with_known_links(whole))
     except CarrierError as error:
-        message = f"what nested model {path!r} said does not fit it any more: {error}"
+        message = f"the carried content of nested model {path!r} does not fit it any more: {error}"
         sink.report(STALE_CARRIER, message, model.location, found=path)
         return model
 

@@ -17,9 +17,9 @@ class SharedMaterials(ModelPass):
 
     Changes: 1. a color becomes `diffuse` and `ambient`; 2. a texture becomes the albedo map of a PBR material; 3. a
     visual that only names a material takes what is defined for the name, by the robot or else by the first visual that
-    says more. The name is an annotation on the visual, and which materials the robot defines are annotations on the
+    has more. The name is an annotation on the visual, and which materials the robot defines are annotations on the
     model; only a definition that no visual uses as it stands is carried whole.
-    Never touches: what a `<gazebo>` element says about the look.
+    Never touches: the appearance that a `<gazebo>` element sets.
     Diagnostics: none; ledger entries under `material-name`.
     """
 
@@ -63,17 +63,14 @@ class SharedMaterials(ModelPass):
         source = material
         if not (material.color or material.texture):
             source = defined.get(material.name or "", material)
-        visual = visual.model_copy(update={"material": _sdf_material(material, source)})
+        update: dict[str, object] = {"material": _sdf_material(material, source)}
         own = material.color is not None or material.texture is not None
-        if own and material.name == material_name(link, visual):
-            return visual
-        if material.name is None:
-            unnamed = annotation(MATERIAL, attributes={"unnamed": "true"})
-            return visual.model_copy(update={"opaque": (*visual.opaque, unnamed)}) if self.carriers else visual
-        self._account(material, 1, sink)
-        return (
-            visual.model_copy(update={"opaque": (*visual.opaque, _name(material, shared))}) if self.carriers else visual
-        )
+        if not (own and material.name == material_name(link, visual)):
+            if material.name is not None:
+                self._account(material, 1, sink)
+            if self.carriers:
+                update["opaque"] = (*visual.opaque, _name(material, shared))
+        return visual.model_copy(update=update)
 
     def _account(self, material: Material, weight: int, sink: DiagnosticSink) -> None:
         fate = Fate.CARRIED if self.carriers else Fate.DROPPED
@@ -84,14 +81,16 @@ class SharedMaterials(ModelPass):
 
 def _name(material: Material, shared: dict[str | None, Material]) -> Opaque:
     """The annotation with the name, and where the material is defined if that is not the usual place."""
+    if material.name is None:
+        return annotation(MATERIAL, attributes={"unnamed": "true"})
     own = material.color is not None or material.texture is not None
     definition = shared.get(material.name)
     usual = definition is None or not (definition.color or definition.texture)
-    return _name_mark(material.name or "", None if own == usual else "here" if own else "elsewhere")
+    return _name_annotation(material.name, None if own == usual else "here" if own else "elsewhere")
 
 
 @lru_cache(maxsize=256)
-def _name_mark(name: str, defined: str | None) -> Opaque:
+def _name_annotation(name: str, defined: str | None) -> Opaque:
     """Most robots say the same few names again and again."""
     return annotation(MATERIAL, name, {"defined": defined})
 

@@ -5,10 +5,22 @@ from typing import ClassVar, Literal, TypeVar, cast
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
-from twinform.ir import Color, Element, Joint, Link, Material, Model, Node, Opaque, Visual, map_children
+from twinform.ir import (
+    Color,
+    Element,
+    Joint,
+    Link,
+    Material,
+    Model,
+    Node,
+    Opaque,
+    Visual,
+    census_of,
+    map_children,
+)
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
-from twinform.passes.carriers.carriers import is_carrier, is_memory, unpack
+from twinform.passes.carriers.carriers import bits_of_ours, is_carrier, is_memory, unpack
 from twinform.passes.carriers.material_annotations import COLORS, SCRIPTS
 from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.passes.framework.base import ModelPass
@@ -17,9 +29,10 @@ from twinform.schemas import parse_version, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
+_HAVING = bits_of_ours("sdf", COLORS, SCRIPTS)
 _ENDS = frozenset({"lower", "upper"})
 _ABOUT = frozenset({"opaque", "source", "spelling"})
-"""Fields in which a node says nothing of its own, or one thing beside others."""
+"""Fields in which a node has nothing of its own, or one thing beside others."""
 
 
 class UnpackSdf(ModelPass):
@@ -39,10 +52,14 @@ class UnpackSdf(ModelPass):
         """The model without carriers of what is left open."""
         if self.of == "parts":
             return map_children(model, lambda node: self._parts(node, sink))
+        if not census_of(model) & _HAVING:
+            return model
         model = _without_carriers(model)
         return model.model_copy(update={"links": tuple(_without_carriers(link) for link in model.links)})
 
     def _parts(self, node: Node, sink: DiagnosticSink) -> Node:
+        if not census_of(node) & _HAVING:
+            return node
         if isinstance(node, Link):
             return map_children(node, lambda child: self._parts(child, sink))
         if isinstance(node, Visual):
@@ -84,8 +101,8 @@ def _is_overruled(carrier: Opaque, node: Node) -> bool:
 
 def _has_look(material: Material | None) -> bool:
     """Whether URDF has the appearance, beside which there may be more to say."""
-    said = (material.ambient, material.diffuse, material.albedo_map, material.script) if material else ()
-    return any(each is not None for each in said)
+    other = (material.ambient, material.diffuse, material.albedo_map, material.script) if material else ()
+    return any(each is not None for each in other)
 
 
 def _with_colors(visual: Visual, sink: DiagnosticSink) -> Visual:
@@ -104,8 +121,8 @@ def _with_colors(visual: Visual, sink: DiagnosticSink) -> Visual:
         message = f"visual {visual.name!r} had two colors in SDF, and its color was edited since"
         sink.report(STALE_CARRIER, message, visual.location, found=found.get("of") or "")
         return visual
-    said = {name: color for name, color in (("ambient", ambient), ("diffuse", diffuse)) if color is not None}
-    return visual.model_copy(update={"material": material.model_copy(update={n: c or None for n, c in said.items()})})
+    other = {name: color for name, color in (("ambient", ambient), ("diffuse", diffuse)) if color is not None}
+    return visual.model_copy(update={"material": material.model_copy(update={n: c or None for n, c in other.items()})})
 
 
 def _with_scripts(visual: Visual, sink: DiagnosticSink) -> Visual:
@@ -145,11 +162,11 @@ def _absorbed(node: AnyNode, carriers: Iterable[Opaque]) -> AnyNode:
 
 
 def _with(node: AnyNode, carrier: Opaque) -> AnyNode | None:
-    """The node with what is in a carrier; None where it says that already, or cannot."""
+    """The node with what is in a carrier; None where it has that already, or cannot have it."""
     try:
-        said = _absorbed(node.model_copy(update=_defaults(node)), [carrier])
-        has_pose = said.__dict__.get("pose") is not None
-        return _absorbed(node, [carrier]) if not has_pose and _is_new(said, node) else None
+        other = _absorbed(node.model_copy(update=_defaults(node)), [carrier])
+        has_pose = other.__dict__.get("pose") is not None
+        return _absorbed(node, [carrier]) if not has_pose and _is_new(other, node) else None
     except CarrierError:
         return None
 
@@ -160,17 +177,17 @@ def _defaults(node: Node) -> dict[str, object]:
     return {name: field.default for name, field in fields if name not in _ABOUT and not field.is_required()}
 
 
-def _is_new(said: Node, node: Node) -> bool:
-    """Whether a node says nothing else where another one of its kind says something."""
+def _is_new(other: Node, node: Node) -> bool:
+    """Whether a node has no other value where another one of its kind has one."""
     return all(
-        _goes_with(getattr(said, name), getattr(node, name), default) for name, default in _defaults(node).items()
+        _goes_with(getattr(other, name), getattr(node, name), default) for name, default in _defaults(node).items()
     )
 
 
-def _goes_with(said: object, here: object, default: object) -> bool:
-    if said == default or here in (default, said) or _are_nodes(said):
+def _goes_with(other: object, here: object, default: object) -> bool:
+    if other == default or here in (default, other) or _are_nodes(other):
         return True
-    return isinstance(said, Node) and type(said) is type(here) and _is_new(said, cast("Node", here))
+    return isinstance(other, Node) and type(other) is type(here) and _is_new(other, cast("Node", here))
 
 
 def _are_nodes(value: object) -> bool:

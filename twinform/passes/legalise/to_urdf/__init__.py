@@ -45,13 +45,13 @@ def to_urdf(
 ) -> tuple[Pass, ...]:
     """The passes that make URDF of the model of this name, or of the only one.
 
-    `mixed` lets it have shapes of newer versions, and `mixed_source` says that the SDF has syntax of other ones.
+    `mixed` lets it have shapes of newer versions, and `mixed_source` means that the SDF has syntax of other ones.
     """
     shapes: UrdfVersion = "1.2" if mixed else urdf_version
     return (
         SelectModel(model=model),
         UpgradeSdf(carriers=carriers, mixed=mixed_source),
-        GatherImuNoise(version=table("sdf").versions[-1], marked=True),
+        GatherImuNoise(version=table("sdf").versions[-1], annotated=True),
         FlattenForUrdf(carriers=carriers),
         FoldPlanarJoints(carriers=carriers),
         ComputeInertias(carriers=carriers),

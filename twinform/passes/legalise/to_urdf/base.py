@@ -49,7 +49,7 @@ class Keeper:
         """An entry in the ledger for what annotations keep."""
         self.sink.account(Fate.CARRIED if self.carriers else Fate.DROPPED, rule, message, location, weight)
 
-    def mark(
+    def annotate(
         self,
         node: AnyNode,
         kind: str,
@@ -65,7 +65,7 @@ class Keeper:
 class ToUrdfPass(Pass):
     """A pass over the one model that becomes the robot. After an error there is nothing left to do.
 
-    `carriers` says whether parts that URDF cannot express travel in carriers or only into the ledger.
+    `carriers` is whether parts that URDF cannot express travel in carriers or only into the ledger.
     """
 
     carriers: bool = True

@@ -6,7 +6,7 @@ from twinform.diagnostics import Fate
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Joint, Link, Model, count_parts
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
-from twinform.passes.carriers.annotations import EXTENSION, find_annotation, mark_synthesized, without_annotation
+from twinform.passes.carriers.annotations import EXTENSION, annotate_synthesized, find_annotation, without_annotation
 from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 from twinform.passes.legalise.to_urdf.cut_joints import cut_joints
 from twinform.passes.transforms.nodes import unique_name
@@ -20,7 +20,7 @@ class BuildTree(ToUrdfPass):
     does one that a conversion from URDF found there, if it is not all that holds a link; a floating one goes; 2. a
     root beside the first one hangs from it by a `floating` joint. The first root is `world` where a joint has it as its
     parent, else the one that the canonical link hangs from; 3. in a static model every root is fixed to `world`, but
-    not the first one of a model that came from URDF, where `<static>` says so.
+    not the first one of a model that came from URDF, where `<static>` is set.
     Never touches: gearboxes, which hold no link.
     Diagnostics: `cut-loop`; in the ledger `cut-loop` and `hung-root`.
     """
@@ -33,11 +33,11 @@ class BuildTree(ToUrdfPass):
         kept: list[Joint] = []
         cut: list[Joint] = []
         extensions: list[Joint] = []
-        marked = [joint for joint in model.joints if find_annotation(joint, EXTENSION)]
+        annotated = [joint for joint in model.joints if find_annotation(joint, EXTENSION)]
         for joint in model.joints:
             if find_annotation(joint, EXTENSION) is None:
                 (kept if joint.type == "gearbox" or tree.add(joint) else cut).append(joint)
-        for joint in (without_annotation(joint, EXTENSION) for joint in marked):  # what nothing else holds needs it
+        for joint in (without_annotation(joint, EXTENSION) for joint in annotated):  # what nothing else holds needs it
             (kept if joint.parent != WORLD and tree.add(joint) else extensions).append(joint)
         for joint in cut:
             _report_cut(joint, tree.parent_joint.get(joint.child or ""), keeper)
@@ -100,7 +100,7 @@ def _hang(model: Model, roots: list[Link], first: str, keeper: Keeper) -> Model:
         name = unique_name(f"{link.name}_{kind}_joint", taken)
         taken.add(name)
         made = Joint(name=name, type=kind, parent=first, child=link.name, source=link.source)
-        joints.append(mark_synthesized(made))
+        joints.append(annotate_synthesized(made))
         message = f"link {link.name!r} is attached by a {kind} joint to {first!r}"
         keeper.sink.account(Fate.APPROXIMATED, rules.HUNG_ROOT, message, link.location, 0)
     return model.model_copy(update={"joints": tuple(joints)})

@@ -4,7 +4,7 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Document, Format, Joint, Link, Model, Node
+from twinform.ir import Document, Format, Joint, Link, Model, Node, replace_fields
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import without_synthesized
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, has_ours
@@ -17,7 +17,7 @@ from twinform.passes.transforms.notation import BODY
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
-_IMPLIED: KnownFields = {"relative_to": None}
+_IMPLIED = KnownFields({"relative_to": None})
 """The frame of a joint's or link's pose, which URDF does not write because it cannot be another."""
 
 
@@ -58,7 +58,7 @@ def _finish(model: Model, document: Document, keeper: Keeper) -> Model:
         update={"links": tuple(map(rest.link, model.links)), "joints": tuple(map(rest.joint, model.joints))}
     )
     model = rest.take(model, "model", urdf_fields("robot"))
-    model = model.model_copy(update={"links": tuple(_marked_world(link, keeper) for link in model.links)})
+    model = model.model_copy(update={"links": tuple(_annotated_world(link, keeper) for link in model.links)})
     has_world = any(link.name == WORLD for link in model.links)  # which SDF before 1.7 did not forbid
     if not has_world and any(joint.parent == WORLD for joint in model.joints):
         model = model.model_copy(update={"links": (Link(name=WORLD), *model.links)})
@@ -70,9 +70,9 @@ def _finish(model: Model, document: Document, keeper: Keeper) -> Model:
     return with_provenance(without_provenance(model), document)
 
 
-def _marked_world(link: Link, keeper: Keeper) -> Link:
+def _annotated_world(link: Link, keeper: Keeper) -> Link:
     """A link called `world`, which SDF before 1.7 did not forbid, is a body; the one of URDF is SDF's world."""
-    return keeper.mark(link, BODY) if link.name == WORLD else link
+    return keeper.annotate(link, BODY) if link.name == WORLD else link
 
 
 def _without_usual_root(model: Model, keeper: Keeper) -> Model:
@@ -88,9 +88,10 @@ class _RemainderCarrier:
 
     def __init__(self, keeper: Keeper) -> None:
         self.keeper = keeper
-        self.link_fields: KnownFields = {**urdf_fields("link"), "pose": _IMPLIED, "inertial": None}
+        self.link_fields = KnownFields({**urdf_fields("link"), "pose": _IMPLIED, "inertial": None})
         joint = urdf_fields("joint")
-        self.joint_fields: KnownFields = {**joint, "pose": {**(joint["pose"] or {}), **_IMPLIED}}
+        self.joint_fields = KnownFields({**joint, "pose": KnownFields({**(joint["pose"] or {}), **_IMPLIED})})
+        self.fixed_fields = KnownFields({name: inner for name, inner in self.joint_fields.items() if name != "axis"})
 
     def link(self, link: Link) -> Link:
         update: dict[str, object] = {
@@ -101,16 +102,16 @@ class _RemainderCarrier:
         }
         if link.inertial is not None:
             update["inertial"] = self.take(link.inertial, "inertial", urdf_fields("link", "inertial"))
-        return self.take(link.model_copy(update=update), "link", self.link_fields)
+        return self.take(replace_fields(link, **update), "link", self.link_fields)
 
     def joint(self, joint: Joint) -> Joint:
-        known = self.joint_fields
-        if joint.type == "fixed":  # its axis would be written, and mean nothing
-            known = {name: inner for name, inner in known.items() if name != "axis"}
-        return self.take(joint, "joint", known)
+        # the axis of a fixed joint would be written, and mean nothing
+        return self.take(joint, "joint", self.fixed_fields if joint.type == "fixed" else self.joint_fields)
 
     def take(self, node: AnyNode, tag: str, known: KnownFields) -> AnyNode:
         kept, pieces, endless = take_remainder(node, tag, known)
+        if not (pieces or endless):
+            return kept
         name = getattr(node, "name", None)
         of = f"{tag} {name!r}" if name else f"an {tag}"
         for piece in pieces:

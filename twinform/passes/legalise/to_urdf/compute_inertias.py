@@ -43,7 +43,7 @@ def _compute(keeper: Keeper, meshes: Meshes, link: Link, inertial: Inertial, gra
         return link
     written, pieces, computed = written_out(inertial, found)
     if "mass" in computed:
-        written = keeper.mark(written, COMPUTED_MASS, always=True)
+        written = keeper.annotate(written, COMPUTED_MASS, always=True)
     message = f"the inertia of link {link.name!r} is computed from its collisions"
     kept = keeper.keep(written, pieces, rules.COMPUTED_INERTIA, message, inertial.location)
     return link.model_copy(update={"inertial": kept})

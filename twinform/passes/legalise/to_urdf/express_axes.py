@@ -7,6 +7,7 @@ from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Axis, Format, Joint, Model
 from twinform.ir.defaults import AXIS, direction, filled
 from twinform.ir.frames import MODEL, FrameGraph
+from twinform.passes.carriers.joint_words import OLD_NAME
 from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 
 _AXES = {
@@ -14,8 +15,6 @@ _AXES = {
     **dict.fromkeys(("universal", "revolute2", "gearbox"), ("axis", "axis2")),
 }
 """The axes that mean something, by the type of the joint."""
-OLD_WORD = "use_parent_model_frame"
-"""What the annotation on an axis says where the file called the model's frame so, and has newer syntax elsewhere."""
 
 
 class ExpressAxes(ToUrdfPass):
@@ -54,11 +53,11 @@ def _express(joint: Joint, field: str, graph: FrameGraph, keeper: Keeper) -> Joi
     turn = graph.pose(axis.expressed_in, joint.name, kind="frame", base="joint")
     x, y, z = turn.rotate(direction(axis, Format.SDF))
     xyz = (x + 0.0, y + 0.0, z + 0.0)
-    made = axis.model_copy(update={"xyz": xyz, "expressed_in": None, OLD_WORD: None})
+    made = axis.model_copy(update={"xyz": xyz, "expressed_in": None, OLD_NAME: None})
     turned = joint.model_copy(update={field: made})
     message = f"the {field} of joint {joint.name!r} is expressed in {axis.expressed_in!r}"
     keeper.account(rules.AXIS_FRAME, message, axis.location, 2)
     word: dict[str, str | None] = {"expressed_in": axis.expressed_in}
     if axis.use_parent_model_frame:
-        word = {OLD_WORD: "true", "expressed_in": None if axis.expressed_in == MODEL else axis.expressed_in}
-    return keeper.mark(turned, field, attributes=word)
+        word = {OLD_NAME: "true", "expressed_in": None if axis.expressed_in == MODEL else axis.expressed_in}
+    return keeper.annotate(turned, field, attributes=word)

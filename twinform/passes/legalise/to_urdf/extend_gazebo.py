@@ -5,7 +5,7 @@ from functools import cache
 from typing import ClassVar
 
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Dynamics, Element, GazeboExtension, Joint, Link, Model, Opaque
+from twinform.ir import Dynamics, Element, GazeboExtension, Joint, Link, Model, Opaque, replace_fields
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import is_synthesized
 from twinform.passes.carriers.carriers import SECOND, to_element
@@ -78,7 +78,7 @@ def _extension(node: Link | Joint, content: Iterable[Element]) -> Iterator[Gazeb
 
 @cache
 def _typed(definition: str) -> frozenset[str]:
-    """The children that have a typed form; an opaque one is a repetition or says nothing."""
+    """The children that have a typed form; an opaque one is a repetition or empty."""
     return frozenset(row.name for row in table("sdf").definitions[definition].children if row.place)
 
 
@@ -93,20 +93,20 @@ def _verbatim(parts: Iterable[Opaque], definition: str) -> list[Element]:
     return [part.element for part in parts if part.element and _is_verbatim(part, definition)]
 
 
-def _rest(parts: Iterable[Opaque], definition: str) -> tuple[Opaque, ...]:
+def _rest(parts: tuple[Opaque, ...], definition: str) -> tuple[Opaque, ...]:
     return tuple(part for part in parts if not _is_verbatim(part, definition))
 
 
 def _link_content(link: Link) -> tuple[list[Element], Link]:
-    said = {field: getattr(link, field) for field in _LINK_FIELDS}
+    written = {field: getattr(link, field) for field in _LINK_FIELDS}
     content = list(_truths(link))
     link = link.model_copy(update=dict.fromkeys(_TRUTHS)) if content else link
-    if any(value not in (None, ()) for value in said.values()):
-        content += to_element(Link(name=link.name, spelling=link.spelling, **said), "link", "sdf").children
+    if any(value not in (None, ()) for value in written.values()):
+        content += to_element(Link(name=link.name, spelling=link.spelling, **written), "link", "sdf").children
     content += _verbatim(link.opaque, "link")
     if not content:
         return content, link
-    empty = {field: () if isinstance(value, tuple) else None for field, value in said.items()}
+    empty = {field: () if isinstance(value, tuple) else None for field, value in written.items()}
     return content, link.model_copy(update={**empty, "opaque": _rest(link.opaque, "link")})
 
 
@@ -130,7 +130,7 @@ def _joint_content(joint: Joint, links: set[str], with_mass: set[str], keeper: K
     if joint.sensors:
         content += to_element(Joint(name="", type="fixed", sensors=joint.sensors), "joint", "sdf").children
     content += _verbatim(joint.opaque, "joint")
-    return content, joint.model_copy(update={"sensors": (), "opaque": _rest(joint.opaque, "joint")})
+    return content, replace_fields(joint, sensors=(), opaque=_rest(joint.opaque, "joint"))
 
 
 def _springs(joint: Joint) -> tuple[list[Element], Joint]:
@@ -151,7 +151,7 @@ def _springs(joint: Joint) -> tuple[list[Element], Joint]:
 
 
 def _physics(joint: Joint, keeper: Keeper) -> tuple[list[Element], Joint]:
-    """The tags that mean what the first `<physics>` of a joint says; others go into carriers that are not its rest."""
+    """The tags that mean what the first `<physics>` of a joint does; others go into carriers that are not its rest."""
     content: list[Element] = []
     parts: list[Opaque] = []
     again: list[Opaque] = []
@@ -187,8 +187,8 @@ def _take_tags(element: Element, path: str, tags: list[Element]) -> Element | No
 
 
 def _model_extensions(model: Model) -> Iterator[GazeboExtension]:
-    said = {field: getattr(model, field) for field in _MODEL_FIELDS}
-    flags = to_element(Model(name=model.name, spelling=model.spelling, **said), "model", "sdf").children
+    written = {field: getattr(model, field) for field in _MODEL_FIELDS}
+    flags = to_element(Model(name=model.name, spelling=model.spelling, **written), "model", "sdf").children
     if flags:
         yield GazeboExtension(content=flags)
     for plugin in model.plugins:

@@ -13,17 +13,17 @@ from twinform.passes.legalise.to_urdf.base import Keeper
 
 def with_floating_joints(model: Model, keeper: Keeper) -> Model:
     """The model with the annotated floating joints; one that fits the file no more is a `stale-carrier`."""
-    if not _has_marks(model):
+    if not _has_annotations(model):
         return model
     joints = list(model.joints)
-    for link, mark, fits in _marked(model):
-        name, parent = mark.get("joint") or "", mark.get("parent") or ""
+    for link, annotation, fits in _annotated(model):
+        name, parent = annotation.get("joint") or "", annotation.get("parent") or ""
         if not fits:
             message = f"link {link.name!r} hung from {parent!r} by the floating joint {name!r}, and no longer can"
             keeper.sink.report(STALE_CARRIER, message, link.location, found=name)
             continue
         joint = Joint(name=name, type="floating", parent=parent, child=link.name, pose=Pose(relative_to=link.name))
-        rest = [Opaque(element=child) for child in mark.children]
+        rest = [Opaque(element=child) for child in annotation.children]
         joints.append(carry(joint.model_copy(update={"source": link.source}), rest, "urdf"))
     links = tuple(without_annotation(link, FLOATING) for link in model.links)
     return model.model_copy(update={"links": links, "joints": tuple(joints)})
@@ -31,33 +31,33 @@ def with_floating_joints(model: Model, keeper: Keeper) -> Model:
 
 def without_loose_floating(model: Model) -> Model:
     """The model without the annotations that fit the file no more."""
-    if not _has_marks(model):
+    if not _has_annotations(model):
         return model
-    loose = {link.name for link, _, fits in _marked(model) if not fits}
+    loose = {link.name for link, _, fits in _annotated(model) if not fits}
     links = (without_annotation(link, FLOATING) if link.name in loose else link for link in model.links)
     return model.model_copy(update={"links": tuple(links)})
 
 
-def _has_marks(model: Model) -> bool:
+def _has_annotations(model: Model) -> bool:
     return any(find_annotation(link, FLOATING) is not None for link in model.links)
 
 
-def _marked(model: Model) -> Iterator[tuple[Link, Element, bool]]:
+def _annotated(model: Model) -> Iterator[tuple[Link, Element, bool]]:
     """Each annotated link, its annotation, and whether the joint can be: new name, free link, parent not below."""
     graph = FrameGraph(model)
     holders = {joint.child: joint.parent or WORLD for joint in model.joints if joint.child}
     names = {joint.name for joint in model.joints}
     for link in model.links:
-        mark = find_annotation(link, FLOATING)
-        if mark is None:
+        annotation = find_annotation(link, FLOATING)
+        if annotation is None:
             continue
-        name, parent = mark.get("joint"), mark.get("parent")
+        name, parent = annotation.get("joint"), annotation.get("parent")
         fits = bool(name) and name not in names and link.name not in holders
         fits = fits and parent is not None and not _hangs_from(link.name, parent, holders, graph)
         if fits and name and parent:
             names.add(name)
             holders[link.name] = parent
-        yield link, mark, fits
+        yield link, annotation, fits
 
 
 def _hangs_from(link: str, name: str, holders: Mapping[str, str], graph: FrameGraph) -> bool:

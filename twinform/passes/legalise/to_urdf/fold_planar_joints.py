@@ -31,15 +31,15 @@ class FoldPlanarJoints(ToUrdfPass):
 
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model with planar joints."""
-        marked = [joint for joint in model.joints if any(_is_mark(part) for part in joint.opaque)]
-        if not marked:
+        annotated = [joint for joint in model.joints if any(_is_annotation(part) for part in joint.opaque)]
+        if not annotated:
             return model
         above = {joint.child: joint for joint in model.joints}
         links = {link.name: link for link in model.links}
         folded: dict[str, Joint] = {}
         gone: set[str] = set()
         stale: set[str] = set()
-        for joint in marked:
+        for joint in annotated:
             chain = _chain(joint, above, links)
             if chain is None or not _is_as_made(joint, chain, links):
                 message = f"joint {joint.name!r} was planar, and the joints that it became have changed since"
@@ -60,7 +60,7 @@ class FoldPlanarJoints(ToUrdfPass):
 
 
 def _upwards(joint: Joint, above: dict[str | None, Joint]) -> Iterator[str]:
-    """The names of the links and joints above that were made for a chain."""
+    """The names of the links and joints above that were synthesized for a chain."""
     for _ in range(_SLIDES):
         upper = above.get(joint.parent)
         if upper is None:
@@ -74,7 +74,7 @@ def _own(part: AnyPart, stale: set[str]) -> AnyPart:
     return without_annotation(part, SYNTHESIZED) if part.name in stale else part
 
 
-def _is_mark(part: Opaque) -> bool:
+def _is_annotation(part: Opaque) -> bool:
     return is_carrier(part, "urdf") and any(piece.attribute == ("type", "planar") for piece in unpack(part))
 
 
@@ -100,12 +100,12 @@ def _is_as_made(turn: Joint, chain: tuple[Joint, Joint], links: dict[str, Link])
 
 
 def _bare(part: Joint | Link) -> dict[str, object]:
-    """What a part says of the motion; a pose of nothing is none, and so is a limit."""
-    said = {name: getattr(part, name) for name in type(part).model_fields if name not in _BESIDE}
+    """What a part has about the motion; a pose of nothing is none, and so is a limit."""
+    written = {name: getattr(part, name) for name in type(part).model_fields if name not in _BESIDE}
     if isinstance(part, Joint) and part.axis is not None:
         limit = None if part.axis.limit == Limit() else part.axis.limit
-        said["axis"] = part.axis.model_copy(update={"limit": limit, "opaque": ()})
-    return said
+        written["axis"] = part.axis.model_copy(update={"limit": limit, "opaque": ()})
+    return written
 
 
 def _planar(joint: Joint, first: Joint) -> Joint:
@@ -114,4 +114,4 @@ def _planar(joint: Joint, first: Joint) -> Joint:
 
 
 def _without_planar(joint: Joint) -> tuple[Opaque, ...]:
-    return tuple(part for part in joint.opaque if not _is_mark(part))
+    return tuple(part for part in joint.opaque if not _is_annotation(part))

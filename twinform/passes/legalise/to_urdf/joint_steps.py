@@ -48,9 +48,9 @@ def screw(joint: Joint) -> tuple[Step, ...]:
 
 def _slide_limit(limit: Limit | None, ratio: float) -> Limit:
     """Limits that the turn keeps already: its own, times the ratio."""
-    said = limit or Limit()
-    ends = sorted((_scaled(said.lower, -UNLIMITED, ratio), _scaled(said.upper, UNLIMITED, ratio)))
-    speed = said.velocity if said.velocity is not None and said.velocity >= 0 else UNLIMITED
+    values = limit or Limit()
+    ends = sorted((_scaled(values.lower, -UNLIMITED, ratio), _scaled(values.upper, UNLIMITED, ratio)))
+    speed = values.velocity if values.velocity is not None and values.velocity >= 0 else UNLIMITED
     return Limit(lower=ends[0], upper=ends[1], effort=UNLIMITED, velocity=min(UNLIMITED, speed * abs(ratio)))
 
 

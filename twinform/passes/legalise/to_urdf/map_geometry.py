@@ -16,6 +16,7 @@ from twinform.ir import (
     Sphere,
     Visual,
     count_parts,
+    replace_fields,
 )
 from twinform.ir.defaults import SIZES, filled
 from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
@@ -33,10 +34,10 @@ _UNSAYABLE = {
     "ellipsoid": "is an ellipsoid, which URDF does not have",
     "empty": "has an empty shape, which URDF does not have",
     "image": "is an image, which URDF does not have",
-    "mesh": "is one part of a mesh, which URDF cannot say",
-    "no shape": "has no shape, which URDF cannot say",
+    "mesh": "is one part of a mesh, which URDF cannot express",
+    "no shape": "has no shape, which URDF cannot express",
 }
-"""What is said of a shape that is not simply a box, a plane and so on."""
+"""What messages call a shape that is not simply a box, a plane and so on."""
 
 
 class MapGeometry(ToUrdfPass):
@@ -53,7 +54,7 @@ class MapGeometry(ToUrdfPass):
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model with shapes of URDF alone."""
         sayable = _SHAPES - ({Capsule} if self.urdf_version == "1.0" else set())
-        return model.model_copy(update={"links": tuple(_map_link(link, sayable, keeper) for link in model.links)})
+        return replace_fields(model, links=tuple(_map_link(link, sayable, keeper) for link in model.links))
 
 
 def _map_link(link: Link, sayable: Sayable, keeper: Keeper) -> Link:
@@ -77,7 +78,7 @@ def _sort(link: Link, field: str, tag: str, shapes: tuple[AnyShaped, ...], sayab
         taken += 1
         about = (("index", str(place)),) if place < len(shapes) - 1 else ()
         link = keeper.keep(link, [piece(one, tag)], rules.UNSAYABLE_SHAPE, message, one.location, weight, about)
-    return link.model_copy(update={field: tuple(kept)}) if shapes else link
+    return replace_fields(link, **{field: tuple(kept)})
 
 
 def _can_say(geometry: Geometry | None, sayable: Sayable) -> bool:
@@ -96,7 +97,7 @@ def _map_shape(one: AnyShaped, keeper: Keeper) -> AnyShaped:
         return one
     if isinstance(shape, Mesh):
         one, uri = urdf_uri(one, MESH_SCHEME, shape.uri or "", keeper)
-        made: Node = shape.model_copy(update={"uri": uri})
+        made: Node = shape if uri == shape.uri else shape.model_copy(update={"uri": uri})
     else:
         made = filled(shape, SIZES.get(type(shape), {}))
-    return one.model_copy(update={"geometry": geometry.model_copy(update={"shape": made})})
+    return replace_fields(one, geometry=replace_fields(geometry, shape=made))

@@ -9,6 +9,7 @@ from twinform.diagnostics.rules import to_sdf as shared_rules
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Axis, Joint, Limit, Mimic, Model, Node
 from twinform.ir.defaults import UNLIMITED, multiplier
+from twinform.passes.carriers.joint_words import CONTINUOUS, MIMIC
 from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 from twinform.passes.legalise.to_urdf.map_geometry import UrdfVersion
 from twinform.passes.legalise.urdf_pieces import BALLS
@@ -20,10 +21,6 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 _WITHOUT_STRENGTH = ("effort", "velocity", "stiffness", "dissipation")
 """What goes from the limit of a continuous joint without strength: URDF would ask for the strength beside the rest."""
 _LIMITS = ("lower", "upper", "effort", "velocity")
-CONTINUOUS = "continuous"
-"""The annotation on a continuous joint that is called so in SDF, where most files have revolute without limits."""
-MIMIC = "mimic"
-"""The annotation on a mimic joint with a `reference` in SDF, the position of the leader that counts as zero."""
 _TYPES = frozenset({"fixed", "revolute", "continuous", "prismatic", "floating", "planar"})
 _FORCES = ("effort", "velocity")
 _NEEDS_STRENGTH = frozenset({"1.0", "1.1"})
@@ -60,7 +57,7 @@ def _map(joint: Joint, strength: float | None, keeper: Keeper) -> Joint:
     if joint.type == "continuous":
         message = f"joint {joint.name!r} is continuous, which most SDF files write as revolute without limits"
         keeper.account(rules.SDF_ONLY, message, joint.location, 1)
-        joint = keeper.mark(joint, CONTINUOUS)
+        joint = keeper.annotate(joint, CONTINUOUS)
     if joint.axis is None or joint.type in {"fixed", "floating", "planar"}:
         return joint
     joint = _map_mimic(joint, joint.axis, keeper)
@@ -107,8 +104,8 @@ def _continuous(joint: Joint, limit: Limit, strength: float | None, keeper: Keep
 def _fill(joint: Joint, limit: Limit, numbers: Mapping[str, float | None], keeper: Keeper) -> Limit:
     """The limit with these numbers where URDF needs one; None is a number that it does not need."""
     strength = _is_finite if keeper.back else _is_strength
-    said = {"lower": _is_finite, "upper": _is_finite, "effort": strength, "velocity": strength}
-    missing = {name: number for name, number in numbers.items() if not said[name](getattr(limit, name))}
+    valid = {"lower": _is_finite, "upper": _is_finite, "effort": strength, "velocity": strength}
+    missing = {name: number for name, number in numbers.items() if not valid[name](getattr(limit, name))}
     for name, number in missing.items():
         if number is None:
             continue
@@ -139,7 +136,7 @@ def _map_mimic(joint: Joint, axis: Axis, keeper: Keeper) -> Joint:
     joint = joint.model_copy(update={"axis": axis.model_copy(update={"mimic": made})})
     message = f"the reference of the mimic joint {joint.name!r} is part of its offset in URDF"
     keeper.account(rules.SDF_ONLY, message, mimic.location, 1)
-    return keeper.mark(joint, MIMIC, attributes={"reference": format_value(mimic.reference)})
+    return keeper.annotate(joint, MIMIC, attributes={"reference": format_value(mimic.reference)})
 
 
 def _limits(limit: Limit, name: str) -> bool:

@@ -32,7 +32,7 @@ class MapMaterials(ToUrdfPass):
         names: set[str] = set()
         links = tuple(_map_link(link, names, keeper) for link in model.links)
         tags = {link.name: tag for link in links if (tag := _script_tag(link, keeper)) is not None}
-        links = tuple(_said_by_tag(link, keeper) if link.name in tags else link for link in links)
+        links = tuple(_set_by_tag(link, keeper) if link.name in tags else link for link in links)
         return model.model_copy(update={"links": links, "extensions": (*model.extensions, *tags.values())})
 
 
@@ -74,7 +74,7 @@ def _keep_colors(visual: Visual, material: Material, keeper: Keeper) -> Visual:
         return visual
     message = f"visual {visual.name!r} has more colors than a URDF material can have"
     keeper.account(rules.COLORS, message, material.location, sum(1 for name in others if written[name]))
-    return keeper.mark(visual, COLORS, attributes={**others, "of": format_value(color)}, always=True)
+    return keeper.annotate(visual, COLORS, attributes={**others, "of": format_value(color)}, always=True)
 
 
 def _script_tag(link: Link, keeper: Keeper) -> GazeboExtension | None:
@@ -88,7 +88,7 @@ def _script_tag(link: Link, keeper: Keeper) -> GazeboExtension | None:
     return GazeboExtension(reference=link.name, content=(Element(name="material", text=name),), source=link.source)
 
 
-def _said_by_tag(link: Link, keeper: Keeper) -> Link:
+def _set_by_tag(link: Link, keeper: Keeper) -> Link:
     """The link, whose visuals only say by now from which files their material is."""
     visuals: list[Visual] = []
     for visual in link.visuals:
@@ -99,6 +99,6 @@ def _said_by_tag(link: Link, keeper: Keeper) -> Link:
             message = f"<material> for link {link.name!r} does not name the files of the material of {visual.name!r}"
             keeper.account(rules.SDF_ONLY, message, script.location, len(script.uris))
         if script and script.uris != (SCRIPT_URI,):
-            one = keeper.mark(one, SCRIPTS, text="\n".join(script.uris), always=True)
+            one = keeper.annotate(one, SCRIPTS, text="\n".join(script.uris), always=True)
         visuals.append(one)
     return link.model_copy(update={"visuals": tuple(visuals)})

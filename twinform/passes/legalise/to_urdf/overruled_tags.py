@@ -5,7 +5,7 @@ from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_
 
 _TAGS = MODEL_TAGS | JOINT_TAGS | LINK_TAGS
 _ELEMENTS = {"surface": "collision", "collision": "collision", "physics": "physics", "dynamics": "axis"}
-"""The SDF that says in an extension what tags of these targets do, and that counts after them."""
+"""The SDF that does in an extension what tags of these targets do, and that counts after them."""
 
 
 def with_overruled(model: Model, extension: Element) -> Model | None:

@@ -1,11 +1,25 @@
 """Moving each link frame to the frame of its joint, as URDF requires."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import NOWHERE
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Element, Joint, Light, Link, Model, Node, Pose, Sensor, count_parts
+from twinform.ir import (
+    PLAIN,
+    Element,
+    Joint,
+    Light,
+    Link,
+    Model,
+    Node,
+    Pose,
+    Sensor,
+    bits_of,
+    census_of,
+    count_parts,
+)
 from twinform.ir.frames import MODEL, WORLD, FrameGraph, Kind
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import annotation, find_annotation, is_synthesized
@@ -18,6 +32,8 @@ from twinform.passes.transforms.notation import FRAME, OFFSET, POSE, in_radians,
 from twinform.passes.transforms.rebasing import AnyPosed, Base, Posed, Rebasing
 
 AnyNode = TypeVar("AnyNode", bound=Node)
+_MOVED = PLAIN | bits_of(Pose, "relative_to", "degrees", "quat_xyzw", "rotation_format")
+"""What a part of a link may have whose pose is not six numbers in the frame of the link."""
 
 
 class RebaseLinks(ToUrdfPass):
@@ -79,19 +95,21 @@ class _Rebase:
 
     def link(self, link: Link) -> Link:
         """The link and all in it in the frame of its joint."""
-        return self._own_pose(self.poses.link(link))
+        offset = self.graph.pose(link.name, self.base[0], base=self.base[1])
+        if not offset.is_identity or link.opaque or any(map(_may_move, _parts(link))):
+            link = self.poses.link(link)
+        return self._own_pose(link, offset)
 
-    def _own_pose(self, link: Link) -> Link:
+    def _own_pose(self, link: Link, offset: Transform) -> Link:
         name, kind = self.base
-        written, made = link.pose, Pose(relative_to=name) if kind == "joint" else None
+        written, made = link.pose, Pose.unchecked(relative_to=name) if kind == "joint" else None
         moved = link.model_copy(update={"pose": made})
         if is_synthesized(link) or part_of(link) is not None:
             return moved
-        offset = self.graph.pose(link.name, name, base=kind)
         if not offset.is_identity:
-            moved = self.keeper.mark(moved, OFFSET, attributes=offset_attributes(offset), always=True)
+            moved = self.keeper.annotate(moved, OFFSET, attributes=offset_attributes(offset), always=True)
         if find_annotation(link, FRAME) is None:
-            moved = self._marked(moved, written)
+            moved = self._annotated(moved, written)
         if written is not None and written != made and _is_written(written, link) and link.name not in self.framed:
             message = f"the frame of link {link.name!r} is that of its joint {name!r}"
             if kind != "joint":
@@ -110,15 +128,15 @@ class _Rebase:
             f"the pose of the {tag} {name!r} is written differently in URDF" if name else f"the pose of the {tag} moved"
         )
         self._account(written, f"{message} ({self.kind} {self.name!r})")
-        return self._marked(moved, written, notation=made)
+        return self._annotated(moved, written, notation=made)
 
-    def _marked(self, node: AnyNode, written: Pose | None, *, notation: Pose | None = None) -> AnyNode:
+    def _annotated(self, node: AnyNode, written: Pose | None, *, notation: Pose | None = None) -> AnyNode:
         attributes = pose_attributes(written)
         if attributes.get("relative_to") == _scope_of(node):
             del attributes["relative_to"]
         if notation is not None and notation.degrees == (written and written.degrees):
             attributes = {name: text for name, text in attributes.items() if name != "degrees"}
-        return self.keeper.mark(node, POSE, attributes=attributes) if attributes else node
+        return self.keeper.annotate(node, POSE, attributes=attributes) if attributes else node
 
     def _account(self, written: Pose, message: str) -> None:
         self.keeper.account(rules.MOVED_FRAME, message, written.location, count_parts(written))
@@ -128,6 +146,18 @@ class _Rebase:
         attributes = pose_attributes(written)
         made = annotation(POSE, attributes=attributes).element if attributes else None
         return (made,) if made and self.keeper.carriers and not self.keeper.back else ()
+
+
+def _parts(link: Link) -> Iterator[Posed]:
+    if link.inertial:
+        yield link.inertial
+    for parts in (link.visuals, link.collisions, link.sensors, link.lights):
+        yield from parts
+
+
+def _may_move(part: Posed) -> bool:
+    """Whether there is more to a pose of a part than six numbers, which nearly always is all."""
+    return census_of(part) & _MOVED != 0 or (part.pose is not None and bool(part.pose.opaque))
 
 
 def _unmoved(model: Model, graph: FrameGraph, bases: dict[str, Base]) -> frozenset[str]:
@@ -147,7 +177,7 @@ def _scope_of(node: Node) -> str:
 
 
 def _is_of_frame(joint: Joint) -> bool:
-    """Whether it was made to fix a frame, which is a link by now."""
+    """Whether it was synthesized to fix a frame, which is a link by now."""
     return joint.type == "fixed" and joint.parent != WORLD and is_synthesized(joint)
 
 
@@ -178,7 +208,7 @@ def _place_joint(joint: Joint, graph: FrameGraph, base: Base, keeper: Keeper) ->
     ends = find_annotation(joint, ENDS)
     if ends is not None and attributes.get("relative_to") == ends.get("child"):
         del attributes["relative_to"]  # which goes without saying
-    return keeper.mark(placed, POSE, attributes=attributes) if attributes else placed
+    return keeper.annotate(placed, POSE, attributes=attributes) if attributes else placed
 
 
 def _place_model(model: Model, graph: FrameGraph, roots: list[str], keeper: Keeper) -> Model:
@@ -191,10 +221,10 @@ def _place_model(model: Model, graph: FrameGraph, roots: list[str], keeper: Keep
     moved = model.model_copy(update={"pose": made})
     offset = graph.pose(MODEL, root, kind="model", base="link" if roots else "world")
     if not offset.is_identity:
-        moved = keeper.mark(moved, OFFSET, attributes=offset_attributes(offset))
+        moved = keeper.annotate(moved, OFFSET, attributes=offset_attributes(offset))
     if written is None or written == made:
         return moved
     message = f"the pose of model {model.name!r} is that of its root link {root!r}"
     keeper.account(rules.MOVED_FRAME, message, written.location, count_parts(written))
     attributes = pose_attributes(written)
-    return keeper.mark(moved, POSE, attributes=attributes) if attributes else moved
+    return keeper.annotate(moved, POSE, attributes=attributes) if attributes else moved

@@ -1,26 +1,42 @@
 """Remainder of a node: the fields that URDF cannot express, found by the URDF facts table."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cache
-from typing import TypeVar, Union
+from types import MappingProxyType
+from typing import NamedTuple, TypeVar, Union
 
 from twinform.ir import Element, Node, Opaque
+from twinform.ir.tree import classes_in
 from twinform.passes.carriers.carriers import is_ours, to_element
 from twinform.schemas import Fact, format_value, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)
-KnownFields = dict[str, Union["KnownFields", None]]
-"""The fields of a node that URDF has, each with the fields inside; None where that is a plain value."""
+
+
+class KnownFields(dict[str, Union["KnownFields", None]]):
+    """The fields of a node that URDF has, each with the fields inside; None where that is a plain value."""
+
+    def __init__(self, fields: Mapping[str, "KnownFields | None"] = MappingProxyType({})) -> None:
+        super().__init__(fields)
+        self.questions: dict[type[Node], _Questions] = {}
+        """What `fits` asks of each class of nodes, once it was asked."""
+
+
+class _Questions(NamedTuple):
+    """The fields of a class that URDF lacks, those that may hold numbers, and those that hold nodes it has."""
+
+    unknown: tuple[str, ...]
+    numbers: tuple[str, ...]
+    nodes: tuple[tuple[str, KnownFields], ...]
+
 
 _IDENTITY = frozenset({"name", "type", "kind"})
 _ABOUT = frozenset({"source", "spelling", "opaque"})
 _APART = _IDENTITY | _ABOUT
 _NONE: tuple[()] = ()
 """There is only one empty tuple."""
-_UNKNOWN: KnownFields = {}
-"""The inner fields of one that URDF does not have."""
 
 
 @dataclass(slots=True)
@@ -43,7 +59,7 @@ def urdf_fields(definition: str, *steps: str) -> KnownFields:
     fact = facts.definitions[definition]
     for step in steps:
         fact = facts.resolve(next(row for row in fact.children if row.name == step))
-    known: KnownFields = {}
+    known = KnownFields()
     _collect(fact, known)
     return known
 
@@ -61,17 +77,17 @@ def _collect(fact: Fact, known: KnownFields) -> None:
 def _place(row: Fact, known: KnownFields) -> None:
     *outer, last = row.place.split(".") if row.place else [""]
     for step in outer:
-        inner = known.setdefault(step, {})
-        known = inner if inner is not None else {}
+        inner = known.setdefault(step, KnownFields())
+        known = inner if inner is not None else KnownFields()
     if row.is_attribute or row.type:
         known[last] = None
         return
-    inside: KnownFields = {}
+    inside = KnownFields()
     _collect(table("urdf").resolve(row), inside)
     if row.kind is None:
-        known[last] = {**(known.get(last) or {}), **inside}
+        known[last] = KnownFields({**(known.get(last) or {}), **inside})
     else:
-        kinds = known.setdefault(last, {})
+        kinds = known.setdefault(last, KnownFields())
         if kinds is not None:
             kinds[row.kind] = inside
 
@@ -81,7 +97,7 @@ def take_remainder(node: AnyNode, tag: str, known: KnownFields) -> tuple[AnyNode
 
     Nodes in tuples (links, visuals, ...) stay where URDF has them: they have remainders of their own.
     """
-    if all(is_ours(part) or _is_foreign(part) for part in node.opaque) and _fits(node, known):
+    if fits(node, known):
         return node, [], []
     split = _split(node, known, "", own_element=True)
     if not split.left:
@@ -92,23 +108,38 @@ def take_remainder(node: AnyNode, tag: str, known: KnownFields) -> tuple[AnyNode
     return kept, list(pieces), split.endless
 
 
+def fits(node: Node, known: KnownFields) -> bool:
+    """Whether URDF can write all that is in a node, which nearly always it can."""
+    return all(is_ours(part) or _is_foreign(part) for part in node.opaque) and _fits(node, known)
+
+
 def _fits(node: Node, known: KnownFields) -> bool:
-    """Whether URDF can write all that is in a node, as it nearly always can."""
-    for name, value in node.__dict__.items():
-        if value is None or value is _NONE or name in _APART:
-            continue
-        inner = known.get(name, _UNKNOWN)
-        if inner is None:
-            if _is_endless(value):
-                return False
-        elif inner is _UNKNOWN:
+    values, kind = node.__dict__, type(node)
+    unknown, numbers, nodes = known.questions.get(kind) or _questions(kind, known)
+    for name in unknown:
+        value = values[name]
+        if value is not None and value is not _NONE:
             return False
-        elif isinstance(value, Node):
-            kind = value.__dict__.get("kind")
-            found = inner if kind is None else inner.get(kind)
+    for name in numbers:
+        if _is_endless(values[name]):
+            return False
+    for name, fields in nodes:
+        value = values[name]
+        if isinstance(value, Node):
+            shape = value.__dict__.get("kind")
+            found = fields if shape is None else fields.get(shape)
             if found is None or value.opaque or not _fits(value, found):
                 return False
     return True
+
+
+def _questions(kind: type[Node], known: KnownFields) -> _Questions:
+    names = [name for name in kind.model_fields if name not in _APART]
+    numbers = (name for name in names if name in known and "float" in str(kind.model_fields[name].annotation))
+    nodes = ((name, inner) for name in names if (inner := known.get(name)) is not None and classes_in(kind, name))
+    made = _Questions(tuple(name for name in names if name not in known), tuple(numbers), tuple(nodes))
+    known.questions[kind] = made
+    return made
 
 
 def _split(node: Node, known: KnownFields, path: str, *, own_element: bool) -> Split:
@@ -143,7 +174,7 @@ def _split_inner(split: Split, name: str, value: Node, known: KnownFields, path:
     if not inner.left:
         return
     kept = value.model_copy(update=inner.kept)
-    if kind is None and _says_nothing(kept):  # then it is carried whole, beside nothing
+    if kind is None and _is_empty(kept):  # then it is carried whole, beside nothing
         split.left[name], split.kept[name] = value, None
         return
     split.left[name] = _only(value, inner.left)
@@ -151,14 +182,16 @@ def _split_inner(split: Split, name: str, value: Node, known: KnownFields, path:
     split.paths += [below, *inner.paths]
 
 
-def _says_nothing(node: Node) -> bool:
-    """Whether there is nothing in a node but what is said of it."""
+def _is_empty(node: Node) -> bool:
+    """Whether there is nothing in a node but its own fields."""
     return all(
         value in (None, ()) for name, value in node.__dict__.items() if name not in {"source", "spelling", "kind"}
     )
 
 
 def _is_endless(value: object) -> bool:
+    if value is None:
+        return False
     if type(value) is float:
         return not math.isfinite(value)
     return isinstance(value, tuple) and any(map(_is_endless, value))  # pyright: ignore[reportUnknownArgumentType] - any

@@ -40,4 +40,4 @@ def _resolve(joint: Joint, links: set[str], graph: FrameGraph, keeper: Keeper) -
     message = f"joint {joint.name!r} connects the links that {named_ends(pieces)} moves with"
     keeper.account(rules.JOINT_END, message, joint.location, sum(piece.weight for piece in pieces))
     ends = {piece.element.name: piece.element.text for piece in pieces if piece.element}
-    return keeper.mark(resolved, ENDS, attributes=ends)
+    return keeper.annotate(resolved, ENDS, attributes=ends)

@@ -5,7 +5,7 @@ from typing import ClassVar
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
 from twinform.ir import Element, GazeboExtension, Model
-from twinform.passes.carriers.lumped_names import has_marks, restored
+from twinform.passes.carriers.lumped_names import has_annotations, restored
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_sdf.follow_lumped_names import names_of_libsdformat
 
@@ -22,7 +22,7 @@ class RestoreLumpedNames(ModelPass):
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with the names of the source."""
-        if not has_marks(model):
+        if not has_annotations(model):
             return model
         names, stale = names_of_libsdformat(model), list[Element]()
 
@@ -31,7 +31,7 @@ class RestoreLumpedNames(ModelPass):
             return extension.model_copy(update={"content": content})
 
         model = model.model_copy(update={"extensions": tuple(map(restore, model.extensions))})
-        for mark in stale:
-            message = f"{mark.get('instead_of')!r} was called {mark.text!r}, which now names something else"
-            sink.report(STALE_CARRIER, message, mark.location, found=mark.text)
+        for annotation in stale:
+            message = f"{annotation.get('instead_of')!r} was called {annotation.text!r}, which now names something else"
+            sink.report(STALE_CARRIER, message, annotation.location, found=annotation.text)
         return model

@@ -18,7 +18,7 @@ _NOTHING = Inertial(mass=0.0, inertia=Inertia().model_copy(update=dict.fromkeys(
 
 
 class RestoreShapes(ModelPass):
-    """Leave out the names and the inertias that a conversion to SDF made, in a model that came from URDF.
+    """Leave out the names and the inertias that a conversion to SDF synthesized, in a model that came from URDF.
 
     Changes: 1. a visual or collision whose name an annotation lists has none, and one whose name was taken has it
     again; 2. an inertial of no mass goes, as URDF means that by saying nothing; 3. a token of mass and inertia goes
@@ -30,7 +30,7 @@ class RestoreShapes(ModelPass):
     name: ClassVar[str] = "restore-shapes"
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
-        """The model without what was made."""
+        """The model without what was synthesized."""
         if not came_from(model, Format.URDF):
             return model
         found = find_annotation(model, UNNAMED)
@@ -45,7 +45,7 @@ def _link(link: Link, made: frozenset[str]) -> Link:
         shapes = getattr(link, field)
         usual = f"{link.name}_{field[:-1]}"
         update[field] = tuple(_unnamed(shape, made, usual) for shape in shapes)
-    inertial = _as_said(link.inertial) if link.inertial else None
+    inertial = _as_written(link.inertial) if link.inertial else None
     if inertial is not link.inertial or (inertial and _is_nothing(inertial)):
         update["inertial"] = None if inertial and _is_nothing(inertial) else inertial
     return replace_fields(link, **update)
@@ -61,7 +61,7 @@ def _unnamed(shape: Shape, made: frozenset[str], usual: str) -> Shape:
     return shape.model_copy(update={"name": found.text or ""}) if found.get("instead_of") == shape.name else shape
 
 
-def _as_said(inertial: Inertial) -> Inertial:
+def _as_written(inertial: Inertial) -> Inertial:
     """The inertial without a mass or moments of nothing that URDF left out."""
     found = find_annotation(inertial, UNSAID)
     if found is None:
@@ -87,5 +87,5 @@ def _moments(inertial: Inertial) -> list[float | None]:
 
 
 def _is_nothing(inertial: Inertial) -> bool:
-    """Whether it says mass and inertia of nothing, and no more."""
+    """Whether it has mass and inertia of nothing, and no more."""
     return not inertial.mass and not any(_moments(inertial)) and inertial.pose is None and not inertial.opaque

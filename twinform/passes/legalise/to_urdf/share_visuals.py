@@ -8,13 +8,16 @@ from twinform.passes.carriers.annotations import without_annotation
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.material_annotations import LOOK, look_of
 from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
-from twinform.passes.legalise.to_urdf.remainder import take_remainder, urdf_fields
+from twinform.passes.legalise.to_urdf.remainder import KnownFields, fits, take_remainder, urdf_fields
 from twinform.passes.transforms.gazebo_tags import LINK_TAGS
 
 _COLORS = ("ambient", "diffuse")
 _NOT_FIELDS = frozenset({"source", "spelling"})
 _OF_MATERIALS = frozenset({"material"})
 _IN_FRAMES = frozenset({"pose", "geometry"})
+
+
+_FIELDS = KnownFields({**urdf_fields("link", "visual"), **dict.fromkeys(("material", "pose", "geometry"))})
 
 
 class ShareVisuals(ToUrdfPass):
@@ -62,24 +65,26 @@ def _shared(link: Link) -> tuple[Link, list[Element]]:
 
 def _shared_look(visuals: tuple[Visual, ...], look: tuple[str, ...]) -> Material | None:
     """What the materials of all visuals have in common in these fields, which are of SDF."""
-    looks = [_only(visual.material, look) for visual in visuals]
-    return looks[0] if looks[0] != Material() and all(one == looks[0] for one in looks[1:]) else None
+    if not look:
+        return None
+    materials = [_only(visual.material, look) for visual in visuals]
+    return materials[0] if materials[0] != Material() and all(one == materials[0] for one in materials[1:]) else None
 
 
 def _only(material: Material | None, look: tuple[str, ...]) -> Material:
-    return Material.model_validate({name: value for name, value in _said(material) if name in look})
+    return Material.model_validate({name: value for name, value in _written(material) if name in look})
 
 
 def _without_look(visual: Visual, look: tuple[str, ...]) -> Visual:
     """The visual without these fields; of its two colors, one stands for both again, as in URDF."""
-    rest = {name: value for name, value in _said(visual.material) if name not in look}
+    rest = {name: value for name, value in _written(visual.material) if name not in look}
     color = rest.get("diffuse") or rest.get("ambient")
     rest |= {name: color for name in _COLORS if color is not None and name in look}
     material = visual.material and Material.model_validate({**rest, "source": visual.material.source})
     return visual.model_copy(update={"material": None if not rest else material})
 
 
-def _said(material: Material | None) -> Iterator[tuple[str, object]]:
+def _written(material: Material | None) -> Iterator[tuple[str, object]]:
     """The fields of SDF that a material has, and their values."""
     for name in Material.model_fields if material else ():
         value = getattr(material, name)
@@ -89,6 +94,8 @@ def _said(material: Material | None) -> Iterator[tuple[str, object]]:
 
 def _rest(visual: Visual) -> tuple[Element, ...]:
     """What only SDF has, besides materials."""
+    if fits(visual, _FIELDS):
+        return ()
     bare = visual.model_copy(update={"material": None, "pose": None, "geometry": None})
     _, pieces, _ = take_remainder(bare, "visual", urdf_fields("link", "visual"))
     elements = tuple(piece.element for piece in pieces if piece.element and not piece.at)

@@ -5,7 +5,7 @@ from typing import ClassVar
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Frame, Joint, Link, Model, Pose, count_parts
 from twinform.ir.frames import MODEL, FrameGraph
-from twinform.passes.carriers.annotations import SYNTHESIZED, is_synthesized, mark_synthesized, without_annotation
+from twinform.passes.carriers.annotations import SYNTHESIZED, annotate_synthesized, is_synthesized, without_annotation
 from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 from twinform.passes.transforms.nodes import unique_name
 from twinform.passes.transforms.notation import FRAME, POSE, pose_attributes
@@ -27,7 +27,9 @@ class TurnFramesIntoLinks(ToUrdfPass):
             return model
         taken = {node.name for node in (*model.links, *model.joints, *model.frames)}
         if not model.links:
-            model = model.model_copy(update={"links": (mark_synthesized(Link(name=unique_name(model.name, taken))),)})
+            model = model.model_copy(
+                update={"links": (annotate_synthesized(Link(name=unique_name(model.name, taken))),)}
+            )
             taken.add(model.links[0].name)
         graph = FrameGraph(model)
         links, joints = list(model.links), list(model.joints)
@@ -37,7 +39,7 @@ class TurnFramesIntoLinks(ToUrdfPass):
             body = graph.body(frame.name, kind="frame")
             links.append(_link(frame, body, keeper))
             made = Joint(name=joint, type="fixed", parent=body, child=frame.name, source=frame.source)
-            joints.append(mark_synthesized(made))
+            joints.append(annotate_synthesized(made))
         return model.model_copy(update={"links": tuple(links), "joints": tuple(joints), "frames": ()})
 
 
@@ -47,9 +49,11 @@ def _link(frame: Frame, body: str, keeper: Keeper) -> Link:
         pose = pose.model_copy(update={"relative_to": frame.attached_to or MODEL})
     link = Link(name=frame.name, pose=pose, source=frame.source, opaque=frame.opaque)
     if is_synthesized(frame):  # it stands for a nested model, which is accounted for
-        return keeper.mark(without_annotation(link, SYNTHESIZED), FRAME, attributes={"attached_to": None}, always=True)
+        return keeper.annotate(
+            without_annotation(link, SYNTHESIZED), FRAME, attributes={"attached_to": None}, always=True
+        )
     message = f"frame {frame.name!r} becomes a link without mass"
     keeper.account(rules.FRAME_MADE_LINK, message, frame.location, count_parts(frame))
     holder = frame.attached_to or MODEL
-    link = keeper.mark(link, FRAME, attributes={"attached_to": None if holder == body else holder}, always=True)
-    return keeper.mark(link, POSE, attributes=pose_attributes(frame.pose)) if pose_attributes(frame.pose) else link
+    link = keeper.annotate(link, FRAME, attributes={"attached_to": None if holder == body else holder}, always=True)
+    return keeper.annotate(link, POSE, attributes=pose_attributes(frame.pose)) if pose_attributes(frame.pose) else link

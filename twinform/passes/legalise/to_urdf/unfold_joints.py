@@ -174,5 +174,7 @@ def _as_in_urdf(joint: Joint) -> Joint:
 def _type_in_urdf(part: Opaque) -> str | None:
     """The type of a ball joint in a carrier of URDF."""
     pieces = unpack(part) if is_carrier(part, "urdf") else ()
-    said = (piece.attribute[1] for piece in pieces if piece.attribute and piece.attribute[0] == "type" and not piece.at)
-    return next((kind for kind in said if kind in BALLS), None)
+    types = (
+        piece.attribute[1] for piece in pieces if piece.attribute and piece.attribute[0] == "type" and not piece.at
+    )
+    return next((kind for kind in types if kind in BALLS), None)

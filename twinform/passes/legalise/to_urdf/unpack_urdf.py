@@ -6,9 +6,9 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
-from twinform.ir import Link, Model, Node, Opaque, holds_opaque, map_children, rewrite
+from twinform.ir import Link, Model, Node, Opaque, map_children, rewrite
 from twinform.ir.frames import WORLD
-from twinform.passes.carriers.carriers import is_carrier, is_dangling, is_overruled, unpack
+from twinform.passes.carriers.carriers import bits_of_ours, is_carrier, is_dangling, is_overruled, unpack
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_urdf.overruled_tags import with_overruled
 from twinform.passes.legalise.urdf_pieces import misfit
@@ -31,7 +31,9 @@ class UnpackUrdf(ModelPass):
         """The model without carriers of what URDF can express."""
         if sink.has_errors:
             return model
-        model = map_children(model, lambda child: rewrite(child, Node, partial(_unpack, sink), enter=holds_opaque))
+        model = map_children(
+            model, lambda child: rewrite(child, Node, partial(_unpack, sink), having=bits_of_ours("urdf"))
+        )
         model = _with_overruled(model, sink)
         return _unpacked(_with_world(model), partial(misfit, node=model), sink)
 
@@ -41,7 +43,7 @@ def _unpack(sink: DiagnosticSink, node: Node) -> Node:
 
 
 def _unpacked(node: AnyNode, misfit: Callable[[Opaque], str], sink: DiagnosticSink) -> AnyNode:
-    """The node with its opaque parts, those of URDF out of their carriers; `misfit` says why one cannot come out."""
+    """The node with its opaque parts, those of URDF out of their carriers; `misfit`: why one cannot come out."""
     if not any(is_carrier(part, "urdf") for part in node.opaque):
         return node
     opaque: list[Opaque] = []

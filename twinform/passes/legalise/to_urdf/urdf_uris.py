@@ -16,12 +16,12 @@ def urdf_uri(shape: Shape, kind: str, written: str, keeper: Keeper) -> tuple[Sha
 
     `kind` is the annotation's. One that came from URDF with the scheme of Gazebo keeps that.
     """
-    mark = find_annotation(shape, kind)
+    annotation = find_annotation(shape, kind)
     shape = without_annotation(shape, kind)
-    if mark is not None and mark.get("scheme") == scheme_of(written) == GAZEBO:
+    if annotation is not None and annotation.get("scheme") == scheme_of(written) == GAZEBO:
         return shape, written
     uri, lost = package_uri(written)
     if lost:
         keeper.account(rules.SDF_ONLY, f"{written!r} has the scheme that model:// becomes", shape.location, 1)
-        shape = keeper.mark(shape, kind, attributes={"scheme": scheme_of(written)})
+        shape = keeper.annotate(shape, kind, attributes={"scheme": scheme_of(written)})
     return shape, uri

@@ -1,4 +1,4 @@
-"""What <gazebo> says of a link, joint or model that says it already."""
+"""What <gazebo> sets for a link, joint or model that has it already."""
 
 import twinform
 
@@ -10,7 +10,7 @@ ROBOT = b"""<robot name="r">
 </robot>"""
 
 
-def test_what_is_said_again_is_carried_and_comes_home():
+def test_what_is_repeated_is_carried_and_comes_back():
     there = twinform.convert(ROBOT, to="sdf")
     assert "gazebo-conflict" in {found.rule.name for found in there.diagnostics}
     assert [str(entry.fate) for entry in there.ledger.entries if entry.rule.name == "gazebo-conflict"] == ["carried"]

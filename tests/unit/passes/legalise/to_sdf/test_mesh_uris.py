@@ -18,7 +18,7 @@ def link(mesh: str, texture: str, collision: str) -> Link:
 
 
 def bare(node: Node) -> Node:
-    """The node without marks, which have a test of their own."""
+    """The node without annotations, which have a test of their own."""
     return map_children(without_annotation(node, MESH_SCHEME, TEXTURE_SCHEME), bare)
 
 
@@ -38,9 +38,9 @@ def test_each_uri_is_rewritten_by_itself(place: int, other: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("written", "mark", "became", "left"),
+    ("written", "annotation", "became", "left"),
     [
-        ("model://a", None, "model://a", "model"),  # which would come home as package://
+        ("model://a", None, "model://a", "model"),  # which would come back as package://
         ("package://a", None, "model://a", None),
         ("package://a", "package", "package://a", None),  # as it was in SDF
         ("model://a", "package", "model://a", None),  # edited since
@@ -48,12 +48,14 @@ def test_each_uri_is_rewritten_by_itself(place: int, other: str) -> None:
         ("a.dae", "package", "a.dae", None),
     ],
 )
-def test_a_mark_says_the_scheme_that_the_way_home_would_not_find(
-    written: str, mark: str | None, became: str, left: str | None
+def test_an_annotation_has_the_scheme_that_the_conversion_back_would_not_find(
+    written: str, annotation: str | None, became: str, left: str | None
 ) -> None:
     (visual,) = (Visual(name="v", geometry=Geometry(shape=Mesh(uri=written))),)
-    marked = visual if mark is None else with_annotation(visual, MESH_SCHEME, attributes={"scheme": mark})
-    (made,) = rewritten(Link(name="a", visuals=(marked,))).visuals
+    annotated = (
+        visual if annotation is None else with_annotation(visual, MESH_SCHEME, attributes={"scheme": annotation})
+    )
+    (made,) = rewritten(Link(name="a", visuals=(annotated,))).visuals
     assert made.geometry
     assert made.geometry.shape == Mesh(uri=became)
     found = find_annotation(made, MESH_SCHEME)

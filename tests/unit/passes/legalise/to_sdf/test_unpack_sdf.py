@@ -1,4 +1,4 @@
-"""What SDF said of shapes and fixed joints comes out of its carriers, whether the others may stay or not."""
+"""What SDF had about shapes and fixed joints comes out of its carriers, whether the others may stay or not."""
 
 from pathlib import Path
 

@@ -40,7 +40,7 @@ def convert(text: str, version: str = "1.11") -> XmlElement:
     return root
 
 
-def said(root: XmlElement, path: str) -> list[str]:
+def values_at(root: XmlElement, path: str) -> list[str]:
     found = root.xpath(path, namespaces=TF)
     assert isinstance(found, list)
     return [str(each) for each in found]  # pyright: ignore[reportUnknownArgumentType, reportUnknownVariableType] - texts

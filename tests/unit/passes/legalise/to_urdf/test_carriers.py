@@ -10,7 +10,7 @@ from twinform.passes.carriers.carriers import NAMESPACE, is_carrier, unpack
 from twinform.passes.legalise.to_urdf import to_urdf
 from twinform.schemas import XmlElement
 
-from .models import BOX, EVERYTHING, LINK, arm, convert, joint, link, lower, read, said, visual
+from .models import BOX, EVERYTHING, LINK, arm, convert, joint, link, lower, read, values_at, visual
 
 
 @pytest.mark.parametrize(
@@ -35,11 +35,11 @@ from .models import BOX, EVERYTHING, LINK, arm, convert, joint, link, lower, rea
         (LINK, "/robot/tf:from/@*", ["sdf", "1.11"]),
     ],
 )
-def test_a_part_of_sdf_is_said_in_urdf(text: str, path: str, expected: list[str]) -> None:
-    assert said(convert(text), path) == expected
+def test_a_part_of_sdf_is_expressed_in_urdf(text: str, path: str, expected: list[str]) -> None:
+    assert values_at(convert(text), path) == expected
 
 
-def test_without_carriers_nothing_of_ours_is_left_and_the_ledger_says_dropped() -> None:
+def test_without_carriers_nothing_of_ours_is_left_and_the_ledger_has_dropped() -> None:
     root, sink = lower(read(EVERYTHING), carriers=False)
     assert NAMESPACE not in etree.tostring(root).decode()
     assert {entry.fate for entry in sink.entries} <= {Fate.DROPPED, Fate.APPROXIMATED}
@@ -59,7 +59,7 @@ def test_carriers_unpack_to_the_pieces_as_they_were() -> None:
     ]
 
 
-def test_a_model_that_needs_nothing_but_urdf_says_only_where_it_is_from() -> None:
+def test_a_model_that_needs_nothing_but_urdf_has_only_where_it_is_from() -> None:
     root = convert(
         link(
             "<inertial><mass>1</mass><inertia><ixx>1</ixx><ixy>0</ixy><ixz>0</ixz>"
@@ -72,9 +72,9 @@ def test_a_model_that_needs_nothing_but_urdf_says_only_where_it_is_from() -> Non
             "<upper>1</upper><effort>1</effort><velocity>1</velocity></limit></axis>",
         )
     )
-    assert said(root, "//tf:from/@*") == ["sdf", "1.11"]
-    assert said(root, "//tf:pose/@*") == ["j", "a"]  # the frames of both poses, which go without saying in URDF
-    assert len(said(root, "//tf:*")) == 3
+    assert values_at(root, "//tf:from/@*") == ["sdf", "1.11"]
+    assert values_at(root, "//tf:pose/@*") == ["j", "a"]  # the frames of both poses, which are implied in URDF
+    assert len(values_at(root, "//tf:*")) == 3
 
 
 def values(root: XmlElement) -> set[str]:

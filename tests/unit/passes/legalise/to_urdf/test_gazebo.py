@@ -2,7 +2,7 @@
 
 import pytest
 
-from .models import BOX, COLLISION, LINK, arm, convert, joint, link, said, visual
+from .models import BOX, COLLISION, LINK, arm, convert, joint, link, values_at, visual
 
 
 @pytest.mark.parametrize(
@@ -83,5 +83,5 @@ from .models import BOX, COLLISION, LINK, arm, convert, joint, link, said, visua
         ),
     ],
 )
-def test_a_part_of_sdf_is_said_in_urdf(text: str, path: str, expected: list[str]) -> None:
-    assert said(convert(text), path) == expected
+def test_a_part_of_sdf_is_expressed_in_urdf(text: str, path: str, expected: list[str]) -> None:
+    assert values_at(convert(text), path) == expected

@@ -2,7 +2,7 @@
 
 import pytest
 
-from .models import LINK, arm, convert, joint, link, lower, read, said
+from .models import LINK, arm, convert, joint, link, lower, read, values_at
 
 
 @pytest.mark.parametrize(
@@ -55,8 +55,8 @@ from .models import LINK, arm, convert, joint, link, lower, read, said
         ),
     ],
 )
-def test_a_part_of_sdf_is_said_in_urdf(text: str, path: str, expected: list[str]) -> None:
-    assert said(convert(text), path) == expected
+def test_a_part_of_sdf_is_expressed_in_urdf(text: str, path: str, expected: list[str]) -> None:
+    assert values_at(convert(text), path) == expected
 
 
 @pytest.mark.parametrize(
@@ -68,10 +68,10 @@ def test_a_part_of_sdf_is_said_in_urdf(text: str, path: str, expected: list[str]
         ("1.6", "<use_parent_model_frame>false</use_parent_model_frame>", "0 0 1"),
     ],
 )
-def test_an_axis_means_what_its_version_says(version: str, axis: str, expected: str) -> None:
+def test_an_axis_means_what_its_version_specifies(version: str, axis: str, expected: str) -> None:
     turned = "<link name='b'><pose>0 0 0 0 1.5707963267948966 0</pose></link>"
     root = convert(LINK + turned + joint("revolute", f"<axis><xyz>0 0 1</xyz>{axis}</axis>"), version)
-    numbers = [round(float(number), 12) + 0.0 for number in said(root, "//joint/axis/@xyz")[0].split()]
+    numbers = [round(float(number), 12) + 0.0 for number in values_at(root, "//joint/axis/@xyz")[0].split()]
     assert numbers == [float(number) + 0.0 for number in expected.split()]
 
 
@@ -81,8 +81,8 @@ def test_a_loop_is_cut_and_closed_again_for_gazebo() -> None:
         LINK + "<link name='b'/><link name='c'/>" + joint("revolute") + joint("revolute", "", "i", "b", "c") + closing
     )
     root, sink = lower(read(text))
-    assert said(root, "/robot/joint/@name") == ["j", "i"]
-    assert said(root, "/robot/gazebo/joint/*[self::parent or self::child or self::pose]/text()") == [
+    assert values_at(root, "/robot/joint/@name") == ["j", "i"]
+    assert values_at(root, "/robot/gazebo/joint/*[self::parent or self::child or self::pose]/text()") == [
         "0 0 1 0 0 0",
         "a",
         "c",

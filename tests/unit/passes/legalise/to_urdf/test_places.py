@@ -4,7 +4,7 @@ import pytest
 
 import twinform
 
-from .models import BOX, INNER, LINK, convert, joint, link, said, visual
+from .models import BOX, INNER, LINK, convert, joint, link, values_at, visual
 
 
 @pytest.mark.parametrize(
@@ -47,35 +47,35 @@ from .models import BOX, INNER, LINK, convert, joint, link, said, visual
         ),
     ],
 )
-def test_a_part_of_sdf_is_said_in_urdf(text: str, path: str, expected: list[str]) -> None:
-    assert said(convert(text), path) == expected
+def test_a_part_of_sdf_is_expressed_in_urdf(text: str, path: str, expected: list[str]) -> None:
+    assert values_at(convert(text), path) == expected
 
 
 def test_the_frame_of_an_older_pose_is_honored_and_carried_as_it_was() -> None:
     text = link("<pose>1 0 0 0 0 0</pose>") + link("<pose frame='a'>1 0 0 0 0 0</pose>", "b") + joint("fixed")
     root = convert(text, "1.6")
-    assert said(root, "//joint/origin/@xyz | //link[@name='b']/tf:pose/@*") == ["a", "1 0 0"]
+    assert values_at(root, "//joint/origin/@xyz | //link[@name='b']/tf:pose/@*") == ["a", "1 0 0"]
 
 
 def test_nested_models_come_up_with_names_of_their_scope() -> None:
     root = convert(LINK + INNER + "<joint name='o' type='fixed'><parent>a</parent><child>inner::l</child></joint>")
-    assert said(root, "/robot/link/@name") == ["a", "inner__l", "inner__k", "inner", "inner__f"]
-    assert said(root, "/robot/joint[@name='inner__j']/*/@link") == ["inner__l", "inner__k"]
-    assert said(root, "/robot/joint[@name='o']/origin/@xyz") == ["0 0 1"]
-    assert said(root, "/robot/joint[child/@link='inner__f']/parent/@link") == ["inner__k"]
-    assert said(root, "//link[@name='inner']/tf:nested/static/text()") == ["false"]
-    marks = said(root, "//tf:scoped-name/text()")
-    assert marks == ["inner::l", "inner::k", "inner::f", "inner::j"]
-    assert said(root, "//tf:scoped-name/@instead_of") == [name.replace("::", "__") for name in marks]
+    assert values_at(root, "/robot/link/@name") == ["a", "inner__l", "inner__k", "inner", "inner__f"]
+    assert values_at(root, "/robot/joint[@name='inner__j']/*/@link") == ["inner__l", "inner__k"]
+    assert values_at(root, "/robot/joint[@name='o']/origin/@xyz") == ["0 0 1"]
+    assert values_at(root, "/robot/joint[child/@link='inner__f']/parent/@link") == ["inner__k"]
+    assert values_at(root, "//link[@name='inner']/tf:nested/static/text()") == ["false"]
+    annotations = values_at(root, "//tf:scoped-name/text()")
+    assert annotations == ["inner::l", "inner::k", "inner::f", "inner::j"]
+    assert values_at(root, "//tf:scoped-name/@instead_of") == [name.replace("::", "__") for name in annotations]
 
 
 def test_joints_between_frames_connect_their_links() -> None:
     frames = "<frame name='f' attached_to='a'/><frame name='g' attached_to='b'><pose>0 0 1 0 0 0</pose></frame>"
     text = LINK + "<link name='b'/>" + frames + joint("fixed", parent="f", child="g")
     root = convert(text)
-    assert said(root, "/robot/joint[@name='j']/*/@link") == ["a", "b"]
-    assert said(root, "/robot/joint[@name='j']/origin/@xyz") == ["0 0 1"]
-    assert said(root, "/robot/joint[@name='j']/tf:ends/@*") == ["f", "g"]
+    assert values_at(root, "/robot/joint[@name='j']/*/@link") == ["a", "b"]
+    assert values_at(root, "/robot/joint[@name='j']/origin/@xyz") == ["0 0 1"]
+    assert values_at(root, "/robot/joint[@name='j']/tf:ends/@*") == ["f", "g"]
 
 
 def test_a_link_that_is_posed_by_the_joint_that_is_cut_stays_where_it_is() -> None:
@@ -94,4 +94,4 @@ def test_a_link_that_is_posed_by_the_joint_that_is_cut_stays_where_it_is() -> No
 def test_a_carried_shape_is_where_the_link_has_moved_to() -> None:
     shape = visual("<geometry><ellipsoid/></geometry>")
     text = LINK + link(shape, "b") + joint("fixed", "<pose>0 0 0.5 0 0 0</pose>")
-    assert said(convert(text), "//tf:sdf/visual/pose/text()") == ["0 0 -0.5 0 0 0"]
+    assert values_at(convert(text), "//tf:sdf/visual/pose/text()") == ["0 0 -0.5 0 0 0"]

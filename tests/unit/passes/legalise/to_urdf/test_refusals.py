@@ -1,4 +1,4 @@
-"""What URDF cannot say at all, and which model of a world it says."""
+"""What URDF cannot express at all, and which model of a world it is."""
 
 import pytest
 
@@ -47,7 +47,7 @@ def test_a_model_is_taken_out_of_a_world_by_name() -> None:
         ),
     ],
 )
-def test_what_urdf_cannot_say_at_all_is_an_error(text: str, around: str, rule: str, message: str) -> None:
+def test_what_urdf_cannot_express_at_all_is_an_error(text: str, around: str, rule: str, message: str) -> None:
     _, sink = lower(read(text, around=around))
     found = [each for each in sink.diagnostics if each.is_error]
     assert [each.rule.name for each in found] == [rule]

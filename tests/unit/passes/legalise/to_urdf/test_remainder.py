@@ -53,5 +53,5 @@ def _agree(document: Document) -> None:
         (Visual(name="v", pose=Pose(opaque=(Opaque(element=Element(name="{urn:x}y")),))), False),
     ],
 )
-def test_what_has_no_word_or_no_end_does_not_fit(node: Node, fits: bool) -> None:
+def test_what_has_no_syntax_or_no_end_does_not_fit(node: Node, fits: bool) -> None:
     assert _both(node) == (fits, fits)

@@ -1,4 +1,4 @@
-"""One model out of a file: what is said of all that is left."""
+"""One model out of a file: what is reported of all that is left."""
 
 import pytest
 
@@ -37,9 +37,9 @@ def test_every_part_around_the_model_is_accounted_for_where_it_stands(name: str)
     nothing = {"worlds": (), "lights": (), "opaque": ()}
     assert made == document.model_copy(update={"models": (placed,), **nothing})
     assert sink.diagnostics == []
-    said = [(each.location.line, each.location.path, each.message, each.weight) for each in sink.entries]
+    found = [(each.location.line, each.location.path, each.message, each.weight) for each in sink.entries]
     pose = "the pose of model 'm' is relative to 'dock', which"
-    assert said == [
+    assert found == [
         (line, path, f"{part} is not part of the robot", weight)
         for line, path, part, weight in [
             (6, f"{W}/model[@name='m']/pose", pose, 1),
@@ -80,7 +80,7 @@ def test_it_has_to_be_clear_which_model_is_meant(name: str | None, message: str)
     assert sink.entries == []
 
 
-def test_a_file_without_a_model_says_so() -> None:
+def test_a_file_without_a_model_is_reported() -> None:
     _, sink, _ = selected('<sdf version="1.11"><world name="w"/></sdf>')
     (one,) = sink.diagnostics
     assert (one.rule.name, one.message, one.expected) == ("model-not-chosen", "there is no model in the file", "none")

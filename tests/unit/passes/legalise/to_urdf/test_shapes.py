@@ -1,4 +1,4 @@
-"""Shapes and their looks."""
+"""Shapes and their materials."""
 
 import pytest
 
@@ -6,7 +6,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.passes import Pipeline
 from twinform.passes.legalise.to_urdf import to_urdf
 
-from .models import BOX, convert, link, read, said, visual
+from .models import BOX, convert, link, read, values_at, visual
 
 
 @pytest.mark.parametrize(
@@ -82,11 +82,11 @@ from .models import BOX, convert, link, read, said, visual
         ),
     ],
 )
-def test_a_part_of_sdf_is_said_in_urdf(text: str, path: str, expected: list[str]) -> None:
-    assert said(convert(text), path) == expected
+def test_a_part_of_sdf_is_expressed_in_urdf(text: str, path: str, expected: list[str]) -> None:
+    assert values_at(convert(text), path) == expected
 
 
-def test_a_capsule_is_carried_in_urdf_1_0_and_said_in_1_1() -> None:
+def test_a_capsule_is_carried_in_urdf_1_0_and_expressed_in_1_1() -> None:
     capsule = "<geometry><capsule><radius>1</radius></capsule></geometry>"
     document, sink = read(link(visual(capsule))), DiagnosticSink()
     old = Pipeline(to_urdf()).run(document, sink)

@@ -1,0 +1,54 @@
+"""Asset access: an interface for passes that read files beside a model, implemented by the compiler."""
+
+from pathlib import Path
+from typing import Literal, Protocol
+
+from twinform.diagnostics import Rule
+from twinform.diagnostics.rules import files as rules
+
+
+class AssetError(Exception):
+    """Why a URI leads to no file that may be read, as a diagnostic would say it."""
+
+    def __init__(self, rule: Rule, message: str, help: str | None = None) -> None:
+        super().__init__(message)
+        self.rule = rule
+        self.message = message
+        self.help = help
+
+
+class Assets(Protocol):
+    """Where the files are that a document names."""
+
+    @property
+    def folder(self) -> Path | None:
+        """The folder of the document; None for a text that came from no file."""
+        ...
+
+    def find(self, uri: str) -> Path:
+        """The file or folder that a URI names.
+
+        Raises:
+            AssetError: there is none, or it must not be read.
+        """
+        ...
+
+    def holder(self, folder: Path, kind: Literal["package", "model"]) -> str | None:
+        """What the package of ROS or the model of Gazebo is called that a folder is; None where it is none."""
+        ...
+
+
+class _NoAssets:
+    """A document by itself, of which the origin is not known."""
+
+    folder: Path | None = None
+
+    def find(self, uri: str) -> Path:
+        raise AssetError(rules.UNRESOLVED_URI, f"{uri!r} cannot be looked up: only the text of the model is known")
+
+    def holder(self, folder: Path, kind: Literal["package", "model"]) -> str | None:
+        del folder, kind
+        return None
+
+
+NO_ASSETS: Assets = _NoAssets()

@@ -1,0 +1,35 @@
+"""The built-in passes, by their names in a pipeline: modules below `twinform.passes`, and classes.
+
+Made by `make generate` from the entry points of `pyproject.toml`; do not edit it.
+"""
+
+from collections.abc import Mapping
+
+BUILT_IN: Mapping[str, str] = {
+    "add-plugin": "plugins.add_plugin:AddPlugin",
+    "add-sensor": "plugins.add_sensor:AddSensor",
+    "attach": "structure.attach:Attach",
+    "balance-inertia": "inertia.balance_inertia:BalanceInertia",
+    "bridge-config": "plugins.bridge_config:BridgeConfig",
+    "check-inertia": "inertia.check_inertia:CheckInertia",
+    "check-limits": "limits.check_limits:CheckLimits",
+    "check-plugins": "plugins.check_plugins:CheckPlugins",
+    "drop": "structure.drop:Drop",
+    "fill-inertia": "inertia.fill_inertia:FillInertia",
+    "fill-limits": "limits.fill_limits:FillLimits",
+    "flatten-models": "structure.flatten_models:FlattenModels",
+    "lump-fixed-joints": "structure.lump_fixed_joints:LumpFixedJoints",
+    "materials": "appearance.materials:Materials",
+    "migrate-gazebo-classic": "classic.migrate_gazebo_classic:MigrateGazeboClassic",
+    "prefix-names": "structure.prefix_names:PrefixNames",
+    "rename": "structure.rename:Rename",
+    "replace-continuous": "limits.replace_continuous:ReplaceContinuous",
+    "reroot": "structure.reroot:Reroot",
+    "rewrite-uris": "appearance.rewrite_uris:RewriteUris",
+    "ros2-control-from-transmissions": "control.ros2_control_from_transmissions:Ros2ControlFromTransmissions",
+    "set-surface": "appearance.set_surface:SetSurface",
+    "split-massless": "inertia.split_massless:SplitMassless",
+    "tighten-limits": "limits.tighten_limits:TightenLimits",
+    "transmissions-from-ros2-control": "control.transmissions_from_ros2_control:TransmissionsFromRos2Control",
+    "weld-to-world": "structure.weld_to_world:WeldToWorld",
+}
