@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
 
-from tests.hostile.watched import Order, limit
+from tests.hostile.watched import ChildRequest, limit
 from tests.profile import DEEP
 
 MEMORY = 512 * 2**20
@@ -28,27 +28,27 @@ _WATCHED = Path(__file__).with_name("watched.py")
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What the command said, how it ended, and the files that it opened besides the program's own."""
+    """What the command printed, how it ended, and the files that it opened besides the program's own."""
 
     code: int
-    said: str
+    output: str
     opened: frozenset[str]
 
 
-def twinform(*words: str | Path, folder: Path, seconds: int = SECONDS) -> Outcome:
+def twinform(*arguments: str | Path, folder: Path, seconds: int = SECONDS) -> Outcome:
     """Run the command where it may write nothing at all."""
     run = _started if DEEP else _forked
-    code, output, errors = run([str(word) for word in words], folder, seconds)
+    code, output, errors = run([str(word) for word in arguments], folder, seconds)
     *lines, last = errors.decode(errors="replace").splitlines() or [""]
     opened: list[str] = json.loads(last) if last.startswith("[") else []
-    said = output.decode(errors="replace") + "\n".join([*lines, "" if last.startswith("[") else last])
-    return Outcome(code, said, frozenset(each for each in opened if not _is_own(each)))
+    text = output.decode(errors="replace") + "\n".join([*lines, "" if last.startswith("[") else last])
+    return Outcome(code, text, frozenset(each for each in opened if not _is_own(each)))
 
 
-def _started(words: list[str], folder: Path, seconds: int) -> tuple[int, bytes, bytes]:
-    """Its exit code and what it said on both streams, in a process that knows nothing, as a user starts it."""
+def _started(arguments: list[str], folder: Path, seconds: int) -> tuple[int, bytes, bytes]:
+    """Its exit code and what it printed on both streams, in a process that knows nothing, as a user starts it."""
     done = subprocess.run(
-        [sys.executable, "-B", _WATCHED, *words],
+        [sys.executable, "-B", _WATCHED, *arguments],
         cwd=folder,
         capture_output=True,
         preexec_fn=partial(limit, MEMORY, seconds),
@@ -58,12 +58,12 @@ def _started(words: list[str], folder: Path, seconds: int) -> tuple[int, bytes, 
     return done.returncode, done.stdout, done.stderr
 
 
-def _forked(words: list[str], folder: Path, seconds: int) -> tuple[int, bytes, bytes]:
+def _forked(arguments: list[str], folder: Path, seconds: int) -> tuple[int, bytes, bytes]:
     """The same in a fork of a process that has imported the program."""
     connection = _server()
     ours, theirs = zip(os.pipe(), os.pipe(), strict=True)
-    order = Order(words=words, folder=str(folder), memory=MEMORY, seconds=seconds)
-    socket.send_fds(connection, [json.dumps(order).encode()], theirs)
+    request = ChildRequest(arguments=arguments, folder=str(folder), memory=MEMORY, seconds=seconds)
+    socket.send_fds(connection, [json.dumps(request).encode()], theirs)
     for stream in theirs:
         os.close(stream)
     with ThreadPoolExecutor(len(ours)) as readers:
@@ -108,7 +108,7 @@ def _is_own(path: str) -> bool:
     return path == os.devnull or any(path.startswith(os.path.realpath(each)) for each in _OWN)
 
 
-def rules(said: str, severity: str = "error") -> Sequence[str]:
+def rules(output: str, severity: str = "error") -> Sequence[str]:
     """The rules of the findings of a severity, in the order in which they were printed."""
-    lines = [line for line in said.splitlines() if f": {severity}: " in line and line.endswith("]")]
+    lines = [line for line in output.splitlines() if f": {severity}: " in line and line.endswith("]")]
     return [line.rpartition("[")[2].rstrip("]") for line in lines]

@@ -9,7 +9,7 @@ _LINK = b'<link name="a"/>'
 
 
 class Hostile(NamedTuple):
-    """A file and the one error that is to be said of it; `line` is where, 0 for the file as a whole."""
+    """A file and the one error that is to be reported; `line` is where, 0 for the file as a whole."""
 
     make: Callable[[], bytes]
     rule: str

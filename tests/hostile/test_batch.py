@@ -37,13 +37,13 @@ def here(tmp_path: Path) -> Path:
 
 
 def _batch(here: Path, *words: str) -> tuple[int, dict[str, dict[str, str]], list[str]]:
-    """The exit code, what the report says of each model, and what the process itself has opened."""
-    command = [sys.executable, "-c", _WATCHED, "batch", "src", "out", "--to", "sdf", "--jobs", "1", *words]
+    """The exit code, what the report has of each model, and what the process itself has opened."""
+    command = [sys.executable, "-c", _WATCHED, "batch", "convert", "src", "out", "--to", "sdf", "--jobs", "1", *words]
     done = subprocess.run(
         [*command, "--report", "report.json"], cwd=here, capture_output=True, text=True, timeout=_PATIENCE, check=False
     )
     assert "Traceback" not in done.stderr, done.stderr
-    models = json.loads((here / "report.json").read_text())["models"]
+    models = map(json.loads, (here / "report.json").read_text().splitlines())
     return done.returncode, {each["source"]: each for each in models}, json.loads(done.stdout)
 
 
@@ -112,7 +112,17 @@ def test_a_result_is_never_written_into_a_pipe_or_over_a_model(here: Path) -> No
 def test_a_report_is_not_written_over_a_model_or_a_result(report: str, here: Path) -> None:
     before = (here / "src/good.urdf").read_text()
     (here / "link.json").symlink_to("src/good.urdf")
-    command = [sys.executable, "-c", "from twinform.cli import main; main()", "batch", "src", "out", "--to", "sdf"]
+    command = [
+        sys.executable,
+        "-c",
+        "from twinform.cli import main; main()",
+        "batch",
+        "convert",
+        "src",
+        "out",
+        "--to",
+        "sdf",
+    ]
     done = subprocess.run([*command, "--report", report], cwd=here, capture_output=True, text=True, check=False)
     assert (done.returncode, (here / "out").exists()) == (2, False)
     assert "would be written over" in done.stderr
@@ -120,13 +130,16 @@ def test_a_report_is_not_written_over_a_model_or_a_result(report: str, here: Pat
 
 
 def test_a_manifest_of_somebody_else_removes_nothing_outside(here: Path) -> None:
-    """The record of an earlier run says which result goes when its model is wrong; it is a file like any other."""
+    """The record of an earlier run decides which result goes when its model is wrong; it is a file like any other."""
     _batch(here)
     (here / "secret").write_text("secret")
     manifest = here / "out/.twinform-batch/manifest.jsonl"
     record = json.loads(manifest.read_text())
     digest = "2bb80d537b1da3e38bd30361aa855686bde0eacd7162fef6a25fe97bf527a25b"  # of "secret"
+    status = (here / "secret").stat()
     for output in ("../secret", str(here / "secret")):
-        manifest.write_text(json.dumps({**record, "output": output, "made": digest}) + "\n")
+        result = [output, "read", status.st_size, status.st_mtime_ns, digest]
+        manifest.write_text(json.dumps({**record, "results": [result]}) + "\n")
+        (here / "src/good.urdf").write_text("<robot/>")
         _batch(here)
         assert (here / "secret").read_text() == "secret"

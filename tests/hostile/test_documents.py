@@ -14,17 +14,17 @@ def test_a_hostile_file_ends_with_one_error(name: str, tmp_path: Path) -> None:
     hostile = DOCUMENTS[name]
     (tmp_path / "hostile.urdf").write_bytes(hostile.make())
     outcome = twinform("check", "hostile.urdf", folder=tmp_path)
-    assert outcome.code in {1, 2}, outcome.said
-    assert rules(outcome.said) == [hostile.rule], outcome.said[:2000]
-    assert outcome.said.startswith(f"hostile.urdf:{hostile.line}: " if hostile.line else "hostile.urdf: ")
-    assert len(outcome.said) < 5000
+    assert outcome.code in {1, 2}, outcome.output
+    assert rules(outcome.output) == [hostile.rule], outcome.output[:2000]
+    assert outcome.output.startswith(f"hostile.urdf:{hostile.line}: " if hostile.line else "hostile.urdf: ")
+    assert len(outcome.output) < 5000
     assert outcome.opened == {str(tmp_path / "hostile.urdf")}
     assert [each.name for each in tmp_path.iterdir()] == ["hostile.urdf"]
 
 
 def test_a_device_without_an_end_is_cut_off(tmp_path: Path) -> None:
     outcome = twinform("check", "/dev/zero", folder=tmp_path)
-    assert (outcome.code, rules(outcome.said)) == (2, ["oversized-file"])
+    assert (outcome.code, rules(outcome.output)) == (2, ["oversized-file"])
 
 
 NAMES = {
@@ -44,9 +44,9 @@ def test_a_name_forges_no_finding_and_runs_nothing(name: str, style: str, tmp_pa
     outcome = twinform("check", "--format", style, "r.urdf", folder=tmp_path)
     assert outcome.code == 1
     if style == "text":  # SARIF has a list of all rules
-        assert ("unprintable-name" in outcome.said) is not NAMES[name].startswith("$")
-    assert not [line for line in outcome.said.splitlines() if line.startswith(("evil.urdf", "::error file=a.urdf"))]
-    assert "\x9b" not in outcome.said or style == "github"
+        assert ("unprintable-name" in outcome.output) is not NAMES[name].startswith("$")
+    assert not [line for line in outcome.output.splitlines() if line.startswith(("evil.urdf", "::error file=a.urdf"))]
+    assert "\x9b" not in outcome.output or style == "github"
     assert [each.name for each in tmp_path.iterdir()] == ["r.urdf"]
 
 
@@ -117,11 +117,11 @@ def test_8000_namespaces_are_read_in_linear_time(where: str, language: str, tmp_
     name = f"many.{language}"
     (tmp_path / name).write_text(_model(language, *_NAMESPACES[where](8000)))
     outcome = twinform("check", name, folder=tmp_path)
-    assert outcome.code == 0, outcome.said[-2000:]
+    assert outcome.code == 0, outcome.output[-2000:]
 
 
 @pytest.mark.parametrize("where", _NAMESPACES)
 def test_many_namespaces_are_written_too(where: str, tmp_path: Path) -> None:
     (tmp_path / "many.urdf").write_text(_model("urdf", *_NAMESPACES[where](1500)))
     outcome = twinform("convert", "many.urdf", "--to", "urdf", folder=tmp_path)
-    assert outcome.code == 0, outcome.said[-2000:]
+    assert outcome.code == 0, outcome.output[-2000:]

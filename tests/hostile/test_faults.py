@@ -82,9 +82,9 @@ def test_a_pipe_is_written_into_and_never_replaced(source: Path, tmp_path: Path)
     os.mkfifo(pipe)
     with subprocess.Popen(["cat", pipe], stdout=subprocess.PIPE) as reader:
         done = _run(source, "--to", "sdf", "-o", pipe)
-        said = reader.stdout.read() if reader.stdout else b""
+        output = reader.stdout.read() if reader.stdout else b""
     assert (done.returncode, pipe.is_fifo()) == (0, True)
-    assert etree.fromstring(said).tag == "sdf"
+    assert etree.fromstring(output).tag == "sdf"
 
 
 def test_a_pipe_is_read_once(source: Path) -> None:

@@ -70,23 +70,23 @@ COMMANDS = [
 def test_a_uri_leads_nowhere_that_it_must_not(command: tuple[str, ...], uri: str, rule: str, folder: Path) -> None:
     (folder / "robot.sdf").write_text(_model(_include(uri)))
     outcome = twinform(*command, "robot.sdf", folder=folder)
-    assert (outcome.code, rules(outcome.said)) == (1, [rule]), outcome.said[:2000]
-    assert outcome.said.startswith("robot.sdf:1: ")
-    assert len(outcome.said) < 10_000
+    assert (outcome.code, rules(outcome.output)) == (1, [rule]), outcome.output[:2000]
+    assert outcome.output.startswith("robot.sdf:1: ")
+    assert len(outcome.output) < 10_000
     assert outcome.opened == {str(folder / "robot.sdf")}
 
 
 def test_a_folder_that_is_named_may_be_read(folder: Path) -> None:
     (folder / "robot.sdf").write_text(_model(_include("../secret.sdf")))
     outcome = twinform("check", "--expand-includes", "--path", folder.parent, "robot.sdf", folder=folder)
-    assert outcome.code == 0, outcome.said
+    assert outcome.code == 0, outcome.output
 
 
 def test_files_that_include_each_other_are_a_circle(folder: Path) -> None:
     for n in range(5):
         _write(folder, f"{n}.sdf", [f"{(n + 1) % 5}.sdf"])
     outcome = twinform("check", "--expand-includes", "0.sdf", folder=folder)
-    assert rules(outcome.said) == ["include-cycle"]
+    assert rules(outcome.output) == ["include-cycle"]
 
 
 @pytest.mark.parametrize(("files", "each"), [(12, 10), (31, 2), (40, 1)], ids=["ten each", "two each", "a chain"])
@@ -94,14 +94,14 @@ def test_a_bomb_of_includes_is_one_error(files: int, each: int, folder: Path) ->
     for n in range(files):
         _write(folder, f"{n}.sdf", [f"{n + 1}.sdf"] * each if n + 1 < files else ())
     outcome = twinform("check", "--expand-includes", "0.sdf", folder=folder)
-    assert rules(outcome.said) == ["too-many-includes"], outcome.said[:2000]
+    assert rules(outcome.output) == ["too-many-includes"], outcome.output[:2000]
 
 
 def test_a_large_model_many_times_is_one_error(folder: Path) -> None:
     (folder / "large.sdf").write_text(_model("".join(f'<link name="l{n}"/>' for n in range(20_000))))
     _write(folder, "robot.sdf", ["large.sdf"] * 5_000)
     outcome = twinform("check", "--expand-includes", "robot.sdf", folder=folder)
-    assert rules(outcome.said) == ["too-many-includes"], outcome.said[:2000]
+    assert rules(outcome.output) == ["too-many-includes"], outcome.output[:2000]
 
 
 def test_models_that_nest_deeper_in_every_file_are_one_error(folder: Path) -> None:
@@ -110,12 +110,12 @@ def test_models_that_nest_deeper_in_every_file_are_one_error(folder: Path) -> No
         nested = "".join(f'<model name="m{k}">' for k in range(60)) + inside + "</model>" * 60
         (folder / f"{n}.sdf").write_text(f'<sdf version="1.11">{nested}</sdf>')
     outcome = twinform("check", "--expand-includes", "0.sdf", folder=folder)
-    assert rules(outcome.said) == ["too-many-includes"], outcome.said[:2000]
+    assert rules(outcome.output) == ["too-many-includes"], outcome.output[:2000]
 
 
 def test_a_mesh_is_never_read(folder: Path) -> None:
     mesh = '<visual><geometry><mesh filename="../../../../etc/passwd"/></geometry></visual>'
     (folder / "r.urdf").write_text(f'<robot name="r"><link name="a">{mesh}</link></robot>')
     outcome = twinform("convert", "r.urdf", "--to", "sdf", folder=folder)
-    assert outcome.code == 0, outcome.said
+    assert outcome.code == 0, outcome.output
     assert outcome.opened == {str(folder / "r.urdf")}

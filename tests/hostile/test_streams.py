@@ -39,7 +39,7 @@ def _run(command: str, where: str, folder: Path) -> subprocess.CompletedProcess[
 
 @pytest.mark.parametrize("where", [">/dev/full", pytest.param(">&-", marks=pytest.mark.deep)])
 @pytest.mark.parametrize("name", COMMANDS)
-def test_output_that_cannot_be_written_is_an_error_in_words(name: str, where: str, folder: Path) -> None:
+def test_output_that_cannot_be_written_is_an_error_with_a_message(name: str, where: str, folder: Path) -> None:
     done = _run(COMMANDS[name], where, folder)
     assert done.returncode == 2
     assert done.stderr.splitlines()[-1].startswith("Error: cannot write standard output: ")

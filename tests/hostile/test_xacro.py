@@ -55,8 +55,8 @@ def _write(folder: Path, body: str, name: str = "r.urdf.xacro") -> str:
     return name
 
 
-def _lines(said: str, file: str) -> Iterable[str]:
-    return [line for line in said.splitlines() if line.startswith(f"{file}:")]
+def _lines(output: str, file: str) -> Iterable[str]:
+    return [line for line in output.splitlines() if line.startswith(f"{file}:")]
 
 
 @pytest.mark.parametrize("kind", _KINDS)
@@ -67,7 +67,7 @@ def test_an_escape_does_nothing_but_give_a_located_error(kind: str, folder: Path
     outcome = twinform("check", *files, folder=folder, seconds=_SECONDS)
     assert outcome.code == 2
     for file, name in files.items():
-        (line,) = _lines(outcome.said, file)
+        (line,) = _lines(outcome.output, file)
         assert line.endswith("[xacro-error]"), name
         assert any(words in line for words in ESCAPES[name][1].split("|")), name
         assert len(line) < 1500
@@ -79,9 +79,9 @@ def test_an_escape_does_nothing_but_give_a_located_error(kind: str, folder: Path
 def test_xacro_is_kept_from(name: str, folder: Path) -> None:
     body, words = FORBIDDEN[name]
     outcome = twinform("check", _write(folder, body), folder=folder)
-    assert (outcome.code, rules(outcome.said)) == (2, ["xacro-error"]), outcome.said[:2000]
-    assert words in outcome.said
-    assert len(outcome.said) < 5000
+    assert (outcome.code, rules(outcome.output)) == (2, ["xacro-error"]), outcome.output[:2000]
+    assert words in outcome.output
+    assert len(outcome.output) < 5000
 
 
 @pytest.mark.deep
@@ -89,14 +89,14 @@ def test_xacro_is_kept_from(name: str, folder: Path) -> None:
 def test_what_has_no_end_is_stopped_where_it_is(name: str, folder: Path) -> None:
     body, words = ENDLESS[name]
     outcome = twinform("check", _write(folder, body), folder=folder, seconds=_SECONDS)
-    assert (outcome.code, rules(outcome.said)) == (2, ["xacro-error"]), outcome.said[:2000]
-    assert words in outcome.said
-    assert outcome.said.startswith("r.urdf.xacro:2: ")
+    assert (outcome.code, rules(outcome.output)) == (2, ["xacro-error"]), outcome.output[:2000]
+    assert words in outcome.output
+    assert outcome.output.startswith("r.urdf.xacro:2: ")
 
 
 def test_without_xacro_nothing_of_it_is_looked_at(folder: Path) -> None:
     outcome = twinform("check", "--no-xacro", _write(folder, '<link name="${9**9**9}"/>'), folder=folder)
-    assert (outcome.code, rules(outcome.said)) == (2, ["xacro-refused"])
+    assert (outcome.code, rules(outcome.output)) == (2, ["xacro-refused"])
     assert outcome.opened == frozenset()
 
 
@@ -106,5 +106,5 @@ def test_data_and_files_of_its_own_folder_may_be_read(folder: Path) -> None:
     load = "${xacro.load_yaml('data.yaml')['wheel']}"
     file = _write(folder, f'<xacro:include filename="wheel_*.xacro"/><link name="b{load}"/>')
     outcome = twinform("check", file, folder=folder)
-    assert rules(outcome.said) == ["several-roots"]
-    assert "'a', 'part', 'b0.3'" in outcome.said
+    assert rules(outcome.output) == ["several-roots"]
+    assert "'a', 'part', 'b0.3'" in outcome.output

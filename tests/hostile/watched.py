@@ -1,6 +1,6 @@
 """The command, run as a script with every file that it opens noted on the last line of standard error.
 
-As `watched.py --serve FD` it stays: the program is in memory already, and for each order that comes through the socket
+As `watched.py --serve FD` it stays: the program is in memory already, and for each request through the socket
 a fork of it runs the command. Starting Python and importing the compiler takes ten times as long as most commands.
 """
 
@@ -14,16 +14,16 @@ from collections.abc import Sequence
 from importlib import import_module
 from typing import TypedDict, cast
 
-_LONGEST_ORDER = 65536
+_LONGEST_REQUEST = 65536
 _STREAMS = (1, 2)
 _USED = ("cli.check", "cli.convert", "compiler.checking", "compiler.driver")
 """What commands import when they are used."""
 
 
-class Order(TypedDict):
+class ChildRequest(TypedDict):
     """A command, where it runs, and what it may take."""
 
-    words: list[str]
+    arguments: list[str]
     folder: str
     memory: int
     seconds: int
@@ -36,7 +36,7 @@ def limit(memory: int, seconds: int) -> None:
     resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
 
 
-def _run(words: Sequence[str]) -> None:
+def _run(arguments: Sequence[str]) -> None:
     seen: set[str] = set()
 
     def hook(event: str, arguments: tuple[object, ...]) -> None:
@@ -48,34 +48,34 @@ def _run(words: Sequence[str]) -> None:
     from twinform.cli import main  # noqa: PLC0415 - what it opens is looked at
 
     try:
-        main(words)
+        main(arguments)
     finally:
         print(json.dumps(sorted(seen)), file=sys.stderr)  # noqa: T201 - it is for the process that waits
 
 
-def _ordered(connection: socket.socket) -> list[str]:
-    """The words of a command, in a new process for each that is ordered."""
+def _requested(connection: socket.socket) -> list[str]:
+    """The arguments of a command, in a new process for each request."""
     while True:
-        order, streams, _, _ = socket.recv_fds(connection, _LONGEST_ORDER, len(_STREAMS))
-        if not order:
+        request, streams, _, _ = socket.recv_fds(connection, _LONGEST_REQUEST, len(_STREAMS))
+        if not request:
             os._exit(0)
         child = os.fork()
         if not child:
             connection.close()
-            return _begun(json.loads(order), streams)
+            return _begun(json.loads(request), streams)
         for stream in streams:
             os.close(stream)
         _, status = os.waitpid(child, 0)
         connection.send(json.dumps(os.waitstatus_to_exitcode(status)).encode())
 
 
-def _begun(order: Order, streams: Sequence[int]) -> list[str]:
+def _begun(request: ChildRequest, streams: Sequence[int]) -> list[str]:
     for stream, number in zip(streams, _STREAMS, strict=True):
         os.dup2(stream, number)
         os.close(stream)
-    os.chdir(order["folder"])
-    limit(order["memory"], order["seconds"])
-    return order["words"]
+    os.chdir(request["folder"])
+    limit(request["memory"], request["seconds"])
+    return request["arguments"]
 
 
 if __name__ == "__main__":
@@ -84,6 +84,6 @@ if __name__ == "__main__":
             signal.signal(signal.SIGINT, signal.SIG_IGN)  # the tests end it by closing the socket
             for module in _USED:
                 import_module(f"twinform.{module}")
-            _run(_ordered(socket.socket(fileno=int(number))))
-        case words:
-            _run(words)
+            _run(_requested(socket.socket(fileno=int(number))))
+        case arguments:
+            _run(arguments)

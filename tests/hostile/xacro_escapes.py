@@ -1,4 +1,4 @@
-"""Ways out of xacro, and ways never to come back: each with words of the error that it has to be."""
+"""Ways out of xacro, and ways never to come back: each with a part of the error that it has to be."""
 
 _DATA = "<xacro:property name='d' value=\"${xacro.dotify(dict(a=1))}\"/>"
 _DOUBLE = "<xacro:property name='l' value='${[[1]]}'/>${[l.append([l[-1], l[-1]]) for i in python.range(60)]}"
@@ -180,7 +180,7 @@ _SIZES = {
     "what is shared, as a key": (_use("dict([(l[60], 1)])", _TUPLES), "more than 1,000,000"),
     "what is shared, in a set": (_use("python.set([l[60]])", _TUPLES), "more than 1,000,000"),
     "what is shared, as an argument": (_use("xacro.arg(l[60])", _DOUBLE), "more than 1,000,000"),
-    "what is shared, said": (_use("xacro.message(l[60])", _DOUBLE), "more than 1,000,000"),
+    "what is shared, printed": (_use("xacro.message(l[60])", _DOUBLE), "more than 1,000,000"),
     "what is shared, as separators": (_use("xacro.tokenize('a', l[60])", _DOUBLE), "more than 1,000,000"),
     "texts of texts": (_use("t12", _LAUGHS), "more than"),
     "parentheses": (_use("(" * 300 + "1" + ")" * 300), "too many nested parentheses"),

@@ -1,16 +1,38 @@
 """The compiler: front ends, back ends and the driver that runs what lies between."""
 
-from twinform.compiler.checking import check
-from twinform.compiler.driver import Conversion, convert, plan, run_conversion
-from twinform.compiler.dumping import dump, dumps
-from twinform.compiler.errors import CompileError
-from twinform.compiler.includes.expanding import expand
-from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, load, loads, read
-from twinform.compiler.inspection import ReadOnlyPassError, inspect
-from twinform.compiler.output.files import write_all_atomically, write_atomically
-from twinform.compiler.request import DEFAULT_SDF_VERSION, URDF_VERSIONS, ConversionRequest, Language, UrdfVersion
-from twinform.compiler.search.uris import SearchPath, UriError
-from twinform.compiler.splitting import Split, split
+from typing import TYPE_CHECKING
+
+from twinform.lazy import lazy_attributes
+
+if TYPE_CHECKING:
+    from twinform.compiler.checking import check
+    from twinform.compiler.driver import Conversion, convert, plan, run_conversion
+    from twinform.compiler.dumping import dump, dumps
+    from twinform.compiler.errors import CompileError, ReadOnlyPassError
+    from twinform.compiler.includes.expanding import expand
+    from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, load, loads, read
+    from twinform.compiler.inspection import inspect
+    from twinform.compiler.output.files import write_all_atomically, write_atomically
+    from twinform.compiler.request import DEFAULT_SDF_VERSION, URDF_VERSIONS, ConversionRequest, Language, UrdfVersion
+    from twinform.compiler.search.uris import SearchPath, UriError
+    from twinform.compiler.splitting import Split, split
+else:
+    __getattr__ = lazy_attributes(
+        __name__,
+        {
+            "twinform.compiler.checking": "check",
+            "twinform.compiler.driver": "Conversion convert plan run_conversion",
+            "twinform.compiler.dumping": "dump dumps",
+            "twinform.compiler.errors": "CompileError ReadOnlyPassError",
+            "twinform.compiler.includes.expanding": "expand",
+            "twinform.compiler.input.loading": "Input LoadOptions LoadResult load loads read",
+            "twinform.compiler.inspection": "inspect",
+            "twinform.compiler.output.files": "write_all_atomically write_atomically",
+            "twinform.compiler.request": "DEFAULT_SDF_VERSION URDF_VERSIONS ConversionRequest Language UrdfVersion",
+            "twinform.compiler.search.uris": "SearchPath UriError",
+            "twinform.compiler.splitting": "Split split",
+        },
+    )
 
 __all__ = [
     "DEFAULT_SDF_VERSION",

@@ -1,7 +1,7 @@
 """Conversion audit: counts what became of every element and attribute of a source, without the converter's code.
 
 It reads two trees and the ledger, and nothing of how the one was made of the other. Each part of the source gets one
-fate: that of the entry of the ledger that covers its place, if there is one; *carried* if what it says stands in our
+fate: that of the entry of the ledger that covers its place, if there is one; *carried* if its content stands in our
 own namespace in the result; *expressed* if it stands elsewhere in the result, or is a number of those that a change of
 frame recomputes (poses, axes and moments of inertia). What none of that holds for is *unaccounted*: a fault of ours.
 """
@@ -24,12 +24,12 @@ _COMPUTED = frozenset({"pose", "origin", "xyz", "rpy", "axis", "inertia", "ixx",
 _SHAPE_NAME = re.compile(r"(.+)_(?:visual|collision)(?:_\d+)?")
 _MATERIAL = re.compile(r"(.+)_material(?:_\d+)?")
 _SCHEME = re.compile(r"\b[a-z]+://")
-_SAID_BY = {"frame": "fixed"}
-"""Elements of one format whose being there says a word of the other: a frame stands for a fixed joint."""
-_SAID_BY_NOT = {"turnGravityOff": {"0.0": "1.0", "1.0": "0.0"}}
+_IMPLIED_BY = {"frame": "fixed"}
+"""Elements of one format that imply a word of the other: a frame stands for a fixed joint."""
+_OPPOSITES = {"turnGravityOff": {"0.0": "1.0", "1.0": "0.0"}}
 """Booleans of one format that the other writes by their opposites."""
-_SAID_AS = {"revolute": "continuous", "continuous": "revolute"}
-"""Words that the other format may say by another one: a joint that turns without an end."""
+_SYNONYMS = {"revolute": "continuous", "continuous": "revolute"}
+"""Words that may be another one in the other format: a joint that turns without an end."""
 _TRUTHS = {"true": "1.0", "yes": "1.0", "false": "0.0", "no": "0.0"}
 _PREDICATE = re.compile(r"\[[^]]*\]|\{[^}]*\}|(?<=[/@])[\w.-]+:")
 _Place = tuple[int, str]
@@ -41,7 +41,7 @@ class Part(NamedTuple):
     """An element or attribute of the source that nothing accounts for."""
 
     location: Location
-    says: str
+    text: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +99,7 @@ def fates(source: XmlElement, result: str, ledger: Ledger) -> Iterator[Met]:
             yield Met(part.element, part.attribute, part.fate)
         elif (
             part.computed
-            or folded.says(part.element, part.attribute)
+            or folded.expresses(part.element, part.attribute)
             or all(word in outside or _implied(word, outside) for word in part.words)
         ):
             yield Met(part.element, part.attribute, None)
@@ -111,7 +111,7 @@ def fates(source: XmlElement, result: str, ledger: Ledger) -> Iterator[Met]:
 
 @dataclass(frozen=True, slots=True)
 class _Piece:
-    """An element or attribute of the source: the words that it says, and the fate that the ledger has for its place."""
+    """An element or attribute of the source: the words in it, and the fate that the ledger has for its place."""
 
     element: XmlElement
     attribute: str | None
@@ -121,7 +121,7 @@ class _Piece:
     @property
     def computed(self) -> bool:
         if self.attribute == "version" and self.element.getparent() is None:
-            return True  # it is about the language of the file, and the result has its own
+            return True  # it is about the format of the file, and the result has its own
         return str(self.element.tag) in _COMPUTED and all(map(_is_number, self.words))
 
 
@@ -141,7 +141,7 @@ def _parts(root: XmlElement, fates: dict[_Place, Fate]) -> Iterator[_Piece]:
         stack += [(child, fate, path, lines) for child in reversed(element) if isinstance(child.tag, str)]
         if ours:
             continue
-        opposite = _SAID_BY_NOT.get(_local(str(element.tag)), {})
+        opposite = _OPPOSITES.get(_local(str(element.tag)), {})
         words = frozenset(opposite.get(word, word) for word in _words(element.text or ""))
         yield _Piece(element, None, words, fate or (_fate_at(f"{path}/text()", lines, fates) if words else None))
         for name, value in element.items():
@@ -173,8 +173,8 @@ def _words_of(result: XmlElement) -> tuple[frozenset[str], frozenset[str]]:
         element, words = stack.pop()
         words = inside if str(element.tag).startswith(_OURS) else words
         words.update(_words(element.text or ""))
-        if (said := _SAID_BY.get(str(element.tag))) is not None:
-            words.add(said)
+        if (implied := _IMPLIED_BY.get(str(element.tag))) is not None:
+            words.add(implied)
         for name, value in element.items():
             (inside if str(name).startswith(_OURS) else words).update(_words(str(value)))
         stack += [(child, words) for child in element if isinstance(child.tag, str)]
@@ -199,14 +199,14 @@ def _spelt(word: str) -> str:
 
 
 def _implied(word: str, words: frozenset[str]) -> bool:
-    """Whether another word says it, or it is the name that is made for a shape of a link, or for its material."""
-    if _SAID_AS.get(word) in words:
+    """Whether another word stands for it, or it is the name synthesized for a shape of a link, or for its material."""
+    if _SYNONYMS.get(word) in words:
         return True
     name = _SHAPE_NAME.fullmatch(word)
-    return (name is not None and name[1] in words) or _is_made_material(word, words)
+    return (name is not None and name[1] in words) or _is_synthesized_material(word, words)
 
 
-def _is_made_material(word: str, words: frozenset[str]) -> bool:
+def _is_synthesized_material(word: str, words: frozenset[str]) -> bool:
     """Whether it is LINK_VISUAL_material of a link and a visual that are there."""
     made = _MATERIAL.fullmatch(word)
     pairs = re.finditer("_", made[1]) if made else ()

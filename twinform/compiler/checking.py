@@ -2,14 +2,17 @@
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from twinform.compiler.includes.expanding import expand
+from twinform.compiler.input.limits import LARGEST, MOST_TAGS, Limits
 from twinform.compiler.input.loading import read
 from twinform.compiler.input.options import Input, LoadOptions, LoadResult
 from twinform.compiler.inspection import inspect
 from twinform.compiler.search.uris import SearchPath
-from twinform.passes import Pipeline, parse_pipeline
 from twinform.schemas import Engine
+
+if TYPE_CHECKING:
+    from twinform.passes import Pipeline
 
 
 def check(
@@ -21,22 +24,32 @@ def check(
     paths: Iterable[str | Path] = (),
     arguments: Mapping[str, str] | None = None,
     xacro: bool | None = None,
+    max_size: int = LARGEST,
+    max_tags: int = MOST_TAGS,
     expand_includes: bool = False,
-    passes: str | Pipeline | None = None,
+    passes: "str | Pipeline | None" = None,
 ) -> LoadResult:
     """Read a file, the bytes of one or a document, and say everything that is wrong with it.
 
     `paths` are folders in which URIs are looked up. A file whose name ends in `.xacro` is expanded with the
     `arguments`, which evaluates expressions and reads files that it names; where `xacro` is true others are as well,
     and where it is false all are refused. The files that includes name are read only where `expand_includes` asks for
-    it. `passes` are run on a model without errors, for what they find.
+    it. `passes` are run on a model without errors, for what they find. Files of more than `max_size` bytes or
+    `max_tags` tags are refused.
 
     Raises:
         ReadOnlyPassError: a pass would change the model.
         PassError: a pass is at fault.
         PipelineError: `passes` is not a pipeline.
     """
-    load_options = LoadOptions(strict, engine, SearchPath.of(paths), arguments or {}, xacro)
-    pipeline = parse_pipeline(passes) if isinstance(passes, str) else passes
+    load_options = LoadOptions(strict, engine, SearchPath.of(paths), arguments or {}, xacro, Limits(max_size, max_tags))
+    if isinstance(passes, str):
+        from twinform.passes import parse_pipeline  # noqa: PLC0415 - most checks have no passes
+
+        passes = parse_pipeline(passes)
     loaded = read(source, load_options, name=name)
-    return inspect(expand(loaded, load_options) if expand_includes else loaded, load_options, pipeline)
+    if expand_includes:
+        from twinform.compiler.includes.expanding import expand  # noqa: PLC0415 - most checks read one file
+
+        loaded = expand(loaded, load_options)
+    return inspect(loaded, load_options, passes)

@@ -5,8 +5,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from twinform.compiler.errors import CompileError
-from twinform.compiler.includes.expanding import expand
-from twinform.compiler.includes.other_documents import OtherDocuments
+from twinform.compiler.input.limits import LARGEST, MOST_TAGS, Limits
 from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, garbage_collection_paused, read
 from twinform.compiler.output.emitting import emit, emit_legal
 from twinform.compiler.request import ConversionRequest, Language, UrdfVersion
@@ -16,7 +15,7 @@ from twinform.diagnostics.rules.model import MISSING_LIMIT
 from twinform.diagnostics.rules.structure import MISSING_ATTRIBUTE, OUTSIDE_VERSION
 from twinform.ir import Document, Format, Include
 from twinform.ir.verify import verify
-from twinform.passes import Pass, PassInstrumentation, Pipeline, parse_pipeline
+from twinform.passes import Pass, PassInstrumentation, Pipeline
 from twinform.passes.analyses.candidates import candidates, name_once_expanded, wanted_includes
 from twinform.passes.sdf_versions import has_early_frames
 from twinform.schemas import Engine, XmlElement, table
@@ -79,13 +78,15 @@ def convert(
     paths: Iterable[str | Path] = (),
     arguments: Mapping[str, str] | None = None,
     xacro: bool | None = None,
+    max_size: int = LARGEST,
+    max_tags: int = MOST_TAGS,
     expand_includes: bool = False,
     instrumentation: PassInstrumentation | None = None,
 ) -> Conversion:
-    """Compile a file, the bytes of one or a document into the target's language; `watch` is told of each pass.
+    """Compile a file, the bytes of one or a document into the target's format; `instrumentation` sees each pass.
 
-    `paths`, `arguments` and `xacro` are those of `check`. URDF has no includes: for it, those in the model are always
-    expanded.
+    `paths`, `arguments`, `xacro`, `max_size` and `max_tags` are those of `check`. URDF has no includes: for it, those
+    in the model are always expanded.
 
     Raises:
         CompileError: the source, a pass or the result has an error.
@@ -102,7 +103,7 @@ def convert(
         model=model,
         expand_includes=expand_includes,
     )
-    load_options = LoadOptions(strict, engine, SearchPath.of(paths), arguments or {}, xacro)
+    load_options = LoadOptions(strict, engine, SearchPath.of(paths), arguments or {}, xacro, Limits(max_size, max_tags))
     return run_conversion(request, source, load_options, name=name, instrumentation=instrumentation)
 
 
@@ -123,6 +124,8 @@ def run_conversion(
         loaded = read(source, load_options, name=name)
         request = replace(request, assets=LocalAssets(load_options.search, Path(loaded.path)))
         if loaded.accepted and (request.expand_includes or request.to == "urdf" or request.model is not None):
+            from twinform.compiler.includes.expanding import expand  # noqa: PLC0415 - most conversions need no includes
+
             wanted = None if request.expand_includes else _wanted(loaded.document, request)
             before, loaded = loaded, expand(loaded, load_options, wanted=wanted, carriers=request.carriers)
             request = replace(request, model=name_once_expanded(before.document, loaded.document, request.model))
@@ -168,7 +171,11 @@ def _known(version: str | None) -> str | None:
 
 
 def _pipeline(passes: str | Sequence[Pass] | None) -> Pipeline:
-    return parse_pipeline(passes) if isinstance(passes, str) else Pipeline(tuple(passes or ()))
+    if not isinstance(passes, str):
+        return Pipeline(tuple(passes or ()))
+    from twinform.passes import parse_pipeline  # noqa: PLC0415 - most conversions have no passes of the user
+
+    return parse_pipeline(passes)
 
 
 def _run(
@@ -182,7 +189,7 @@ def _run(
     """The rest of the way of a document that was read."""
     kept = [each for each in loaded.diagnostics if not each.is_error]
     sink = DiagnosticSink(loaded.path, load_options.strict, kept, list(loaded.entries), origins=dict(loaded.origins))
-    passes = request.passes.with_files(request.assets, OtherDocuments(load_options, loaded.path).read)
+    passes = _with_files(request, load_options, loaded.path)
     changed = passes.run(document, sink, instrumentation=instrumentation, verify=verify if loaded.accepted else None)
     if not loaded.accepted:
         verify(changed, sink)
@@ -196,6 +203,15 @@ def _run(
     lost = sum(entry.weight for entry in sink.entries)
     ledger = Ledger(max(0, loaded.size - lost), sink.traced_entries())
     return Conversion(text, document, tuple(sink.diagnostics), ledger, loaded.tree, tuple(sink.side_files))
+
+
+def _with_files(request: ConversionRequest, load_options: LoadOptions, file: str) -> Pipeline:
+    """The user's passes; those that open files know where they are, and who reads them."""
+    if not request.passes:
+        return request.passes
+    from twinform.compiler.includes.other_documents import OtherDocuments  # noqa: PLC0415 - see `_pipeline`
+
+    return request.passes.with_files(request.assets, OtherDocuments(load_options, file).read)
 
 
 def written(

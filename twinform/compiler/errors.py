@@ -17,3 +17,7 @@ class CompileError(Exception):
         more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
         where = f"{first.location.file}:{first.location.line}: " if first else ""
         super().__init__(f"{where}{first.message if first else 'not compiled'}{more}")
+
+
+class ReadOnlyPassError(Exception):
+    """A pass that should be read-only changes the document or makes a file."""

@@ -11,10 +11,10 @@ from twinform.passes.analyses.gearboxes import GEARED
 from twinform.passes.carriers.annotations import SYNTHESIZED
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.carriers.joint_chains import CHAIN, PART
+from twinform.passes.carriers.joint_words import MIMIC
 from twinform.passes.carriers.token_mass import TOKEN_MASS
 from twinform.passes.legalise.names import NAME, SCOPED_NAME
 from twinform.passes.legalise.to_sdf.bodies import UNSAID
-from twinform.passes.legalise.to_urdf.map_joints import MIMIC
 from twinform.schemas import XmlElement
 from twinform.schemas.values import format_number
 
@@ -50,26 +50,26 @@ class Folded:
         there = frozenset((str(each.tag), each.get("name", ""), each.get("type", "")) for each in found)
         named = frozenset((tag, name) for tag, name, _ in there)
         followers = frozenset(each.get("name", "") for each in found if next(each.iter("mimic"), None) is not None)
-        chains = ((mark.getparent(), mark.get("type", "")) for mark in source.iter(_CHAIN))
+        chains = ((annotation.getparent(), annotation.get("type", "")) for annotation in source.iter(_CHAIN))
         ends = frozenset(
             name for end, kind in chains if end is not None and ("joint", name := end.get("name", ""), kind) in there
         )
         folded = cls(there, named, frozenset(), followers, ends)
-        annotations = [mark.getparent() for word in (_PART, _MADE) for mark in source.iter(word)]
+        annotations = [annotation.getparent() for word in (_PART, _MADE) for annotation in source.iter(word)]
         gone = {each.get("name", "") for each in annotations if each is not None and folded.is_gone(each)}
-        return cls(there, named, frozenset(gone | set(_made_names(source, result, named))), followers, ends)
+        return cls(there, named, frozenset(gone | set(_synthesized_names(source, result, named))), followers, ends)
 
-    def says(self, element: XmlElement, attribute: str | None) -> bool:
+    def expresses(self, element: XmlElement, attribute: str | None) -> bool:
         """Whether the result expresses a part of the source otherwise, such as by one joint for several."""
         if attribute == "type" and element.tag == "joint":
             return self._is_end(element)
-        if _is_made_number(element, attribute) or any(map(self.is_gone, (element, *element.iterancestors()))):
+        if _is_synthesized_number(element, attribute) or any(map(self.is_gone, (element, *element.iterancestors()))):
             return True
         holder = element.getparent()
         return element.tag == "mimic" and holder is not None and self._is_geared(holder)
 
     def is_gone(self, element: XmlElement) -> bool:
-        """Whether an element was made by a conversion and left out by the reverse one."""
+        """Whether an element was synthesized by a conversion and left out by the reverse one."""
         part = element.find(_PART)
         if part is not None:
             is_there = self._is_named(str(element.tag), element.get("name", ""))
@@ -81,8 +81,10 @@ class Folded:
 
     def _is_end(self, joint: XmlElement) -> bool:
         """Whether a joint has the type in the result that its annotation names."""
-        kinds = [mark.get("type") for mark in joint.findall(_CHAIN)]
-        kinds += [mark.get("value") for mark in joint.findall(_URDF) if mark.get("attribute") == "type"]
+        kinds = [annotation.get("type") for annotation in joint.findall(_CHAIN)]
+        kinds += [
+            annotation.get("value") for annotation in joint.findall(_URDF) if annotation.get("attribute") == "type"
+        ]
         if not kinds:
             return any(map(self.is_gone, (joint, *joint.iterancestors())))
         return any(("joint", joint.get("name", ""), kind) in self.there for kind in kinds)
@@ -93,14 +95,14 @@ class Folded:
         return joint.find(_GEARED) is not None and has_gearbox and joint.get("name", "") not in self.followers
 
 
-def _made_names(source: XmlElement, result: XmlElement, named: Collection[tuple[str, str]]) -> Iterator[str]:
+def _synthesized_names(source: XmlElement, result: XmlElement, named: Collection[tuple[str, str]]) -> Iterator[str]:
     """Names that a conversion gave to what has its old name again."""
     roots = {(str(result.tag), result.get("name", ""))}
-    for mark in (each for word in _OLD_NAMES for each in source.iter(word)):
-        holder, old = mark.getparent(), mark.get("was") or (mark.text or "").strip()
+    for annotation in (each for word in _OLD_NAMES for each in source.iter(word)):
+        holder, old = annotation.getparent(), annotation.get("was") or (annotation.text or "").strip()
         tag = "" if holder is None else "robot" if holder.tag == "model" else str(holder.tag)
         if (tag, old) in roots or _is_there(tag, old, named):
-            yield mark.get("instead_of", "")
+            yield annotation.get("instead_of", "")
 
 
 def _is_there(tag: str, old: str, named: Collection[tuple[str, str]]) -> bool:
@@ -109,8 +111,8 @@ def _is_there(tag: str, old: str, named: Collection[tuple[str, str]]) -> bool:
     return any((kind, name) in named for kind in (tag, "frame", "model") for name in (old, inner))
 
 
-def _is_made_number(element: XmlElement, attribute: str | None) -> bool:
-    """Whether a conversion made a number: a mass that is computed or a token, an offset of a mimic, no limit."""
+def _is_synthesized_number(element: XmlElement, attribute: str | None) -> bool:
+    """Whether a number is synthesized: a mass that is computed or a token, an offset of a mimic, no limit."""
     holder = element.getparent()
     if holder is None:
         return False

@@ -11,10 +11,10 @@ from twinform.passes.plugins.bridge import bridge_yaml, bridges
 from twinform.passes.plugins.ground_clearance import lowest_point
 from twinform.passes.plugins.sites import sensors_of
 from twinform.passes.plugins.worlds import (
-    Needed,
+    WorldRequirements,
     kind_of_sensor,
     needed_by_plugins,
-    needed_for,
+    requirements_of,
     with_defaults,
     with_systems,
 )
@@ -60,14 +60,14 @@ def _on_the_ground(model: Model) -> Model:
     return model if not depth else model.model_copy(update={"pose": Pose(xyz=(0.0, 0.0, round(-depth, 9)))})
 
 
-def _needed(document: Document, release: str) -> Needed:
+def _needed(document: Document, release: str) -> WorldRequirements:
     """What the world has to have for the sensors and plugins of a document."""
     kinds = [kind_of_sensor(sensor, release) for sensor, _ in sensors_of(document)]
-    all_ = [needed_for(kind) for kind in dict.fromkeys(kinds) if kind is not None]
+    all_ = [requirements_of(kind) for kind in dict.fromkeys(kinds) if kind is not None]
     systems = dict.fromkeys(system for each in all_ for system in each.systems)
     systems |= dict.fromkeys(needed_by_plugins(document, None, release))
     elements = dict.fromkeys(element for each in all_ for element in each.elements)
-    return Needed(tuple(systems), tuple(elements))
+    return WorldRequirements(tuple(systems), tuple(elements))
 
 
 def _with_place(world: World) -> World:

@@ -7,7 +7,6 @@ from twinform.ir import Document, Format
 from twinform.passes import NO_ASSETS, Assets, Pipeline
 from twinform.passes.carriers.provenance import has_mixed_words, source_version
 from twinform.passes.legalise import Target, legalisation
-from twinform.passes.legalise.to_urdf.select_model import SelectModel
 from twinform.schemas import table
 
 Language = Literal["sdf", "urdf", "json"]
@@ -42,6 +41,8 @@ class ConversionRequest:
         """What takes the model that is asked for out of a file, where the way to the target does not begin so."""
         if self.model is None or (source.format is Format.SDF and self.to == "urdf"):
             return Pipeline()
+        from twinform.passes.legalise.to_urdf.select_model import SelectModel  # noqa: PLC0415 - few ask for a model
+
         return Pipeline((SelectModel(model=self.model),))
 
     def legalisation(self, source: Document) -> Pipeline:

@@ -38,7 +38,7 @@ _PLANAR = (
 )
 
 
-def _home(source: str) -> tuple[str, Language]:
+def _there(source: str) -> tuple[str, Language]:
     """What a text becomes in the other format, and what that becomes in its own."""
     own: Language = "sdf" if source.startswith("<sdf") else "urdf"
     there = twinform.convert(source.encode(), to="urdf" if own == "sdf" else "sdf").text
@@ -53,26 +53,26 @@ def _model(kind: str) -> str:
 
 @pytest.mark.parametrize("source", [*map(_model, _JOINTS), _PLANAR], ids=[*_JOINTS, "planar"])
 def test_chains_that_became_one_joint_again_are_all_accounted_for(source: str) -> None:
-    there, own = _home(source)
+    there, own = _there(source)
     back = twinform.convert(there.encode(), to=own)
     assert back.source is not None
     assert audit(back.source, back.text, back.ledger).unaccounted == ()
 
 
 def test_a_chain_that_is_lost_is_not_accounted_for() -> None:
-    there, _ = _home(_model("ball"))
+    there, _ = _there(_model("ball"))
     back = twinform.convert(there.encode(), to="sdf")
     assert back.source is not None
     without = back.text.replace('name="j" type="ball"', 'name="j" type="fixed"')
     assert {"j_z", "j_z_link", "j_y_link"} <= {
-        part.says for part in audit(back.source, without, back.ledger).unaccounted
+        part.text for part in audit(back.source, without, back.ledger).unaccounted
     }
 
 
 @pytest.mark.parametrize("name", ["", " ", "arm "])
 def test_names_that_were_made_up_and_are_gone_are_accounted_for(name: str) -> None:
     source = f'<robot name="{name}"><link name="{name or "a"}x "><inertial/></link></robot>'
-    there, _ = _home(source)
+    there, _ = _there(source)
     back = twinform.convert(there.encode(), to="urdf")
     assert back.source is not None
     assert audit(back.source, back.text, back.ledger).unaccounted == ()

@@ -1,4 +1,4 @@
-"""What `check` sees beyond the document: files that it names, and what passes find that only look."""
+"""What `check` sees beyond the document: files that it names, and what read-only passes find."""
 
 from pathlib import Path
 from typing import ClassVar
@@ -16,7 +16,7 @@ BODY = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz=
 
 
 def missing(path: Path, *uris: str, name: str = "robot.urdf") -> list[tuple[str, str | None]]:
-    """What is said of the meshes of a robot in a folder."""
+    """What is found about the meshes of a robot in a folder."""
     meshes = "".join(f'<visual><geometry><mesh filename="{uri}"/></geometry></visual>\n' for uri in uris)
     file = path / name
     file.write_text(f'<robot name="r"><link name="a">{meshes}</link></robot>')
@@ -56,14 +56,14 @@ def test_what_is_not_on_this_machine_may_be_elsewhere(package: Path) -> None:
         ("package://arm/meshes/quite_another.stl", None),
     ],
 )
-def test_a_slip_says_what_was_meant(package: Path, uri: str, near: str | None) -> None:
+def test_a_slip_reports_what_was_meant(package: Path, uri: str, near: str | None) -> None:
     ((message, hint),) = missing(package, uri)
     assert message == f"the mesh {uri!r} is not there"
     assert hint is not None
     assert hint.startswith(f"did you mean {near!r}?" if near else "looked in ")
 
 
-def test_of_a_folder_of_which_nothing_is_there_one_thing_is_said(package: Path) -> None:
+def test_of_a_folder_of_which_nothing_is_there_one_thing_is_reported(package: Path) -> None:
     gone = [f"gone/{number}.stl" for number in range(9)]
     ((message, _),) = missing(package, *gone)
     assert message == "the mesh 'gone/0.stl' is not there, nor is anything else of what is named by a path: 8 more"
@@ -75,7 +75,7 @@ def test_a_name_that_no_file_can_have_is_a_finding_or_none(package: Path, uri: s
     assert len(missing(package, uri)) == (0 if uri.startswith("model") else 1)
 
 
-def test_names_outside_of_the_folders_are_not_told(package: Path) -> None:
+def test_names_outside_of_the_folders_are_not_revealed(package: Path) -> None:
     (package.parent.parent / "secrets").mkdir(exist_ok=True)
     assert [hint for _, hint in missing(package, "../../secretz/a.stl") if "secrets" in (hint or "")] == []
 
@@ -106,7 +106,7 @@ def rules(diagnostics: tuple[Diagnostic, ...]) -> list[tuple[str, int]]:
     return [(each.rule.name, each.location.line) for each in diagnostics]
 
 
-def test_passes_that_look_say_what_they_find_once() -> None:
+def test_read_only_passes_report_what_they_find_once() -> None:
     plain = rules(twinform.check(MOVING.encode()).diagnostics)
     assert plain == [("missing-inertial", 2)]
     looked = rules(twinform.check(MOVING.encode(), passes="check-limits,check-inertia").diagnostics)
@@ -135,7 +135,7 @@ def test_passes_that_do_more_are_refused(passes: str, why: str | None) -> None:
         twinform.check(MOVING.encode(), passes=passes)
 
 
-def test_a_pass_of_somebody_else_looks_as_well() -> None:
+def test_a_read_only_pass_of_somebody_else_runs_as_well() -> None:
     class CheckNames(Pass):
         name: ClassVar[str] = "check-names"
 

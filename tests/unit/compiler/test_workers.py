@@ -3,10 +3,14 @@
 import os
 import signal
 import time
+from concurrent.futures import BrokenExecutor, ProcessPoolExecutor, ThreadPoolExecutor
+from multiprocessing import get_context
+from typing import Any
 
 import pytest
 
-from twinform.compiler.workers import Failure, run
+from twinform.compiler.workers import Failure, Runner, run, run_on
+from twinform.compiler.workers.processes import ProcessExecutor
 
 
 def _nothing(_: int) -> None:
@@ -39,7 +43,7 @@ def test_nothing_is_a_result_like_any_other() -> None:
     assert list(run(_nothing, [])) == []
 
 
-def test_a_job_that_is_late_is_told_from_one_that_died() -> None:
+def test_a_job_that_is_late_is_distinguished_from_one_that_died() -> None:
     late = dict(run(_linger, [0.0, 600.0], seconds=2, processes=1))
     assert late == {0.0: 0.0, 600.0: Failure("did not come to an end", late=True)}
     ((_, died),) = run(_die, [1])
@@ -58,3 +62,64 @@ def test_a_job_that_dies_or_hangs_harms_no_other():
 def test_a_fault_in_the_task_is_raised():
     with pytest.raises(RuntimeError, match="ZeroDivisionError"):
         list(run(_divide, [0]))
+
+
+def _die_if_told(number: int) -> int:
+    if number == 3:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return number
+
+
+def _own_number(_: int) -> int:
+    return os.getpid()
+
+
+def test_an_executor_that_breaks_is_replaced_and_only_the_job_that_broke_it_is_given_up() -> None:
+    opened: list[ProcessPoolExecutor] = []
+
+    def open_() -> ProcessPoolExecutor:
+        opened.append(ProcessPoolExecutor(2, get_context("spawn")))
+        return opened[-1]
+
+    found = dict(run_on(Runner(open=open_, window=4), _die_if_told, range(8)))
+    assert found == {**{number: number for number in range(8)}, 3: Failure("the process died")}
+    assert 1 < len(opened) <= 6
+
+
+def test_an_executor_of_the_caller_is_used_and_left_open() -> None:
+    with ThreadPoolExecutor(2) as executor:
+        assert dict(run_on(Runner.of(executor), _divide, [1, 2])) == {1: 1.0, 2: 0.5}
+        assert executor.submit(_divide, 4).result() == 0.25
+    with pytest.raises(BrokenExecutor), ProcessPoolExecutor(1, get_context("spawn")) as executor:
+        list(run_on(Runner.of(executor), _die, [1, 2]))
+
+
+def test_without_jobs_nothing_is_opened() -> None:
+    def open_() -> ThreadPoolExecutor:
+        raise AssertionError
+
+    assert list(run_on(Runner(open=open_, window=1), _divide, [])) == []
+
+
+def test_what_cannot_be_handed_over_is_said() -> None:
+    with pytest.raises(RuntimeError, match="pickle"):
+        list(run(_divide, [lambda: 1]))  # type: ignore[list-item] - the point is that it cannot be sent
+
+
+def test_a_pool_that_loses_an_idle_process_is_replaced() -> None:
+    class Lossy(ProcessExecutor):
+        broken = 0
+
+        def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Any:
+            if not Lossy.broken:
+                Lossy.broken += 1
+                raise BrokenExecutor("Unexpected error within the Pool")
+            return super().submit(fn, *args, **kwargs)
+
+    runner = Runner(open=lambda: Lossy(1, 60), window=2)
+    assert dict(run_on(runner, _divide, [1, 2])) == {1: 1.0, 2: 0.5}
+
+
+def test_processes_give_way_to_new_ones_before_their_memory_grows() -> None:
+    runner = Runner(open=lambda: ProcessExecutor(1, 60, most_jobs=2), window=2)
+    assert len({number for _, number in run_on(runner, _own_number, range(6))}) == 3

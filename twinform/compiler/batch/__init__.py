@@ -1,7 +1,48 @@
-"""Batch conversion of a folder of models: each in its own process, and resumable."""
+"""Work on many models: on any executor, resumable, and on none of which anything has changed.
+
+`entries` lists the models, `jobs` is what is done with one, `planning` finds what is known already, `task` is the work
+on one, wherever it is done, and `recording` keeps the result. `driver` puts these together.
+"""
 
 from twinform.compiler.batch.driver import Batch, batch
-from twinform.compiler.batch.files import PATTERNS, FolderError
-from twinform.compiler.batch.record import Outcome, Record, report, summary
+from twinform.compiler.batch.entries import (
+    PATTERNS,
+    Entry,
+    FolderError,
+    Shard,
+    of_folder,
+    of_names,
+    pairs,
+    with_arguments,
+)
+from twinform.compiler.batch.jobs import Check, Convert, Diff, Stats
+from twinform.compiler.batch.lock import BusyError
+from twinform.compiler.batch.merging import merge
+from twinform.compiler.batch.record import Outcome, Record, Summary
+from twinform.compiler.batch.recording import Result
+from twinform.compiler.batch.report import open_report, report_line
 
-__all__ = ["PATTERNS", "Batch", "FolderError", "Outcome", "Record", "batch", "report", "summary"]
+__all__ = [
+    "PATTERNS",
+    "Batch",
+    "BusyError",
+    "Check",
+    "Convert",
+    "Diff",
+    "Entry",
+    "FolderError",
+    "Outcome",
+    "Record",
+    "Result",
+    "Shard",
+    "Stats",
+    "Summary",
+    "batch",
+    "merge",
+    "of_folder",
+    "of_names",
+    "open_report",
+    "pairs",
+    "report_line",
+    "with_arguments",
+]

@@ -1,187 +1,175 @@
-"""Runs a batch over all models of a folder. No model is opened here, only in worker processes, which may crash."""
+"""Runs a batch: plans what there is to do, has it done on an executor, and records what comes back.
+
+No model is opened here, only by what the executor runs, which may crash.
+"""
 
 import json
-from collections.abc import Iterator, Mapping
-from contextlib import suppress
-from dataclasses import dataclass, field, replace
-from importlib.metadata import version
-from pathlib import Path, PurePosixPath
+import tempfile
+from collections.abc import Generator, Iterator, Mapping, Sequence
+from concurrent.futures import Executor
+from contextlib import closing, contextmanager
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
 
-from twinform.compiler.batch.files import PATTERNS, FolderError, models, outputs, require_apart
-from twinform.compiler.batch.manifest import Manifest, digest, is_unchanged
-from twinform.compiler.batch.places import Places, ledger_of, texts_of
+from twinform.compiler.batch.entries import Entry, FolderError, Shard
+from twinform.compiler.batch.jobs import Convert, Diff
+from twinform.compiler.batch.manifest import Manifest
+from twinform.compiler.batch.places import Places, outputs, require_apart
+from twinform.compiler.batch.planning import Plan
 from twinform.compiler.batch.record import Outcome, Record
-from twinform.compiler.batch.task import Done, Task, work
+from twinform.compiler.batch.recording import Recorder, Result
+from twinform.compiler.batch.task import Done, Job, Task, own_version, work
 from twinform.compiler.input.loading import LoadOptions
-from twinform.compiler.output.files import write_all_atomically
-from twinform.compiler.output.same_files import is_below
-from twinform.compiler.request import ConversionRequest
-from twinform.compiler.workers import Failure, run
-from twinform.diagnostics import Policy
-from twinform.passes import AssetPass, SideFilePass, registered_passes
-from twinform.passes.framework.other_documents import DocumentPass
+from twinform.compiler.observing import digest
+from twinform.compiler.workers import Failure, Runner, process_runner, run_on
+from twinform.passes import SideFilePass
+
+_READERS = ("collada", "pycollada", "scipy", "trimesh", "xacro")
+"""Packages that need not be there, and that what comes of a model depends on."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Batch:
-    """What a run is asked for.
+    """What a run is asked for: a job, to be done with each entry below the folder `source`.
 
-    A model may take so many `seconds`; `fresh` works on all of them again; `ledgers` puts beside each result the ledger
-    of what was not expressed; `report` is where somebody will write the report.
+    Results go to `dest`, where it is also written down what they depend on; without it nothing is known from before. A
+    model may take so many `seconds`; `fresh` works on all of them again. `report` is where somebody will write a
+    report. `shown` stands for the folder in what is reported.
     """
 
     source: Path
-    dest: Path
-    request: ConversionRequest
+    entries: Sequence[Entry]
+    job: Job
     load_options: LoadOptions
-    policy: Policy = field(default_factory=Policy)
-    patterns: tuple[str, ...] = PATTERNS
-    jobs: int | None = None
+    dest: Path | None = None
+    shard: Shard | None = None
     seconds: float = 60.0
     fresh: bool = False
-    ledgers: bool = False
     report: Path | None = None
+    shown: str = ""
 
     @property
-    def digest(self) -> str:
-        """What tells requests apart: all that the results depend on besides the model."""
-        request, load_options = self.request, self.load_options
-        asked: list[object] = [
-            version("twinform"),
-            request.to,
-            request.sdf_version,
-            request.urdf_version,
-            request.carriers,
-        ]
-        asked += [
-            str(request.passes),
-            request.expand_includes,
-            self.ledgers,
-            load_options.strict,
-            load_options.engine,
-            load_options.xacro,
-        ]
-        asked += [sorted(self.policy.allow), sorted(self.policy.deny), sorted(self._packages())]
+    def chosen(self) -> list[Entry]:
+        """The entries of this shard."""
+        return [entry for entry in self.entries if self.shard is None or self.shard.has(entry)]
+
+    @property
+    def request(self) -> str:
+        """The digest of all that results depend on besides files."""
+        load_options = self.load_options
+        limits = (load_options.limits.size, load_options.limits.tags)
+        asked: list[object] = [own_version(), load_options.strict, load_options.engine, load_options.xacro, limits]
+        search = load_options.search
+        folders = (search.own, search.models, search.packages, search.workspaces, search.fuel)
+        asked += [list(map(str, each)) for each in folders]
+        asked += [sorted(load_options.arguments.items()), [_version(name) for name in _READERS], self.job.request]
         return digest(json.dumps(asked).encode())
 
-    @property
-    def repeats(self) -> bool:
-        """Whether all is done again: because that is asked for, or because a pass may read more than the model."""
-        return self.fresh or any(isinstance(step, AssetPass | DocumentPass) for step in self.request.passes)
 
-    def _packages(self) -> Iterator[str]:
-        """The packages that bring the passes, in their versions."""
-        for name in {step.name for step in self.request.passes}:
-            owner = registered_passes()[name].owner if name in registered_passes() else ""
-            with suppress(ModuleNotFoundError):
-                yield f"{owner} {version(owner)}" if owner else name
+@contextmanager
+def batch(asked: Batch, executor: Executor | Runner | None = None) -> Generator[Iterator[Result]]:
+    """Do the job with every model: gives what comes of each, and whether that was known before, as it comes.
 
-
-@dataclass(frozen=True, slots=True)
-class _Job:
-    """A model before the work on it; `known` is its record from earlier runs."""
-
-    name: PurePosixPath
-    blank: Record
-    known: Record | None
-
-
-def batch(asked: Batch) -> Iterator[tuple[Record, bool]]:
-    """Work on every model; yield what came of each, and whether that was known before.
+    Without an `executor` the work is done in processes that are started for it, one for each processor. One that breaks
+    ends the run; a `Runner` opens another.
 
     Raises:
-        FolderError: there is no such folder, the results would be among the sources, or a pass makes further files.
-        OSError: the manifest cannot be written.
+        FolderError: the results would be among the sources, or a pass makes further files.
+        BusyError: another run writes to the same folder.
+        OSError: a result or the manifest cannot be written, as when the disk is full.
+        RuntimeError: the executor cannot be given the work.
+        BrokenExecutor: it broke.
     """
+    entries = asked.chosen
+    names = _outputs(asked, entries)
+    if asked.dest is None:
+        with closing(
+            _results(asked, entries, names, Recorder(asked.request, None, None, asked.shown), executor)
+        ) as found:
+            yield found
+        return
     require_apart(asked.source, asked.dest)
-    _require_one_file(asked.request)
-    names = outputs(models(asked.source, asked.dest, asked.patterns), asked.request.to)
-    places = Places(asked.source, asked.dest, names, ledgers=asked.ledgers)
+    places = Places(asked.source, asked.dest, entries, names)
     if asked.report:
         places.require_free(asked.report)
-    manifest = Manifest(asked.dest)
-    manifest.begin()
-    blanks = _blanks(names, asked.digest)
-    todo = {asked.source / name: _Job(name, blank, manifest.records.get(blank.source)) for name, blank in blanks}
-    for record, known in _worked(todo, asked, places, manifest.folder / "faults"):
-        if not known:
-            manifest.add(record)
-        yield record, known
+    with Manifest(asked.dest, asked.shard.label if asked.shard else "").open() as manifest:
+        recorder = Recorder(asked.request, manifest, places, asked.shown)
+        with closing(_results(asked, entries, names, recorder, executor)) as found:
+            yield found
 
 
-def _require_one_file(request: ConversionRequest) -> None:
-    for step in request.passes:
+def _results(
+    asked: Batch,
+    entries: Sequence[Entry],
+    names: Mapping[str, str],
+    recorder: Recorder,
+    executor: Executor | Runner | None,
+) -> Generator[Result]:
+    runner = executor if isinstance(executor, Runner) else _runner(executor, asked.seconds)
+    plan = Plan(recorder.request, str(asked.source), asked.dest, recorder.manifest, fresh=asked.fresh)
+    todo: list[Entry] = []
+    for entry in entries:
+        record = _missing(entry, asked, recorder.request) or plan.known(entry, names[entry.name])
+        if record is None:
+            todo.append(entry)
+        else:
+            yield Result(record, known=record.outcome is not Outcome.MISSING)
+    tasks = (_task(entry, asked, names[entry.name], plan, recorder, runner) for entry in todo)
+    for task, done in run_on(runner, work, tasks):
+        yield recorder.record(task, _done(done))
+
+
+def _runner(executor: Executor | None, seconds: float) -> Runner:
+    return process_runner(seconds=seconds) if executor is None else Runner.of(executor)
+
+
+def _outputs(asked: Batch, entries: Sequence[Entry]) -> Mapping[str, str]:
+    """The place of each result; none where there are no results."""
+    job = asked.job
+    if not isinstance(job, Convert):
+        return {entry.name: "" for entry in entries}
+    for step in job.to.passes:
         if isinstance(step, SideFilePass):
             raise FolderError(f"{step.name} makes a file beside a result, and a batch has many: use twinform convert")
+    # of all models, so that the place of one does not depend on the shard that it is in
+    every = outputs((entry.name for entry in asked.entries), job.to.to)
+    return {entry.name: every[entry.name] for entry in entries}
 
 
-def _blanks(names: Mapping[PurePosixPath, PurePosixPath], request: str) -> Iterator[tuple[PurePosixPath, Record]]:
-    """Each model with its record before anything is known of it."""
-    for name, output in names.items():
-        yield name, Record(source=str(name), digest="", request=request, output=str(output), outcome=Outcome.UNREADABLE)
+def _missing(entry: Entry, asked: Batch, request: str) -> Record | None:
+    """The record of a model that has nothing to be compared with."""
+    if entry.path and (entry.other or not isinstance(asked.job, Diff)):
+        return None
+    side = "second" if entry.path else "first"
+    message = f"there is no such model in the {side} folder"
+    return Record(source=entry.name, request=request, outcome=Outcome.MISSING, message=message)
 
 
-def _worked(todo: Mapping[Path, _Job], asked: Batch, places: Places, faults: Path) -> Iterator[tuple[Record, bool]]:
-    """What comes of the models in the order of the ends, and whether that was known."""
-    tasks = [_task(path, job, asked, faults) for path, job in todo.items()]
-    for task, result in run(work, tasks, seconds=asked.seconds, processes=asked.jobs):
-        job, done = todo[task.path], _done(result)
-        if done.known and job.known:
-            record = job.known
-        else:
-            record = _recorded(job, done, asked, places)
-            if job.known and (record.outcome is not Outcome.CONVERTED or record.output != job.known.output):
-                _remove(asked.dest, job.known)
-        if record.outcome is Outcome.CONVERTED:
-            places.take(job.name)
-        yield record, record is job.known
-
-
-def _task(path: Path, job: _Job, asked: Batch, faults: Path) -> Task:
-    known = job.known
-    same = known and (known.request, known.output) == (job.blank.request, job.blank.output) and known.outcome.is_final
-    known = known if same and not asked.repeats else None
-    return Task(path, asked.request, asked.load_options, asked.policy, faults, known, asked.dest)
+def _task(entry: Entry, asked: Batch, output: str, plan: Plan, recorder: Recorder, runner: Runner) -> Task:
+    manifest = recorder.manifest
+    return Task(
+        entry=entry,
+        job=asked.job,
+        root=str(asked.source),
+        load_options=asked.load_options,
+        dest=str(asked.dest) if asked.dest else "",
+        output=output,
+        known=plan.candidate(entry, output),
+        faults=(manifest.folder if manifest else Path(tempfile.gettempdir(), "twinform")) / "faults",
+        seconds=None if runner.timed else asked.seconds,
+        version=own_version(),
+    )
 
 
 def _done(result: Done | Failure) -> Done:
     if isinstance(result, Failure):
-        return Done(Outcome.LATE if result.late else Outcome.CRASHED, message=result.cause)
+        return Done(outcome=Outcome.LATE if result.late else Outcome.CRASHED, message=result.cause, dependencies=None)
     return result
 
 
-def _remove(dest: Path, known: Record) -> None:
-    """Take away the result of an earlier run that no model stands for any more, unless somebody has changed it."""
-    path = dest / known.output
-    if known.made and is_below(path.parent, dest) and is_unchanged(path, known.made):
-        for each in (path, ledger_of(path)):
-            with suppress(OSError):
-                each.unlink()
-
-
-def _recorded(job: _Job, done: Done, asked: Batch, places: Places) -> Record:
-    """Put the result, if there is one, in its place."""
-    record = replace(
-        job.blank,
-        digest=done.digest,
-        alone=done.alone,
-        outcome=done.outcome,
-        message=done.message,
-        diagnostics=done.diagnostics,
-        ledger=done.ledger,
-    )
-    if done.outcome is not Outcome.CONVERTED:
-        return record
-    problem = places.problem(job.name) or _written(asked.dest / record.output, done, ledger=asked.ledgers)
-    if problem is not None:
-        return replace(record, outcome=Outcome.UNWRITTEN, message=f"it cannot be written: {problem}")
-    return replace(record, made=digest(done.text.encode()))
-
-
-def _written(path: Path, done: Done, *, ledger: bool) -> str | None:
-    """Write a result, and its ledger; gives the reason where that cannot be done."""
+def _version(name: str) -> str:
     try:
-        write_all_atomically(texts_of(path, done.text, done.entries if ledger else None))
-    except OSError as error:
-        return error.strerror or str(error)
-    return None
+        return f"{name} {version(name)}"
+    except PackageNotFoundError:
+        return name

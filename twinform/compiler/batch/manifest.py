@@ -1,43 +1,90 @@
-"""The manifest of earlier runs: a line of JSON for each converted model, of which the last one counts."""
+"""The manifest of earlier runs: a line of JSON for each model, of which the last one counts.
+
+Lines stay on the disk; in memory is where each begins. Each shard of a run writes a file of its own.
+"""
 
 import errno
-import hashlib
 import json
-from dataclasses import asdict
+import os
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager
+from dataclasses import fields
 from pathlib import Path
+from typing import Any, BinaryIO, NamedTuple
 
-from pydantic import TypeAdapter, ValidationError
-
-from twinform.compiler.batch.record import Record
-from twinform.compiler.input.regular_files import read_regular
-from twinform.compiler.output.files import write_atomically
+from twinform.compiler.batch.dependencies import packed, unpacked
+from twinform.compiler.batch.lock import locked
+from twinform.compiler.batch.record import Outcome, Record
 from twinform.compiler.output.same_files import is_stream
 
-_FOLDER = ".twinform-batch"
-_FILE = "manifest.jsonl"
-_RECORD = TypeAdapter(Record)
+FOLDER = ".twinform-batch"
+_BEGIN = b'{"source": '
+_DECODER = json.JSONDecoder()
+_DEPENDENCIES = ("dependencies", "results")
+_TIDY = 2
+"""A file with so many times the lines that count is written anew."""
 
 
-def digest(content: bytes) -> str:
-    """What tells contents apart."""
-    return hashlib.sha256(content).hexdigest()
-
-
-def is_unchanged(path: Path, made: str) -> bool:
-    """Whether a file is as it was written, by the digest of that."""
-    try:
-        return digest(read_regular(path)) == made
-    except OSError:
-        return False
+class _Line(NamedTuple):
+    file: int
+    offset: int
 
 
 class Manifest:
     """The records in the folder of the results. A run that is stopped loses nothing that was done."""
 
-    def __init__(self, dest: Path) -> None:
-        self.folder = dest / _FOLDER
-        self._path = self.folder / _FILE
-        self.records = _read(self._path)
+    def __init__(self, dest: Path, shard: str = "") -> None:
+        self.folder = dest / FOLDER
+        self._shard = shard
+        self._own = self.folder / (f"manifest-{shard}.jsonl" if shard else "manifest.jsonl")
+        self._files: list[BinaryIO] = []
+        self._lines: dict[str, _Line] = {}
+        self._count = 0
+        self._log: BinaryIO | None = None
+
+    @contextmanager
+    def open(self) -> Generator["Manifest"]:
+        """Make the folder, hold it, read what is there, and get ready to add.
+
+        Raises:
+            BusyError: another run is at work here.
+            OSError: it cannot be written.
+        """
+        if is_stream(self._own):
+            raise FileExistsError(errno.EEXIST, "a pipe or device is in its place", str(self._own))
+        with locked(self.folder, self._shard):
+            try:
+                self._read()
+                if not self._shard and self._count > _TIDY * len(self._lines):
+                    self._tidy()
+                self._log = self._own.open("ab")
+                if self._log.tell() and not _ends_a_line(self._own):
+                    self._log.write(b"\n")  # an earlier run was cut off
+                yield self
+            finally:
+                self.close()
+
+    def close(self) -> None:
+        """Let go of the files."""
+        for file in (*self._files, *([self._log] if self._log else [])):
+            file.close()
+        self._files, self._log = [], None
+
+    def __len__(self) -> int:
+        return len(self._lines)
+
+    def sources(self) -> list[str]:
+        """The names of all models that there is a record of."""
+        return list(self._lines)
+
+    def get(self, source: str) -> Record | None:
+        """What is known of a model."""
+        line = self._lines.get(source)
+        if line is None:
+            return None
+        file = self._files[line.file]
+        file.seek(line.offset)
+        return parse_record(file.readline())
 
     def add(self, record: Record) -> None:
         """Keep a record, at once and for later runs.
@@ -45,37 +92,106 @@ class Manifest:
         Raises:
             OSError: it cannot be written.
         """
-        self.records[record.source] = record
-        with self._path.open("a", encoding="ascii", newline="\n") as file:
-            file.write(_line(record))
+        if self._log is None:
+            raise ValueError("the manifest is not open")
+        self._log.write(record_line(record))
+        self._log.flush()
 
-    def begin(self) -> None:
-        """Make the folder, and write the file anew with one line for each model.
+    def _read(self) -> None:
+        """Find the last line of each model, in the file that was written last."""
+        files = [path for path in self.folder.glob("manifest*.jsonl") if path.is_file()]
+        for path in sorted(files, key=lambda each: (each.stat().st_mtime_ns, each.name)):
+            self._files.append(path.open("rb"))
+            for offset, line in _lines(self._files[-1]):
+                self._count += 1
+                source = _source(line)
+                if source is not None:
+                    self._lines[source] = _Line(len(self._files) - 1, offset)
 
-        Raises:
-            OSError: it cannot be written.
-        """
-        if is_stream(self._path):
-            raise FileExistsError(errno.EEXIST, "a pipe or device is in its place", str(self._path))
-        write_atomically(self._path, "".join(map(_line, self.records.values())))
+    def _tidy(self) -> None:
+        """Write all that counts into one file."""
+        new = self._own.with_suffix(".new")
+        with new.open("wb") as file:
+            file.writelines(record_line(record) for record in map(self.get, self._lines) if record)
+            os.fsync(file.fileno())
+        new.replace(self._own)
+        self.close()
+        for path in self.folder.glob("manifest-*.jsonl"):
+            path.unlink()
+        self._lines, self._count = {}, 0
+        self._read()
+
+    def merge(self) -> None:
+        """Put the records of all shards into the one file."""
+        self._tidy()
 
 
-def _line(record: Record) -> str:
-    return json.dumps(asdict(record)) + "\n"
+def record_line(record: Record) -> bytes:
+    """A record as a line of JSON."""
+    whole: dict[str, Any] = {each.name: getattr(record, each.name) for each in fields(Record)}
+    whole |= {name: packed(whole[name]) for name in _DEPENDENCIES}
+    whole = {name: value for name, value in whole.items() if value or name in {"source", "request", "outcome"}}
+    return json.dumps(whole).encode("ascii") + b"\n"
 
 
-def _read(path: Path) -> dict[str, Record]:
-    """The records of a file; lines that are none, such as one that was cut off, are left out."""
+def parse_record(line: bytes) -> Record | None:
+    """The record in a line; None where there is none, as in one that was cut off."""
     try:
-        lines = read_regular(path).splitlines()
-    except OSError:
-        return {}
-    found = (_record(line) for line in lines)
-    return {record.source: record for record in found if record}
-
-
-def _record(line: bytes) -> Record | None:
-    try:
-        return _RECORD.validate_python(json.loads(line))
-    except (ValueError, ValidationError, RecursionError):
+        whole: dict[str, Any] = json.loads(line)
+        for name in _DEPENDENCIES:
+            whole[name] = tuple(unpacked(whole.get(name, ())))
+        whole["outcome"] = Outcome(whole["outcome"])
+        record = Record(**whole)
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return None
+    return record if _is_sound(record) else None
+
+
+def read_records(path: Path) -> Iterator[Record]:
+    """The records in a manifest of somebody else, or of another folder.
+
+    Raises:
+        OSError: it cannot be read.
+    """
+    with path.open("rb") as file:
+        yield from (record for _, line in _lines(file) if (record := parse_record(line)))
+
+
+def _is_sound(record: Record) -> bool:
+    """Whether the fields of a record have their types."""
+    values: tuple[tuple[object, type], ...] = (
+        (record.source, str),
+        (record.request, str),
+        (record.output, str),
+        (record.message, str),
+        (record.variables, dict),
+        (record.time, int),
+        (record.diagnostics, list),
+        (record.ledger, dict),
+        (record.details, dict),
+    )
+    return all(isinstance(value, kind) for value, kind in values)
+
+
+def _lines(file: BinaryIO) -> Iterator[tuple[int, bytes]]:
+    offset = 0
+    for line in file:
+        yield offset, line
+        offset += len(line)
+
+
+def _source(line: bytes) -> str | None:
+    """The name in a line, without reading all of it."""
+    if not (line.startswith(_BEGIN) and line.endswith(b"}\n")):
+        return None
+    try:
+        found: object = _DECODER.raw_decode(line[len(_BEGIN) :].decode("ascii"))[0]
+    except (ValueError, RecursionError):
+        return None
+    return found if isinstance(found, str) else None
+
+
+def _ends_a_line(path: Path) -> bool:
+    with path.open("rb") as file:
+        file.seek(-1, 2)
+        return file.read(1) == b"\n"

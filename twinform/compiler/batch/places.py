@@ -2,35 +2,52 @@
 
 import os
 from collections import Counter
-from collections.abc import Hashable, Iterator, Mapping
+from collections.abc import Hashable, Iterable, Mapping, Sequence
+from functools import cached_property
 from pathlib import Path, PurePosixPath
 
-from twinform.compiler.batch.files import FolderError
+from twinform.compiler.batch.entries import Entry, FolderError, stem
 from twinform.compiler.output.same_files import identities, is_stream
 
 LEDGER = ".ledger.json"
 """What the name of a result has more where it is that of its ledger."""
 
 
-def texts_of(path: Path, text: str, ledger: str | None) -> dict[Path, str]:
-    """A result and, if it is wanted, its ledger, in their places."""
-    return {path: text} if ledger is None else {path: text, ledger_of(path): ledger}
+def require_apart(source: Path, dest: Path) -> None:
+    """Raise where results would become sources of the next run, or be written over them.
+
+    Raises:
+        FolderError: the target is a file, or is the source or above it.
+    """
+    if dest.exists() and not dest.is_dir():
+        raise FolderError(f"{dest} is no folder")
+    if source.resolve().is_relative_to(dest.resolve()):
+        raise FolderError(f"{dest} is {source} or has it inside; the results need a folder of their own")
 
 
-def ledger_of(path: Path) -> Path:
-    """The place of the ledger of a result."""
-    return path.with_name(path.name + LEDGER)
+def outputs(names: Iterable[str], to: str) -> Mapping[str, str]:
+    """Where each model goes: under its own name with the new ending; a world in SDF keeps `.world`.
+
+    Where two would go to one place, as `a.urdf` and `a.sdf` do, both keep their old endings before the new one.
+    """
+    plain = {name: f"{stem(name)}.{_ending(name, to)}" for name in names}
+    taken = Counter(map(str.casefold, plain.values()))  # paths that some file systems take for one are one
+    return {name: path if taken[path.casefold()] == 1 else f"{name}.{to}" for name, path in plain.items()}
+
+
+def _ending(name: str, to: str) -> str:
+    return "world" if to == "sdf" and ".world" in map(str.lower, PurePosixPath(name).suffixes) else to
 
 
 class Places:
-    """The places of the results of one run, by the names of the models."""
+    """The places of the results of one run, by the names of the models.
 
-    def __init__(
-        self, source: Path, dest: Path, outputs: Mapping[PurePosixPath, PurePosixPath], *, ledgers: bool
-    ) -> None:
-        self._dest, self._outputs, self._ledgers = dest, outputs, ledgers
-        self._sources = {each: name for name in outputs for each in identities(source / name)}
-        self._results = Counter(os.path.realpath(path) for name in outputs for path in self._of(name))
+    Where nothing in the folder of the results is a symbolic link, and a file has one name, its path is its
+    identity. So a million paths are only followed where there is a reason.
+    """
+
+    def __init__(self, source: Path, dest: Path, entries: Sequence[Entry], outputs: Mapping[str, str]) -> None:
+        self._source, self.dest, self._entries, self.outputs = source, dest, entries, outputs
         self._written: set[Hashable] = set()
 
     def require_free(self, report: Path) -> None:
@@ -39,31 +56,58 @@ class Places:
         Raises:
             FolderError: it would.
         """
-        over = next((str(self._sources[each]) for each in identities(report) if each in self._sources), None)
-        if over is None and os.path.realpath(report) in self._results:
+        over = next((self._models[each] for each in identities(report) if each in self._models), None)
+        if over is None and self._results[os.path.realpath(report)]:
             over = "one of the results"
         if over is not None:
             raise FolderError(f"the report {report} would be written over {over}")
 
-    def problem(self, name: PurePosixPath) -> str | None:
-        """Why the result of a model must not be written."""
-        for path in self._of(name):
-            if is_stream(path):
-                return f"{path} is a pipe or device"
-            keys = set(identities(path))
-            model = next((self._sources[key] for key in keys if key in self._sources), None)
-            if model is not None:
-                return f"{path} leads to the model {model}"
-            if self._results[os.path.realpath(path)] > 1 or keys & self._written:
-                return f"{path} leads to where another result goes"
+    def problem(self, name: str, paths: Iterable[str]) -> str | None:
+        """Why the results of a model, paths below the folder of all, must not be written."""
+        own = {self.outputs[name], self.outputs[name] + LEDGER}
+        problems = (self._problem(inside, is_own=inside in own) for inside in paths)
+        return next(filter(None, problems), None)
+
+    def take(self, paths: Iterable[str]) -> None:
+        """Remember that results are in their places: another may have such a place without its path."""
+        if self._has_links:
+            self._written.update(each for inside in paths for each in identities(self.dest / inside))
+
+    def _problem(self, inside: str, *, is_own: bool) -> str | None:
+        path = self.dest / inside
+        if is_stream(path):
+            return f"{path} is a pipe or device"
+        if is_own and not self._has_links and _has_one_name(path):
+            return None
+        keys = set(identities(path))
+        model = next((self._models[key] for key in keys if key in self._models), None)
+        if model is not None:
+            return f"{path} leads to the model {model}"
+        if self._results[os.path.realpath(path)] > is_own or keys & self._written:
+            return f"{path} leads to where another result goes"
         return None
 
-    def take(self, name: PurePosixPath) -> None:
-        """Remember that the result of a model is in its place: another may have that place without its path."""
-        self._written.update(each for path in self._of(name) for each in identities(path))
+    @cached_property
+    def _has_links(self) -> bool:
+        """Whether anything in the folder of the results is a symbolic link."""
+        for place, folders, files in os.walk(self.dest):
+            if any(os.path.islink(os.path.join(place, name)) for name in (*folders, *files)):  # noqa: PTH114, PTH118 - many
+                return True
+        return False
 
-    def _of(self, name: PurePosixPath) -> Iterator[Path]:
-        path = self._dest / self._outputs[name]
-        yield path
-        if self._ledgers:
-            yield ledger_of(path)
+    @cached_property
+    def _models(self) -> Mapping[Hashable, str]:
+        return {each: entry.name for entry in self._entries for each in identities(self._source / entry.path)}
+
+    @cached_property
+    def _results(self) -> Counter[str]:
+        paths = (path for output in self.outputs.values() for path in (output, output + LEDGER))
+        return Counter(os.path.realpath(self.dest / path) for path in paths)
+
+
+def _has_one_name(path: Path) -> bool:
+    """Whether a file that is there has no other name by a hard link."""
+    try:
+        return path.lstat().st_nlink == 1
+    except OSError:
+        return True

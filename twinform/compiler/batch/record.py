@@ -1,16 +1,27 @@
-"""The result of each model of a batch, and the summary and JSON report of all."""
+"""What came of each model of a batch."""
 
-import json
 from collections import Counter
-from collections.abc import Iterable
-from dataclasses import asdict, dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from enum import StrEnum
+
+from twinform.compiler.batch.dependencies import Dependency
+
+Row = dict[str, object]
 
 
 class Outcome(StrEnum):
     """How the work on a model ended."""
 
     CONVERTED = "converted"
+    ACCEPTED = "accepted"
+    """`check` finds no error."""
+    MEASURED = "measured"
+    SAME = "same"
+    """The two models are the same robot."""
+    DIFFERENT = "different"
+    MISSING = "missing"
+    """There is no model of this name to compare with."""
     REFUSED = "refused"
     """It has errors."""
     UNREADABLE = "unreadable"
@@ -26,57 +37,69 @@ class Outcome(StrEnum):
 
     @property
     def exit_code(self) -> int:
-        """That of `twinform convert` in such a case."""
+        """That of the command for one model in such a case."""
         return _CODES.get(self, 1)
+
+    @property
+    def is_good(self) -> bool:
+        """Whether there is nothing to report."""
+        return self.exit_code == 0
 
     @property
     def is_final(self) -> bool:
         """Whether it would end the same way again, as long as nothing changes."""
-        return self in {Outcome.CONVERTED, Outcome.REFUSED, Outcome.UNREADABLE}
+        return self in _FINAL
 
 
-_CODES = {Outcome.CONVERTED: 0, Outcome.UNREADABLE: 2, Outcome.UNWRITTEN: 2}
-Row = dict[str, object]
+_GOOD = (Outcome.CONVERTED, Outcome.ACCEPTED, Outcome.MEASURED, Outcome.SAME)
+_FINAL = frozenset({*_GOOD, Outcome.DIFFERENT, Outcome.REFUSED, Outcome.UNREADABLE})
+_CODES = {**dict.fromkeys(_GOOD, 0), Outcome.UNREADABLE: 2, Outcome.UNWRITTEN: 2}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Record:
-    """A line of the manifest.
+    """What came of a model, as the manifest keeps it.
 
-    `digest` is that of the source, `order` that of what was asked for, and `made` that of the result. `alone` says
-    whether the source is one file. `message` says in a sentence why there is no result. `diagnostics` are those of
-    `check --format json` without notes; `ledger` counts what became of the parts of the model.
+    `request` is the digest of what was asked for. `results` are the files that were written, `dependencies` and
+    `variables` what the work depended on, noted at a `time` in nanoseconds; without dependencies it is done again.
+    `message` is the reason why there is no result. `diagnostics` are those of `check --format json`; `ledger` counts
+    what became of the parts of the model. `details` are what else there is to report: statistics, differences.
     """
 
     source: str
-    digest: str
     request: str
-    output: str
     outcome: Outcome
-    alone: bool = True
-    made: str = ""
+    output: str = ""
+    results: tuple[Dependency, ...] = ()
+    dependencies: tuple[Dependency, ...] = ()
+    variables: Mapping[str, str | None] = field(default_factory=dict[str, "str | None"])
+    time: int = 0
     message: str = ""
     diagnostics: list[Row] = field(default_factory=list[Row])
     ledger: dict[str, int] = field(default_factory=dict[str, int])
+    details: Row = field(default_factory=Row)
 
 
-_LEFT_OUT = ("digest", "request", "made", "alone")
-"""What only the manifest needs."""
+@dataclass(slots=True)
+class Summary:
+    """How many models met each end, and how many of these are known from an earlier run."""
 
+    counts: Counter[Outcome] = field(default_factory=Counter[Outcome])
+    known: int = 0
 
-def summary(records: Iterable[Record], known: int) -> str:
-    """How many models met each end; `known` of them in an earlier run."""
-    counts = Counter(record.outcome for record in records)
-    words = [f"{counts[outcome]} {outcome}" for outcome in Outcome if counts[outcome]]
-    total = counts.total()
-    before = f" ({known} known from before)" if known else ""
-    return f"{total} model{'' if total == 1 else 's'}{': ' if words else ''}{', '.join(words)}{before}"
+    def add(self, outcome: Outcome, *, known: bool = False) -> None:
+        """Count a model."""
+        self.counts[outcome] += 1
+        self.known += known
 
+    @property
+    def exit_code(self) -> int:
+        """The worst of all."""
+        return max((outcome.exit_code for outcome in self.counts), default=0)
 
-def report(records: Iterable[Record], to: str) -> str:
-    """One JSON object: how many models met each end, and all models in the order of their names."""
-    found = sorted(records, key=lambda record: record.source)
-    counts = Counter(record.outcome for record in found)
-    rows = [{key: value for key, value in asdict(record).items() if key not in _LEFT_OUT} for record in found]
-    whole = {"to": to, "summary": {str(each): counts[each] for each in Outcome}, "models": rows}
-    return json.dumps(whole, indent=2) + "\n"
+    def __str__(self) -> str:
+        """In one line."""
+        counts = [f"{self.counts[outcome]} {outcome}" for outcome in Outcome if self.counts[outcome]]
+        total = self.counts.total()
+        before = f" ({self.known} known from before)" if self.known else ""
+        return f"{total} model{'' if total == 1 else 's'}{': ' if counts else ''}{', '.join(counts)}{before}"

@@ -1,107 +1,173 @@
-"""The conversion of one model of a batch, in a process of its own."""
+"""The work on one model of a batch, on whatever executor it lands."""
 
+import os
+import time
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cache
+from importlib.metadata import version
 from pathlib import Path
+from typing import Protocol, runtime_checkable
 
-from twinform.compiler.batch.files import alone
-from twinform.compiler.batch.manifest import digest, is_unchanged
+from twinform.compiler.batch.dependencies import Dependency, are_same, dependencies_of
+from twinform.compiler.batch.entries import Entry
 from twinform.compiler.batch.record import Outcome, Record, Row
-from twinform.compiler.driver import run_conversion
-from twinform.compiler.errors import CompileError
+from twinform.compiler.batch.time_limit import LateError, time_limit
 from twinform.compiler.input.limits import LARGEST
-from twinform.compiler.input.loading import XACRO, LoadOptions
+from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.input.regular_files import read_regular
+from twinform.compiler.observing import observed
 from twinform.compiler.reproducers.files import write_reproducer
-from twinform.compiler.request import ConversionRequest
-from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy, Severity
-from twinform.diagnostics.reporters.json import row
+from twinform.compiler.search.uris import SearchPath
 from twinform.passes import PassError
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Task:
-    """One model, and what is asked for."""
+    """One model, and what is to be done with it.
 
-    path: Path
-    request: ConversionRequest
+    `root` is the folder of the models, `dest` that of the results if there are any, `output` the place of the result
+    in it. `known` is what came of it in an earlier run, if that counts as long as nothing has changed. `faults` is a
+    folder for what makes the faults of passes come again. `seconds` are those that it may take where the executor does
+    not see to that itself.
+    """
+
+    entry: Entry
+    job: "Job"
+    root: str
     load_options: LoadOptions
-    policy: Policy
-    faults: Path
-    """The folder for what makes the faults of passes come again."""
+    dest: str = ""
+    output: str = ""
     known: Record | None = None
-    """What came of it in an earlier run, if that counts as long as neither model nor result have changed."""
-    dest: Path = Path()
-    """The folder of the results."""
+    faults: Path | None = None
+    seconds: float | None = None
+    version: str = ""
+
+    @property
+    def path(self) -> Path:
+        """The file of the model."""
+        return Path(self.root, self.entry.path)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Done:
-    """What came of it; `known` says that it is what was known, and nothing was done.
+    """What came of it; `known` means that it is what was known, and nothing was done.
 
-    `digest` is that of the model, and `alone` says whether the model is one file.
+    `texts` are the files to write by their places below the folder of the results. `dependencies` is None where the
+    work has to be done again, because something has changed in the meantime, or the model could not even be opened.
     """
 
     outcome: Outcome
-    text: str = ""
+    texts: Mapping[str, str] = field(default_factory=dict[str, str])
     message: str = ""
     diagnostics: list[Row] = field(default_factory=list[Row])
     ledger: dict[str, int] = field(default_factory=dict[str, int])
-    entries: str = ""
-    """The whole ledger as `--ledger` writes it."""
-    digest: str = ""
-    alone: bool = True
+    details: Row = field(default_factory=Row)
+    dependencies: tuple[Dependency, ...] | None = ()
+    variables: Mapping[str, str | None] = field(default_factory=dict[str, "str | None"])
+    time: int = 0
     known: bool = False
 
 
+@runtime_checkable
+class Job(Protocol):
+    """What a batch does with each model."""
+
+    @property
+    def request(self) -> list[object]:
+        """The options that the outcome depends on, as JSON."""
+        ...
+
+    def work(self, task: Task, content: bytes) -> Done:
+        """Do it.
+
+        Raises:
+            PassError: a pass is at fault.
+        """
+        ...
+
+
+@cache
+def own_version() -> str:
+    """The version of the compiler that works here."""
+    return version("twinform")
+
+
 def work(task: Task) -> Done:
-    """Convert a model; no fault of it, of a pass or of ours gets out."""
+    """Do what is asked for with a model; no fault of it, of a pass or of ours gets out."""
+    own = own_version()
+    if task.version and task.version != own:
+        return Done(outcome=Outcome.FAILED, message=f"this is twinform {own}, and {task.version} asks for the work")
+    if task.known and _holds(task.known, task):
+        return _noted_again(task.known, task)
+    begin = time.time_ns()
+    with observed() as seen:
+        done = _within_time(task)
+    if done.dependencies is None:
+        return done
+    dependencies = dependencies_of(seen, _absolute(task.root), outside=_absolute(task.dest) if task.dest else None)
+    return replace(done, dependencies=dependencies, variables=seen.variables, time=begin)
+
+
+def _absolute(path: str) -> str:
+    return os.path.join(os.getcwd(), path)  # noqa: PTH109, PTH118 - as paths are observed
+
+
+def _holds(known: Record, task: Task) -> bool:
+    """Whether what is known of a model is still so, and its results are still there."""
+    same = all(os.environ.get(name) == value for name, value in known.variables.items())
+    return same and are_same(known.dependencies, task.root) and are_same(known.results, task.dest)
+
+
+def _noted_again(known: Record, task: Task) -> Done:
+    """What is known, with the times that files have now."""
+    now = time.time_ns()
+    return Done(
+        outcome=known.outcome,
+        known=True,
+        dependencies=tuple(_with_time(each, task.root) for each in known.dependencies),
+        time=now,
+    )
+
+
+def _with_time(dependency: Dependency, root: str) -> Dependency:
+    if not dependency.digest:
+        return dependency
+    try:
+        return replace(dependency, time=Path(root, dependency.path).stat().st_mtime_ns)
+    except OSError:
+        return dependency
+
+
+def _within_time(task: Task) -> Done:
+    try:
+        with time_limit(task.seconds):
+            return _worked(_alone(task))
+    except LateError:
+        return Done(outcome=Outcome.LATE, message="did not come to an end")
+
+
+def _alone(task: Task) -> Task:
+    """The task with a search of its own: one that others have used would not look again for what they have found."""
+    old = task.load_options.search
+    search = SearchPath(old.own, old.models, old.packages, old.workspaces, old.fuel)
+    arguments = dict(task.entry.arguments) or task.load_options.arguments
+    return replace(task, load_options=replace(task.load_options, search=search, arguments=arguments))
+
+
+def _worked(task: Task) -> Done:
     try:
         content = read_regular(task.path, LARGEST + 1)
     except OSError as error:
-        return Done(Outcome.UNREADABLE, message=f"it cannot be read: {error.strerror}")
-    made, single = digest(content), alone(task.path, content)
-    if task.known and single and _holds(task.known, made, task.dest):
-        return Done(task.known.outcome, known=True)
-    return replace(_worked(task, content), digest=made, alone=single)
-
-
-def _holds(known: Record, made: str, dest: Path) -> bool:
-    """Whether what is known of a model is still so, and its result still there."""
-    if known.digest != made:
-        return False
-    return known.outcome is not Outcome.CONVERTED or is_unchanged(dest / known.output, known.made)
-
-
-def _worked(task: Task, content: bytes) -> Done:
+        return Done(outcome=Outcome.UNREADABLE, message=f"it cannot be read: {error.strerror}", dependencies=None)
     try:
-        return _converted(task, content)
+        return task.job.work(task, content)
     except PassError as error:
-        return Done(Outcome.FAILED, message=f"{error}; {_reproducer(error, task)}")
+        return Done(outcome=Outcome.FAILED, message=f"{error}; {_reproducer(error, task)}")
+    except LateError:
+        raise
     except Exception as error:  # noqa: BLE001 - one bad model never stops the rest
-        return Done(Outcome.FAILED, message=f"a fault of twinform: {type(error).__name__}: {error}")
-
-
-def _converted(task: Task, content: bytes) -> Done:
-    name = str(task.path)
-    source = task.path if task.path.suffix.lower() == XACRO else content  # expanding it needs the path
-    try:
-        made = run_conversion(task.request, source, task.load_options, name=name)
-    except CompileError as error:
-        outcome = Outcome.UNREADABLE if error.unreadable else Outcome.REFUSED
-        return Done(outcome, message=str(error), diagnostics=_rows(task.policy.apply(error.diagnostics), name))
-    seen = task.policy.apply(made.diagnostics)
-    if any(each.is_error for each in seen):
-        return Done(Outcome.REFUSED, message=str(CompileError(seen)), diagnostics=_rows(seen, name))
-    counts, entries = _counts(made.ledger), made.ledger.to_json()
-    return Done(Outcome.CONVERTED, made.text, diagnostics=_rows(seen, name), ledger=counts, entries=entries)
-
-
-def _rows(diagnostics: tuple[Diagnostic, ...], name: str) -> list[Row]:
-    return [row(each, name) for each in diagnostics if each.severity > Severity.INFO]
-
-
-def _counts(ledger: Ledger) -> dict[str, int]:
-    return {"expressed": ledger.expressed, **{str(fate): ledger.count(fate) for fate in Fate}}
+        return Done(outcome=Outcome.FAILED, message=f"a fault of twinform: {type(error).__name__}: {error}")
 
 
 def _reproducer(error: PassError, task: Task) -> str:

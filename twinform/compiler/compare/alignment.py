@@ -2,7 +2,7 @@
 
 A file may put the frame of a link anywhere: on its joint, as URDF does, or elsewhere. So contents are compared in a
 frame that both files have: that of the joint that carries the link. Where that joint is not at the same place in both,
-either the link moved with it, and its contents are where they were in the joint's frame; or only the joint is said at
+either the link moved with it, and its contents are where they were in the joint's frame; or only the joint is placed at
 another place, and the contents are where they were in the frame of the link above. What leaves fewer differences is
 what happened.
 """
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from twinform.compiler.compare.findings import Base, Terms
 from twinform.compiler.compare.matching import unmatched
 from twinform.compiler.compare.robot import Body, JointView, Robot, carriers
-from twinform.compiler.compare.values import Place, Point, Tensor
+from twinform.compiler.compare.values import Point, PoseValue, Tensor
 from twinform.ir.frames import WORLD
 
 
@@ -74,7 +74,7 @@ class _Work:
 
     def _hang(self, name: str, one: JointView, other: JointView) -> None:
         stay, follow = self.bases[one.parent], Base(one.frame, other.frame)
-        if not self.terms.worst(Place(one.frame), Place(other.frame), stay):
+        if not self.terms.worst(PoseValue(one.frame), PoseValue(other.frame), stay):
             self.bases[name] = follow
             return
         self.bases[name] = self._best(name, [follow, stay])
@@ -86,7 +86,7 @@ class _Work:
         own = Base(self.a.bodies[name].frame, self.b.bodies[name].frame)
         model, world = Base(), self.bases[WORLD]
         base = self.bases[name] = self._best(name, [model, world, own])
-        if base is own and self.terms.worst(Place(own.a), Place(own.b)):
+        if base is own and self.terms.worst(PoseValue(own.a), PoseValue(own.b)):
             self.placed.add(name)
 
     def _best(self, name: str, candidates: list[Base]) -> Base:
@@ -97,7 +97,7 @@ class _Work:
         one, other = self.a.bodies[name], self.b.bodies[name]
         count = sum(1 for _ in unmatched(one.parts, other.parts, self.terms, base))
         count += self._misfit_of_mass(one, other, base) + self._misfit_below(name, base)
-        return count, bool(self.terms.worst(Place(one.frame), Place(other.frame), base))
+        return count, bool(self.terms.worst(PoseValue(one.frame), PoseValue(other.frame), base))
 
     def _misfit_of_mass(self, one: Body, other: Body, base: Base) -> int:
         if not one.mass.solid.mass or not other.mass.solid.mass:
@@ -109,6 +109,6 @@ class _Work:
     def _misfit_below(self, name: str, base: Base) -> int:
         joints = [(one, self.b.joints.get(one.name)) for one in self.joints_below.get(name, ())]
         frames = [(self.a.frames[each], self.b.frames.get(each)) for each in self.frames_on.get(name, ())]
-        pairs = [(Place(one.frame), Place(other.frame)) for one, other in joints if other]
-        pairs += [(Place(one.pose), Place(other.pose)) for one, other in frames if other]
+        pairs = [(PoseValue(one.frame), PoseValue(other.frame)) for one, other in joints if other]
+        pairs += [(PoseValue(one.pose), PoseValue(other.pose)) for one, other in frames if other]
         return sum(1 for one, other in pairs if self.terms.worst(one, other, base))

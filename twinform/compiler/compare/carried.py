@@ -15,7 +15,7 @@ _OF_THE_FILE = frozenset({"pose", "version"})
 
 
 def unpack_sdf(element: XmlElement, fact: Fact) -> None:
-    """Put what carriers of SDF hold into their places in the tree, where nothing is written instead; it is marked."""
+    """Put what carriers of SDF hold into their places in the tree, where nothing is written instead, as carried."""
     for carrier in list(element.iter(_CARRIER["sdf"], _CARRIER["version"])):
         parent = carrier.getparent()
         if parent is None or _is_in_carrier(carrier) or carrier.get("instead") or carrier.get("without"):
@@ -41,14 +41,14 @@ def _graft(child: XmlElement, parent: XmlElement, at: str, fact: Fact | None) ->
         return
     repeats = fact is not None and not at and any(row.name == child.tag and row.repeats for row in fact.rows)
     holder = _holder(parent, at)
-    said = None if repeats else holder.find(child.tag)
-    if said is None:
+    written = None if repeats else holder.find(child.tag)
+    if written is None:
         made = deepcopy(child)
         made.set(CARRIED, "1")
         holder.append(made)
         return
     for inner in child:
-        _graft(inner, said, "", None)
+        _graft(inner, written, "", None)
 
 
 def _holder(element: XmlElement, path: str) -> XmlElement:

@@ -14,8 +14,10 @@ from twinform.compiler.compare.kinematics import compare_kinematics
 from twinform.compiler.compare.lumping import Lumped, lump
 from twinform.compiler.compare.matching import compare_leaves, compare_parts
 from twinform.compiler.compare.robot import Body, JointView, Leaves, Mass, Robot
-from twinform.compiler.compare.values import Delta, Direction, Flag, Numbers, Place, Point, Tensor, Words, gaps
+from twinform.compiler.compare.values import Delta, Direction, Flag, Numbers, Point, PoseValue, Tensor, Text, gaps
 from twinform.ir.frames import WORLD
+from twinform.ir.node import Vector3
+from twinform.ir.transform import Transform
 
 Named = TypeVar("Named", Body, JointView)
 _ABOUT_A_LINE = frozenset({"revolute", "continuous", "screw", "gearbox"})
@@ -78,7 +80,7 @@ class _Comparer:
     def _placement(self) -> None:
         """Where the model stands in the world, as far as its links kept their places in the model."""
         roots = [name for name, base in self.alignment.bases.items() if name != WORLD and base == Base()]
-        away = self.terms.worst(Place(self.a.world.inverse()), Place(self.b.world.inverse()))
+        away = self.terms.worst(PoseValue(self.a.world.inverse()), PoseValue(self.b.world.inverse()))
         if not roots or not away:
             return
         counts = self.several or _stands(self.a) or _stands(self.b)
@@ -91,11 +93,11 @@ class _Comparer:
         compare_leaves(self.found, subject, a.leaves, b.leaves, base, (a.where, b.where))
         compare_parts(self.found, subject, a.parts, b.parts, base)
         if a.name in self.alignment.placed:
-            self.found.values(subject, "pose", Place(a.frame), Place(b.frame), (a.where, b.where))
+            self.found.values(subject, "pose", PoseValue(a.frame), PoseValue(b.frame), (a.where, b.where))
             return
-        moved = self.terms.worst(Place(a.frame), Place(b.frame), base)
+        moved = self.terms.worst(PoseValue(a.frame), PoseValue(b.frame), base)
         if moved:
-            message = f"link {a.name!r} is said in another frame ({_amount(moved)} away)"
+            message = f"link {a.name!r} is expressed in another frame ({_amount(moved)} away)"
             self.found.note(subject, "frame", message, (a.where, b.where))
 
     def _mass(self, subject: Subject, a: Mass, b: Mass, base: Base) -> None:
@@ -112,9 +114,9 @@ class _Comparer:
     def _joint(self, a: JointView, b: JointView) -> None:
         subject, places = Subject("joint", a.name), (a.where, b.where)
         for aspect, one, other in (("parent", a.parent, b.parent), ("child", a.child, b.child)):
-            self.found.values(subject, aspect, Words(one), Words(other), places)
+            self.found.values(subject, aspect, Text(one), Text(other), places)
         one, other = joint_type(a.type), joint_type(b.type)
-        self.found.values(subject, "type", Words(one), Words(other), places)
+        self.found.values(subject, "type", Text(one), Text(other), places)
         base = self.alignment.bases.get(a.child, Base())
         if a.parent == b.parent:
             self._place_of_joint(subject, a, b)
@@ -127,7 +129,7 @@ class _Comparer:
 
     def _place_of_joint(self, subject: Subject, a: JointView, b: JointView) -> None:
         base = self.alignment.bases.get(a.parent, Base())
-        away = self.terms.worst(Place(a.frame), Place(b.frame), base)
+        away = self.terms.worst(PoseValue(a.frame), PoseValue(b.frame), base)
         if not away:
             return
         places = (a.where, b.where)
@@ -137,7 +139,7 @@ class _Comparer:
         off = [gap for gap in _off_axis(a, b, base) if self.terms.differs(gap)]
         self.found.gaps(subject, "axis/position", off, places)
         if not off:
-            message = f"joint {a.name!r} is said at another place, which changes nothing ({_amount(away)} away)"
+            message = f"joint {a.name!r} is defined at another place, which changes nothing ({_amount(away)} away)"
             self.found.note(subject, "frame", message, places)
 
 
@@ -151,17 +153,22 @@ def _same_kind(a: JointView, b: JointView) -> tuple[Leaves, Leaves]:
 
 
 def _off_axis(a: JointView, b: JointView, base: Base) -> Iterable[Delta]:
-    """How far the second joint is off the axis, or the center, of the first."""
+    """How far the joints are off each other's axis or center; the larger, where their axes have two directions."""
     one, other = (Point(each.frame.translation).seen_from(to).xyz for each, to in ((a, base.a), (b, base.b)))
-    away = tuple(other[i] - one[i] for i in range(3))
-    if a.type in _ABOUT_A_LINE and a.axes:
-        axis = Direction(a.axes[0]).seen_from(base.a).xyz
-        along = sum(part * share for part, share in zip(away, axis, strict=True))
-        away = tuple(away[i] - along * axis[i] for i in range(3))
-    elif a.type not in _ABOUT_A_POINT:
-        return []
+    away = (other[0] - one[0], other[1] - one[1], other[2] - one[2])
+    found = (_distance(each, away, to) for each, to in ((a, base.a), (b, base.b)))
+    off = max((distance for distance in found if distance is not None), default=None)
     # none where the frames are only turned
-    return [replace(gap, absolute=math.hypot(*away), aspect="") for gap in gaps(Point(one), Point(other))]
+    return [] if off is None else [replace(gap, absolute=off, aspect="") for gap in gaps(Point(one), Point(other))]
+
+
+def _distance(joint: JointView, away: Vector3, base: Transform) -> float | None:
+    """How far from the axis or center of a joint another place is; None where a joint slides."""
+    if joint.type in _ABOUT_A_LINE and joint.axes:
+        axis = Direction(joint.axes[0]).seen_from(base).xyz
+        along = sum(part * share for part, share in zip(away, axis, strict=True))
+        return math.hypot(*(away[i] - along * axis[i] for i in range(3)))
+    return math.hypot(*away) if joint.type in _ABOUT_A_POINT else None
 
 
 def _amount(gaps: Iterable[Delta]) -> str:

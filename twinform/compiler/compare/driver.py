@@ -9,6 +9,7 @@ from twinform.compiler.compare.comparison import Comparison, Difference
 from twinform.compiler.compare.findings import Findings, Subject, Terms
 from twinform.compiler.compare.robot import Robot
 from twinform.compiler.errors import CompileError
+from twinform.compiler.input.limits import LARGEST, MOST_TAGS, Limits
 from twinform.compiler.input.loading import Input, LoadOptions, garbage_collection_paused, name_of_input
 from twinform.compiler.search.uris import SearchPath
 from twinform.schemas import Engine
@@ -28,16 +29,18 @@ def diff(
     paths: Iterable[str | Path] = (),
     arguments: Mapping[str, str] | None = None,
     xacro: bool | None = None,
+    max_size: int = LARGEST,
+    max_tags: int = MOST_TAGS,
 ) -> Comparison:
     """Compare the robots in two files or documents, of either format; `model` names one where a file has several.
 
-    Without it the models of two worlds are compared by their names. `paths`, `arguments` and `xacro` are those of
-    `check`; includes are always expanded.
+    Without it the models of two worlds are compared by their names. `paths`, `arguments`, `xacro`,
+    `max_size` and `max_tags` are those of `check`; includes are always expanded.
 
     Raises:
         CompileError: a file has an error; what was found is in its diagnostics.
     """
-    load_options = LoadOptions(strict, engine, SearchPath.of(paths), arguments or {}, xacro)
+    load_options = LoadOptions(strict, engine, SearchPath.of(paths), arguments or {}, xacro, Limits(max_size, max_tags))
     return compare_files(a, b, load_options, model=model, tolerance=tolerance)
 
 

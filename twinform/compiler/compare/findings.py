@@ -111,8 +111,8 @@ class Findings:
             message, severity = f"{name} is only in {here}: {other.upper()} cannot express it", Severity.NOTE
         if carried:
             message = f"{name} is only in {here}, where it travels unseen by other readers"
-        said = Side(what, where)
-        self._add(severity, subject, aspect, message, said if in_a else Side(), Side() if in_a else said)
+        side = Side(what, where)
+        self._add(severity, subject, aspect, message, side if in_a else Side(), Side() if in_a else side)
 
     def leaf(
         self,

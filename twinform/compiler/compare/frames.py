@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from twinform.compiler.compare.findings import Base, Findings, Subject
 from twinform.compiler.compare.robot import NamedFrame, Robot
-from twinform.compiler.compare.values import Place, Words
+from twinform.compiler.compare.values import PoseValue, Text
 from twinform.ir import Format
 
 
@@ -13,17 +13,17 @@ def compare_frames(findings: Findings, a: Robot, b: Robot, bases: Mapping[str, B
     for name, one in a.frames.items():
         if name in b.frames:
             _compare(findings, one, b.frames[name], bases, nested=name in a.models | b.models)
-    lonely_a, lonely_b = (
+    unmatched_a, unmatched_b = (
         _without_like(findings, a, b, bases, in_a=True),
         _without_like(findings, b, a, bases, in_a=False),
     )
-    twins_a, twins_b = _twins(findings, lonely_a, a, b), _twins(findings, lonely_b, b, a)
+    twins_a, twins_b = _twins(findings, unmatched_a, a, b), _twins(findings, unmatched_b, b, a)
     renamed = set(twins_a.values()) & set(twins_b.values())
     _report(
-        findings, lonely_a, (a, b), {name: twin for name, twin in twins_a.items() if twin not in renamed}, in_a=True
+        findings, unmatched_a, (a, b), {name: twin for name, twin in twins_a.items() if twin not in renamed}, in_a=True
     )
     _report(
-        findings, lonely_b, (b, a), {name: twin for name, twin in twins_b.items() if twin not in renamed}, in_a=False
+        findings, unmatched_b, (b, a), {name: twin for name, twin in twins_b.items() if twin not in renamed}, in_a=False
     )
 
 
@@ -32,13 +32,13 @@ def _compare(
 ) -> None:
     subject, places = Subject("frame", one.name), (one.where, other.where)
     base = bases.get(one.body, Base())
-    findings.values(subject, "attached_to", Words(one.body), Words(other.body), places)
+    findings.values(subject, "attached_to", Text(one.body), Text(other.body), places)
     terms = findings.terms
     if nested:
-        if terms.worst(Place(one.pose), Place(other.pose), base):
-            findings.note(subject, "frame", f"the nested model {one.name!r} is said in another frame", places)
+        if terms.worst(PoseValue(one.pose), PoseValue(other.pose), base):
+            findings.note(subject, "frame", f"the nested model {one.name!r} is expressed in another frame", places)
         return
-    findings.values(subject, "pose", Place(one.pose), Place(other.pose), places, base)
+    findings.values(subject, "pose", PoseValue(one.pose), PoseValue(other.pose), places, base)
     if one.was_link != other.was_link and not (one.lumped or other.lumped) and terms.format_a is not terms.format_b:
         there = terms.b if one.was_link else terms.a
         findings.note(subject, "", f"link {one.name!r}, which has no mass, is a frame in {there}", places)
@@ -91,7 +91,7 @@ def _twins(findings: Findings, only_in_one: list[NamedFrame], robot: Robot, othe
     for frame in only_in_one:
         for name, like in robot.frames.items():
             shared = name != frame.name and like.body == frame.body and (name in other.frames or name in other.bodies)
-            if shared and not findings.terms.worst(Place(frame.pose), Place(like.pose)):
+            if shared and not findings.terms.worst(PoseValue(frame.pose), PoseValue(like.pose)):
                 found[frame.name] = name
                 break
     return found

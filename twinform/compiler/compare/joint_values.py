@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from twinform.compiler.compare.robot import Leaf, Leaves
-from twinform.compiler.compare.values import Numbers, Value, Words
+from twinform.compiler.compare.values import Numbers, Text, Value
 from twinform.ir import Joint
 from twinform.ir.defaults import MULTIPLIER, UNLIMITED
 
@@ -93,7 +93,7 @@ def _with_mimic(leaves: dict[str, Leaf]) -> dict[str, Leaf]:
         reference = leaves.pop(f"{axis}/mimic/reference", None)
         if f"{axis}/mimic/@joint" not in leaves:
             continue
-        leaves.setdefault(f"{axis}/mimic/@axis", Leaf(Words("axis"), where=leaves[f"{axis}/mimic/@joint"].where))
+        leaves.setdefault(f"{axis}/mimic/@axis", Leaf(Text("axis"), where=leaves[f"{axis}/mimic/@joint"].where))
         multiplier, offset = (leaves.get(f"{axis}/mimic/{name}") for name in ("multiplier", "offset"))
         total = number_of(offset, 0.0) - number_of(multiplier, MULTIPLIER) * number_of(reference, 0.0)
         where = (offset or reference or leaves[f"{axis}/mimic/@joint"]).where

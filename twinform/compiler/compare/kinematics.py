@@ -8,7 +8,7 @@ from random import Random
 from twinform.compiler.compare.findings import Base, Findings, Subject
 from twinform.compiler.compare.joint_values import joint_type, number_of
 from twinform.compiler.compare.robot import JointView, Robot, carriers
-from twinform.compiler.compare.values import Delta, Place, Words, gaps
+from twinform.compiler.compare.values import Delta, PoseValue, Text, gaps
 from twinform.ir import Vector3
 from twinform.ir.defaults import MULTIPLIER, SCREW_THREAD_PITCH
 from twinform.ir.transform import Transform
@@ -27,7 +27,7 @@ def compare_kinematics(findings: Findings, a: Robot, b: Robot, bases: Mapping[st
     names = [name for name in a.bodies if name in bases]
     for sample in range(SAMPLES):
         for name, pose, like in zip(names, one.poses(names, sample), other.poses(names, sample), strict=True):
-            for gap in gaps(Place(pose), Place(like)):
+            for gap in gaps(PoseValue(pose), PoseValue(like)):
                 known = worst.get(gap.aspect)
                 if findings.terms.differs(gap) and (known is None or known[0].absolute < gap.absolute):
                     worst[gap.aspect] = (gap, name)
@@ -94,10 +94,10 @@ class Moving:
         """Where a joint stands: by its name alone, from -1 to 1, or where the joint is that it mimics."""
         joint = self.robot.joints.get(name)
         leader = joint.leaves.get(f"{_axis(axis)}/mimic/@joint") if joint else None
-        if joint is None or leader is None or not isinstance(leader.value, Words) or depth > len(self.robot.joints):
+        if joint is None or leader is None or not isinstance(leader.value, Text) or depth > len(self.robot.joints):
             return Random(zlib.crc32(f"{name}/{axis}/{sample}".encode())).uniform(-1, 1)  # noqa: S311 - not a secret
         words = joint.leaves.get(f"{_axis(axis)}/mimic/@axis")
-        second = words is not None and words.value == Words("axis2")
+        second = words is not None and words.value == Text("axis2")
         multiplier, offset = (joint.leaves.get(f"{_axis(axis)}/mimic/{part}") for part in ("multiplier", "offset"))
         position = self._position(leader.value.text, int(second), sample, depth + 1)
         return number_of(multiplier, MULTIPLIER) * position + number_of(offset, 0.0)

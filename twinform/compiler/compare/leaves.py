@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 from twinform.compiler.compare.robot import Leaf
-from twinform.compiler.compare.values import Numbers, Place, Value, Words, typed_value
+from twinform.compiler.compare.values import Numbers, PoseValue, Text, Value, typed_value
 from twinform.diagnostics import Location
 from twinform.ir import Pose
 from twinform.ir.transform import Transform
@@ -17,12 +17,12 @@ from twinform.schemas import Fact, XmlElement, table
 CARRIED = f"{{{NAMESPACE}}}carried"
 """The attribute of elements that came out of a carrier."""
 _OURS = f"{{{NAMESPACE}}}"
-_SAYS_BY_BEING_THERE = frozenset({"geometry", "material", "mimic"})
+_MEANINGFUL_WHEN_EMPTY = frozenset({"geometry", "material", "mimic"})
 """Containers that mean something when they are empty; which shape is in a geometry is a value of it."""
 _WITHOUT_MEANING = frozenset({"frame"})
 """Elements of older versions that no reader uses."""
 _POSES = frozenset({"pose", "inertial_pose"})
-THERE = Words("there")
+THERE = Text("there")
 """The value that states that a thing is there at all."""
 
 Resolve = Callable[[Pose, Transform], Transform]
@@ -31,7 +31,7 @@ Resolve = Callable[[Pose, Transform], Transform]
 
 @dataclass(frozen=True, slots=True)
 class Walk:
-    """A walk over one XML tree; `where` says where the part at a path was written."""
+    """A walk over one XML tree; `where` gives the place in the file of the part at a path."""
 
     resolve: Resolve
     where: Callable[[str], Location]
@@ -68,7 +68,7 @@ class Walk:
         written = element.find("pose")
         pose = Pose() if written is None else read_pose(from_xml(written))
         here = self.resolve(pose, holder)
-        self._put(f"{path}pose", Place(here), None, carried=carried)
+        self._put(f"{path}pose", PoseValue(here), None, carried=carried)
         return here
 
     def _attributes(self, element: XmlElement, rows: dict[str, Fact], path: str, *, carried: bool) -> None:
@@ -99,8 +99,8 @@ class Walk:
         fact = table("sdf").resolve(row)
         inner = [one for one in child if isinstance(one.tag, str) and not one.tag.startswith(_OURS)]
         if row.name == "geometry":
-            self._put(path, Words(str(inner[0].tag) if inner else "empty"), None, carried=carried)
-        elif row.repeats or (row.name in _SAYS_BY_BEING_THERE and (inner or _own_keys(child))):
+            self._put(path, Text(str(inner[0].tag) if inner else "empty"), None, carried=carried)
+        elif row.repeats or (row.name in _MEANINGFUL_WHEN_EMPTY and (inner or _own_keys(child))):
             self._put(path, THERE, None, carried=carried)
         if fact.any:
             self.enter_free(child, path, carried=carried)
@@ -155,26 +155,26 @@ def numbered(key: str, seen: dict[str, int]) -> str:
 def _value(text: str, row: Fact | None) -> Value:
     if row is None or row.type is None:
         return _guess(text)
-    return typed_value(row.type, text, unit=row.unit or "") or words(text)
+    return typed_value(row.type, text, unit=row.unit or "") or text_value(text)
 
 
 def _default(row: Fact | None) -> Value | None:
     if row is None:
         return None
     if row.name == "uri" and row.type == "string" and row.count == "+":  # of a script, the only one that may repeat
-        return Words(SCRIPT_URI)
+        return Text(SCRIPT_URI)
     return _value(row.default, row) if row.default is not None else None
 
 
 def _guess(text: str) -> Value:
-    """Numbers where all words are, else the text with single blanks."""
+    """Numbers where all pieces are, else the text with single blanks."""
     try:
         numbers = tuple(map(float, text.split()))
     except ValueError:
-        return words(" ".join(text.split()))
-    return Numbers(numbers) if numbers and "_" not in text else words(text.strip())
+        return text_value(" ".join(text.split()))
+    return Numbers(numbers) if numbers and "_" not in text else text_value(text.strip())
 
 
-def words(text: str) -> Words:
+def text_value(text: str) -> Text:
     """A text; the scheme in which ROS names files in packages is that of Gazebo."""
-    return Words(text.replace("package://", "model://", 1) if text.startswith("package://") else text)
+    return Text(text.replace("package://", "model://", 1) if text.startswith("package://") else text)

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator
 
 from twinform.compiler.compare.findings import Base, Findings, Subject, Terms
 from twinform.compiler.compare.robot import Leaf, Leaves, Part
-from twinform.compiler.compare.values import Place
+from twinform.compiler.compare.values import PoseValue
 from twinform.diagnostics import NOWHERE, Location
 
 _BY_CONTENT = frozenset({"visual", "collision"})
@@ -28,7 +28,7 @@ def compare_leaves(
     *,
     carried: bool = False,
 ) -> None:
-    """Compare all values; below one that says of what kind a thing is, nothing is compared when the kinds differ."""
+    """Compare all values; below one that names the kind of a thing, nothing is compared when the kinds differ."""
     closed: list[str] = []
     for path in sorted(a.keys() | b.keys()):
         if any(path.startswith(f"{above}/") for above in closed):
@@ -46,7 +46,7 @@ def compare_leaves(
 def _is_absent_pose(pair: tuple[Leaf | None, Leaf | None]) -> bool:
     """Whether it is the place of something that one robot does not have, which its other values say."""
     one = pair[0] or pair[1]
-    return None in pair and one is not None and isinstance(one.value, Place)
+    return None in pair and one is not None and isinstance(one.value, PoseValue)
 
 
 def compare_parts(findings: Findings, subject: Subject, a: Iterable[Part], b: Iterable[Part], base: Base) -> None:
@@ -110,7 +110,7 @@ def _has_name(a: Part, b: Part) -> bool:
 
 
 def _most_alike(a: list[Part], b: list[Part], terms: Terms, base: Base) -> list[Pair]:
-    """Shapes that differ, the nearest first; two kinds of shape are the same one only where its name says so."""
+    """Shapes that differ, the nearest first; two kinds of shape are the same one only where they have one name."""
     near = [
         (_distance(one, other, terms, base), i, j)
         for i, one in enumerate(a)

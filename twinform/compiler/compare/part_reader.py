@@ -8,7 +8,7 @@ from lxml import etree
 from twinform.compiler.compare.carried import definition, unpack_sdf, urdf_pieces
 from twinform.compiler.compare.leaves import CARRIED, Resolve, Walk, numbered
 from twinform.compiler.compare.robot import Leaf, Leaves, Part
-from twinform.compiler.compare.values import Words
+from twinform.compiler.compare.values import Text
 from twinform.diagnostics import NOWHERE, Location, Origins
 from twinform.ir import Element, Format, Frame, Joint, Link, Model, Node, Sensor, node_fields
 from twinform.ir.sensor import RENAMED_ELEMENTS
@@ -40,11 +40,9 @@ _RESOLVED: Mapping[type[Node], frozenset[str]] = {
 }
 """What is compared in other terms than those in which it is written."""
 _NOTHING = Element(name="nothing")
-_FLOATING = f"{{{NAMESPACE}}}{FLOATING}"
-"""A joint of URDF that is none in SDF."""
 _NOT_OF_THE_ROBOT = frozenset({"material", "gazebo", "link", "inertial", "mass", "origin", "name", "type"})
 """What URDF's carriers hold that is about how the file is written, or that the model has in SDF syntax."""
-_NEW_WORDS = {**RENAMED_ELEMENTS, "gpu_ray": "gpu_lidar"}
+_NEW_NAMES = {**RENAMED_ELEMENTS, "gpu_ray": "gpu_lidar"}
 """Types of sensors, and elements with their parameters, that have two names; readers take one for the other."""
 _IGNORED_LIMITS = frozenset({"limit/@lower", "limit/@upper"})
 """Of a continuous joint; those of others are in SDF syntax."""
@@ -75,8 +73,8 @@ class PartReader:
         apart = (*fields, *_BODIES) if isinstance(node, Model) else fields
         xml = _xml(node.model_copy(update=dict.fromkeys(apart, ())), tag)
         leaves, inner = self._own(xml, tag, self._places(node), frame, skipped=_RESOLVED[type(node)])
-        said, carried = self._of_urdf(xml, node)
-        return {**leaves, **said}, (*parts, *inner, *carried)
+        expressed, carried = self._of_urdf(xml, node)
+        return {**leaves, **expressed}, (*parts, *inner, *carried)
 
     def element(self, xml: XmlElement, tag: str, where: Location, frame: Transform) -> Part:
         """A part that is an element without a typed form."""
@@ -99,8 +97,8 @@ class PartReader:
         else:
             walk.enter(xml, definition(tag), frame)
         walk.found.pop("@name", None)
-        said, _ = self._of_urdf(xml, node)
-        return Part(tag, _name(xml), {**walk.found, **said}, places(""))
+        expressed, _ = self._of_urdf(xml, node)
+        return Part(tag, _name(xml), {**walk.found, **expressed}, places(""))
 
     def _own(
         self,
@@ -152,10 +150,9 @@ class PartReader:
                     parts.append(Part(str(piece.tag), piece.get("name") or "", walk.found, where, only=Format.URDF))
                 else:
                     leaves |= walk.found
-        for mark in xml.findall(_FLOATING):
-            if not (mark.get("joint") and mark.get("parent")):  # which makes no joint
-                continue
-            leaves["joint"] = Leaf(Words(mark.get("joint") or ""), None, where)
+        floating = find_annotation(node, FLOATING) if isinstance(node, Link) else None
+        if floating is not None and floating.get("joint") and floating.get("parent"):  # else it makes no joint
+            leaves["joint"] = Leaf(Text(floating.get("joint") or ""), None, where)
         return {path: _only_urdf(leaf) for path, leaf in leaves.items()}, parts
 
     def _places(self, node: Node) -> Callable[[str], Location]:
@@ -234,8 +231,8 @@ def _xml(node: Node, tag: str) -> XmlElement:
 def _in_new_words(sensor: XmlElement) -> None:
     """Rename what has an old and a new name, such as a scan of `<ray>` and of `<lidar>`, to the new one."""
     kind = sensor.get("type")
-    if kind in _NEW_WORDS:
-        sensor.set("type", _NEW_WORDS[kind])
+    if kind in _NEW_NAMES:
+        sensor.set("type", _NEW_NAMES[kind])
     for child in sensor:
-        if isinstance(child.tag, str) and (word := _NEW_WORDS.get(child.tag)) and sensor.find(word) is None:
+        if isinstance(child.tag, str) and (word := _NEW_NAMES.get(child.tag)) and sensor.find(word) is None:
             child.tag = word

@@ -68,7 +68,7 @@ def _line(item: Difference, comparison: Comparison, paint: Paint) -> str:
 
 
 def _what(item: Difference) -> str:
-    """What differs, without what the heading says."""
+    """What differs, without what the heading has."""
     short = item.severity is Severity.DIFFERENCE and item.group != "kinematics"
     if short and item.a.text is not None and item.b.text is not None:
         return f"{item.aspect} is {item.a.text}, and {item.b.text}"
@@ -77,8 +77,8 @@ def _what(item: Difference) -> str:
 
 def _places(item: Difference, comparison: Comparison) -> Iterator[str]:
     seen: set[Location] = set()
-    for file, said in ((comparison.a, item.a), (comparison.b, item.b)):
-        where = said.location
+    for file, side in ((comparison.a, item.a), (comparison.b, item.b)):
+        where = side.location
         if where.line and where not in seen:
             seen.add(where)
             yield f"{printable(where.file or file)}:{where.line}"
@@ -107,9 +107,9 @@ def _row(item: Difference) -> dict[str, object]:
     }
 
 
-def _side(said: Side) -> dict[str, object]:
-    where = said.location
-    return {"value": said.text, "file": where.file, "line": where.line, "path": where.path}
+def _side(side: Side) -> dict[str, object]:
+    where = side.location
+    return {"value": side.text, "file": where.file, "line": where.line, "path": where.path}
 
 
 def _finite(value: float | None) -> float | None:

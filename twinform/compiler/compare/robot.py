@@ -1,7 +1,7 @@
 """A robot as it is compared: bodies, joints and frames, all in the model's frame with every joint at zero.
 
-Which frame of a file something was said in is gone here; what is left of names are those of links, joints, frames and
-sensors.
+Which frame of a file something was expressed in is gone here; what is left of names are those of links, joints, frames
+and sensors.
 """
 
 from collections.abc import Mapping

@@ -36,7 +36,7 @@ def _noted(shells: list[tuple[Frame, Model]], frame: Frame, shell: Model) -> Fra
 
 
 def _without_made_root(model: Model) -> Model:
-    """The model without the link that was made because URDF needs one."""
+    """The model without the link that was synthesized because URDF needs one."""
     link = model.links[0] if len(model.links) == 1 else None
     if link is None or not is_synthesized(link) or (link.inertial and link.inertial.mass):
         return model

@@ -18,7 +18,7 @@ _DIGITS = 10
 class Delta:
     """By how much two values differ.
 
-    `scale` is what the tolerance is a share of, and `size` the larger one of the two; `aspect` says which part of the
+    `scale` is what the tolerance is a share of, and `size` the larger one of the two; `aspect` names the part of the
     values it is about.
     """
 
@@ -51,7 +51,7 @@ class Value:
 
 
 @dataclass(frozen=True, slots=True)
-class Words(Value):
+class Text(Value):
     """A text."""
 
     text: str
@@ -96,14 +96,14 @@ class Direction(Value):
 
 
 @dataclass(frozen=True, slots=True)
-class Place(Value):
+class PoseValue(Value):
     """A frame in the model's frame."""
 
     pose: Transform
 
-    def seen_from(self, base: Transform) -> "Place":
+    def seen_from(self, base: Transform) -> "PoseValue":
         """The frame in another one."""
-        return Place(base.inverse().compose(self.pose))
+        return PoseValue(base.inverse().compose(self.pose))
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,7 +124,7 @@ def gaps(a: Value, b: Value) -> Iterator[Delta]:
     match a, b:
         case Numbers(), Numbers() if len(a.values) == len(b.values):
             yield from _numbers(a, b)
-        case Place(), Place():
+        case PoseValue(), PoseValue():
             yield from _places(a.pose, b.pose)
         case Point(), Point():
             yield _distance(a.xyz, b.xyz)
@@ -139,7 +139,7 @@ def gaps(a: Value, b: Value) -> Iterator[Delta]:
 def show(value: Value) -> str:
     """A value as text."""
     match value:
-        case Words():
+        case Text():
             return repr(value.text)
         case Flag():
             return format_value(value.on)
@@ -147,7 +147,7 @@ def show(value: Value) -> str:
             return _row(value.values) + (f" {value.unit}" if value.unit else "")
         case Point() | Direction():
             return _row(value.xyz)
-        case Place():
+        case PoseValue():
             return f"{_row(value.pose.translation)} m, {_row(value.pose.rpy())} rad"
         case Tensor():
             return f"{_row(value.moments)} kg*m^2"
@@ -224,7 +224,7 @@ def typed_value(type: str | None, text: str, format: str = "sdf", unit: str = ""
     try:
         parsed = parse_value(type, text, format)
     except ValueError:
-        return Words(text)
+        return Text(text)
     if isinstance(parsed, bool):
         return Flag(parsed)
     numbers = tuple(map(float, text.split())) if isinstance(parsed, tuple) else (float(str(parsed)),)

@@ -7,7 +7,7 @@ from posixpath import dirname
 from typing import NamedTuple
 
 from twinform.compiler.includes.model_config import manifest, model_file
-from twinform.compiler.input.limits import MOST_TAGS, excess_of_names
+from twinform.compiler.input.limits import LIFTED_BY_TAGS, excess_of_names
 from twinform.compiler.input.loading import LoadOptions, LoadResult, read
 from twinform.compiler.search.uris import UriError
 from twinform.diagnostics import DiagnosticSink
@@ -82,6 +82,7 @@ def _verify(document: Document, sink: DiagnosticSink) -> None:
 @dataclass(slots=True)
 class _Total:
     own_depth: int
+    largest: int
     depth: int = 0
     files: int = 1
     size: int = 0
@@ -95,7 +96,7 @@ class _Total:
             return f"its models are nested more than {_DEEPEST_MODELS} deep"
         if self.files > _MOST:
             return f"these are more than {_MOST:,} models"
-        return f"these are more than {MOST_TAGS:,} elements and attributes" if self.size > MOST_TAGS else None
+        return f"these are more than {self.largest:,} elements and attributes" if self.size > self.largest else None
 
 
 @dataclass(slots=True)
@@ -112,7 +113,7 @@ class _Reader:
 
     def expanded(self, document: Document, file: Path, above: tuple[Path, ...], wanted: Wanted | None) -> _File:
         """A document with its includes expanded; `above` are the files that are being read already."""
-        total = _Total(_nesting(document))
+        total = _Total(_nesting(document), self.load_options.limits.tags)
 
         def resolve(include: Include) -> Included | None:
             if self.full:
@@ -123,7 +124,8 @@ class _Reader:
                 return None
             too_much = total.add(found)
             if too_much:
-                self._report_too_many(include, too_much)
+                excess = total.size > total.largest
+                self._report_too_many(include, too_much, LIFTED_BY_TAGS if excess else None)
                 return None
             return Included(found.document, _folder(include, path), found.frame)
 
@@ -193,12 +195,13 @@ class _Reader:
         self.sink.entries.extend(own.entries)
         return document
 
-    def _report_too_many(self, include: Include, why: str) -> None:
+    def _report_too_many(self, include: Include, why: str, help: str | None = None) -> None:
         if self.full:
             return  # the files above would only say the same again
         self.full = True
         message = f"{include.uri!r} is not expanded: {why}"
-        self.sink.report(includes.TOO_MANY_INCLUDES, message, include.location.at("uri"), found=include.uri)
+        where = include.location.at("uri")
+        self.sink.report(includes.TOO_MANY_INCLUDES, message, where, found=include.uri, help=help)
 
 
 def _nesting(document: Document) -> int:

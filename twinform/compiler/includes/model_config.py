@@ -21,7 +21,7 @@ class _Entry:
 
 
 def manifest(folder: Path) -> Path | None:
-    """The file that says which file of a folder is the model; None where the folder has none."""
+    """The file that names the model file of a folder; None where the folder has none."""
     return next((folder / name for name in MANIFESTS if (folder / name).is_file()), None)
 
 

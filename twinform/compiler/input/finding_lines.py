@@ -77,9 +77,9 @@ def line_of_text(root: XmlElement, where: Location, text: str) -> int:
     start = _found(root, where, _Children())
     if start is None:
         return 0
-    said = (
+    lines = (
         each.sourceline or 0
         for each in start.iter()
         if (each.text or "").strip() == text or text in (value.strip() for value in each.attrib.values())
     )
-    return next(said, 0)
+    return next(lines, 0)

@@ -4,7 +4,8 @@ What is counted here is counted in the bytes, before there is a tree, since the 
 """
 
 import re
-from typing import NamedTuple, cast
+from dataclasses import dataclass
+from typing import BinaryIO, NamedTuple, cast
 
 from lxml import etree
 
@@ -12,9 +13,9 @@ from twinform.diagnostics import Location
 from twinform.schemas import XmlElement, declared_namespaces, path_of
 
 LARGEST = 64 * 2**20
-"""The largest file, in bytes. The largest real one that we know has 2 MB; a chain of 10,000 links has 10."""
+"""The largest file, in bytes, where nobody says otherwise. The largest real one has 2 MB; 10,000 links have 10."""
 MOST_TAGS = 1_000_000
-"""The most tags. A chain of 10,000 links has 280,000, the largest real file 40,000."""
+"""The most tags where nobody says otherwise. A chain of 10,000 links has 280,000, the largest real file 40,000."""
 MOST_ATTRIBUTES = 256
 """The most attributes of one element, since libxml2 looks each of them up among all. The most in a real file is 12."""
 MOST_LOOKUPS = 250_000_000
@@ -31,12 +32,12 @@ DEEPEST_MODELS = 64
 _SHORTEST_ATTRIBUTE = len(' a=""')
 _LONG_TAG = re.compile(rb"<[^<]{%d}" % min(MOST_ATTRIBUTES * _SHORTEST_ATTRIBUTE, LONGEST_NAME))
 """A tag that might hold too much, or one that long text follows; few files have any."""
-_CROWDED = etree.XPath(f"//*[@*[{MOST_ATTRIBUTES + 1}]]")
-_LONG_NAMED = etree.XPath(f"//*[string-length(@name) > {LONGEST_NAME}]")
+_CROWDED = etree.XPath(f"/descendant::*[@*[{MOST_ATTRIBUTES + 1}]]")
+_LONG_NAMED = etree.XPath(f"/descendant::*[string-length(@name) > {LONGEST_NAME}]")
 _DEEP_MODEL = etree.XPath(
-    f"(//*[local-name() = 'model'][count(ancestor::*[local-name() = 'model']) >= {DEEPEST_MODELS}])[1]"
+    f"(/descendant::*[local-name() = 'model'][count(ancestor::*[local-name() = 'model']) >= {DEEPEST_MODELS}])[1]"
 )
-_QUALIFIED = etree.XPath("count(//*[namespace-uri()]) + count(//@*[namespace-uri()])")
+_QUALIFIED = etree.XPath("count(/descendant::*[namespace-uri()]) + count(/descendant::*/@*[namespace-uri()])")
 _FEW = 64
 """Namespaces that nobody needs to count: with these, a file has too many tags first."""
 _DECLARED = re.compile(rb"""^[^<]{0,16}<\?xml[^>]{0,200}?encoding\s*=\s*["']([A-Za-z0-9._:-]*)""")
@@ -45,20 +46,72 @@ _COUNTABLE = re.compile(rb"utf-?8|utf-?16.*|utf-?32.*|ucs-?[24].*|us-ascii|ascii
 """Encodings in which `<` has the byte of ASCII. UTF-7, for one, can hide it."""
 
 
+_SIZE = re.compile(r"(?P<number>\d{1,15}(?:\.\d{1,15})?)\s*(?P<unit>(?:[kmg]i?)?)b?", re.IGNORECASE | re.ASCII)
+_UNITS = {"": 1, "k": 10**3, "m": 10**6, "g": 10**9, "ki": 2**10, "mi": 2**20, "gi": 2**30}
+
+LIFTED_BY_SIZE = "if the file is to be trusted, give a larger --max-size, or in Python max_size"
+LIFTED_BY_TAGS = "if the file is to be trusted, give a larger --max-tags, or in Python max_tags"
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """The limits that a caller may lift: bytes of a file, and tags of one, or parts of a JSON document.
+
+    Raises:
+        ValueError: one is no positive whole number.
+    """
+
+    size: int = LARGEST
+    tags: int = MOST_TAGS
+
+    def __post_init__(self) -> None:
+        for name, value in (("max_size", self.size), ("max_tags", self.tags)):
+            if type(value) is not int or value <= 0:
+                raise ValueError(f"{name} has to be a positive whole number, not {value!r}")
+
+
+USUAL_LIMITS = Limits()
+
+
 class Excess(NamedTuple):
-    """What there is too much of, and where."""
+    """What there is too much of, where, and what can be done about it."""
 
     message: str
     location: Location = Location()
+    help: str | None = None
 
 
-def excess_of_bytes(text: bytes) -> Excess | None:
+def parse_size(text: str) -> int:
+    """The bytes that a text such as `64MB` or `1.5 GiB` says: powers of 1000, or with an `i` of 1024.
+
+    Raises:
+        ValueError: it is no positive size.
+    """
+    found = _SIZE.fullmatch(text.strip())
+    size = int(float(found["number"]) * _UNITS[found["unit"].lower()]) if found else 0
+    if size <= 0:
+        raise ValueError(f"{text!r} is no size; write a number of bytes, or a number and a unit such as 200MB or 1GiB")
+    return size
+
+
+def read_up_to(file: BinaryIO, size: int) -> bytes:
+    """What is in a file; of one that has more bytes, one byte more than these."""
+    parts: list[bytes] = []
+    left = size + 1
+    while left > 0:
+        wanted = min(left, LARGEST + 1)  # Python reserves as much memory as it is asked for
+        parts.append(file.read(wanted))
+        left = left - wanted if len(parts[-1]) == wanted else 0
+    return b"".join(parts)
+
+
+def excess_of_bytes(text: bytes, limits: Limits = USUAL_LIMITS) -> Excess | None:
     """Why this is too much to be parsed."""
-    if len(text) > LARGEST:
-        return Excess(f"the file has more than {LARGEST:,} bytes")
+    if len(text) > limits.size:
+        return Excess(f"the file has more than {limits.size:,} bytes", help=LIFTED_BY_SIZE)
     tags = text.count(b"<")
-    if tags > MOST_TAGS:
-        return Excess(f"the file has {tags:,} tags; the limit is {MOST_TAGS:,}")
+    if tags > limits.tags:
+        return Excess(f"the file has {tags:,} tags; the limit is {limits.tags:,}", help=LIFTED_BY_TAGS)
     return None
 
 
@@ -91,7 +144,7 @@ def excess_of_tree(root: XmlElement, text: bytes) -> Excess | None:
 
 
 def excess_of_namespaces(root: XmlElement, text: bytes, *, repaired: bool) -> Excess | None:
-    """Why this tree has too many namespaces; `repaired` says whether it has some that the text does not declare."""
+    """Why this tree has too many namespaces; `repaired` is whether it has some that the text does not declare."""
     if not repaired and text.count(b"xmlns") <= _FEW and b"\0" not in text:
         return None
     count = len(declared_namespaces(root))
@@ -105,9 +158,11 @@ def excess_of_names(count: int, names: int) -> Excess | None:
     return Excess(f"there are {count:,} namespaces, and {names:,} names may be in one of them; that is too much")
 
 
-def excess_of_json(text: bytes) -> Excess | None:
+def excess_of_json(text: bytes, limits: Limits = USUAL_LIMITS) -> Excess | None:
     """The same of a JSON document: a part of a model is an object, and a vector in it a list."""
-    if len(text) > LARGEST:
-        return Excess(f"the file has more than {LARGEST:,} bytes")
+    if len(text) > limits.size:
+        return Excess(f"the file has more than {limits.size:,} bytes", help=LIFTED_BY_SIZE)
     parts = text.count(b"{") + text.count(b"[")
-    return Excess(f"the document has {parts:,} parts; the limit is {MOST_TAGS:,}") if parts > MOST_TAGS else None
+    if parts > limits.tags:
+        return Excess(f"the document has {parts:,} parts; the limit is {limits.tags:,}", help=LIFTED_BY_TAGS)
+    return None

@@ -8,15 +8,12 @@ from contextlib import contextmanager
 from dataclasses import replace
 from itertools import count
 from pathlib import Path
-from typing import Any
-
-from pydantic import ValidationError
 
 from twinform.compiler.errors import CompileError
 from twinform.compiler.input import sdf, urdf
 from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.gazebo_extensions import check_extensions
-from twinform.compiler.input.limits import excess_of_json
+from twinform.compiler.input.limits import LARGEST, MOST_TAGS, USUAL_LIMITS, Limits, excess_of_json
 from twinform.compiler.input.options import Input, LoadOptions, LoadResult, expanded_name, name_of_input
 from twinform.compiler.input.parser_quirks import report_split_values, report_tabbed_numbers
 from twinform.compiler.input.parsing import (
@@ -32,6 +29,7 @@ from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import model, reading, structure
 from twinform.diagnostics.rules import xacro as xacro_rules
 from twinform.ir import Document, Format
+from twinform.ir.sourced import amend
 from twinform.ir.verify import verify
 from twinform.schemas import (
     Context,
@@ -39,6 +37,7 @@ from twinform.schemas import (
     Version,
     XmlElement,
     declared_namespaces,
+    has_prefixed_attributes,
     parse_version,
     print_version,
     refusals,
@@ -47,9 +46,9 @@ from twinform.schemas import (
     validate,
 )
 
-_ROOTS: dict[str, tuple[str, Callable[[XmlElement, Context], Mapping[str, Any]]]] = {
-    "robot": ("urdf", urdf.lower),
-    "sdf": ("sdf", sdf.lower),
+_ROOTS: dict[str, tuple[str, Callable[[XmlElement, Context], Document | None]]] = {
+    "robot": ("urdf", urdf.build),
+    "sdf": ("sdf", sdf.build),
 }
 _CONSEQUENCES = frozenset(
     {model.MISSING_LIMIT, model.PARTIAL_LIMIT, model.SEVERAL_ROOTS, model.EMPTY_MODEL, model.UNKNOWN_MATERIAL}
@@ -83,7 +82,7 @@ def _check(source: str | Path | bytes, sink: DiagnosticSink, load_options: LoadO
     try:
         if not isinstance(source, bytes) and (load_options.xacro or Path(source).suffix.lower() == XACRO):
             return _check_xacro(Path(source), sink, load_options)
-        text = source if isinstance(source, bytes) else read_bytes(Path(source), sink)
+        text = source if isinstance(source, bytes) else read_bytes(Path(source), sink, load_options.limits)
     except UnreadableError:
         return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True)
     return _check_text(text, sink, load_options)
@@ -93,7 +92,7 @@ def _check_text(text: bytes, sink: DiagnosticSink, load_options: LoadOptions) ->
     try:
         if _JSON.match(text):
             return _check_json(text, sink, load_options)
-        document, tree = read_document(text, sink, load_options.engine)
+        document, tree = read_document(text, sink, load_options.engine, load_options.limits)
     except UnreadableError:
         return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True)
     if document is not None and not sink.has_errors:
@@ -113,7 +112,7 @@ def _check_json(text: bytes, sink: DiagnosticSink, load_options: LoadOptions) ->
     """
     from twinform.compiler.input.json import read_json  # noqa: PLC0415 - few files are JSON
 
-    refuse_excess(excess_of_json(text), sink)
+    refuse_excess(excess_of_json(text, load_options.limits), sink)
     source = read_json(text, sink)
     if source is None:
         return LoadResult(sink.file, None, tuple(sink.diagnostics))
@@ -155,23 +154,34 @@ def load(
     engine: Engine = "libxml2",
     paths: Iterable[str | Path] = (),
     arguments: Mapping[str, str] | None = None,
+    max_size: int = LARGEST,
+    max_tags: int = MOST_TAGS,
 ) -> Document:
-    """The document of a file; `paths` and `arguments` are those of `check`.
+    """The document of a file; `paths`, `arguments`, `max_size` and `max_tags` are those of `check`.
 
     Raises:
         CompileError: the file has an error; what was found is in its diagnostics.
     """
-    return _document(read(source, LoadOptions(strict, engine, SearchPath.of(paths), arguments or {})))
+    limits = Limits(max_size, max_tags)
+    return _document(read(source, LoadOptions(strict, engine, SearchPath.of(paths), arguments or {}, None, limits)))
 
 
-def loads(text: str | bytes, name: str = "<string>", *, strict: bool = False, engine: Engine = "libxml2") -> Document:
+def loads(
+    text: str | bytes,
+    name: str = "<string>",
+    *,
+    strict: bool = False,
+    engine: Engine = "libxml2",
+    max_size: int = LARGEST,
+    max_tags: int = MOST_TAGS,
+) -> Document:
     """The document of a text; `name` stands for the file in diagnostics.
 
     Raises:
         CompileError: the text has an error; what was found is in its diagnostics.
     """
     data = text.encode() if isinstance(text, str) else text
-    return _document(read(data, LoadOptions(strict, engine), name=name))
+    return _document(read(data, LoadOptions(strict, engine, limits=Limits(max_size, max_tags)), name=name))
 
 
 def _document(loaded: LoadResult) -> Document:
@@ -180,39 +190,52 @@ def _document(loaded: LoadResult) -> Document:
     return loaded.document
 
 
-def read_document(text: bytes, sink: DiagnosticSink, engine: Engine) -> tuple[Document | None, XmlElement]:
+def read_document(
+    text: bytes, sink: DiagnosticSink, engine: Engine, limits: Limits = USUAL_LIMITS
+) -> tuple[Document | None, XmlElement]:
     """The document of an XML text and its tree. Where it has errors, the document is there if it can be.
 
     Raises:
         UnreadableError: it is not XML.
     """
-    root, namespace = read_tree(text, sink)
+    root, namespace = read_tree(text, sink, limits)
     report_split_values(text, sink)
     if b"<xacro:" in text or b"${" in text:
         report_unexpanded(root, sink)
-    format_, lower = _ROOTS[str(root.tag)]
+    format_, build = _ROOTS[str(root.tag)]
     if format_ == "urdf":
         report_tabbed_numbers(text, sink)
     context = Context(sink, sink.file, format_, declared_version(root, format_, sink))
     errors = refusals(root, context, engine)
     context.clean = not errors
-    context.simple = context.clean and _is_plain(text, sink)
-    data = lower(root, context)
+    context.simple = context.clean and (_is_plain(text, sink) or not has_prefixed_attributes(root))
+    document = _built(build, root, context)
     if errors:
         validate(root, context, engine, errors)
-    data = {**data, "namespaces": _namespaces(root, namespace, inside=_declares_inside(root, text, sink))}
-    if sink.has_errors:
-        return _verify_what_is_there(data, sink), root
-    return Document.model_validate(data), root
+    if document is not None:
+        amend(document, "namespaces", _namespaces(root, namespace, inside=_declares_inside(root, text, sink)))
+        if sink.has_errors:
+            _verify_what_is_there(document, sink)
+    return document, root
 
 
-def read_tree(text: bytes, sink: DiagnosticSink) -> tuple[XmlElement, str | None]:
+def _built(
+    build: Callable[[XmlElement, Context], Document | None], root: XmlElement, context: Context
+) -> Document | None:
+    """The document of a tree; None where errors leave gaps in it."""
+    document = build(root, context)
+    if document is None and not context.sink.has_errors:
+        raise ValueError(f"{context.file}: some part lacks what it needs, and nothing was reported")
+    return document
+
+
+def read_tree(text: bytes, sink: DiagnosticSink, limits: Limits = USUAL_LIMITS) -> tuple[XmlElement, str | None]:
     """The XML tree of a text in one of our formats, its names plain, and the default namespace that it had.
 
     Raises:
         UnreadableError: it is not XML, or of another format.
     """
-    root = parse(text, sink)
+    root = parse(text, sink, limits)
     namespace = strip_default_namespace(root)
     if root.tag == _OLD_ROOT and root.get("version") in _OLD_ROOT_VERSIONS:
         message = f"the root of SDF {root.get('version')} is <{_OLD_ROOT}>; read, and written, as <sdf>"
@@ -226,34 +249,32 @@ def read_tree(text: bytes, sink: DiagnosticSink) -> tuple[XmlElement, str | None
     return root, namespace
 
 
-def lower_tree(root: XmlElement, sink: DiagnosticSink, *, valid: bool = False) -> Document:
+def lower_tree(root: XmlElement, sink: DiagnosticSink, *, valid: bool = False) -> Document | None:
     """The document of a tree that we have written ourselves; errors in the notes where it is not valid after all.
 
     `valid` means that the XSD has accepted it already.
     """
-    format_, lower = _ROOTS[str(root.tag)]
+    format_, build = _ROOTS[str(root.tag)]
     context = Context(sink, sink.file, format_, declared_version(root, format_, sink))
     errors = [] if valid else refusals(root, context, "libxml2")
     context.clean = not errors
-    data = lower(root, context)
+    context.simple = context.clean and not has_prefixed_attributes(root)
+    document = _built(build, root, context)
     if errors:
         validate(root, context, "libxml2", errors)
-    return Document.model_validate({**data, "namespaces": _namespaces(root, None)})
+    if document is not None:
+        amend(document, "namespaces", _namespaces(root, None))
+    return document
 
 
-def _verify_what_is_there(data: Mapping[str, Any], sink: DiagnosticSink) -> Document | None:
+def _verify_what_is_there(document: Document, sink: DiagnosticSink) -> None:
     """After an error the names and references are still checked, so that the author sees all at once.
 
     Left out are findings that may only follow from what could not be read.
     """
     found = DiagnosticSink(file=sink.file, strict=sink.strict)
-    try:
-        document = Document.model_validate(data)
-    except ValidationError:
-        return None  # without its name or type a thing cannot be looked at, and that is reported already
     verify(document, found)
     sink.extend(each for each in found.diagnostics if each.rule not in _CONSEQUENCES)
-    return document
 
 
 def declared_version(root: XmlElement, format_: str, sink: DiagnosticSink) -> Version:

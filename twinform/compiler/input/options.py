@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from twinform.compiler.input.limits import USUAL_LIMITS, Limits
 from twinform.compiler.search.uris import SearchPath
 from twinform.diagnostics import Diagnostic, Entry, Origins
 from twinform.ir import Document, count_parts
@@ -18,7 +19,7 @@ class LoadOptions:
     """How files are read.
 
     `search` are the folders for URIs, `arguments` those of xacro. `xacro` selects which files are expanded: by default
-    those whose name ends so, all where it is true, and none where it is false.
+    those whose name ends so, all where it is true, and none where it is false. `limits` say how large files may be.
     """
 
     strict: bool = False
@@ -26,15 +27,16 @@ class LoadOptions:
     search: SearchPath = field(default_factory=SearchPath.of)
     arguments: Mapping[str, str] = field(default_factory=dict[str, str])
     xacro: bool | None = None
+    limits: Limits = USUAL_LIMITS
 
 
 @dataclass(frozen=True, slots=True)
 class LoadResult:
     """What `check` found. `unreadable` means that there is no model at all: no file, no XML, or another format.
 
-    The document may be there in spite of errors; `accepted` says whether it has any. `tree` is the XML that it came
+    The document may be there in spite of errors; `accepted` is whether it has any. `tree` is the XML that it came
     from, and `origins` lead from its lines to where they were written if it was expanded. Where includes were expanded,
-    `included` is the size of their files, `entries` what became of parts of them, and `mixed` says that the files may
+    `included` is the size of their files, `entries` what became of parts of them, and `mixed` means that the files may
     have been of several versions.
     """
 

@@ -11,11 +11,14 @@ from typing import cast
 from lxml import etree
 
 from twinform.compiler.input.limits import (
-    LARGEST,
+    LIFTED_BY_SIZE,
+    USUAL_LIMITS,
     Excess,
+    Limits,
     excess_of_bytes,
     excess_of_namespaces,
     excess_of_tree,
+    read_up_to,
     uncountable_encoding,
 )
 from twinform.compiler.input.xml_recovery import (
@@ -37,7 +40,7 @@ class UnreadableError(Exception):
     """There is no tree; the diagnostics tell why."""
 
 
-def read_bytes(path: Path, sink: DiagnosticSink) -> bytes:
+def read_bytes(path: Path, sink: DiagnosticSink, limits: Limits = USUAL_LIMITS) -> bytes:
     """The bytes of a file; of a pipe or device no more than a file may have.
 
     Raises:
@@ -45,16 +48,17 @@ def read_bytes(path: Path, sink: DiagnosticSink) -> bytes:
     """
     try:
         with path.open("rb") as file:
-            text = file.read(LARGEST + 1)
+            text = read_up_to(file, limits.size)
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
         raise _unreadable(sink, f"cannot read the file: {reason}") from error
-    if len(text) > LARGEST:
-        raise _unreadable(sink, f"the file has more than {LARGEST:,} bytes, which is the limit")
+    if len(text) > limits.size:
+        message = f"the file has more than {limits.size:,} bytes, which is the limit"
+        raise _unreadable(sink, message, LIFTED_BY_SIZE)
     return text
 
 
-def parse(text: bytes, sink: DiagnosticSink) -> XmlElement:
+def parse(text: bytes, sink: DiagnosticSink, limits: Limits = USUAL_LIMITS) -> XmlElement:
     """The root of the document, its default namespace removed and undeclared prefixes given a namespace.
 
     Raises:
@@ -62,7 +66,7 @@ def parse(text: bytes, sink: DiagnosticSink) -> XmlElement:
     """
     if not text.strip():
         raise _unreadable(sink, "the file is empty")
-    refuse_excess(excess_of_bytes(text), sink)
+    refuse_excess(excess_of_bytes(text, limits), sink)
     encoding = uncountable_encoding(text)
     if encoding is not None:
         message = f"the encoding {encoding!r} is none that models are written in"
@@ -92,7 +96,7 @@ def refuse_excess(excess: Excess | None, sink: DiagnosticSink) -> None:
         UnreadableError: there is something.
     """
     if excess is not None:
-        sink.report(reading.OVERSIZED_FILE, excess.message, excess.location)
+        sink.report(reading.OVERSIZED_FILE, excess.message, excess.location, help=excess.help)
         raise UnreadableError
 
 
@@ -165,6 +169,6 @@ def strip_default_namespace(root: XmlElement) -> str | None:
     return namespace
 
 
-def _unreadable(sink: DiagnosticSink, message: str) -> UnreadableError:
-    sink.report(reading.UNREADABLE_FILE, message)
+def _unreadable(sink: DiagnosticSink, message: str, help: str | None = None) -> UnreadableError:
+    sink.report(reading.UNREADABLE_FILE, message, help=help)
     return UnreadableError()

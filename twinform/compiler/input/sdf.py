@@ -1,11 +1,17 @@
-"""SDF front end: from an `<sdf>` tree to the data of the IR."""
+"""SDF front end: from an `<sdf>` tree to the IR."""
 
-from collections.abc import Mapping
-from typing import Any
+from twinform.ir import Document
+from twinform.ir.sourced import maker
+from twinform.schemas import Context, XmlElement
 
-from twinform.schemas import Context, XmlElement, reader
+_make_document = maker(Document)
 
 
-def lower(root: XmlElement, context: Context) -> Mapping[str, Any]:
-    """The data of the document that an `<sdf>` makes."""
-    return {"format": "sdf", **reader("sdf", context.version).read(root, context)}
+def build(root: XmlElement, context: Context) -> Document | None:
+    """The document that an `<sdf>` makes, but for its namespaces; none where it has errors that leave gaps."""
+    from twinform.compiler.input.readers.reading import Reading  # noqa: PLC0415 - for files of this format
+    from twinform.compiler.input.readers.sdf import read_sdf  # noqa: PLC0415 - for files of this format
+
+    reading = Reading(context)
+    data = read_sdf(root, None, "sdf", root.get("name"), reading)
+    return None if reading.broken else _make_document(data)

@@ -1,6 +1,7 @@
 """Detects xacro in files that are not named so: macros and `${...}` that nobody will expand."""
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from twinform.diagnostics import DiagnosticSink, Location, Severity
 from twinform.diagnostics.rules import xacro as rules
@@ -14,34 +15,49 @@ _SETTINGS = frozenset({"ros2_control", "transmission"})
 
 def report_unexpanded(root: XmlElement, sink: DiagnosticSink) -> None:
     """Report elements of xacro, and, as an error, expressions where the robot itself should be."""
-    macros = [element for element in root.iter() if str(element.tag).partition("}")[0].endswith("xacro")]
+    macros = [element for element in root.iter() if "xacro" in (tag := str(element.tag)) and _is_of_xacro(tag)]
     if macros:
         where = Location(line=macros[0].sourceline or 0, path=f"/{root.tag}")
         message = f"{_count(len(macros), 'element')} of xacro will not be expanded"
         sink.report(rules.UNEXPANDED_XACRO, message, where, found="xacro", help=_HELP)
-    expressions, severity = list(_with_expressions(root, aside=_SETTINGS)), Severity.ERROR
+    found = list(_with_expressions(root))
+    expressions, severity = [each for each in found if not each.is_aside], Severity.ERROR
     if not expressions:
-        expressions, severity = list(_with_expressions(root)), Severity.WARNING
+        expressions, severity = found, Severity.WARNING
     if expressions:
-        element, text = expressions[0]
+        element, text, _ = expressions[0]
         shown = text if len(text) <= 60 else text[:57] + "..."
         message = f"xacro expressions in {_count(len(expressions), 'element')} are not expanded: {shown!r}"
         where = Location(line=element.sourceline or 0, path=path_of(element))
         sink.report(rules.UNEXPANDED_XACRO, message, where, found=shown, help=_HELP, severity=severity)
 
 
-def _with_expressions(root: XmlElement, aside: frozenset[str] = frozenset()) -> Iterator[tuple[XmlElement, str]]:
-    """The elements that have `${...}`, but for those `aside`: what only plugins and xacro read is theirs."""
-    stack = [root]
+class _Expression(NamedTuple):
+    """An element that has `${...}`, and whether it is in what only others read."""
+
+    element: XmlElement
+    text: str
+    is_aside: bool
+
+
+def _is_of_xacro(tag: str) -> bool:
+    return tag.partition("}")[0].endswith("xacro")
+
+
+def _with_expressions(root: XmlElement) -> Iterator[_Expression]:
+    """The elements that have `${...}`; what only plugins and xacro read is theirs."""
+    stack = [(root, False)]
     while stack:
-        element = stack.pop()
-        if str(element.tag).startswith("{") or element.tag == "plugin" or element.tag in aside:
+        element, is_aside = stack.pop()
+        tag = str(element.tag)
+        if tag[0] == "{" or tag == "plugin":
             continue
-        texts = (element.text or "", *element.attrib.values())
-        said = next((each.strip() for each in texts if "${" in each and "}" in each), None)
-        if said is not None:
-            yield element, said
-        stack.extend(reversed(element))
+        is_aside = is_aside or tag in _SETTINGS
+        texts = (element.text or "", *element.values())
+        found = next((each.strip() for each in texts if "${" in each and "}" in each), None)
+        if found is not None:
+            yield _Expression(element, found, is_aside)
+        stack.extend([(child, is_aside) for child in reversed(element)])
 
 
 def _count(number: int, word: str) -> str:

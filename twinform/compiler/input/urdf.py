@@ -1,26 +1,45 @@
-"""URDF front end: from a `<robot>` tree to the data of the IR."""
+"""URDF front end: from a `<robot>` tree to the IR, poses in the terms of the IR.
 
-from collections.abc import Mapping
-from typing import Any
+A joint's origin is in the frame of its parent link, and the child link's frame is the joint's.
+"""
 
-from twinform.schemas import Context, XmlElement, reader
+from twinform.ir import Document, Format, Model, Pose
+from twinform.ir.census import node_maker
+from twinform.ir.sourced import amend
+from twinform.schemas import Context, XmlElement
+
+_make_pose = node_maker(Pose)
+_make_document = node_maker(Document)
 
 
-def lower(root: XmlElement, context: Context) -> Mapping[str, Any]:
-    """The data of the document that a `<robot>` makes, poses in the terms of the IR.
+def build(root: XmlElement, context: Context) -> Document | None:
+    """The document that a `<robot>` makes, but for its namespaces; none where it has errors that leave gaps."""
+    from twinform.compiler.input.readers.reading import Reading  # noqa: PLC0415 - for files of this format
+    from twinform.compiler.input.readers.urdf import make_model, read_robot  # noqa: PLC0415 - for files of this format
 
-    A joint's origin is in the frame of its parent link, and the child link's frame is the joint's.
-    """
-    model = reader("urdf", context.version).read(root, context)
-    joints = model.get("joints", ())
+    reading = Reading(context)
+    data = read_robot(root, None, "robot", root.get("name"), reading)
+    if reading.broken:
+        return None
+    model = make_model(data)
+    _relate_poses(model)
+    values = {"format": Format.URDF, "models": (model,), "source": model.source, **context.header}
+    return _make_document(values)
+
+
+def _relate_poses(model: Model) -> None:
+    """Say which frames the poses of joints and links are in; the nodes are new, so that they may be changed."""
     children: dict[str, str] = {}
-    for joint in joints:
-        if "parent" in joint:
-            joint.setdefault("pose", {})["relative_to"] = joint["parent"]
-        if "child" in joint and "name" in joint:
-            children.setdefault(joint["child"], joint["name"])
-    for link in model.get("links", ()):
-        joint = children.get(link.get("name"))
-        if joint is not None:
-            link["pose"] = {"relative_to": joint}
-    return {"format": "urdf", "models": (model,), "source": model["source"], **context.header}
+    for joint in model.joints:
+        parent, child, pose = joint.parent, joint.child, joint.pose
+        if parent is not None:
+            if pose is None:
+                amend(joint, "pose", _make_pose({"relative_to": parent}))
+            else:
+                amend(pose, "relative_to", parent)
+        if child is not None:
+            children.setdefault(child, joint.name)
+    for link in model.links:
+        name = children.get(link.name)
+        if name is not None:
+            amend(link, "pose", _make_pose({"relative_to": name}))

@@ -20,7 +20,7 @@ LOST_BRACKET = "write <?xml, with the '<', at the beginning"
 
 _BOM = b"\xef\xbb\xbf"
 _FOLLOWS = frozenset({"ERR_SPACE_REQUIRED", "ERR_STRING_NOT_STARTED", "ERR_XMLDECL_NOT_FINISHED"})
-"""What libxml2 says as well of a declaration that it does not understand."""
+"""What libxml2 reports as well of a declaration that it does not understand."""
 
 _HELP = {
     "ERR_ATTRIBUTE_NOT_STARTED": "put the value of the attribute in quotes: name='value'",

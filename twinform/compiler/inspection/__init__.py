@@ -5,6 +5,7 @@ A conversion asks none of this; the passes that it runs say what becomes of such
 
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.loading import LoadOptions, LoadResult
@@ -12,14 +13,15 @@ from twinform.compiler.inspection.contact_sensors import report_contact_sensors
 from twinform.compiler.inspection.driven_joints import report_driven_joints
 from twinform.compiler.inspection.massless import report_massless
 from twinform.compiler.inspection.named_files import report_named_files
-from twinform.compiler.inspection.read_only_passes import ReadOnlyPassError, run_read_only
 from twinform.diagnostics import Diagnostic, DiagnosticSink
-from twinform.passes import Pipeline
 
-__all__ = ["ReadOnlyPassError", "inspect"]
+if TYPE_CHECKING:
+    from twinform.passes import Pipeline
+
+__all__ = ["inspect"]
 
 
-def inspect(loaded: LoadResult, load_options: LoadOptions, passes: Pipeline | None = None) -> LoadResult:
+def inspect(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline | None" = None) -> LoadResult:
     """The same with what is found in a document that was read; `passes` are run on one that has no error.
 
     Raises:
@@ -39,6 +41,8 @@ def inspect(loaded: LoadResult, load_options: LoadOptions, passes: Pipeline | No
     whole = DiagnosticSink(loaded.path, load_options.strict, list(loaded.diagnostics), origins=dict(loaded.origins))
     whole.extend_new(_placed(sink, loaded))
     if passes and loaded.accepted:
+        from twinform.compiler.inspection.read_only_passes import run_read_only  # noqa: PLC0415 - few runs have passes
+
         found = DiagnosticSink(file, load_options.strict)
         run_read_only(document, passes, found, Path(loaded.path), load_options)
         whole.extend_new(_placed(found, loaded))

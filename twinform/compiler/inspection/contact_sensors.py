@@ -4,7 +4,6 @@ from twinform.diagnostics import DiagnosticSink, did_you_mean
 from twinform.diagnostics.rules.bodies import UNKNOWN_COLLISION
 from twinform.ir import Document, Element, Format, Model
 from twinform.passes.carriers.lumped_names import mentions_collisions
-from twinform.passes.legalise.to_sdf.follow_lumped_names import names_of_libsdformat, own_collisions
 
 _DEFAULT = "__default__"
 """What SDF takes for the name of a collision that is not written."""
@@ -18,6 +17,11 @@ def report_contact_sensors(document: Document, sink: DiagnosticSink) -> None:
 
 
 def _report(model: Model, sink: DiagnosticSink) -> None:
+    from twinform.passes.legalise.to_sdf.follow_lumped_names import (  # noqa: PLC0415 - few robots have such sensors
+        names_of_libsdformat,
+        own_collisions,
+    )
+
     own = {each.name for each in own_collisions(model).values()}
     known = own | names_of_libsdformat(model).keys() | {_DEFAULT}
     for sensor in (one for each in model.extensions for part in each.content for one in part.walk()):

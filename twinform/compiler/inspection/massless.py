@@ -23,9 +23,7 @@ def report_massless(document: Document, sink: DiagnosticSink) -> None:
         if any(link.inertial for link in each.child):
             continue
         moved = next(link for link in each.child if link.name == each.joint.child)
-        if is_synthesized(moved) or find_annotation(
-            moved, PART
-        ):  # a conversion made it of a joint that URDF does not have
+        if is_synthesized(moved) or find_annotation(moved, PART):  # synthesized for a joint that URDF does not have
             continue
         others = tuple(link.location for link in each.child if link is not moved)
         joined = f", nor has any of the {len(others)} fixed to it" if others else ""

@@ -2,7 +2,6 @@
 
 import os
 from collections.abc import Iterator
-from difflib import SequenceMatcher
 from itertools import islice
 from pathlib import Path
 from posixpath import normpath
@@ -13,7 +12,7 @@ from twinform.compiler.search.search_roots import folders_around
 from twinform.compiler.search.uris import SearchPath, UriError, exists
 from twinform.diagnostics import nearest_name
 
-_MODEL_MARK = "model.config"
+_MODEL_CONFIG = "model.config"
 _MOST_ENTRIES = 2000
 """Entries of a folder that are looked at."""
 _ALIKE = 0.75
@@ -54,6 +53,8 @@ def near_file(uri: str, search: SearchPath, beside: Path) -> str | None:
 
 def _is_slip(name: str, near: str) -> bool:
     """Whether no more than a letter or two differ: a longer name is mostly another model of the same family."""
+    from difflib import SequenceMatcher  # noqa: PLC0415 - few files are missing
+
     same = sum(block.size for block in SequenceMatcher(None, name, near, autojunk=False).get_matching_blocks())
     return len(name) + len(near) - 2 * same <= _FEW
 
@@ -77,7 +78,7 @@ def _near_below(folder: Path, path: str, beside: Path) -> str | None:
 
 
 def _is_around(folder: Path, beside: Path) -> bool:
-    """Whether the names in a folder are the author's own: a file from elsewhere is told of no other."""
+    """Whether the names in a folder are the author's own: a file from elsewhere must learn of no other."""
     real = folder.resolve()
     return any(real.is_relative_to(each.resolve()) for each in folders_around(beside))
 
@@ -90,7 +91,7 @@ def _known(scheme: str, search: SearchPath, beside: Path) -> Iterator[str]:
             yield from filter(None, (package_name(folder), *(package_name(folder / name) for name in _entries(folder))))
         return
     for folder in (*search.own, *search.models, *around, *(each / "models" for each in around)):
-        yield from (name for name in _entries(folder) if exists(folder / name / _MODEL_MARK))
+        yield from (name for name in _entries(folder) if exists(folder / name / _MODEL_CONFIG))
 
 
 def _entries(folder: Path) -> list[str]:

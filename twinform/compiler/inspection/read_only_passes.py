@@ -2,16 +2,13 @@
 
 from pathlib import Path
 
+from twinform.compiler.errors import ReadOnlyPassError
 from twinform.compiler.includes.other_documents import OtherDocuments
 from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.search.uris import LocalAssets
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.passes import Pass, Pipeline, SideFilePass
-
-
-class ReadOnlyPassError(Exception):
-    """A pass that should be read-only changes the document or makes a file."""
 
 
 def run_read_only(
@@ -32,4 +29,6 @@ def run_read_only(
 
 
 def _refusal(step: Pass, what: str) -> ReadOnlyPassError:
-    return ReadOnlyPassError(f"the pass {step.name} {what}, and check only looks; run it with convert --passes")
+    return ReadOnlyPassError(
+        f"the pass {step.name} {what}, and check runs read-only passes; run it with convert --passes"
+    )

@@ -2,7 +2,7 @@
 
 from functools import cache
 
-from twinform.compiler.compare.values import Numbers, Place, Value, Words
+from twinform.compiler.compare.values import Numbers, PoseValue, Text, Value
 from twinform.compiler.normal_form.gazebo import POOLED, Path, extension_rows, tag_paths, tag_value
 from twinform.compiler.normal_form.part import TEXT, Key, Part, add_once, pool, tag_part, text_of
 from twinform.compiler.normal_form.values import (
@@ -18,7 +18,7 @@ from twinform.ir.frames import MODEL
 from twinform.ir.transform import Transform
 from twinform.schemas import Fact, Version, XmlElement, rows_by_name, table
 
-_SAYS_BY_BEING_THERE = {
+_MEANINGFUL_WHEN_EMPTY = {
     "urdf": frozenset({"limit", "material"}),
     "sdf": frozenset({"geometry", "material", "pbr", "metal"}),
 }
@@ -73,11 +73,11 @@ class Builder:
         rows = self._rows_of(fact)
         self._attributes(made, element, fact, rows)
         if fact.name == _MODEL and (first := element.find("link")) is not None:
-            made.values.setdefault(_CANONICAL, Words(first.get("name") or ""))
+            made.values.setdefault(_CANONICAL, Text(first.get("name") or ""))
         if fact.name == _ORIGIN and self.format == "urdf":
             _place(made, urdf_pose(element))
-        elif fact.type == _POSE:
-            _place(made, sdf_pose(element))
+        elif fact.type == _POSE and (where := sdf_pose(element)) is not None:
+            _place(made, where)
         else:
             self._text(made, element, fact)
         for child in element:
@@ -132,7 +132,7 @@ class Builder:
         named = row is None or row.repeats
         key = made.next_key(tag, (child.get("name") if named else None) or "")
         part = self.part(child, row)
-        if row is None or not (part.says_nothing and self._may_be_left_out(row)):
+        if row is None or not (part.is_empty and self._may_be_left_out(row)):
             made.children[key] = part
 
     def _may_be_left_out(self, row: Fact) -> bool:
@@ -143,7 +143,7 @@ class Builder:
         if fact.type is not None:
             return fact.type == "string" or fact.default is not None
         read = row.place is not None or row.reference == _ORIGIN
-        return read and row.name not in _SAYS_BY_BEING_THERE[self.format]
+        return read and row.name not in _MEANINGFUL_WHEN_EMPTY[self.format]
 
     def _pool(self, made: Part, child: XmlElement, row: Fact) -> None:
         """Take in an extension of URDF; those of one reference are read as one, and one without content as none."""
@@ -184,7 +184,7 @@ class Builder:
             row = rows[step]
             rows = self._rows_of(self.table.resolve(row))
         part = tag_part(tag, None if row and self._is_default(value, row) else value)
-        if part.says_nothing:
+        if part.is_empty:
             return
         for step in path[:-1]:
             made = made.children.setdefault(Key(step, "", 1), Part(tag))
@@ -238,10 +238,10 @@ def _place(made: Part, where: Transform | None) -> None:
     values = made.values
     for name in _TURNS & values.keys():
         del values[name]
-    if same(Place(Transform(rotation=where.rotation)), NOWHERE_ELSE):
+    if same(PoseValue(Transform(rotation=where.rotation)), NOWHERE_ELSE):
         for name in _NOTATIONS & values.keys():
             del values[name]
     elif made.element.get("quat_xyzw"):
-        values["@quat_xyzw"] = Words("a quaternion")
-    if not same(Place(where), NOWHERE_ELSE):
-        values[_POSE] = Place(where)
+        values["@quat_xyzw"] = Text("a quaternion")
+    if not same(PoseValue(where), NOWHERE_ELSE):
+        values[_POSE] = PoseValue(where)

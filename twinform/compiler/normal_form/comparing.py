@@ -24,7 +24,7 @@ class Kind(StrEnum):
     CHANGED = "changed"
     ADDED = "added"
     LEFT_OVER = "left over"
-    """A carrier or a mark of ours that has come along."""
+    """A carrier or an annotation that has come along."""
     ORDER = "order"
 
 
@@ -106,12 +106,12 @@ class Comparing:
             yield Discrepancy(Kind.ORDER, self._in_source(one), self._in_back(other))
 
     def _in_source(self, part: Part, step: str = _ITSELF) -> Side:
-        return self._said(self.source, part, step)
+        return self._written(self.source, part, step)
 
     def _in_back(self, part: Part, step: str = _ITSELF) -> Side:
-        return self._said(self.back, part, step)
+        return self._written(self.back, part, step)
 
-    def _said(self, file: str, part: Part, step: str) -> Side:
+    def _written(self, file: str, part: Part, step: str) -> Side:
         where = Location(file, part.element.sourceline or 0, path_of(part.element, self._places))
         if step.startswith("@"):
             text = part.element.get(step[1:])

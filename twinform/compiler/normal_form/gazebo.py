@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from functools import cache
 
-from twinform.compiler.compare.values import Value, Words
+from twinform.compiler.compare.values import Text, Value
 from twinform.compiler.normal_form.values import parsed_value
 from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
 from twinform.schemas import Fact, XmlElement, parse_value, rows_by_name, table
@@ -36,7 +36,7 @@ def tag_value(element: XmlElement) -> tuple[str, Value] | None:
     try:
         return tag.field or name, parsed_value(tag.read(text))
     except ValueError:
-        return tag.field or name, Words(text)
+        return tag.field or name, Text(text)
 
 
 def tag_paths(element: XmlElement) -> tuple[Path, ...]:
@@ -74,7 +74,7 @@ def _read(type_: str, text: str) -> Value:
     try:
         return parsed_value(parse_value(type_, text))
     except ValueError:
-        return Words(text)
+        return Text(text)
 
 
 @cache

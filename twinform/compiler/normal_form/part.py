@@ -35,7 +35,7 @@ class Part:
     _counts: dict[tuple[str, str], int] = field(default_factory=dict[tuple[str, str], int])
 
     @property
-    def says_nothing(self) -> bool:
+    def is_empty(self) -> bool:
         """Whether there is nothing in it."""
         return not self.values and not self.children
 
@@ -73,7 +73,7 @@ def pool(made: Part, tag: str, part: Part) -> None:
     key = Key(tag, "", 1)
     mine = made.children.get(key)
     if mine is None:
-        if not part.says_nothing:
+        if not part.is_empty:
             made.children[key] = part
         return
     mine.values = {**part.values, **mine.values}

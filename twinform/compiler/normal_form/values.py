@@ -2,7 +2,7 @@
 
 import math
 
-from twinform.compiler.compare.values import Flag, Numbers, Place, Value, Words, gaps, typed_value
+from twinform.compiler.compare.values import Flag, Numbers, PoseValue, Text, Value, gaps, typed_value
 from twinform.ir import Pose
 from twinform.ir.transform import Transform
 from twinform.schemas import Fact, XmlElement, format_value, parse_value
@@ -12,7 +12,7 @@ TOLERANCE = 1e-9
 _LEAST = 1e-6
 """Numbers are measured against this at least: what rounding leaves of zero is zero, and the smallest inertia is not."""
 _QUATERNION = 7
-NOWHERE_ELSE = Place(Transform())
+NOWHERE_ELSE = PoseValue(Transform())
 """The pose that is none."""
 
 
@@ -38,7 +38,7 @@ def _same_numbers(one: tuple[float, ...], other: tuple[float, ...]) -> bool:
 
 def value_of(text: str, row: Fact, format: str) -> Value:
     """The value of a text, by its type."""
-    return typed_value(row.type, text, format) or Words(text)
+    return typed_value(row.type, text, format) or Text(text)
 
 
 def parsed_value(parsed: object) -> Value:
@@ -46,13 +46,13 @@ def parsed_value(parsed: object) -> Value:
     if isinstance(parsed, bool):
         return Flag(parsed)
     if isinstance(parsed, str):
-        return Words(parsed)
+        return Text(parsed)
     return Numbers(tuple(map(float, format_value(parsed).split())))
 
 
 def literally(text: str) -> Value:
     """A text of unknown meaning: with single blanks."""
-    return Words(" ".join(text.split()))
+    return Text(" ".join(text.split()))
 
 
 def urdf_pose(element: XmlElement) -> Transform | None:

@@ -18,6 +18,7 @@ from twinform.schemas import (
     Context,
     Version,
     XmlElement,
+    is_valid_text,
     libxml2_errors,
     parse_version,
     path_of,
@@ -32,6 +33,10 @@ _BACK_ENDS: dict[Format, Callable[[Document, Version, dict[str | None, str]], Xm
     Format.URDF: urdf.emit,
     Format.SDF: sdf.emit,
 }
+_TEXT_BACK_ENDS: dict[Format, Callable[[Document, Version, dict[str | None, str]], str | None]] = {
+    Format.URDF: urdf.emit_text,
+    Format.SDF: sdf.emit_text,
+}
 
 
 def emit(document: Document, sink: DiagnosticSink, *, fit: bool = False, kept: AbstractSet[str] = frozenset()) -> str:
@@ -40,6 +45,9 @@ def emit(document: Document, sink: DiagnosticSink, *, fit: bool = False, kept: A
     Where the document was not read in this version, `fit` leaves out what other versions have and this one has not, and
     accounts for it; but not the names that are `kept`, which the files that it was made of had so too.
     """
+    text = text_without_tree(document)
+    if text is not None and is_valid_text(text, document.format, written_version(document)):
+        return text
     return serialized(valid_tree(document, sink, fit=fit, kept=kept), document)
 
 
@@ -89,8 +97,18 @@ def located(diagnostic: Diagnostic, document: Document) -> Diagnostic:
 
 def document_tree(document: Document) -> XmlElement:
     """The XML of a document, its names without a default namespace."""
-    named = {prefix or None: uri for prefix, uri in document.namespaces if prefix}
-    return _BACK_ENDS[document.format](document, written_version(document), named)
+    return _BACK_ENDS[document.format](document, written_version(document), _prefixes(document))
+
+
+def text_without_tree(document: Document) -> str | None:
+    """The text of a document, the same as that of its tree; nothing where only a tree leads to it."""
+    if any(not prefix for prefix, _ in document.namespaces):
+        return None
+    return _TEXT_BACK_ENDS[document.format](document, written_version(document), _prefixes(document))
+
+
+def _prefixes(document: Document) -> dict[str | None, str]:
+    return {prefix or None: uri for prefix, uri in document.namespaces if prefix}
 
 
 def serialized(root: XmlElement, document: Document) -> str:

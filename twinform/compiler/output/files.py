@@ -27,11 +27,14 @@ def write_atomically(path: Path, text: str) -> None:
     write_all_atomically({path: text})
 
 
-def write_all_atomically(texts: Mapping[Path, str], then: Callable[[], None] | None = None) -> None:
+def write_all_atomically(
+    texts: Mapping[Path, str], then: Callable[[], None] | None = None, *, durably: bool = True
+) -> None:
     """Put every text in its place once all of them are written beside it; folders that are missing are made.
 
     `then` is called when nothing but moving them is left to do. Where that, or one of the moves, fails, those that were
-    moved already are taken back.
+    moved already are taken back. `durably` waits until the disk has them, so that not even a power cut leaves half a
+    file in a place.
 
     Raises:
         OSError: one of them could not be written; the old files are as they were.
@@ -40,7 +43,7 @@ def write_all_atomically(texts: Mapping[Path, str], then: Callable[[], None] | N
     try:
         for path, text in texts.items():
             if not is_stream(path):
-                staged.add(path, text)
+                staged.add(path, text, durably=durably)
         for path, text in texts.items():
             if is_stream(path):
                 _write_into(path, text)
@@ -74,7 +77,7 @@ class _Staged:
     files: list[_File] = field(default_factory=list[_File])
     folders: list[Path] = field(default_factory=list[Path])
 
-    def add(self, path: Path, text: str) -> None:
+    def add(self, path: Path, text: str, *, durably: bool) -> None:
         target = Path(os.path.realpath(path))
         with _named_after(path):
             if target.is_symlink():
@@ -82,7 +85,7 @@ class _Staged:
             if target.is_dir():
                 raise IsADirectoryError(errno.EISDIR, "it is a directory")
             self._make(target.parent)
-        self.files.append(_File(_written_beside(target, text), target))
+        self.files.append(_File(_written_beside(target, text, durably=durably), target))
 
     def move(self) -> None:
         """Put all in their places; the old files are kept until all are there, unless there is only one."""
@@ -119,7 +122,7 @@ class _Staged:
                 with suppress(FileExistsError):  # another process was faster
                     each.mkdir()
                     self.folders.append(each)
-            folder.mkdir(exist_ok=True)  # says so if it is a file
+            folder.mkdir(exist_ok=True)  # raises if it is a file
         except FileExistsError as error:  # which would sound as if the file that is written were there
             raise NotADirectoryError(errno.ENOTDIR, "a file stands where its folder would be") from error
 
@@ -145,7 +148,7 @@ def _named_after(path: Path) -> Generator[None]:
         raise
 
 
-def _written_beside(path: Path, text: str) -> Path:
+def _written_beside(path: Path, text: str, *, durably: bool) -> Path:
     """The text in a file beside the one that it is for."""
     mode = path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~_umask()
     temporary, descriptor = _new_beside(path)
@@ -153,7 +156,8 @@ def _written_beside(path: Path, text: str) -> Path:
         with _named_after(path), os.fdopen(descriptor, "w", encoding="utf-8", newline="\n") as file:
             file.write(text)
             file.flush()
-            os.fsync(file.fileno())
+            if durably:
+                os.fsync(file.fileno())
         temporary.chmod(mode)
     except BaseException:
         with suppress(OSError):

@@ -1,7 +1,7 @@
 """A reproducer of a failed pass as data: the pass, its options and the document that it was given.
 
 The document is the JSON of the IR, which has no lines and spellings of the source; where the fault needs those, `again`
-says that it does not come again from the document alone.
+reports that it does not come again from the document alone.
 """
 
 import sys
@@ -13,7 +13,7 @@ from pydantic import BaseModel, ConfigDict
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.ir.verify import verify
-from twinform.passes.framework.assets import NO_ASSETS, Assets
+from twinform.passes.framework.asset_access import NO_ASSETS, Assets
 from twinform.passes.framework.errors import BrokenPassError, PassError
 from twinform.passes.framework.other_documents import DocumentReader
 from twinform.passes.framework.pipeline import Pipeline

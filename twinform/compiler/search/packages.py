@@ -8,7 +8,7 @@ from pathlib import Path
 
 from lxml import etree
 
-_MARK = "package.xml"
+_MANIFEST = "package.xml"
 _LARGEST = 2**20
 _DEEPEST = 5
 _MOST = 2000
@@ -23,7 +23,7 @@ def is_package(folder: Path, name: str) -> bool:
 
 def package_name(folder: Path) -> str | None:
     """What the package in a folder calls itself; None where there is none."""
-    manifest = folder / _MARK
+    manifest = folder / _MANIFEST
     try:
         if not manifest.is_file() or manifest.stat().st_size > _LARGEST:
             return None
@@ -70,7 +70,7 @@ def _packages_below(root: Path) -> Iterator[tuple[str, Path]]:
     depth = len(root.parts)
     for place, folders, files in os.walk(root):
         here = Path(place)
-        name = package_name(here) if _MARK in files else None
+        name = package_name(here) if _MANIFEST in files else None
         if name is not None:
             yield name, here
         if name is not None or _SKIPPED.intersection(files) or len(here.parts) - depth >= _DEEPEST:

@@ -15,7 +15,7 @@ def folders_around(file: Path) -> tuple[Path, ...]:
     real = folder.resolve()
     while len(found) <= _HIGHEST and real.parent != real:
         found.append(folder)
-        if any((real / mark).exists() for mark in TOPS):
+        if any((real / entry).exists() for entry in TOPS):
             break
         folder, real = _above(folder, real), real.parent
     return tuple(found)

@@ -16,7 +16,7 @@ from twinform.passes import AssetError
 
 _MODEL_VARIABLES = ("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "SDF_PATH", "GAZEBO_MODEL_PATH")
 _MOST_SHOWN = 6
-_MODEL_MARK = "model.config"
+_MODEL_CONFIG = "model.config"
 
 
 class UriError(AssetError):
@@ -188,4 +188,4 @@ class LocalAssets:
         """What the package of ROS or the model of Gazebo is called that a folder is; None where it is none."""
         if kind == "package":
             return package_name(folder)
-        return folder.name if exists(folder / _MODEL_MARK) else None
+        return folder.name if exists(folder / _MODEL_CONFIG) else None

@@ -22,27 +22,27 @@ _KEEPS = frozenset({"preserveFixedJoint", "disableFixedJointLumping"})
 
 
 class Change(NamedTuple):
-    """What Gazebo would make of a part of the robot, in words, and where that part is in the source."""
+    """What Gazebo would make of a part of the robot, as text, and where that part is in the source."""
 
     what: str
     location: Location
 
 
-def changes(said: Model, made: Model, named: AbstractSet[str] = frozenset()) -> Iterator[Change]:
-    """What would be another robot if Gazebo read the URDF `made` in the place of the SDF `said`.
+def changes(original: Model, made: Model, named: AbstractSet[str] = frozenset()) -> Iterator[Change]:
+    """What would be another robot if Gazebo read the URDF `made` in the place of the SDF `original`.
 
     `named` are the links that something outside of the model names.
     """
-    for inner in said.models:
+    for inner in original.models:
         yield Change(f"the parts of the model {inner.name!r} in it would have other names", inner.location)
-    for include in said.includes:
+    for include in original.includes:
         yield Change(f"it includes {include.uri!r}, which cannot be put in its place", include.location)
-    for part in (*said.links, *said.joints):
+    for part in (*original.links, *original.joints):
         if _SCOPE in part.name:
             yield Change(f"URDF cannot have the name {part.name!r}", part.location)
     yield from _of_shapes(made)
     yield from _of_names(made)
-    for joint in said.joints:
+    for joint in original.joints:
         if joint.type not in _SHARED:
             yield Change(f"{joint.type} joint {joint.name!r} would not be one for Gazebo", joint.location)
     for joint in made.joints:

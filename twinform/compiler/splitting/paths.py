@@ -11,7 +11,7 @@ from twinform.compiler.search.uris import LocalAssets, exists
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules.files import MISSING_FILE
 from twinform.ir import Document
-from twinform.passes.framework.assets import AssetError
+from twinform.passes.framework.asset_access import AssetError
 from twinform.passes.transforms.uris import map_uris
 
 _ABSOLUTE = re.compile(r"[A-Za-z][\w+.-]*:|/|__")

@@ -1,7 +1,7 @@
 """Splits a world into files of its models, URDF where Gazebo reads that as the same robot, and one that includes them.
 
 Gazebo reads an included URDF with a converter of its own, which loses what `gazebo_urdf.py` lists. A model that
-would lose something stays SDF, and a warning says why.
+would lose something stays SDF, and a warning gives the reason.
 """
 
 import re

@@ -39,7 +39,7 @@ class FileStatistics:
 def measure(loaded: LoadResult, document: Document, search: SearchPath, *, meshes: bool = True) -> FileStatistics:
     """Count what a file holds. `meshes` selects whether to read mesh files, which `search` finds."""
     beside = Path(loaded.path)
-    whole = _spoken(document, LocalAssets(search, beside) if meshes else NO_ASSETS)
+    whole = _summary(document, LocalAssets(search, beside) if meshes else NO_ASSETS)
     files = MeshFiles(search, beside, meshes)
 
     def counted(models: Iterable[Model]) -> tuple[ModelStatistics, ...]:
@@ -65,7 +65,7 @@ def measure(loaded: LoadResult, document: Document, search: SearchPath, *, meshe
     )
 
 
-def _spoken(document: Document, assets: Assets) -> Document:
+def _summary(document: Document, assets: Assets) -> Document:
     """The document with what its `<gazebo>` elements have and what its readers compute in their places."""
     sink = DiagnosticSink()
     if document.format is Format.URDF:

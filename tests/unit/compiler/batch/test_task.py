@@ -7,6 +7,8 @@ from typing import ClassVar
 import pytest
 
 from twinform.compiler import ConversionRequest, LoadOptions
+from twinform.compiler.batch.entries import Entry
+from twinform.compiler.batch.jobs import Convert
 from twinform.compiler.batch.record import Outcome
 from twinform.compiler.batch.task import Done, Task, work
 from twinform.diagnostics import DiagnosticSink, Policy
@@ -30,17 +32,17 @@ class Broken(Pass):
 def _done(folder: Path, text: str, policy: Policy = Policy(), *passes: Pass) -> Done:  # noqa: B008 - it is frozen
     path = folder / "r.urdf"
     path.write_text(text)
-    return work(
-        Task(path, ConversionRequest(to="sdf", passes=Pipeline(passes)), LoadOptions(), policy, folder / "faults")
-    )
+    job = Convert(to=ConversionRequest(to="sdf", passes=Pipeline(passes)), policy=policy, ledgers=True)
+    entry, faults = Entry("r.urdf", "r.urdf"), folder / "faults"
+    return work(Task(entry=entry, job=job, root=str(folder), load_options=LoadOptions(), output="r.sdf", faults=faults))
 
 
 def test_a_model_is_converted_with_its_ledger(tmp_path: Path) -> None:
     done = _done(tmp_path, GOOD)
     assert (done.outcome, done.message, done.diagnostics) == (Outcome.CONVERTED, "", [])
-    assert '<link name="a">' in done.text
+    assert '<link name="a">' in done.texts["r.sdf"]
     assert done.ledger == {"expressed": 4, "carried": 0, "approximated": 0, "dropped": 0}
-    assert json.loads(done.entries)["expressed"] == 4
+    assert json.loads(done.texts["r.sdf.ledger.json"])["expressed"] == 4
 
 
 def test_warnings_are_kept(tmp_path: Path) -> None:
@@ -50,15 +52,15 @@ def test_warnings_are_kept(tmp_path: Path) -> None:
 
 def test_what_is_denied_is_refused(tmp_path: Path) -> None:
     done = _done(tmp_path, WARNED, Policy(deny=frozenset({"unknown-element"})))
-    assert (done.outcome, done.text) == (Outcome.REFUSED, "")
+    assert (done.outcome, done.texts) == (Outcome.REFUSED, {})
     assert [each["rule"] for each in done.diagnostics] == ["unknown-element"]
     assert done.message.endswith("r.urdf:2: <color> is not an element of <link>")
 
 
 @pytest.mark.parametrize(("text", "outcome"), [(WRONG, Outcome.REFUSED), ("<robot", Outcome.UNREADABLE)])
-def test_a_model_with_errors_says_which(text: str, outcome: Outcome, tmp_path: Path) -> None:
+def test_a_model_with_errors_reports_which(text: str, outcome: Outcome, tmp_path: Path) -> None:
     done = _done(tmp_path, text)
-    assert (done.outcome, done.text) == (outcome, "")
+    assert (done.outcome, done.texts) == (outcome, {})
     assert [each["rule"] for each in done.diagnostics] in (["duplicate-name"], ["not-well-formed"])
 
 
@@ -70,10 +72,10 @@ def test_a_pass_that_fails_leaves_what_makes_it_fail_again(tmp_path: Path) -> No
     assert Path(path).is_relative_to(tmp_path / "faults")
 
 
-def test_a_fault_of_our_own_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_fault_of_our_own_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(*_: object, **__: object) -> None:
         raise KeyError("lost")
 
-    monkeypatch.setattr("twinform.compiler.batch.task.run_conversion", fail)
+    monkeypatch.setattr("twinform.compiler.batch.jobs.convert.run_conversion", fail)
     done = _done(tmp_path, GOOD)
     assert (done.outcome, done.message) == (Outcome.FAILED, "a fault of twinform: KeyError: 'lost'")

@@ -4,7 +4,7 @@ import pytest
 
 from twinform.compiler.compare.kinematics import Moving
 from twinform.compiler.compare.robot import Body, JointView, Leaf, Mass, Robot
-from twinform.compiler.compare.values import Numbers, Words
+from twinform.compiler.compare.values import Numbers, Text
 from twinform.ir import Format, Pose
 from twinform.ir.transform import Transform
 
@@ -47,7 +47,7 @@ def test_a_sliding_joint_slides_and_a_fixed_one_stays():
 
 def test_a_mimic_follows_its_leader():
     mimic = {
-        "axis/mimic/@joint": Leaf(Words("leader")),
+        "axis/mimic/@joint": Leaf(Text("leader")),
         "axis/mimic/multiplier": Leaf(Numbers((2.0,))),
         "axis/mimic/offset": Leaf(Numbers((0.25,))),
     }

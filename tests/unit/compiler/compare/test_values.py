@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from twinform.compiler.compare.values import Direction, Flag, Numbers, Place, Point, Tensor, Value, Words, gaps
+from twinform.compiler.compare.values import Direction, Flag, Numbers, Point, PoseValue, Tensor, Text, Value, gaps
 from twinform.ir import Pose
 from twinform.ir.transform import Transform
 
@@ -16,7 +16,7 @@ _SIXTH = Transform.from_pose(Pose(xyz=(0, 0, 1), rpy=(math.pi / 6, 0, 0)))
         (Numbers((2.0,)), Numbers((3.0,)), 1.0, 1 / 3),
         (Numbers((1.0, 2.0)), Numbers((1.0, 4.0)), 2.0, 0.5),
         (Numbers((1.0,)), Numbers((math.inf,)), math.inf, None),
-        (Words("a"), Words("b"), math.inf, None),
+        (Text("a"), Text("b"), math.inf, None),
         (Flag(True), Flag(False), math.inf, None),
         (Point((0.0, 0.0, 0.0)), Point((0.0, 3.0, 4.0)), 5.0, 1.0),
         (Direction((1.0, 0.0, 0.0)), Direction((0.0, 1.0, 0.0)), math.pi / 2, None),
@@ -30,12 +30,12 @@ def test_how_far_two_values_are_apart(one: Value, other: Value, absolute: float,
 
 
 def test_two_places_differ_in_position_and_in_rotation():
-    position, rotation = gaps(Place(Transform()), Place(_SIXTH))
+    position, rotation = gaps(PoseValue(Transform()), PoseValue(_SIXTH))
     assert (position.aspect, position.absolute, position.unit) == ("position", 1.0, "m")
     assert (rotation.aspect, rotation.absolute, rotation.unit) == ("rotation", pytest.approx(math.pi / 6), "rad")
 
 
-@pytest.mark.parametrize("value", [Numbers((math.nan,)), Numbers((math.inf, 1.0)), Words("x"), Place(_SIXTH)])
+@pytest.mark.parametrize("value", [Numbers((math.nan,)), Numbers((math.inf, 1.0)), Text("x"), PoseValue(_SIXTH)])
 def test_nothing_is_apart_from_itself(value: Value):
     assert not any(gap.exceeds(0.0) for gap in gaps(value, value))
 

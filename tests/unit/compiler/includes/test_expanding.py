@@ -47,7 +47,7 @@ BODY = ARM[ARM.index('  <link name="upper"') : ARM.index("  <plugin")].replace("
 PLUGINS = '<plugin name="own" filename="own"/>'
 
 EXPANSIONS: Mapping[str, tuple[str, str]] = {
-    "what is not said stays as it is in the file": (
+    "what is not set stays as it is in the file": (
         "<include><uri>model://arm</uri></include>",
         f'<model name="arm" canonical_link="lower"><pose>0 0 5 0 0 0</pose>{BODY}{PLUGINS}</model>',
     ),
@@ -85,7 +85,7 @@ EXPANSIONS: Mapping[str, tuple[str, str]] = {
         <frame name="tip" attached_to="_merged__a__model__"><pose relative_to="lower">0 0 1 0 0 0</pose></frame>
         {PLUGINS}</model>""",
     ),
-    "an older file in the words of a newer one": (
+    "an older file in the syntax of a newer one": (
         "<include><uri>model://old</uri></include>",
         (
             '<model name="old"><link name="a"/><link name="b"/><joint name="j" type="revolute"><parent>a</parent>'
@@ -253,13 +253,13 @@ def test_the_ledger_counts_what_was_included(folder: Path) -> None:
     ]
 
 
-def test_what_a_merged_model_says_of_itself_is_in_the_ledger(folder: Path) -> None:
+def test_what_a_merged_model_has_as_a_whole_is_in_the_ledger(folder: Path) -> None:
     body = '<model name="m"><link name="base"/><include merge="1"><uri>model://arm</uri><static>1</static></include>'
     ledger = twinform.convert(_world(folder, body + "</model>"), to="sdf", expand_includes=True).ledger
     assert lost(ledger) == ["merged-away"]
 
 
-def test_an_older_file_is_said_in_the_words_of_the_newer_one_around_it(tmp_path: Path) -> None:
+def test_an_older_file_is_written_in_the_version_of_the_newer_one_around_it(tmp_path: Path) -> None:
     (tmp_path / "old.sdf").write_text("""<sdf version="1.5"><model name="old"><link name="a">
       <sensor name="s" type="imu"><imu><noise><rate><stddev>2e-4</stddev></rate></noise></imu></sensor>
     </link></model></sdf>""")

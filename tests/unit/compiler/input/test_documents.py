@@ -114,7 +114,7 @@ UNSAYABLE: dict[str, tuple[Document, str]] = {
 
 
 @pytest.mark.parametrize("name", UNSAYABLE)
-def test_what_its_format_cannot_say_is_an_error(name: str) -> None:
+def test_what_its_format_cannot_express_is_an_error(name: str) -> None:
     document, message = UNSAYABLE[name]
     checked = twinform.check(document)
     assert not checked.accepted
@@ -129,7 +129,7 @@ def test_what_its_format_cannot_say_is_an_error(name: str) -> None:
         twinform.dumps(document, to="json")
 
 
-def test_a_node_that_says_nothing_is_nothing() -> None:
+def test_an_empty_node_is_nothing() -> None:
     document = twinform.loads('<sdf version="1.11"><model name="m"><link name="l"/></model></sdf>')
     axis = {"limit": Limit()}
     assert twinform.check(_changed(document, pose=Pose())).accepted

@@ -1,4 +1,4 @@
-"""From text to document: what is said about the root and the version, and what is there in spite of errors."""
+"""From text to document: what is found about the root and the version, and what is there in spite of errors."""
 
 import gc
 from pathlib import Path
@@ -12,7 +12,7 @@ from twinform.compiler.input.loading import LoadOptions, garbage_collection_paus
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location
 from twinform.ir import Document
 
-Said = tuple[str, str, int, str, str, str | None, str | None]
+Finding = tuple[str, str, int, str, str, str | None, str | None]
 """A finding: rule, severity, line, path, message, found, expected."""
 
 VERSIONS = "1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8, 1.9, 1.10, 1.11, 1.12"
@@ -21,7 +21,7 @@ LINK = '<link name="a"/>'
 XACRO = "http://www.ros.org/wiki/xacro"
 UNEXPANDED = "of xacro will not be expanded"
 
-ROOTS: dict[str, tuple[str, list[Said]]] = {
+ROOTS: dict[str, tuple[str, list[Finding]]] = {
     "another format": (
         "\n<mujoco/>",
         [
@@ -96,11 +96,11 @@ ROOTS: dict[str, tuple[str, list[Said]]] = {
         [("unexpanded-xacro", "warning", 2, "/robot", f"3 elements {UNEXPANDED}", "xacro", None)],
     ),
     "a namespace for macros, and none": (f'<robot name="r" xmlns:xacro="{XACRO}">{LINK}</robot>', []),
-    "macros that are only spoken of": (f'<robot name="r">{LINK}<!-- <xacro:arm/> --></robot>', []),
+    "macros that are only mentioned": (f'<robot name="r">{LINK}<!-- <xacro:arm/> --></robot>', []),
 }
 
 
-def said(found: tuple[Diagnostic, ...]) -> list[Said]:
+def findings(found: tuple[Diagnostic, ...]) -> list[Finding]:
     return [
         (
             each.rule.name,
@@ -119,7 +119,7 @@ def said(found: tuple[Diagnostic, ...]) -> list[Said]:
 def test_the_root_is_looked_at_first(name: str) -> None:
     text, expected = ROOTS[name]
     loaded = read(text.encode(), LoadOptions(), name="model.xml")
-    assert said(loaded.diagnostics) == expected
+    assert findings(loaded.diagnostics) == expected
     assert {each.location.file for each in loaded.diagnostics} <= {"model.xml"}
     assert loaded.path == "model.xml"
     assert loaded.unreadable is any(each[0] == "unknown-root" for each in expected)
@@ -173,7 +173,7 @@ CONSEQUENCES = {
 
 
 @pytest.mark.parametrize("rule", CONSEQUENCES)
-def test_what_may_follow_from_an_error_is_not_said_beside_it(rule: str) -> None:
+def test_what_may_follow_from_an_error_is_not_reported_beside_it(rule: str) -> None:
     text = f'<robot name="r">{CONSEQUENCES[rule]}</robot>'
     assert [each.rule.name for each in check(text.encode()).diagnostics] == [rule]
     text = text.replace("</robot>", '<material name="y"><color rgba="red"/></material></robot>')
@@ -279,6 +279,7 @@ def test_a_tree_of_ours_is_lowered_as_a_file_is() -> None:
     text = STRANGE.replace("<robot", '<robot xmlns:a="urn:a"')
     sink = DiagnosticSink(file="ours.urdf")
     document = lower_tree(etree.fromstring(text), sink)
+    assert document
     assert document == loads(text)
     assert document.namespaces == (("a", "urn:a"),)
     assert document.models[0].links[0].location.file == "ours.urdf"

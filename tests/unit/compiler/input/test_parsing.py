@@ -7,7 +7,7 @@ from lxml import etree
 
 import twinform
 from twinform.compiler import check
-from twinform.compiler.input.limits import LARGEST
+from twinform.compiler.input.limits import LARGEST, Limits
 from twinform.compiler.input.parsing import UnreadableError, parse, read_bytes, strip_default_namespace
 from twinform.diagnostics import DiagnosticSink, Location
 
@@ -93,8 +93,8 @@ def test_only_names_of_undeclared_prefixes_get_a_namespace() -> None:
             {"z": "5", "{urn:known}v": "6", "{http://www.w3.org/XML/1998/namespace}space": "preserve"},
         ),
     ]
-    said = [(each.rule.name, each.location.file, each.location.line, each.message) for each in sink.diagnostics]
-    assert said == [
+    findings = [(each.rule.name, each.location.file, each.location.line, each.message) for each in sink.diagnostics]
+    assert findings == [
         ("repaired-xml", "r.urdf", line, f"not well-formed XML, repaired: Namespace prefix {what} is not defined")
         for line, what in [(2, "y for z on link"), (2, "w on part"), (2, "y for name on part"), (3, "y on link")]
     ]
@@ -105,7 +105,7 @@ def test_a_million_mistakes_are_reported_a_thousand_times() -> None:
     assert 1000 <= len(checked.diagnostics) <= 1001
 
 
-def test_files_that_cannot_be_read_say_so(tmp_path: Path) -> None:
+def test_files_that_cannot_be_read_are_reported(tmp_path: Path) -> None:
     big = tmp_path / "big.urdf"
     with big.open("wb") as file:
         file.truncate(LARGEST + 1)
@@ -140,7 +140,7 @@ CROWD = " ".join(f"{{}}a{n}='1'" for n in range(257))
 NOWHERE = Location("r.urdf")
 TOP = Location("r.urdf", 1, "/")
 
-SAID: dict[str, tuple[bytes, list[tuple[str, Location, str, str | None]]]] = {
+FINDINGS: dict[str, tuple[bytes, list[tuple[str, Location, str, str | None]]]] = {
     "nothing": (b" \n", [("unreadable-file", NOWHERE, "the file is empty", None)]),
     "no element": (b"<!-- a -->", [("not-well-formed", TOP, f"{NO_START} (column 11)", NO_MODEL)]),
     "zero bytes": (
@@ -173,9 +173,9 @@ SAID: dict[str, tuple[bytes, list[tuple[str, Location, str, str | None]]]] = {
 }
 
 
-@pytest.mark.parametrize("name", SAID)
-def test_why_there_is_no_tree_is_all_that_is_said(name: str) -> None:
-    text, expected = SAID[name]
+@pytest.mark.parametrize("name", FINDINGS)
+def test_why_there_is_no_tree_is_all_that_is_reported(name: str) -> None:
+    text, expected = FINDINGS[name]
     sink = DiagnosticSink("r.urdf")
     with pytest.raises(UnreadableError):
         parse(text, sink)
@@ -186,7 +186,7 @@ def test_why_there_is_no_tree_is_all_that_is_said(name: str) -> None:
     ("path", "reason"),
     [("nowhere", "No such file or directory"), (".", "Is a directory"), ("a\0b", "embedded null byte")],
 )
-def test_why_a_file_cannot_be_read_is_said(path: str, reason: str) -> None:
+def test_why_a_file_cannot_be_read_is_reported(path: str, reason: str) -> None:
     sink = DiagnosticSink("r.urdf")
     with pytest.raises(UnreadableError):
         read_bytes(Path(path), sink)
@@ -198,16 +198,16 @@ def test_why_a_file_cannot_be_read_is_said(path: str, reason: str) -> None:
     )
 
 
-def test_a_file_may_have_as_many_bytes_as_the_limit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("twinform.compiler.input.parsing.LARGEST", 1000)
+def test_a_file_may_have_as_many_bytes_as_the_limit(tmp_path: Path) -> None:
+    few = Limits(size=1000)
     path = tmp_path / "r.urdf"
     path.write_bytes(b"x" * 1000)
     sink = DiagnosticSink("r.urdf")
-    assert read_bytes(path, sink) == b"x" * 1000
+    assert read_bytes(path, sink, few) == b"x" * 1000
     assert sink.diagnostics == []
     path.write_bytes(b"x" * 1001)
     with pytest.raises(UnreadableError):
-        read_bytes(path, sink)
+        read_bytes(path, sink, few)
     assert [(each.location, each.message) for each in sink.diagnostics] == [
         (NOWHERE, "the file has more than 1,000 bytes, which is the limit")
     ]

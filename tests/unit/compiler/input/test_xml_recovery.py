@@ -11,7 +11,7 @@ from twinform.diagnostics import Diagnostic, Location
 
 
 class Case(NamedTuple):
-    """A text, the line that is wrong, and words of the help."""
+    """A text, the line that is wrong, and a part of the help."""
 
     text: str | bytes
     line: int
@@ -83,13 +83,13 @@ def test_it_is_repaired_with_a_warning(case: Case):
     assert case.help in (found.help or "")
 
 
-def said(text: bytes) -> list[Diagnostic]:
+def findings(text: bytes) -> list[Diagnostic]:
     """All findings of a text, without their rule and severity, which belong together."""
     return list(twinform.check(text, name="r.urdf").diagnostics)
 
 
-def test_what_is_refused_says_where_in_the_line() -> None:
-    (found,) = said(b"<robot>\n  <link name='a'></lnik>\n</robot>")
+def test_what_is_refused_reports_where_in_the_line() -> None:
+    (found,) = findings(b"<robot>\n  <link name='a'></lnik>\n</robot>")
     assert found.location == Location("r.urdf", 2, "/")
     mismatch = "Opening and ending tag mismatch: link line 2 and lnik"
     assert found.message == f"not well-formed XML: {mismatch} (column 25)"
@@ -98,7 +98,7 @@ def test_what_is_refused_says_where_in_the_line() -> None:
 
 
 def test_what_libxml2_gives_up_is_too_large() -> None:
-    (found,) = said(b"<a>\n" * 300)
+    (found,) = findings(b"<a>\n" * 300)
     assert (found.rule.name, found.location, found.help) == ("oversized-file", Location("r.urdf", 257, "/"), None)
     assert found.message == (
         "elements are more than 256 deep, a text has more than 10 MB, or entities make more of it than they are "
@@ -107,7 +107,7 @@ def test_what_libxml2_gives_up_is_too_large() -> None:
 
 
 def test_a_lost_bracket_is_put_back_where_it_was() -> None:
-    found = said(b"\n\n ?xml version='1.0'?>\n<robot name='r'><link name='a'/></robot>")
+    found = findings(b"\n\n ?xml version='1.0'?>\n<robot name='r'><link name='a'/></robot>")
     assert [(each.rule.name, each.location, each.message, each.help) for each in found] == [
         ("repaired-xml", Location("r.urdf", 3, "/"), f"not well-formed XML, repaired: {what}", help)
         for what, help in (
@@ -141,7 +141,7 @@ class Logged(NamedTuple):
     type_name: str
     line: int = 1
     column: int = 1
-    message: str = " said \n"
+    message: str = " reason \n"
 
 
 LATE = Logged("ERR_RESERVED_XML_NAME", 1, 6)
@@ -155,55 +155,55 @@ LOGGED: dict[str, tuple[list[Logged], bytes, XmlError | None]] = {
     "the same elsewhere": (
         [LATE, NO_VERSION, NO_BLANK._replace(column=8)],
         b"<r/>",
-        XmlError(1, 8, "said", "put a blank between attributes"),
+        XmlError(1, 8, "reason", "put a blank between attributes"),
     ),
-    "the same of another slip": ([NO_BLANK], b"<r/>", XmlError(1, 7, "said", "put a blank between attributes")),
+    "the same of another slip": ([NO_BLANK], b"<r/>", XmlError(1, 7, "reason", "put a blank between attributes")),
     "the first of two": (
         [Logged("ERR_GT_REQUIRED", 2, 3), Logged("ERR_CDATA_NOT_FINISHED", 1, 1)],
         b"<r\n>\n<s",
-        XmlError(2, 3, "said", "close the tag with '>'; an end tag has no attributes"),
+        XmlError(2, 3, "reason", "close the tag with '>'; an end tag has no attributes"),
     ),
     "the end of what is cut off": (
         [Logged("ERR_GT_REQUIRED", 3, 3)],
         b"<r>\n</r>\n</ \n \n",
-        XmlError(3, 3, "said", "the file ends in the middle of a tag: it was cut off"),
+        XmlError(3, 3, "reason", "the file ends in the middle of a tag: it was cut off"),
     ),
     "the end of what is whole": (
         [Logged("ERR_ATTRIBUTE_WITHOUT_VALUE", 2, 5)],
         b"\n<r a/>\n",
-        XmlError(2, 5, "said", "give the attribute a value in quotes: name='value'"),
+        XmlError(2, 5, "reason", "give the attribute a value in quotes: name='value'"),
     ),
     "another slip at the end": (
         [Logged("ERR_TAG_NOT_FINISHED", 1, 3)],
         b"<r",
-        XmlError(1, 3, "said", "the file ends too early: it was cut off, or the last end tags are missing"),
+        XmlError(1, 3, "reason", "the file ends too early: it was cut off, or the last end tags are missing"),
     ),
     "the last comment that is open": (
         [Logged("ERR_COMMENT_NOT_FINISHED", 5, 2)],
         b"<!-- a -->\n<r>\n\n<!-- b\n</r>",
-        XmlError(4, 2, "said", "close the comment with -->"),
+        XmlError(4, 2, "reason", "close the comment with -->"),
     ),
-    "a mismatch in other words": (
+    "a mismatch with another message": (
         [Logged("ERR_TAG_NAME_MISMATCH")],
         b"<r></s>",
-        XmlError(1, 1, "said", "let every end tag repeat the name of its start tag"),
+        XmlError(1, 1, "reason", "let every end tag repeat the name of its start tag"),
     ),
     "a name that is no entity's": (
         [Logged("ERR_NAME_REQUIRED")],
         b"< r/>",
-        XmlError(1, 1, "said", "write the name right behind the '<'; a '<' that is meant as text is written &lt;"),
+        XmlError(1, 1, "reason", "write the name right behind the '<'; a '<' that is meant as text is written &lt;"),
     ),
     "an end tag behind the root": (
         [Logged("ERR_DOCUMENT_END", 2)],
         b"<r/><s/>\n \n</r>\n<s/>",
-        XmlError(2, 1, "said", "delete what follows the end tag of the root element"),
+        XmlError(2, 1, "reason", "delete what follows the end tag of the root element"),
     ),
     "an element below the root": (
         [Logged("ERR_DOCUMENT_END", 2)],
         b"<r/>\n \n <s/>\n</r>",
-        XmlError(2, 1, "said", "a file holds one root element: move the second one into a file of its own"),
+        XmlError(2, 1, "reason", "a file holds one root element: move the second one into a file of its own"),
     ),
-    "what nobody has advice for": ([Logged("ERR_PI_NOT_FINISHED", 7, 8)], b"<?a", XmlError(7, 8, "said", None)),
+    "what nobody has advice for": ([Logged("ERR_PI_NOT_FINISHED", 7, 8)], b"<?a", XmlError(7, 8, "reason", None)),
 }
 
 
@@ -215,6 +215,6 @@ def test_the_first_doubt_is_what_is_wrong(name: str) -> None:
 
 def test_what_is_repaired_is_all_that_can_be() -> None:
     assert repaired(iter([LATE, NO_BLANK, NO_VERSION])) == [
-        XmlError(1, 6, "said", "move <?xml ...?> to the very beginning of the file"),
-        XmlError(1, 7, "said", "write <?xml version='1.0'?>"),
+        XmlError(1, 6, "reason", "move <?xml ...?> to the very beginning of the file"),
+        XmlError(1, 7, "reason", "write <?xml version='1.0'?>"),
     ]

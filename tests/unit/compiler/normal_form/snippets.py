@@ -29,7 +29,7 @@ def sdf_link(content: str, version: str = "1.9") -> str:
 
 
 def compared(source: str, back: str) -> list[str]:
-    """What the normal forms of two texts differ in: kind, path, and what either says."""
+    """What the normal forms of two texts differ in: kind, path, and the text of either."""
     found = normal_form(source.encode()).compare(normal_form(back.encode()))
-    said = ((one, " -> ".join(text for text in (one.source.text, one.back.text) if text is not None)) for one in found)
-    return [f"{one.kind} {one.location.path} {text}" for one, text in said]
+    texts = ((one, " -> ".join(text for text in (one.source.text, one.back.text) if text is not None)) for one in found)
+    return [f"{one.kind} {one.location.path} {text}" for one, text in texts]

@@ -1,4 +1,4 @@
-"""What counts as said in a file: two texts each, and all that one lacks of the other."""
+"""What counts as the content of a file: two texts each, and all that one lacks of the other."""
 
 import pytest
 
@@ -54,7 +54,7 @@ DIFFERENT: dict[str, tuple[str, str, list[str]]] = {
         link('<tf:sdf xmlns:tf="urn:twinform:1"><a/></tf:sdf>'),
         ["left over /robot[@name='r']/link[@name='l']/tf:sdf <sdf>"],
     ),
-    "a mark of ours": (
+    "an annotation": (
         link(""),
         link("").replace("<link", '<link xmlns:tf="urn:twinform:1" tf:made="."'),
         ["left over /robot[@name='r']/link[@name='l']/@{urn:twinform:1}made '.'"],
@@ -263,18 +263,23 @@ DIFFERENT: dict[str, tuple[str, str, list[str]]] = {
         robot('<gazebo reference="l"><velocity_decay><linear>0.1</linear></velocity_decay></gazebo>'),
         ["missing /robot[@name='r']/gazebo/dampingFactor <dampingFactor>0.1"],
     ),
+    "a pose that is none, where there was one of zeros": (
+        sdf_link("<pose>0 0 0 0 0 0</pose>"),
+        sdf_link("<pose>x1y</pose>"),
+        ["added /sdf/model[@name='m']/link[@name='l']/pose <pose>x1y"],
+    ),
 }
 
 
 @pytest.mark.parametrize("case", DIFFERENT)
-def test_what_is_not_said_alike_is_found(case: str) -> None:
+def test_what_is_not_written_alike_is_found(case: str) -> None:
     source, back, expected = DIFFERENT[case]
     assert compared(source, back) == expected
     assert len(compared(back, source)) == len(expected)
     assert compared(source, source) == []
 
 
-def test_a_discrepancy_says_where_it_is_in_words() -> None:
+def test_a_discrepancy_is_printed_with_its_place() -> None:
     source, back = robot('\n<link name="a"/>\n<link name="b"/>'), robot('<link name="c"/>\n<link name="b" x="1"/>')
     forms = [normal_form(text.encode(), name=name) for text, name in ((source, "a.urdf"), (back, "b.urdf"))]
     assert [each.message for each in forms[0].compare(forms[1])] == [

@@ -26,7 +26,7 @@ ALIKE = {
     "the root of SDF 1.2": (sdf("", "1.2"), sdf("", "1.2").replace("sdf", "gazebo")),
     "a default namespace": (robot(""), '<robot xmlns="urn:x" name="r"/>'),
     # poses
-    "a turn that is another way to say it": (
+    "a turn that is another way to write it": (
         joint('<origin rpy="3.141592653589793 0 0"/>'),
         joint('<origin rpy="-3.141592653589793 0 0"/>'),
     ),
@@ -160,7 +160,7 @@ ALIKE = {
         ),
     ),
     "a tag of a default": (robot('<gazebo reference="l"><mu1>1</mu1></gazebo>'), robot("")),
-    "one thing said twice": (
+    "one thing written twice": (
         robot('<gazebo reference="l"><mu1>0.5</mu1><mu1>0.50</mu1></gazebo>'),
         robot('<gazebo reference="l"><mu1>0.5</mu1></gazebo>'),
     ),

@@ -140,7 +140,7 @@ def test_what_fails_before_the_moves_leaves_nothing(tmp_path: Path) -> None:
     assert _is_as_it_was(tmp_path)
 
 
-def test_a_link_that_leads_to_itself_is_an_error_in_words(tmp_path: Path) -> None:
+def test_a_link_that_leads_to_itself_is_an_error_with_a_message(tmp_path: Path) -> None:
     link = tmp_path / "round.sdf"
     link.symlink_to(link)
     with pytest.raises(OSError, match=r"a symbolic link that leads to itself.*round\.sdf"):

@@ -94,7 +94,7 @@ def test_a_uri_that_leads_nowhere_is_refused(tree: Path, search: SearchPath, uri
     assert why[1] in caught.value.message
 
 
-def test_the_error_says_where_it_was_looked_for(tree: Path, search: SearchPath) -> None:
+def test_the_error_has_where_it_was_looked_for(tree: Path, search: SearchPath) -> None:
     with pytest.raises(UriError) as caught:
         search.find("model://nothing", tree / "project/worlds/room.sdf")
     assert str(tree / "gz") in (caught.value.help or "")

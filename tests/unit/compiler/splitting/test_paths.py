@@ -71,12 +71,12 @@ def test_inertias_are_computed_from_meshes_as_in_the_same_folder(tmp_path: Path)
     assert '<mass value="166.66' in same
 
 
-def test_a_file_that_is_found_by_a_search_path_is_said_from_there(tmp_path: Path, shape: Path) -> None:
+def test_a_file_that_is_found_by_a_search_path_is_named_from_there(tmp_path: Path, shape: Path) -> None:
     found = _mesh(_split(tmp_path, tmp_path / "there", uri="a.obj", paths=(shape.parent,)))
     assert found == "../here/shapes/a.obj"
 
 
-def test_a_path_that_leads_nowhere_stays_and_is_said(tmp_path: Path) -> None:
+def test_a_path_that_leads_nowhere_stays_and_is_reported(tmp_path: Path) -> None:
     world = WORLD.format("shapes/../none/a.obj").replace('<inertial auto="true"/>', "")
     path = tmp_path / "room.sdf"
     path.write_text(world)

@@ -117,7 +117,7 @@ def test_a_file_is_not_called_as_one_of_libsdformat_or_as_the_world() -> None:
     assert list(found.files) == ["model_1.sdf", "room_1.sdf", "room.sdf"]
 
 
-def test_the_include_of_a_robot_says_where_its_root_is() -> None:
+def test_the_include_of_a_robot_gives_where_its_root_is() -> None:
     text = f"""
         <sdf version="1.6"><world name="w"><model name="m"><pose>1 0 0 0 0 0</pose>
           <link name="base"><pose>0 0 0.5 0 0 0</pose>{_BODY}</link></model></world></sdf>"""

@@ -15,7 +15,7 @@ MOST = 20
 """The faults that are reported: what is of another kind altogether has thousands."""
 _ASIDE = frozenset({"$schema", "namespaces", "order", "spelling"})
 """What is not compared: the version of the schema; prefixes, of which there may be more than were declared; and what
-says nothing about the robot."""
+is not about the robot."""
 _UNKNOWN = object()
 
 
@@ -60,10 +60,10 @@ def report_missed(missed: Missed, format_: str, where: Location, sink: Diagnosti
     """Report that a document cannot be expressed as it is."""
     name = "/".join(map(str, missed.path))
     became = "leaves it out" if missed.theirs is _UNKNOWN else f"has {_shown(missed.theirs)} there"
-    said = "nothing" if missed.mine is _UNKNOWN else _shown(missed.mine)
-    message = f"{name}: {format_.upper()} cannot express {said}; a file in that format {became}"
+    shown = "nothing" if missed.mine is _UNKNOWN else _shown(missed.mine)
+    message = f"{name}: {format_.upper()} cannot express {shown}; a file in that format {became}"
     hint = "if it stands in 'opaque', write it in the field that is meant for it"
-    sink.report(structure.INVALID_VALUE, message, where, found=said, help=hint)
+    sink.report(structure.INVALID_VALUE, message, where, found=shown, help=hint)
 
 
 def plain(data: Any) -> Any:

@@ -34,7 +34,7 @@ class JsonSource:
     format: str
 
     def compare(self, document: Document, sink: DiagnosticSink) -> None:
-        """Report what the document that was read of the text does not have as the JSON says it."""
+        """Report what the document that was read of the text does not have as it is in the JSON."""
         missed = next(differences(self.data, plain(json_data(document)), ()), None)
         if missed is not None:
             report_missed(missed, self.format, _location(lines_of(self.json), missed.path), sink)
@@ -71,14 +71,14 @@ def read_json(text: bytes, sink: DiagnosticSink) -> JsonSource | None:
             where, rule = _location(lines, fault.path), structure.INVALID_VALUE
             sink.report(rule, message, where, found=fault.found, expected=fault.expected, help=fault.help)
         return None
-    said = plain(data)
-    document = Document.model_validate(_with_order({key: said[key] for key in said if key != "$schema"}))
+    values = plain(data)
+    document = Document.model_validate(_with_order({key: values[key] for key in values if key != "$schema"}))
     try:
         made = serialized(document_tree(document), document)
     except ValueError as error:  # a name that lxml does not take
         _report(sink, f"the document: it cannot be written: {error}")
         return None
-    return JsonSource(decoded, said, made.encode(), document.format.value)
+    return JsonSource(decoded, values, made.encode(), document.format.value)
 
 
 def _object(pairs: list[tuple[str, Any]]) -> Data:

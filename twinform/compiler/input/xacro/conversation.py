@@ -2,9 +2,11 @@
 
 import json
 import os
+import site
 import subprocess
 import sys
 from collections.abc import Iterable, Mapping
+from importlib.machinery import PathFinder
 from pathlib import Path
 from threading import Timer
 from typing import Any, Self, cast
@@ -12,10 +14,12 @@ from typing import Any, Self, cast
 from twinform.compiler.input.limits import LARGEST
 from twinform.compiler.input.xacro.files import Files, OutsideError
 from twinform.compiler.input.xacro.variables import variable
+from twinform.compiler.observing import note_variable
 from twinform.compiler.search.search_roots import folders_around
 from twinform.compiler.search.uris import SearchPath, UriError
 
 _WORKER = Path(__file__).with_name("worker") / "__main__.py"
+_LIBRARIES = ("xacro", "yaml")
 _SECONDS = 60
 """Of the clock, on a machine that is busy; the worker itself has 10 of the processor."""
 _LONGEST_MESSAGE = 4 * LARGEST
@@ -26,9 +30,48 @@ _PASSED_ON_STARTS = ("COV", "DYLD_", "LC_", "LD_", "PYTHON")
 
 
 def ask_worker(path: Path, arguments: Mapping[str, str], search: SearchPath) -> dict[str, Any]:
-    """What becomes of a file in a process of its own."""
-    # -P: the folder of the script is no place to import from. -W: what Python warns of is not the file's to know
-    command = [sys.executable, "-P", "-W", "ignore", str(_WORKER)]
+    """What becomes of a file in a process of its own.
+
+    Such a process imports no more than most files need. One that needs more than it has says so, does nothing, and
+    another takes its place: which files are read, and whether they read data, is only known when nothing can be
+    imported any more.
+    """
+    task = {"file": str(path), "arguments": dict(arguments)}
+    folders = _library_folders()
+    outcome = _ask(path, search, {**task, "yaml": _mentions_data(path)}, folders)
+    if "missing" in outcome and folders:
+        folders = ()
+        outcome = _ask(path, search, {**task, "yaml": True}, folders)
+    return _ask(path, search, {**task, "yaml": True}, folders) if "lacks" in outcome else outcome
+
+
+def _mentions_data(path: Path) -> bool:
+    """Whether a file says that it reads data; it may also say so in a file that it includes."""
+    try:
+        with path.open("rb") as file:
+            return b"yaml" in file.read(LARGEST)
+    except OSError:
+        return True  # reading it will say what is wrong
+
+
+def _library_folders() -> tuple[str, ...]:
+    """The folders of installed packages, if xacro is in them; none where Python has to look for it by itself.
+
+    Nowhere else is looked, least of all in the current folder, which may have come with the file. The measurement of
+    coverage has to begin when Python does.
+    """
+    folders = [*site.getsitepackages(), *([site.getusersitepackages()] if site.ENABLE_USER_SITE else [])]
+    found = all(PathFinder.find_spec(name, folders) for name in _LIBRARIES)
+    measured = any(name.startswith("COV") for name in os.environ)
+    return tuple(folders) if found and not measured else ()
+
+
+def _ask(path: Path, search: SearchPath, task: Mapping[str, object], folders: tuple[str, ...]) -> dict[str, Any]:
+    """What becomes of a task in a process of its own."""
+    # -P: the folder of the script is no place to import from. -W: what Python warns of is not the file's to know.
+    # -S: nothing is run that packages have left for the start of Python
+    bare = ["-S", "-s"] if folders else []
+    command = [sys.executable, *bare, "-P", "-W", "ignore", str(_WORKER), *folders]
     pipe = subprocess.PIPE
     with subprocess.Popen(  # noqa: S603 - our own script, and no shell
         command, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, env=environment()
@@ -36,7 +79,7 @@ def ask_worker(path: Path, arguments: Mapping[str, str], search: SearchPath) -> 
         timer = Timer(_SECONDS, process.kill)
         timer.start()
         try:
-            return _Conversation.of(path, search).hold(process, {"file": str(path), "arguments": dict(arguments)})
+            return _Conversation.of(path, search).hold(process, task)
         finally:
             timer.cancel()
             process.kill()
@@ -75,19 +118,19 @@ class _Conversation:
             while to_worker and from_worker:
                 to_worker.write(json.dumps(message).encode() + b"\n" + content)
                 to_worker.flush()
-                said = _understood(from_worker.readline(_LONGEST_MESSAGE))
-                if not said:
+                received = _understood(from_worker.readline(_LONGEST_MESSAGE))
+                if not received:
                     break
-                if not _QUESTIONS.intersection(said):
-                    return said
-                message, content = self._answer(said)
+                if not _QUESTIONS.intersection(received):
+                    return received
+                message, content = self._answer(received)
         except BrokenPipeError:
             pass  # it died before it could listen
         return {"error": "the expansion died, or did not end within its time", "place": (str(self.path), 1)}
 
-    def _answer(self, said: Mapping[str, str]) -> tuple[Mapping[str, object], bytes]:
+    def _answer(self, received: Mapping[str, str]) -> tuple[Mapping[str, object], bytes]:
         try:
-            match said:
+            match received:
                 case {"find": uri, "beside": beside}:
                     return self._find(uri, (Path(beside), self.path)), b""
                 case {"read": path}:
@@ -96,7 +139,7 @@ class _Conversation:
                 case {"match": pattern}:
                     return {"paths": self.files.match(pattern)}, b""
                 case _:
-                    return {"value": variable(said["environment"], os.environ)}, b""
+                    return {"value": _variable(received["environment"])}, b""
         except OutsideError as error:
             return {"error": str(error), "help": error.advice}, b""
         except (OSError, ValueError) as error:
@@ -113,10 +156,16 @@ class _Conversation:
         return answer
 
 
+def _variable(name: str) -> str | None:
+    value = variable(name, os.environ)
+    note_variable(name, value)
+    return value
+
+
 def _understood(line: bytes) -> dict[str, Any]:
     """A message; nothing where the process died while it spoke."""
     try:
-        said: object = json.loads(line)
+        received: object = json.loads(line)
     except ValueError:
         return {}
-    return cast("dict[str, Any]", said) if isinstance(said, dict) else {}
+    return cast("dict[str, Any]", received) if isinstance(received, dict) else {}

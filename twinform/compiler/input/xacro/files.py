@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
 from twinform.compiler.input.limits import LARGEST
+from twinform.compiler.observing import note_look
 
 _OUTSIDE = "it is outside of the folders of models and packages"
 _ADVICE = "name its folder with --path DIR if it is meant"
@@ -112,6 +113,7 @@ class Files:
 
 def _entries(folder: str, part: str) -> Iterator[str]:
     if not _MAGIC.search(part):
+        note_look(f"{folder}{part}")
         yield from [part] if os.path.lexists(f"{folder}{part}") else []
         return
     try:

@@ -1,4 +1,4 @@
-"""Documents as JSON: what does not fit is said with its line and path, and nothing of it gets lost without a word."""
+"""Documents as JSON: what does not fit is reported with its line and path, and nothing of it gets lost silently."""
 
 import json
 from typing import Any
@@ -179,7 +179,7 @@ WRONG: dict[str, tuple[object, list[tuple[int, str, str]]]] = {
 
 
 @pytest.mark.parametrize("name", WRONG)
-def test_what_does_not_fit_is_said_with_its_place(name: str) -> None:
+def test_what_does_not_fit_is_reported_with_its_place(name: str) -> None:
     data, expected = WRONG[name]
     found = _errors(data) if expected else []
     assert [each[:2] for each in found] == [each[:2] for each in expected]
@@ -190,7 +190,7 @@ def test_what_does_not_fit_is_said_with_its_place(name: str) -> None:
         twinform.convert(json.dumps(data).encode() if not isinstance(data, str) else data.encode(), to="sdf")
 
 
-def test_a_word_that_is_nearly_right_is_guessed() -> None:
+def test_a_value_that_is_nearly_right_is_guessed() -> None:
     (found,) = _check({"format": "urdff"}).diagnostics
     assert found.help == "did you mean 'urdf'?"
     (found,) = _check(_robot(link=[])).diagnostics
@@ -218,7 +218,7 @@ def test_sdf_may_have_what_is_no_number_of_json() -> None:
     assert len(_errors(data)) == 1
 
 
-def test_a_mark_at_the_beginning_and_empty_fields_are_nothing() -> None:
+def test_a_byte_order_mark_and_empty_fields_are_nothing() -> None:
     text = "\ufeff" + json.dumps(_robot(links=[{"name": "a", "opaque": [], "visuals": []}]))
     assert twinform.loads(text) == twinform.loads(json.dumps(ROBOT))
 

@@ -180,7 +180,7 @@ def test_descriptors_are_renounced(asked: dict[str, tuple[int, int]]) -> None:
     assert asked == {"NOFILE": (0, 0)}
 
 
-def test_a_system_without_limits_is_told_so(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_system_without_limits_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "resource", None)
     monkeypatch.setattr(sys, "setrecursionlimit", _do_nothing)
     resources.limit()

@@ -1,6 +1,8 @@
 """xacro input through the API: arguments, packages, places, and what must never become a traceback."""
 
 import importlib
+import sys
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
@@ -106,7 +108,7 @@ def test_xacro_is_refused_where_it_is_not_wanted(robot: Path) -> None:
     assert _rules(checked.diagnostics) == ["xacro-refused"]
 
 
-def test_a_machine_without_xacro_is_told_what_to_run(robot: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_machine_without_xacro_gets_a_hint_what_to_run(robot: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     shadow = robot.parent / "shadow"
     shadow.mkdir()
     (shadow / "xacro.py").write_text("raise ImportError('there is none')")
@@ -122,7 +124,7 @@ def test_a_file_that_is_not_there_is_unreadable(tmp_path: Path) -> None:
     assert _rules(checked.diagnostics) == ["unreadable-file"]
 
 
-def test_what_the_file_says_is_reported_where_it_says_it(tmp_path: Path) -> None:
+def test_messages_of_the_file_are_reported_at_their_places(tmp_path: Path) -> None:
     path = _write(tmp_path, "<xacro:property name='a' value=\"${xacro.message('hello')}\"/>\n<link name='b${a}'/>")
     message = next(each for each in twinform.check(path).diagnostics if each.rule.name == "xacro-message")
     assert (message.message, message.location.line) == ("hello", 3)
@@ -161,13 +163,57 @@ def test_a_set_is_written_in_the_same_order_each_time(tmp_path: Path) -> None:
     assert len({twinform.check(path).diagnostics for _ in range(3)}) == 1
 
 
-@pytest.mark.parametrize("said", ["no json", "", '{"read": 1', "[]"])
-def test_a_process_that_talks_nonsense_is_an_error(said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("answer", ["no json", "", '{"read": 1', "[]"])
+def test_a_process_that_talks_nonsense_is_an_error(
+    answer: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     worker = tmp_path / "worker.py"
-    worker.write_text(f"print({said!r})")
+    worker.write_text(f"print({answer!r})")
     monkeypatch.setattr(importlib.import_module("twinform.compiler.input.xacro.conversation"), "_WORKER", worker)
     assert "the expansion died" in twinform.check(_write(tmp_path, "")).diagnostics[0].message
 
 
 def test_bytes_are_never_expanded() -> None:
     assert read(ROBOT.encode(), LoadOptions(), name="robot.urdf.xacro").document is not None
+
+
+def test_the_process_has_the_folders_of_libraries_and_not_the_current_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "xacro").mkdir()
+    (tmp_path / "xacro" / "__init__.py").write_text("raise SystemExit")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "path", ["", str(tmp_path), *sys.path])
+    assert twinform.check(_write(tmp_path, "")).accepted
+
+
+@pytest.mark.parametrize("folders", [(), ("/nowhere",)])
+def test_where_the_libraries_are_not_known_python_looks_for_them(
+    folders: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    conversation = importlib.import_module("twinform.compiler.input.xacro.conversation")
+    monkeypatch.setattr(conversation, "_library_folders", lambda: folders)
+    assert twinform.check(_write(tmp_path, "")).accepted
+
+
+def test_data_that_only_an_included_file_reads_is_read(tmp_path: Path) -> None:
+    (tmp_path / "data.txt").write_text("name: left\n")
+    inner = f"<robot {NAMESPACE}><link name=\"${{xacro.load_yaml('data.txt')['name']}}\"/></robot>"
+    (tmp_path / "inner.xacro").write_text(inner)
+    document = twinform.check(_write(tmp_path, '<xacro:include filename="inner.xacro"/>')).document
+    assert document
+    assert document.models[0].links[0].name == "left"
+
+
+def test_most_files_are_expanded_without_the_yaml_library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    conversation = importlib.import_module("twinform.compiler.input.xacro.conversation")
+    tasks: list[Mapping[str, object]] = []
+    ask = conversation._ask
+
+    def noted(path: Path, search: object, task: Mapping[str, object], folders: object) -> object:
+        tasks.append(task)
+        return ask(path, search, task, folders)
+
+    monkeypatch.setattr(conversation, "_ask", noted)
+    assert twinform.check(_write(tmp_path, '<xacro:if value="${1 + 1 == 3}"><oops/></xacro:if>')).accepted
+    assert [task["yaml"] for task in tasks] == [False]

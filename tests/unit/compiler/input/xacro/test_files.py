@@ -1,4 +1,4 @@
-"""What a xacro file is told of the world outside: files of its folders, and variables that are no secrets."""
+"""What a xacro file can read of the world outside: files of its folders, and variables that are no secrets."""
 
 import contextlib
 import glob
@@ -60,7 +60,7 @@ def test_no_other_file_is_read(path: str, words: str) -> None:
 @pytest.mark.parametrize("path", ["own/none", "own/circle", "own/a.xacro/b", f"own/{'x' * 300}"])
 @pytest.mark.usefixtures("folder")
 def test_what_is_not_there_is_an_error_of_the_system(path: str) -> None:
-    with pytest.raises(OSError):  # noqa: PT011 - what it says is the system's
+    with pytest.raises(OSError):  # noqa: PT011 - its message is the system's
         _files().read(path)
 
 

@@ -86,7 +86,9 @@ def wheel(workspace: Path) -> Path:
     return path
 
 
-def test_what_is_wrong_in_gazebo_elements_is_said_once_and_where_it_was_written(workspace: Path, wheel: Path) -> None:
+def test_what_is_wrong_in_gazebo_elements_is_reported_once_and_where_it_was_written(
+    workspace: Path, wheel: Path
+) -> None:
     made = twinform.convert(workspace / "arm-ros2/urdf/arm.urdf.xacro", to="sdf")
     found = [each.location for each in made.diagnostics if each.rule.name == "unknown-element"]
     assert [(Path(each.file), each.line) for each in found] == [(wheel, 10)]

@@ -115,7 +115,7 @@ FAILURES = {
     "a variable that is not set": ('<link name="$(env NONE)"/>', "environment variable 'NONE' is not set", 2),
     "too many remarks": (
         '<link name="${[xacro.message(i) for i in range(2000)]}"/>',
-        "the file says more than 1,000 things",
+        "the file prints more than 1,000 things",
         2,
     ),
     "a file that is not there": ('<xacro:include filename="none.xacro"/>', "No such file or directory", 2),
@@ -130,7 +130,7 @@ FAILURES = {
 
 
 @pytest.mark.parametrize("name", FAILURES)
-def test_a_failure_has_words_and_a_place(name: str, expand: Expand, tmp_path: Path) -> None:
+def test_a_failure_has_a_message_and_a_place(name: str, expand: Expand, tmp_path: Path) -> None:
     (tmp_path / "typed.xacro").write_text("<!DOCTYPE robot><robot/>")
     (tmp_path / "broken.xacro").write_text("<robot>\n<link>\n</robot>")
     body, words, line = FAILURES[name]

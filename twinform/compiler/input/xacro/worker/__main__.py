@@ -8,7 +8,11 @@ _AROUND = ("twinform.compiler.input.xacro", "twinform.compiler", "twinform")
 
 
 def _start() -> None:
-    """Run the task without running the packages around it: they would import the whole compiler."""
+    """Run the task without running the packages around it: they would import the whole compiler.
+
+    The arguments are the folders of libraries, for a Python that was started without its own look for them.
+    """
+    sys.path += sys.argv[1:]
     folders = Path(__file__).absolute().parents
     for name, folder in zip(_AROUND, folders[1:], strict=False):
         package = ModuleType(name)

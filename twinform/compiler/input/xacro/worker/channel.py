@@ -3,7 +3,7 @@
 Messages are lines of JSON; the content of a file follows its line as bytes. In: the task, then an answer for each
 question. Out: questions, and at the end what became of the task. Whatever lies outside of this process is behind a
 question: where a package is (`find`), what is in a file (`read`), which files match a pattern (`match`), and what an
-environment variable says (`environment`).
+environment variable contains (`environment`).
 """
 
 import json

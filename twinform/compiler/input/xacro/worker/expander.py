@@ -5,19 +5,21 @@ from collections.abc import Callable, Mapping
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from xml.dom import minidom
 
 from twinform.compiler.input.xacro.worker.channel import Compiler, MissingFileError
-from twinform.compiler.input.xacro.worker.data_files import DataFiles
 from twinform.compiler.input.xacro.worker.expressions.budget import Budget
 from twinform.compiler.input.xacro.worker.expressions.interpreter import Interpreter
 from twinform.compiler.input.xacro.worker.expressions.values import Names, RefusedError, Value
 from twinform.compiler.input.xacro.worker.language import xacro_functions
-from twinform.compiler.input.xacro.worker.places import Place, parse, place_of
+from twinform.compiler.input.xacro.worker.places import FileLine, parse, place_of
 from twinform.compiler.input.xacro.worker.substitutions import Substitutions
 from twinform.compiler.input.xacro.worker.texts import Texts
 from twinform.compiler.input.xacro.worker.vocabulary import vocabulary
+
+if TYPE_CHECKING:
+    from twinform.compiler.input.xacro.worker.data_files import DataFiles
 
 _WATCHED = ("eval_all", "check_attrs", "grab_property", "grab_macro", "process_include", "handle_macro_call")
 """Functions of xacro whose first argument is the element that it is at."""
@@ -26,9 +28,13 @@ _BARRED = ("compile", "eval", "exec", "open")
 
 
 class Expander:
-    """Expands one file, and is what the functions of its expressions know of it."""
+    """Expands one file, and is what the functions of its expressions know of it.
 
-    def __init__(self, compiler: Compiler, file: str) -> None:
+    The YAML library takes longer to import than all else. Without `yaml`, a file that reads data makes
+    `lacks_yaml` true, and its expansion fails.
+    """
+
+    def __init__(self, compiler: Compiler, file: str, *, yaml: bool = True) -> None:
         self.xacro: Any = import_module("xacro")
         self.module: Any = import_module("xacro.substitution_args")
         self.compiler = compiler
@@ -40,8 +46,8 @@ class Expander:
         self.texts = Texts(self.interpreter.evaluate, self._substitute, self.xacro.XacroException, self.budget)
         theirs: Mapping[str, Any] = getattr(self.xacro, "_global_symbols", {})
         self.names = vocabulary(theirs, xacro_functions(self), self.budget, self._warn)
-        units = {unit.value.tag: unit.value.conversion_constant for unit in self.xacro.ConstructUnits}
-        self.data_files = DataFiles(units, self._measure)
+        self.data_files = self._data_files() if yaml else None
+        self.lacks_yaml = False
         self.beside: Callable[[str], str] = self.xacro.abs_filename_spec
         self.print_location: Callable[[], None] = self.xacro.print_location
         self._replace()
@@ -50,7 +56,7 @@ class Expander:
         """The tree that the file expands to."""
         return self.xacro.process_file(self.file, mappings=arguments, verbosity=0)
 
-    def place(self) -> Place:
+    def place(self) -> FileLine:
         """Where the element was written that was looked at last."""
         return place_of(self.node) or (self.file, 1)
 
@@ -65,6 +71,9 @@ class Expander:
     def data(self, name: str) -> Value:
         """The content of a data file."""
         path = self.path(name)
+        if self.data_files is None:
+            self.lacks_yaml = True
+            raise RefusedError("this process cannot read data files")
         return self.data_files.load(self.compiler.read(path), path)
 
     def say(self, text: str) -> None:
@@ -78,6 +87,12 @@ class Expander:
     def failure(self, message: str) -> Exception:
         """What stops the expansion."""
         return self.xacro.XacroException(message)
+
+    def _data_files(self) -> "DataFiles":
+        from twinform.compiler.input.xacro.worker.data_files import DataFiles  # noqa: PLC0415 - see above
+
+        units = {unit.value.tag: unit.value.conversion_constant for unit in self.xacro.ConstructUnits}
+        return DataFiles(units, self._measure)
 
     def _replace(self) -> None:
         _replace(

@@ -12,7 +12,7 @@ class TimeUpError(Exception):
     """The process has used up its time."""
 
 
-def words(error: BaseException) -> dict[str, str]:
+def description(error: BaseException) -> dict[str, str]:
     """The message of an exception, and the macros through which it came."""
     cause = _cause(error)
     match cause:

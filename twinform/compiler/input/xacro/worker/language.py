@@ -8,7 +8,7 @@ from twinform.compiler.input.xacro.worker.expressions.budget import Budget
 from twinform.compiler.input.xacro.worker.expressions.values import DotDict, RefusedError, Value, text_of
 
 
-class Surroundings(Protocol):
+class Environment(Protocol):
     """What the functions need of the file that is expanded."""
 
     budget: Budget
@@ -38,37 +38,37 @@ class Surroundings(Protocol):
         ...
 
 
-def xacro_functions(around: Surroundings) -> dict[str, Callable[..., Value]]:
+def xacro_functions(environment: Environment) -> dict[str, Callable[..., Value]]:
     """Every function that xacro documents; what they are given has been weighed."""
 
-    def words(args: tuple[Value, ...]) -> str:
-        return around.budget.write(" ".join(text_of(each, around.budget) for each in args))
+    def joined(args: tuple[Value, ...]) -> str:
+        return environment.budget.write(" ".join(text_of(each, environment.budget) for each in args))
 
-    def saying(start: str) -> Callable[..., str]:
+    def reporting(start: str) -> Callable[..., str]:
         def say(*args: Value, alt_text: str | None = None, **_: Value) -> str:
-            around.say(f"{start if alt_text is None else alt_text}{words(args)}")
+            environment.say(f"{start if alt_text is None else alt_text}{joined(args)}")
             return ""
 
         return say
 
     def fatal(*args: Value) -> Value:
-        raise around.failure(words(args))
+        raise environment.failure(joined(args))
 
     def locate() -> str:
-        around.locate()
+        environment.locate()
         return ""
 
     return {
-        "abs_filename": around.path,
-        "arg": around.argument,
+        "abs_filename": environment.path,
+        "arg": environment.argument,
         "dotify": DotDict,
-        "error": saying("error: "),
+        "error": reporting("error: "),
         "fatal": fatal,
-        "load_yaml": around.data,
-        "message": saying(""),
+        "load_yaml": environment.data,
+        "message": reporting(""),
         "print_location": locate,
         "tokenize": _tokenize,
-        "warning": saying("warning: "),
+        "warning": reporting("warning: "),
     }
 
 

@@ -8,13 +8,13 @@ from xml.parsers.expat import ExpatError
 _MOST_TAGS = 1_000_000
 _KEY = "source"
 
-Place = tuple[str, int]
+FileLine = tuple[str, int]
 
 
 class BadFileError(Exception):
     """A file that cannot be expanded whatever is in its macros."""
 
-    def __init__(self, message: str, place: Place) -> None:
+    def __init__(self, message: str, place: FileLine) -> None:
         super().__init__(message)
         self.place = place
 
@@ -63,7 +63,7 @@ def parse(data: bytes, file: str) -> minidom.Document:
         raise BadFileError(f"not well-formed XML: {error}", (file, error.lineno)) from error
 
 
-def place_of(node: Any) -> Place | None:
+def place_of(node: Any) -> FileLine | None:
     """Where a node, or the nearest one around it, was written."""
     while node is not None:
         source = node.getUserData(_KEY)
@@ -73,7 +73,7 @@ def place_of(node: Any) -> Place | None:
     return None
 
 
-def places_below(root: Any) -> Iterator[Place | None]:
+def places_below(root: Any) -> Iterator[FileLine | None]:
     """The places of all elements in the order of the document; no recursion, since the document may be deep."""
     stack = [root]
     while stack:

@@ -10,8 +10,8 @@ from twinform.compiler.input.xacro.worker.channel import Channel, Compiler
 from twinform.compiler.input.xacro.worker.confinement import confine, limit
 from twinform.compiler.input.xacro.worker.expander import Expander
 from twinform.compiler.input.xacro.worker.expressions.budget import ExcessError
-from twinform.compiler.input.xacro.worker.failures import words
-from twinform.compiler.input.xacro.worker.places import BadFileError, Place, places_below
+from twinform.compiler.input.xacro.worker.failures import description
+from twinform.compiler.input.xacro.worker.places import BadFileError, FileLine, places_below
 
 _MOST_REMARKS = 1000
 _NEEDED_LATER = ("unicodedata", "encodings.cp1252", "encodings.iso8859_15", "encodings.utf_16")
@@ -37,17 +37,17 @@ class _Arguments(dict[str, str]):
 class _Remarks(io.StringIO):
     """What xacro and the file print, line by line with the place where they did."""
 
-    def __init__(self, where: Callable[[], Place]) -> None:
+    def __init__(self, where: Callable[[], FileLine]) -> None:
         super().__init__()
         self.where = where
-        self.found: dict[tuple[str, Place], None] = {}
+        self.found: dict[tuple[str, FileLine], None] = {}
         self.begun = ""
 
     def write(self, text: str) -> int:
         *lines, self.begun = f"{self.begun}{text}".split("\n")
         self.found.update(((line.strip(), self.where()), None) for line in lines if line.strip())
         if len(self.found) > _MOST_REMARKS:
-            raise ExcessError(f"the file says more than {_MOST_REMARKS:,} things")
+            raise ExcessError(f"the file prints more than {_MOST_REMARKS:,} things")
         return len(text)
 
 
@@ -55,7 +55,7 @@ def run(compiler: Compiler, confine: Callable[[], object] = confine) -> dict[str
     """Do the task that the compiler gives, and send the result."""
     task = compiler.receive()
     try:
-        expander = Expander(compiler, task["file"])
+        expander = Expander(compiler, task["file"], yaml=task.get("yaml", True))
     except ImportError as error:
         return {"missing": str(error)}
     remarks = _Remarks(expander.place)
@@ -65,6 +65,8 @@ def run(compiler: Compiler, confine: Callable[[], object] = confine) -> dict[str
         import_module(name)
     confine()
     outcome = _expanded(expander, arguments)
+    if expander.lacks_yaml:
+        return {"lacks": "yaml"}
     noted = [[text, *place] for text, place in remarks.found]
     return {**outcome, "remarks": noted, "unused": sorted(arguments.unused)}
 
@@ -79,7 +81,7 @@ def _expanded(expander: Expander, arguments: dict[str, str]) -> dict[str, Any]:
     except BadFileError as error:
         return {"error": str(error), "place": error.place}
     except Exception as error:  # noqa: BLE001 - an expression may raise anything, and it is the file's fault
-        return {**words(error), "place": expander.place()}
+        return {**description(error), "place": expander.place()}
     return {"text": text, "places": places}
 
 

@@ -12,7 +12,7 @@ MEMORY = 2**29
 SECONDS = 10
 """Of processor time. The slowest real file that we know takes from one to nine, as machines are."""
 _GRACE = 2
-"""More seconds, in which it can be said where the time went."""
+"""More seconds, to report where the time went."""
 _DEEPEST = 4000
 """Frames of Python. xacro takes about ten for each macro inside a macro."""
 

@@ -87,7 +87,7 @@ _UNARY: Mapping[type[ast.unaryop], Callable[[Value], Value]] = {
 
 
 def compare(node: ast.cmpop, left: Value, right: Value, budget: Budget) -> bool:
-    """What a comparison says of two values.
+    """The result of a comparison of two values.
 
     Raises:
         ExcessError: they are too large to be compared.

@@ -49,7 +49,7 @@ def parse(expression: str) -> ast.expr:
         raise ExcessError(f"an expression has {len(expression):,} characters; the limit is {LONGEST:,}")
     try:
         tree = ast.parse(expression.strip(), "<expression>", "eval")
-    except (MemoryError, RecursionError) as error:  # so Python's parser says that its stack is full
+    except (MemoryError, RecursionError) as error:  # so Python's parser reports that its stack is full
         raise ExcessError("an expression is nested too deeply") from error
     for node in ast.walk(tree):
         _require_allowed(node)

@@ -1,0 +1,115 @@
+"""What work depends on, as it is observed, and whether it still is so."""
+
+import os
+import time
+from pathlib import Path
+
+import pytest
+
+from twinform.compiler.batch.dependencies import (
+    Dependency,
+    Kind,
+    are_current,
+    are_same,
+    dependencies_of,
+    packed,
+    unpacked,
+)
+from twinform.compiler.observing import Observation, observed
+
+
+def _old(path: Path, text: str = "x") -> Path:
+    path.write_text(text)
+    os.utime(path, (1_000_000_000, 1_000_000_000))
+    return path
+
+
+def _observed_in(seen: Observation, root: Path) -> dict[str, Dependency]:
+    found = dependencies_of(seen, str(root), outside=str(root / "out"))
+    assert found is not None
+    return {dependency.path: dependency for dependency in found}
+
+
+def test_all_that_is_asked_for_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("opened", "read", "looked", "out"):
+        if name != "out":
+            _old(tmp_path / name)
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "out").mkdir()
+    _old(tmp_path / "folder/inside")
+    _old(tmp_path / "out/result")
+    with observed() as seen:
+        Path("opened").open().close()
+        (tmp_path / "read").read_bytes()
+        (tmp_path / "out/result").read_bytes()
+        assert (tmp_path / "looked").is_file()
+        assert not Path("absent").exists()
+        os.listdir("folder")  # noqa: PTH208 - as passes of others do
+        list(os.walk("folder"))
+        (tmp_path / "written").write_text("no input")
+    dependencies = _observed_in(seen, tmp_path)
+    assert {path: dependency.kind for path, dependency in dependencies.items()} == {
+        "opened": Kind.READ,
+        "read": Kind.READ,
+        "looked": Kind.FILE,
+        "absent": Kind.ABSENT,
+        "folder": Kind.LISTED,
+    }
+    assert tuple(unpacked(packed(dependencies.values()))) == tuple(dependencies.values())
+    now = time.time_ns()
+    root = str(tmp_path)
+    files = [dependency for dependency in dependencies.values() if dependency.kind is not Kind.LISTED]
+    assert are_current(files, root, noted=now)
+    assert not are_current(dependencies.values(), root, noted=now)  # the folder is young
+    assert are_same(dependencies.values(), root)
+    assert not are_same(dependencies.values(), str(tmp_path / "folder"))
+
+
+def test_nothing_is_seen_outside_or_in_other_threads(tmp_path: Path) -> None:
+    path = _old(tmp_path / "a")
+    with observed() as one:
+        pass
+    path.read_bytes()
+    with observed() as two:
+        path.read_bytes()
+    assert (one.read, list(two.read)) == ({}, [str(path)])
+
+
+def test_what_changes_while_it_is_read_says_nothing(tmp_path: Path) -> None:
+    path = _old(tmp_path / "a", "old")
+    with observed() as seen:
+        path.read_bytes()
+        _old(path, "newer")
+    assert dependencies_of(seen, str(tmp_path), outside=None) is None
+
+
+def test_what_changes_while_it_is_read_and_leaves_no_trace_in_its_time_says_nothing(tmp_path: Path) -> None:
+    path = tmp_path / "a"
+    path.write_text("old")
+    status = path.stat()
+    with observed() as seen:
+        path.read_bytes()
+        path.write_text("new")
+        os.utime(path, ns=(status.st_atime_ns, status.st_mtime_ns))
+    assert dependencies_of(seen, str(tmp_path), outside=None) is None
+
+
+def test_a_link_that_leads_elsewhere_is_another_file(tmp_path: Path) -> None:
+    _old(tmp_path / "a", "one")
+    _old(tmp_path / "b", "two")
+    link = tmp_path / "link"
+    link.symlink_to("a")
+    with observed() as seen:
+        link.read_bytes()
+    dependencies = _observed_in(seen, tmp_path).values()
+    assert are_same(dependencies, str(tmp_path))
+    link.unlink()
+    link.symlink_to("b")
+    assert not are_same(dependencies, str(tmp_path))
+
+
+@pytest.mark.parametrize("row", [[], ["a"], ["a", "eaten"], [1, "read"], ["a", "read", "1"], ["a", "read", 1, 2, 3]])
+def test_what_is_no_need_is_refused(row: list[object]) -> None:
+    with pytest.raises((ValueError, TypeError)):
+        list(unpacked([row]))

@@ -1,0 +1,178 @@
+"""The models of a batch: those of a folder, of a list of names, of a table with arguments, or of a shard of these."""
+
+import csv
+import hashlib
+import json
+import os
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path, PurePosixPath
+from posixpath import normpath
+from typing import Any, cast
+
+PATTERNS = ("*.urdf", "*.sdf", "*.world", "*.urdf.xacro", "*.sdf.xacro", "*.world.xacro")
+"""Files that are models by their names; other xacro files are mostly parts of models."""
+_MODEL, _NAME = "model", "name"
+"""Columns of a table: the file, and what the model is called if that is not its path."""
+
+
+class FolderError(ValueError):
+    """A batch cannot be made from one folder into the other, or of these names."""
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A model: its name, which is also its place among the results, and its path below the folder of the models.
+
+    `arguments` are those of xacro. `other` is the path of the model that it is compared with, in another folder.
+    """
+
+    name: str
+    path: str
+    arguments: tuple[tuple[str, str], ...] = ()
+    other: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Shard:
+    """One of several runs that share the models of a batch."""
+
+    number: int
+    count: int
+
+    @property
+    def label(self) -> str:
+        """What its files are called."""
+        return f"{self.number}-of-{self.count}"
+
+    def has(self, entry: Entry) -> bool:
+        """Whether a model is in this shard, which depends on its name alone."""
+        place = int.from_bytes(hashlib.sha256(os.fsencode(entry.name)).digest()[:8], "big")
+        return place % self.count == self.number - 1
+
+
+def of_folder(source: Path, patterns: Sequence[str] = PATTERNS, results: Path | None = None) -> list[Entry]:
+    """The models below a folder, sorted; hidden folders and that of the results are left out.
+
+    Raises:
+        FolderError: there is no such folder.
+    """
+    if not source.is_dir():
+        raise FolderError(f"{source} is no folder")
+    left_out = results.resolve() if results else None
+    found: list[str] = []
+    for place, folders, files in os.walk(source):
+        here = Path(place)
+        folders[:] = [name for name in folders if not name.startswith(".") and (here / name).resolve() != left_out]
+        inside = PurePosixPath(here.relative_to(source).as_posix())
+        found += [str(inside / name) for name in files if any((inside / name).match(each) for each in patterns)]
+    return [Entry(name, name) for name in sorted(found)]
+
+
+def of_names(source: Path, text: bytes) -> list[Entry]:
+    """The models that a list names, a name in a line or, where there is one, between zero bytes; each counts once.
+
+    Raises:
+        FolderError: one is not in the folder.
+    """
+    names = text.split(b"\0") if b"\0" in text else text.splitlines()
+    paths = {_inside(source, os.fsdecode(name)) for name in names if name.strip()}
+    return [Entry(name, name) for name in sorted(paths)]
+
+
+def with_arguments(entries: Iterable[Entry], table: Path) -> list[Entry]:
+    """The same with arguments from a table of CSV or JSONL; a model with several rows becomes several models.
+
+    Raises:
+        FolderError: the table has no such form, names a model that is not there, or gives two of them one name.
+        OSError: it cannot be read.
+    """
+    known = {entry.name: entry for entry in entries}
+    named: set[str] = set()
+    made: dict[str, Entry] = {}
+    for where, row in _rows(table):
+        path = normpath(row.pop(_MODEL, ""))
+        name = normpath(row.pop(_NAME, "") or path)
+        if path not in known:
+            raise FolderError(f"{where}: no model is called {path!r}")
+        if name in made or (name in known and name != path) or not _is_relative(name):
+            raise FolderError(f"{where}: the name {name!r} is taken or no path; give another in the column {_NAME!r}")
+        named.add(path)
+        made[name] = replace(known[path], name=name, arguments=tuple(sorted(row.items())))
+    rest = {name: entry for name, entry in known.items() if name not in named}
+    return [entry for _, entry in sorted({**rest, **made}.items())]
+
+
+def pairs(a: Iterable[Entry], b: Iterable[Entry]) -> list[Entry]:
+    """The models of two folders that have one name but for their endings, or all of it."""
+    ours, theirs = _by_stem(a), _by_stem(b)
+    for name in [name for name in theirs if name not in ours and name.rpartition(".")[0] in ours]:
+        theirs.setdefault(
+            name.rpartition(".")[0], theirs.pop(name)
+        )  # where two had one name, results keep both endings
+    return [Entry(name, ours.get(name, ""), other=theirs.get(name, "")) for name in sorted({*ours, *theirs})]
+
+
+def stem(name: str) -> str:
+    """A name without the endings of formats."""
+    path = PurePosixPath(name)
+    while path.suffix.lower() in _ENDINGS and path.stem:
+        path = path.with_suffix("")
+    return str(path)
+
+
+_ENDINGS = frozenset({".urdf", ".sdf", ".world", ".xml", ".json", ".xacro"})
+
+
+def _by_stem(entries: Iterable[Entry]) -> dict[str, str]:
+    """The paths by names without endings; where two would have one, both keep theirs."""
+    found: dict[str, list[str]] = {}
+    for entry in entries:
+        found.setdefault(stem(entry.name), []).append(entry.path)
+    alone = {name: paths[0] for name, paths in found.items() if len(paths) == 1}
+    return alone | {path: path for paths in found.values() if len(paths) > 1 for path in paths}
+
+
+def _inside(source: Path, name: str) -> str:
+    """A name as a path below a folder."""
+    path = normpath(os.path.relpath(name, source) if os.path.isabs(name) else name)  # noqa: PTH117 - no Path for bytes
+    if not _is_relative(path):
+        raise FolderError(f"{name!r} is not in the folder {source}")
+    return path
+
+
+def _is_relative(path: str) -> bool:
+    return path not in {"", "."} and not path.startswith(("/", "../")) and path != ".."
+
+
+def _rows(table: Path) -> Iterator[tuple[str, dict[str, str]]]:
+    """Each row with its place; cells that are empty are left out."""
+    try:
+        text = table.read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise FolderError(f"{table} is not in UTF-8") from error
+    rows = _csv(text) if table.suffix.lower() == ".csv" else _jsonl(text, table)
+    for number, row in rows:
+        if not row.get(_MODEL):
+            raise FolderError(f"{table}:{number}: there is nothing in the column {_MODEL!r}")
+        yield f"{table}:{number}", {name: value for name, value in row.items() if value}
+
+
+def _csv(text: str) -> Iterator[tuple[int, Mapping[str, str]]]:
+    reader = csv.DictReader(text.splitlines())
+    for row in reader:
+        cells = cast("Mapping[Any, Any]", row)
+        yield reader.line_num, {str(key): value for key, value in cells.items() if isinstance(value, str) and key}
+
+
+def _jsonl(text: str, table: Path) -> Iterator[tuple[int, Mapping[str, str]]]:
+    for number, line in enumerate(text.splitlines(), start=1):
+        try:
+            row: object = json.loads(line) if line.strip() else None
+        except (ValueError, RecursionError) as error:
+            raise FolderError(f"{table}:{number}: this is no JSON object") from error
+        if isinstance(row, dict):
+            cells = cast("Mapping[str, Any]", row)
+            yield number, {key: value if isinstance(value, str) else json.dumps(value) for key, value in cells.items()}
+        elif row is not None:
+            raise FolderError(f"{table}:{number}: this is no JSON object")

@@ -1,0 +1,82 @@
+"""Converts each model of a batch, and splits worlds if that is asked for."""
+
+from dataclasses import dataclass, field
+from importlib.metadata import version
+from pathlib import Path, PurePosixPath
+
+from twinform.compiler.batch.entries import stem
+from twinform.compiler.batch.jobs.findings import refused, rows
+from twinform.compiler.batch.places import LEDGER
+from twinform.compiler.batch.record import Outcome
+from twinform.compiler.batch.task import Done, Task
+from twinform.compiler.driver import run_conversion
+from twinform.compiler.errors import CompileError
+from twinform.compiler.input.loading import XACRO, read
+from twinform.compiler.request import ConversionRequest
+from twinform.compiler.splitting import split
+from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
+from twinform.passes import registered_passes
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Convert:
+    """Compile a model; with `split` a world into a folder of files, and with `ledgers` a ledger beside each result."""
+
+    to: ConversionRequest
+    policy: Policy = field(default_factory=Policy)
+    split: bool = False
+    ledgers: bool = False
+
+    @property
+    def request(self) -> list[object]:
+        """The options that the outcome depends on."""
+        to = self.to
+        asked: list[object] = [to.to, to.sdf_version, to.urdf_version, to.carriers, str(to.passes), to.expand_includes]
+        asked += [self.split, self.ledgers, sorted(self.policy.allow), sorted(self.policy.deny)]
+        return ["convert", *asked, sorted(_packages(to))]
+
+    def work(self, task: Task, content: bytes) -> Done:
+        """Convert it."""
+        name = str(task.path)
+        try:
+            if self.split and _is_world(task):
+                texts, found, ledger = self._split(task)
+            else:
+                source = task.path if task.path.suffix.lower() == XACRO or task.load_options.xacro else content
+                made = run_conversion(self.to, source, task.load_options, name=name)
+                texts, found, ledger = {task.output: made.text}, made.diagnostics, made.ledger
+        except CompileError as error:
+            return refused(error, self.policy, name)
+        seen = self.policy.apply(found)
+        if any(each.is_error for each in seen):
+            return Done(outcome=Outcome.REFUSED, message=str(CompileError(seen)), diagnostics=rows(seen, name))
+        if self.ledgers:
+            texts[task.output + LEDGER] = ledger.to_json()
+        return Done(outcome=Outcome.CONVERTED, texts=texts, diagnostics=rows(seen, name), ledger=_counts(ledger))
+
+    def _split(self, task: Task) -> tuple[dict[str, str], tuple[Diagnostic, ...], Ledger]:
+        folder = PurePosixPath(stem(task.entry.name))
+        made = split(
+            self.to,
+            task.path,
+            task.load_options,
+            name=str(task.path),
+            folder=Path(task.dest, folder) if task.dest else None,
+        )
+        return {str(folder / name): text for name, text in made.files.items()}, made.diagnostics, made.ledger
+
+
+def _is_world(task: Task) -> bool:
+    """Whether a file holds a world; one with errors is left to the conversion, which reports them."""
+    loaded = read(task.path, task.load_options, name=str(task.path))
+    return loaded.accepted and loaded.document is not None and bool(loaded.document.worlds)
+
+
+def _packages(to: ConversionRequest) -> set[str]:
+    """The packages that bring the passes, in their versions."""
+    owners = {registered_passes()[step.name].owner for step in to.passes if step.name in registered_passes()}
+    return {f"{owner} {version(owner)}" for owner in owners if owner}
+
+
+def _counts(ledger: Ledger) -> dict[str, int]:
+    return {"expressed": ledger.expressed, **{str(fate): ledger.count(fate) for fate in Fate}}

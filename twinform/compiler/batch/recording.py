@@ -1,0 +1,128 @@
+"""Records what came of a model: puts results in their places, takes away old ones, and adds to the manifest."""
+
+import errno
+import json
+from collections.abc import Iterable, Mapping
+from contextlib import suppress
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from twinform.compiler.batch.dependencies import Dependency, are_same, stamp
+from twinform.compiler.batch.manifest import Manifest
+from twinform.compiler.batch.places import Places
+from twinform.compiler.batch.planning import request_of
+from twinform.compiler.batch.record import Outcome, Record
+from twinform.compiler.batch.task import Done, Task
+from twinform.compiler.observing import digest
+from twinform.compiler.output.files import write_all_atomically
+from twinform.compiler.output.same_files import is_below
+
+_FULL = frozenset({errno.ENOSPC, errno.EDQUOT})
+
+
+class Result(NamedTuple):
+    """What came of a model, and whether that was known before."""
+
+    record: Record
+    known: bool
+
+
+class Recorder:
+    """Writes down what comes back."""
+
+    def __init__(self, request: str, manifest: Manifest | None, places: Places | None, shown: str = "") -> None:
+        self.request, self.manifest = request, manifest
+        self._places, self._shown = places, shown
+
+    def record(self, task: Task, done: Done) -> Result:
+        """Put results in their places and keep the record.
+
+        Raises:
+            OSError: the disk is full, or the manifest cannot be written.
+        """
+        if done.known and task.known:
+            results = tuple(_again(task.dest, each) for each in task.known.results)
+            record = replace(task.known, dependencies=done.dependencies or (), results=results, time=done.time)
+        else:
+            record = self._put(task, done, self._fresh(task, done))
+            self._clear(task, record)
+        if self.manifest is not None:
+            self.manifest.add(record)
+        return Result(record, known=done.known)
+
+    def _fresh(self, task: Task, done: Done) -> Record:
+        record = Record(
+            source=task.entry.name,
+            request=request_of(self.request, task.entry),
+            outcome=done.outcome,
+            output=task.output,
+            dependencies=done.dependencies or (),
+            variables=done.variables,
+            time=done.time,
+            message=done.message,
+            diagnostics=done.diagnostics,
+            ledger=done.ledger,
+            details=done.details,
+        )
+        if not self._shown:
+            return record
+        texts = (record.message, record.diagnostics, record.details)
+        message, diagnostics, details = _renamed(texts, task.root, self._shown)
+        return replace(record, message=message, diagnostics=diagnostics, details=details)
+
+    def _put(self, task: Task, done: Done, record: Record) -> Record:
+        places = self._places
+        if places is None or done.outcome is not Outcome.CONVERTED:
+            return record
+        problem = places.problem(task.entry.name, done.texts) or _written(places.dest, done.texts)
+        if problem is not None:
+            return replace(record, outcome=Outcome.UNWRITTEN, message=f"it cannot be written: {problem}")
+        places.take(done.texts)
+        results = tuple(stamp(places.dest / name, name, digest(text.encode())) for name, text in done.texts.items())
+        return replace(record, results=results)
+
+    def _clear(self, task: Task, record: Record) -> None:
+        """Take away results of an earlier run that nothing stands for any more, unless somebody has changed them."""
+        before = self.manifest.get(task.entry.name) if self.manifest else None
+        if before is None or self._places is None or record.outcome is Outcome.UNWRITTEN:
+            return
+        kept = {each.path for each in record.results}
+        _remove(self._places.dest, (each for each in before.results if each.path not in kept))
+
+
+def _remove(dest: Path, results: Iterable[Dependency]) -> None:
+    for each in results:
+        path = dest / each.path
+        if is_below(path.parent, dest) and are_same([each], str(dest)):
+            with suppress(OSError):
+                path.unlink()
+
+
+def _written(dest: Path, texts: Mapping[str, str]) -> str | None:
+    """Write results; gives the reason where that cannot be done.
+
+    Raises:
+        OSError: the disk is full, which it will be for the others too.
+    """
+    try:
+        # a power cut may leave an empty file, which has not the size that is in the manifest, and is made again
+        write_all_atomically({dest / name: text for name, text in texts.items()}, durably=False)
+    except OSError as error:
+        if error.errno in _FULL:
+            raise
+        return error.strerror or str(error)
+    return None
+
+
+def _again(dest: str, result: Dependency) -> Dependency:
+    """A result with the time that it has now."""
+    try:
+        return stamp(Path(dest, result.path), result.path, result.digest)
+    except OSError:
+        return result
+
+
+def _renamed(texts: Any, root: str, shown: str) -> Any:
+    """The same with another name for the folder of the models."""
+    return json.loads(json.dumps(texts).replace(json.dumps(root)[1:-1], json.dumps(shown)[1:-1]))

@@ -1,0 +1,169 @@
+"""Records which files a piece of work reads, lists or looks for, and which environment variables it asks for.
+
+Files are opened by our readers, by passes of others, and by readers of meshes, so nobody is asked to report them: the
+interpreter raises an audit event for every `open` and listing. There is none for `os.stat`, which answers whether
+something is there: that is wrapped.
+"""
+
+import hashlib
+import os
+import stat
+import sys
+import sysconfig
+import time
+from collections.abc import Generator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+_WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT
+_OPEN, _LISTINGS = "open", frozenset({"os.listdir", "os.scandir"})
+_KNOWN_BY_VERSION = tuple(
+    f"{folder}{os.sep}"
+    for folder in {
+        *(sysconfig.get_path(name) for name in ("stdlib", "platstdlib", "purelib", "platlib")),
+        str(Path(__file__).resolve().parents[1]),
+        "/dev",
+        "/proc",
+        "/sys",
+    }
+)
+"""Where Python and its packages are, and what is no file of anybody."""
+_CODE = (".py", ".pyc", ".so", ".pyd")
+
+
+@dataclass(slots=True)
+class Observation:
+    """What was asked for, by absolute path: files that were read, folders that were listed, whatever was looked at.
+
+    Each has its status before it was read, None where nothing is there. Files that are so `young` that their time
+    proves nothing have the digest of their content before they were read. Variables have their values.
+    """
+
+    read: dict[str, os.stat_result | None] = field(default_factory=dict[str, os.stat_result | None])
+    listed: dict[str, os.stat_result | None] = field(default_factory=dict[str, os.stat_result | None])
+    looked_at: dict[str, os.stat_result | None] = field(default_factory=dict[str, os.stat_result | None])
+    young: dict[str, str] = field(default_factory=dict[str, str])
+    variables: dict[str, str | None] = field(default_factory=dict[str, str | None])
+
+
+_CURRENT: ContextVar[Observation | None] = ContextVar("observation", default=None)
+
+
+@contextmanager
+def observed() -> Generator[Observation]:
+    """Record what is asked for inside, in this thread."""
+    _install()
+    observation = Observation()
+    token = _CURRENT.set(observation)
+    try:
+        yield observation
+    finally:
+        _CURRENT.reset(token)
+
+
+def note_variable(name: str, value: str | None) -> None:
+    """Record that an environment variable was asked for."""
+    observation = _CURRENT.get()
+    if observation is not None:
+        observation.variables.setdefault(name, value)
+
+
+def note_look(path: str) -> None:
+    """Record that something was looked for in another way than by `os.stat`."""
+    _note("looked_at", path, _status(path))
+
+
+_STAT = os.stat
+TICK = 2_000_000_000
+"""Nanoseconds: FAT counts in steps of two seconds, NFS and HFS in steps of one, ext4 in steps of four milliseconds."""
+
+
+def digest(content: bytes) -> str:
+    """The SHA-256 of a content."""
+    return hashlib.sha256(content).hexdigest()
+
+
+def _status(path: Any) -> os.stat_result | None:
+    try:
+        return _STAT(path)
+    except (OSError, ValueError):
+        return None
+
+
+@cache
+def _install() -> None:
+    """Listen from now on; where nothing is observed, that costs next to nothing."""
+    import shutil  # noqa: F401, PLC0415 # pyright: ignore[reportUnusedImport] - it looks once at what `os` can do
+
+    sys.addaudithook(_hear)
+    for able in (os.supports_dir_fd, os.supports_fd, os.supports_follow_symlinks, os.supports_effective_ids):
+        if os.stat in able:
+            able.add(_stat)
+    os.stat = _stat
+
+
+def _hear(event: str, arguments: tuple[Any, ...]) -> None:
+    if event == _OPEN:
+        path, _, flags = arguments
+        if _CURRENT.get() is not None and not (isinstance(flags, int) and flags & _WRITING):
+            _note("read", path)
+            _note_young(path)
+    elif event in _LISTINGS and _CURRENT.get() is not None and not _is_import(event, arguments[0]):
+        _note("listed", arguments[0] if arguments[0] is not None else ".")
+
+
+def _is_import(event: str, path: object) -> bool:
+    """Whether it is the machinery of imports that lists a folder."""
+    return event == "os.listdir" and path in sys.path_importer_cache
+
+
+def _stat(path: Any, *, dir_fd: int | None = None, follow_symlinks: bool = True) -> os.stat_result:
+    observation = _CURRENT.get()
+    if observation is None or dir_fd is not None or not follow_symlinks:
+        return _STAT(path, dir_fd=dir_fd, follow_symlinks=follow_symlinks)
+    try:
+        status = _STAT(path)
+    except OSError:
+        _note("looked_at", path, None)
+        raise
+    _note("looked_at", path, status)
+    return status
+
+
+def _note_young(path: Any) -> None:
+    """Keep the digest of a file that may change while it is read without a trace in its time."""
+    name, observation = _absolute(path), _CURRENT.get()
+    status = observation.read.get(name) if observation and name is not None else None
+    if observation is None or name is None or status is None or name in observation.young:
+        return
+    if stat.S_ISREG(status.st_mode) and status.st_mtime_ns > time.time_ns() - TICK:
+        token = _CURRENT.set(None)  # this is not the work that is observed
+        try:
+            observation.young[name] = digest(Path(name).read_bytes())
+        except OSError:
+            pass  # the work will find out
+        finally:
+            _CURRENT.reset(token)
+
+
+_ASK: Any = object()
+
+
+def _note(what: str, path: Any, status: Any = _ASK) -> None:
+    observation, name = _CURRENT.get(), _absolute(path)
+    if observation is None or name is None or name.startswith(_KNOWN_BY_VERSION) or name.endswith(_CODE):
+        return
+    found: dict[str, os.stat_result | None] = getattr(observation, what)
+    if name not in found:
+        found[name] = _status(name) if status is _ASK else status
+
+
+def _absolute(path: Any) -> str | None:
+    """A path from the root, otherwise as it was written; None for the number of an open file."""
+    if path is None or isinstance(path, int):
+        return None
+    return os.path.join(os.getcwd(), os.fsdecode(path))  # noqa: PTH118, PTH109 - Path would change how it is written

@@ -1,0 +1,105 @@
+"""A pool of processes on pebble: a job may crash, hang or fill the memory without harm to the others."""
+
+import multiprocessing
+import os
+import sys
+import threading
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import BrokenExecutor, Executor, Future
+from functools import partial
+from multiprocessing.connection import wait
+from typing import Any, ParamSpec, TypeVar
+
+from pebble import ProcessExpired, ProcessPool
+
+from twinform.compiler.workers.running import Failure, Runner, run_on
+
+Arguments = ParamSpec("Arguments")
+Job = TypeVar("Job")
+Result = TypeVar("Result")
+_SPAWN: Any = multiprocessing.get_context("spawn")  # pebble describes contexts more narrowly than they are
+_MOST_JOBS = 1000
+"""Jobs after which a process gives way to a new one, whatever memory its libraries have kept."""
+_PATIENCE = 120.0
+"""Seconds that a process may take to start, on a machine that is busy with other things."""
+
+
+class ProcessExecutor(Executor):
+    """Runs each job in one of so many processes, for so many seconds at most; the first job starts them."""
+
+    def __init__(self, processes: int, seconds: float, most_jobs: int = _MOST_JOBS) -> None:
+        self._processes, self._seconds, self._most_jobs = processes, seconds, most_jobs
+        self._pool: ProcessPool | None = None
+
+    def submit(
+        self, fn: Callable[Arguments, Result], /, *args: Arguments.args, **kwargs: Arguments.kwargs
+    ) -> Future[Result]:
+        """Hand over a job.
+
+        Raises:
+            BrokenExecutor: the pool lost a process that had nothing to do.
+        """
+        if self._pool is None:
+            # that the task comes along imports what it needs before a job is taken, and its time begins
+            self._pool = ProcessPool(self._processes, self._most_jobs, _begin, (fn,), _SPAWN)
+        try:
+            return self._pool.schedule(fn, args, kwargs, self._seconds)
+        except RuntimeError as error:
+            raise BrokenExecutor(str(error)) from error
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        """End all processes; jobs that are not done never will be."""
+        del wait, cancel_futures
+        if self._pool is not None:
+            self._pool.stop()
+            self._pool.join()
+
+
+def process_runner(processes: int | None = None, seconds: float = 60) -> Runner:
+    """Runs jobs in so many processes, as many as there are processors if not given."""
+    count = processes or os.cpu_count() or 1
+    return Runner(
+        open=partial(ProcessExecutor, count, seconds),
+        window=2 * count,
+        timed=True,
+        failure=_failure,
+        patience=seconds + _PATIENCE,
+    )
+
+
+def run(
+    task: Callable[[Job], Result], jobs: Iterable[Job], *, seconds: float = 60, processes: int | None = None
+) -> Iterator[tuple[Job, Result | Failure]]:
+    """Do the jobs in any order; yield each with what came of it. A job has so many seconds, those for starting apart.
+
+    Raises:
+        RuntimeError: the task raised; the message is its traceback.
+    """
+    every = list(jobs)
+    count = min(processes or os.cpu_count() or 1, len(every))
+    return run_on(process_runner(count, seconds), task, every)
+
+
+def _failure(error: BaseException) -> Failure | None:
+    if isinstance(error, TimeoutError):
+        return Failure("did not come to an end", late=True)
+    if isinstance(error, ProcessExpired):
+        return Failure(f"the process died (exit code {error.exitcode})")
+    return None
+
+
+def _begin(_task: object) -> None:
+    """Make a process ready."""
+    # the engines that are judges, and some passes, write straight to the terminal
+    silence = os.open(os.devnull, os.O_WRONLY)
+    for stream in (sys.stdout, sys.stderr):
+        os.dup2(silence, stream.fileno())
+    threading.Thread(target=_go_with_parent, daemon=True).start()
+
+
+def _go_with_parent() -> None:
+    """End this process when the one that started it is gone, also in the middle of a job."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        wait([parent.sentinel])
+        os._exit(1)
