@@ -9,8 +9,9 @@
 Names are imported when they are first used, so that `import twinform` costs nothing.
 """
 
-from importlib import import_module
 from typing import TYPE_CHECKING
+
+from twinform.lazy import lazy_attributes
 
 if TYPE_CHECKING:
     from twinform.compiler import CompileError, Conversion, check, convert, dump, dumps, load, loads, write_atomically
@@ -18,6 +19,17 @@ if TYPE_CHECKING:
     from twinform.compiler.normal_form import Discrepancy, NormalForm, normal_form
     from twinform.diagnostics import Diagnostic, Ledger
     from twinform.ir import Document
+else:
+    __getattr__ = lazy_attributes(
+        __name__,
+        {
+            "twinform.compiler": "CompileError Conversion check convert dump dumps load loads write_atomically",
+            "twinform.compiler.compare": "Comparison Difference diff",
+            "twinform.compiler.normal_form": "Discrepancy NormalForm normal_form",
+            "twinform.diagnostics": "Diagnostic Ledger",
+            "twinform.ir": "Document",
+        },
+    )
 
 __version__ = "0.1.0"
 __all__ = [
@@ -40,19 +52,6 @@ __all__ = [
     "normal_form",
     "write_atomically",
 ]
-
-_HOMES = {
-    **dict.fromkeys(("Comparison", "Difference", "diff"), "twinform.compiler.compare"),
-    **dict.fromkeys(("Discrepancy", "NormalForm", "normal_form"), "twinform.compiler.normal_form"),
-    **dict.fromkeys(("Diagnostic", "Ledger"), "twinform.diagnostics"),
-    "Document": "twinform.ir",
-}
-
-
-def __getattr__(name: str) -> object:
-    if name not in __all__:
-        raise AttributeError(f"module 'twinform' has no attribute {name!r}")
-    return getattr(import_module(_HOMES.get(name, "twinform.compiler")), name)
 
 
 def __dir__() -> list[str]:

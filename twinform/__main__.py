@@ -1,6 +1,6 @@
 """`python -m twinform`: the same as the command."""
 
-from twinform.cli import main
+from twinform.cli import program
 
 if __name__ == "__main__":
-    main()
+    program()

@@ -3,20 +3,20 @@
 import signal
 import threading
 from collections.abc import Mapping
-from importlib import import_module
 from typing import Any, NoReturn
 
 import click
 
 from twinform import __version__
+from twinform.cli.lazy_group import LazyGroup
 from twinform.cli.streams import end_unread, end_unwritable, hold_standard_streams
 
 COMMANDS: Mapping[str, str] = {
     "convert": "Compile robot models from one format into the other.",
     "check": "Find everything that is wrong with robot models.",
     "diff": "Say whether two files describe the same robot.",
-    "stats": "Say in numbers what models are made of.",
-    "batch": "Compile every model of a folder.",
+    "stats": "Print in numbers what models are made of.",
+    "batch": "Work on every model of a folder, on several processors or machines.",
     "reproduce": "Run a pass again that failed.",
     "passes": "List the passes, or print the page of one.",
     "explain": "Print the page of a rule, or list all rules.",
@@ -32,11 +32,11 @@ def _end(number: int, _frame: object) -> NoReturn:
     raise SystemExit(128 + number)
 
 
-class _Commands(click.Group):
+class _Commands(LazyGroup):
     """Imports a command only when it is called: the compiler takes ten times as long to import as all that is here."""
 
     def main(self, *args: Any, **extra: Any) -> Any:
-        """Run; a process that is told to end cleans up first, as one that is interrupted does."""
+        """Run; a process that is asked to end cleans up first, as one that is interrupted does."""
         if threading.current_thread() is threading.main_thread():
             signal.signal(signal.SIGTERM, _end)
         hold_standard_streams()
@@ -44,14 +44,6 @@ class _Commands(click.Group):
             return super().main(*args, **extra)
         except OSError as error:
             end_unwritable(error)
-
-    def list_commands(self, ctx: click.Context) -> list[str]:
-        return list(COMMANDS)
-
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        if cmd_name not in COMMANDS:
-            return None
-        return getattr(import_module(f"{__name__}.{cmd_name}"), "command", None)
 
     def invoke(self, ctx: click.Context) -> object:
         """Run the command; a fault of a pass that it does not expect ends it with a message."""
@@ -67,12 +59,17 @@ class _Commands(click.Group):
             end_with(error, ctx)
             raise
 
-    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        with formatter.section("Commands"):
-            formatter.write_dl(list(COMMANDS.items()))
 
-
-@click.command(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.command(
+    cls=_Commands, package=__name__, summaries=COMMANDS, context_settings={"help_option_names": ["-h", "--help"]}
+)
 @click.version_option(__version__, prog_name="twinform")
 def main() -> None:
     """Compile robot models between URDF and SDF: strict, lossless, both ways."""
+
+
+def program() -> NoReturn:
+    """Run the command line and leave the process, as the installed script does; `main` is for other programs."""
+    from twinform.cli.leaving import run  # noqa: PLC0415 - who imports the commands stays
+
+    run(main)

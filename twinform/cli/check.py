@@ -2,19 +2,22 @@
 
 from collections import Counter
 from dataclasses import replace
-from typing import Unpack
+from typing import TYPE_CHECKING, Unpack
 
 import click
 
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.findings import notes_option, show
 from twinform.cli.inputs import InputOptions, inputs, load_options_of, reading_options
+from twinform.cli.pipeline_option import pipeline_option
 from twinform.cli.policy import policy_of, policy_options
-from twinform.cli.request import pipeline_option
-from twinform.compiler import LoadOptions, LoadResult, ReadOnlyPassError, expand, inspect, read
+from twinform.compiler import LoadOptions, LoadResult, ReadOnlyPassError, inspect, read
 from twinform.diagnostics import Severity
 from twinform.diagnostics.reporters import REPORTERS, Findings
-from twinform.passes import PassError, Pipeline
+from twinform.passes import PassError
+
+if TYPE_CHECKING:
+    from twinform.passes import Pipeline
 
 _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 
@@ -29,7 +32,7 @@ _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "
     "check_passes",
     metavar="PIPELINE",
     callback=pipeline_option("check-passes"),
-    help="Passes that only look, such as 'check-inertia,check-limits', or @NAME for one that the configuration names.",
+    help="Read-only passes, such as 'check-inertia,check-limits', or @NAME for one that the configuration names.",
 )
 @reading_options
 @click.pass_context
@@ -41,7 +44,7 @@ def command(
     notes: bool,
     allow: tuple[str, ...],
     deny: tuple[str, ...],
-    check_passes: Pipeline,
+    check_passes: "Pipeline | None",
     expand_includes: bool,
     **input_options: Unpack[InputOptions],
 ) -> None:
@@ -53,7 +56,10 @@ def command(
     sources, arguments = inputs(words)
     policy, load_options = policy_of(ctx, allow, deny), load_options_of(arguments, input_options)
     loaded = [read(each.content, load_options, name=each.name) for each in sources]
-    loaded = [expand(each, load_options) for each in loaded] if expand_includes else loaded
+    if expand_includes:
+        from twinform.compiler import expand  # noqa: PLC0415 - few runs read other files
+
+        loaded = [expand(each, load_options) for each in loaded]
     loaded = [_inspected(each, load_options, check_passes) for each in loaded]
     loaded, seen = [replace(each, diagnostics=policy.apply(each.diagnostics)) for each in loaded], loaded
     allowed = sum(len(each.diagnostics) for each in seen) - sum(len(each.diagnostics) for each in loaded)
@@ -67,7 +73,7 @@ def command(
     ctx.exit(_exit_code(loaded))
 
 
-def _inspected(loaded: LoadResult, load_options: LoadOptions, passes: Pipeline) -> LoadResult:
+def _inspected(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline | None") -> LoadResult:
     try:
         return inspect(loaded, load_options, passes)
     except ReadOnlyPassError as error:

@@ -17,7 +17,6 @@ from twinform.cli.outputs import Outputs
 from twinform.cli.policy import policy_of, policy_options
 from twinform.cli.request import Asked, ordering_options, request_of
 from twinform.cli.source import Source
-from twinform.cli.splitting import run_split
 from twinform.cli.targets import TARGETS, Job, Target, jobs, jobs_in_place
 from twinform.compiler import LoadOptions
 
@@ -102,6 +101,8 @@ def command(
         raise click.UsageError(f"a pass writes {options.beside[0]} beside the result; that takes one input")
     read = [source.path for source in sources] + [path for path in [settings_of(ctx).path] if path]
     if split:
+        from twinform.cli.splitting import run_split  # noqa: PLC0415 - few worlds are split
+
         whole = Outputs(read)
         folder = _folder(out, target, model, in_place=in_place)
         code = run_split(_only(sources), target or "urdf", options, folder, whole)
@@ -118,7 +119,7 @@ def command(
 
 
 def _label(job: Job, todo: Sequence[Job]) -> str:
-    """What is said before the news of a job, where there are several."""
+    """What is printed before the news of a job, where there are several."""
     return job.source.name if len(todo) > 1 else ""
 
 

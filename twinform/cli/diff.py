@@ -8,8 +8,9 @@ import click
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
 from twinform.cli.inputs import InputOptions, file_options, inputs, load_options_of
+from twinform.cli.tolerance import tolerance_option
 from twinform.compiler import CompileError
-from twinform.compiler.compare import TOLERANCE, Severity, compare_files
+from twinform.compiler.compare import Severity, compare_files
 from twinform.compiler.compare.reporters import REPORTERS, summary, text
 from twinform.diagnostics.reporters import Findings
 
@@ -21,13 +22,7 @@ _PAIR = 2
 @click.argument("words", metavar="A B [NAME:=VALUE...]", nargs=-1, required=True)
 @click.option("--format", "style", type=click.Choice(list(REPORTERS)), default="text", help="How to print differences.")
 @click.option("--model", metavar="NAME", help="The model to compare, where a file has several.")
-@click.option(
-    "--tolerance",
-    type=click.FloatRange(min=0),
-    default=TOLERANCE,
-    show_default=True,
-    help="The relative difference that counts as rounding; absolute for positions (m) and angles (rad).",
-)
+@tolerance_option
 @file_options
 @click.pass_context
 def command(
@@ -41,7 +36,7 @@ def command(
 ) -> None:
     """Say whether two files describe the same robot.
 
-    Prints what differs, where and by how much, and notes on what is only said in another way. A and B are URDF, SDF,
+    Prints what differs, where and by how much, and notes on what is only written in another way. A and B are URDF, SDF,
     xacro or JSON files, mixed as it comes; - is standard input. Arguments of xacro are written NAME:=VALUE. Exit code:
     0 the same robot, 1 another one, 2 where a file could not be read or has errors.
     """

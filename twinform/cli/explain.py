@@ -1,6 +1,6 @@
 """`twinform explain`."""
 
-from difflib import get_close_matches
+from collections.abc import Iterable, Mapping
 
 import click
 
@@ -8,30 +8,36 @@ from twinform.cli.failure import Unusable
 from twinform.cli.findings import heading
 from twinform.diagnostics import Rule
 from twinform.diagnostics.pages import sections, severity_words
-from twinform.diagnostics.registry import OWN, RegisteredRule, RuleRegistryError, rules
+from twinform.diagnostics.registry import OWN, RegisteredRule, RuleRegistryError, find_rule, rules
 
 
 @click.command("explain")
 @click.argument("name", metavar="[RULE]", required=False)
 def command(name: str | None) -> None:
     """Print the page of a rule, or list all rules."""
-    known = _rules()
-    if name is None:
-        width = max(map(len, known))
-        click.echo("\n".join(f"{key:{width}}  {severity_words(each.rule)}{_from(each)}" for key, each in known.items()))
-        return
-    if name not in known:
-        near = get_close_matches(name, known, n=3, cutoff=0.5)
-        hint = f"the nearest are {', '.join(near)}" if near else "`twinform explain` lists all"
-        raise Unusable(f"no rule is called {name!r}; {hint}")
-    click.echo(_page(known[name].rule, _from(known[name])))
-
-
-def _rules() -> dict[str, RegisteredRule]:
     try:
-        return rules()
+        if name is None:
+            _list(rules())
+            return
+        found = find_rule(name)
+        if found is None:
+            raise Unusable(_unknown(name, rules()))
     except RuleRegistryError as error:
         raise Unusable(str(error)) from error
+    click.echo(_page(found.rule, _from(found)))
+
+
+def _list(known: Mapping[str, RegisteredRule]) -> None:
+    width = max(map(len, known))
+    click.echo("\n".join(f"{key:{width}}  {severity_words(each.rule)}{_from(each)}" for key, each in known.items()))
+
+
+def _unknown(name: str, known: Iterable[str]) -> str:
+    from difflib import get_close_matches  # noqa: PLC0415 - most names are those of rules
+
+    near = get_close_matches(name, list(known), n=3, cutoff=0.5)
+    hint = f"the nearest are {', '.join(near)}" if near else "`twinform explain` lists all"
+    return f"no rule is called {name!r}; {hint}"
 
 
 def _from(registered: RegisteredRule) -> str:

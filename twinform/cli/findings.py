@@ -16,7 +16,7 @@ def paint(word: str, severity: Severity) -> str:
 
 
 def heading(words: str) -> str:
-    """The words as a heading."""
+    """The text as a heading."""
     return words if os.environ.get("NO_COLOR") else click.style(words, bold=True)
 
 

@@ -12,7 +12,7 @@ from twinform.cli.outputs import Output, Outputs
 from twinform.compiler import Conversion
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.reporters import Findings
-from twinform.passes.plugins.parts import ReleaseName
+from twinform.passes.plugins.release_names import ReleaseName
 from twinform.schemas import parse_version
 
 _WORLD = "default"

@@ -10,9 +10,18 @@ import click
 from twinform.cli.config import config_options, settings_of
 from twinform.cli.source import Source, open_source
 from twinform.compiler import LoadOptions, SearchPath
+from twinform.compiler.input.limits import LARGEST, MOST_TAGS, Limits, parse_size
 from twinform.schemas import Engine
 
 Command = TypeVar("Command", bound=Callable[..., Any])
+
+
+def _size(_ctx: click.Context, _option: click.Parameter, value: str) -> int:
+    try:
+        return parse_size(value)
+    except ValueError as error:
+        raise click.BadParameter(str(error)) from error
+
 
 _ARGUMENT = re.compile(r"(?P<name>[A-Za-z_][\w.-]*):=(?P<value>.*)", re.DOTALL)
 _OPTIONS = (
@@ -35,6 +44,20 @@ _OPTIONS = (
         "--xacro/--no-xacro",
         default=None,
         help="Expand all files, or none; by default those called .xacro. It evaluates expressions in them.",
+    ),
+    click.option(
+        "--max-size",
+        metavar="SIZE",
+        default=str(LARGEST),
+        callback=_size,
+        help="The largest file that is read, such as 200MB or 1GiB; by default 64MiB.",
+    ),
+    click.option(
+        "--max-tags",
+        type=click.IntRange(min=1),
+        metavar="N",
+        default=MOST_TAGS,
+        help=f"The most tags of a file, or parts of a JSON document; by default {MOST_TAGS:,}.",
     ),
 )
 _EXPAND_INCLUDES = click.option(
@@ -61,13 +84,20 @@ class InputOptions(TypedDict):
     engine: Engine
     paths: tuple[Path, ...]
     xacro: bool | None
+    max_size: int
+    max_tags: int
 
 
 def load_options_of(arguments: Mapping[str, str], input_options: InputOptions) -> LoadOptions:
     """The options as the compiler takes them; the folders of the project come after those of the command line."""
     paths = (*input_options["paths"], *settings_of(click.get_current_context()).folders)
     return LoadOptions(
-        input_options["strict"], input_options["engine"], SearchPath.of(paths), arguments, input_options["xacro"]
+        input_options["strict"],
+        input_options["engine"],
+        SearchPath.of(paths),
+        arguments,
+        input_options["xacro"],
+        Limits(input_options["max_size"], input_options["max_tags"]),
     )
 
 
@@ -86,4 +116,5 @@ def inputs(words: Sequence[str]) -> tuple[list[Source], dict[str, str]]:
         raise click.UsageError("there are arguments of xacro and no input")
     if arguments and not (xacro or any(file.lower().endswith(".xacro") for file in files)):
         raise click.UsageError(f"{next(iter(arguments))}:=... is an argument of xacro, and no input is a .xacro file")
-    return [open_source(file) for file in files], arguments
+    size = int(ctx.params["max_size"]) if ctx and "max_size" in ctx.params else LARGEST
+    return [open_source(file, size) for file in files], arguments

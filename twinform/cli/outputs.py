@@ -42,7 +42,7 @@ def beside(result: Path | None, side_files: Iterable[str]) -> list[Output]:
 
 @dataclass(slots=True)
 class Outputs:
-    """The files of a call while they are made, the text for standard output, and what is said once all is there.
+    """The files of a call while they are made, the text for standard output, and what is printed once all is there.
 
     `inputs` are the files that the call reads, of which those `spared` may be written over.
     """
@@ -95,7 +95,7 @@ class Outputs:
             self.texts.append((place, side_file.text))
 
     def write(self, read: Iterable[Path] = ()) -> None:
-        """Write all, and say what is to be said; `read` are files that were read on the way.
+        """Write all, and print the news; `read` are files that were read on the way.
 
         Raises:
             click.UsageError: one would be written over another, or over one that was read.
@@ -113,7 +113,7 @@ class Outputs:
 
     def _print(self) -> None:
         if self.stdout is not None:
-            click.echo(self.stdout.encode(), nl=False)  # the XML declaration says UTF-8, whatever the terminal's is
+            click.echo(self.stdout.encode(), nl=False)  # the XML declaration has UTF-8, whatever the terminal's is
 
 
 def _require_ours(path: Path, side_file: SideFile) -> None:

@@ -80,7 +80,7 @@ def _from(owner: str) -> str:
 
 
 def _pipelines(project: Project) -> Iterator[str]:
-    names = list(project.settings.pipelines)
+    names = project.pipelines
     if names:
         yield f"\npipelines of {project.path}"
     for name in names:
@@ -102,7 +102,7 @@ def _row(option: OptionPage) -> str:
 
 
 def _json(found: Collection[Registered], project: Project) -> str:
-    pipelines = [{"name": name, "pipeline": str(project.names(name))} for name in project.settings.pipelines]
+    pipelines = [{"name": name, "pipeline": str(project.names(name))} for name in project.pipelines]
     return json.dumps(
         {"passes": [_object(each.load(), each.owner) for each in found], "pipelines": pipelines}, indent=2
     )

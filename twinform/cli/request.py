@@ -4,13 +4,11 @@ from collections.abc import Callable
 from typing import Any, TypeVar
 
 import click
-from click.core import ParameterSource
 
-from twinform.cli.config import ConfigError, settings_of
-from twinform.cli.failure import Unusable
 from twinform.cli.inputs import InputOptions
+from twinform.cli.pipeline_option import pipeline_option
 from twinform.compiler import URDF_VERSIONS, ConversionRequest, Language, UrdfVersion
-from twinform.passes import Pipeline, PipelineError, RegistryError, parse_pipeline
+from twinform.passes import Pipeline
 from twinform.schemas import table
 
 Command = TypeVar("Command", bound=Callable[..., Any])
@@ -21,25 +19,6 @@ def _known_version(_ctx: click.Context, _option: click.Parameter, value: str | N
     if value is not None and value not in versions:
         raise click.BadParameter(f"SDF has no version {value!r}; it has {', '.join(versions)}")
     return value
-
-
-def pipeline_option(key: str) -> Callable[[click.Context, click.Parameter, str | None], Pipeline]:
-    """The callback of an option that takes a pipeline, which is `key` in a configuration."""
-
-    def parse(ctx: click.Context, option: click.Parameter, value: str | None) -> Pipeline:
-        project = settings_of(ctx)
-        configured = ctx.get_parameter_source(option.name or "") is ParameterSource.DEFAULT_MAP
-        try:
-            pipeline = parse_pipeline(value or "", names=project.named)
-            return project.confined(pipeline, key) if configured else pipeline
-        except PipelineError as error:
-            if project.path and configured:
-                raise ConfigError(project.path, str(error), key=key) from error
-            raise click.BadParameter(str(error)) from error
-        except RegistryError as error:
-            raise Unusable(str(error)) from error
-
-    return parse
 
 
 _OPTIONS = (
@@ -71,7 +50,7 @@ class Asked(InputOptions):
 
     sdf_version: str | None
     urdf_version: UrdfVersion | None
-    passes: Pipeline
+    passes: Pipeline | None
     carriers: bool
     expand_includes: bool
 
@@ -82,7 +61,7 @@ def request_of(asked: Asked, to: Language, model: str | None = None) -> Conversi
         to=to,
         sdf_version=asked["sdf_version"],
         urdf_version=asked["urdf_version"],
-        passes=asked["passes"],
+        passes=asked["passes"] or Pipeline(),
         carriers=asked["carriers"],
         model=model,
         expand_includes=asked["expand_includes"],

@@ -17,7 +17,7 @@ from twinform.schemas.xsd import lenient_schema_text
     "--xsd",
     type=click.Choice(["1.0", "1.1"]),
     default="1.0",
-    help="The version of XML Schema; 1.0 is what editors and libxml2 read, 1.1 says more.",
+    help="The version of XML Schema; 1.0 is what editors and libxml2 read, 1.1 checks more.",
 )
 @click.option("--lenient", is_flag=True, help="Accept elements of dialects and of other versions, and unknown names.")
 @click.option(
@@ -40,7 +40,7 @@ def command(
     """Print the schema of URDF, SDF or JSON.
 
     That of URDF and SDF is an XML schema, that of documents as JSON a JSON Schema. XML schemas are strict: they take
-    the words of one version. A lenient one is for editors of files that are not. In XSD 1.0 it takes no elements that
+    the syntax of one version. A lenient one is for editors of files that are not. In XSD 1.0 it takes no elements that
     it does not know; in XSD 1.1 it does.
     """
     if language == "json":

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
-from twinform.compiler.input.limits import LARGEST
+from twinform.compiler.input.limits import LARGEST, read_up_to
 
 _ENOUGH = 2**16
 """Bytes that hold the root element of every file but those with a very long comment."""
@@ -40,13 +40,13 @@ class Source(NamedTuple):
         return _FORMATS.get(_root_name(head)) or format_of_suffix(self.name)
 
 
-def open_source(argument: str) -> Source:
-    """The source that an argument names; standard input and pipes are read here."""
+def open_source(argument: str, size: int = LARGEST) -> Source:
+    """The source that an argument names; standard input and pipes are read here, of what is too large a part."""
     if argument == "-":
-        return Source(sys.stdin.buffer.read(LARGEST + 1), _STDIN)
+        return Source(read_up_to(sys.stdin.buffer, size), _STDIN)
     if _can_be_read_once(Path(argument)):
         with Path(argument).open("rb") as pipe:
-            return Source(pipe.read(LARGEST + 1), argument)
+            return Source(read_up_to(pipe, size), argument)
     return Source(argument, argument)
 
 

@@ -27,7 +27,7 @@ def command(
     expand_includes: bool,
     **input_options: Unpack[InputOptions],
 ) -> None:
-    """Say in numbers what models are made of.
+    """Print in numbers what models are made of.
 
     Prints, for each model of each file, links, joints, degrees of freedom, mass, shapes, what meshes cost, sensors and
     plugins. IN are URDF, SDF, xacro or JSON files; - is standard input. Arguments of xacro are written NAME:=VALUE.

@@ -4,14 +4,15 @@ import json
 import os
 import sys
 import time
+from collections import Counter
 from collections.abc import Iterator
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import Any, ClassVar
 
 import pytest
 
 from tests.unit.passes.framework.conftest import write_distribution
-from twinform.compiler.batch.files import alone, outputs
+from twinform.compiler.batch.places import outputs
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.passes import Pass, registered_passes
@@ -20,7 +21,7 @@ from .conftest import BROKEN, GOOD, WARNED, WRONG, Run
 
 
 class Chaos(Pass):
-    """Does what the name of the model says."""
+    """Does what the name of the model stands for."""
 
     name: ClassVar[str] = "chaos"
 
@@ -70,8 +71,10 @@ def results() -> list[str]:
 
 def report(run: Run, *arguments: str) -> tuple[int, dict[str, Any]]:
     """The exit code and the report of a run."""
-    done = run("batch", "src", "out", "--to", "sdf", "--jobs", "1", "--report", "report.json", *arguments)
-    return done.exit_code, json.loads(Path("report.json").read_text())
+    done = run("batch", "convert", "src", "out", "--to", "sdf", "--jobs", "1", "--report", "report.json", *arguments)
+    rows = [json.loads(line) for line in Path("report.json").read_text().splitlines()]
+    models = sorted(rows, key=lambda row: row["source"])
+    return done.exit_code, {"models": models, "summary": Counter(row["outcome"] for row in rows)}
 
 
 def outcomes(found: dict[str, Any]) -> dict[str, str]:
@@ -79,14 +82,14 @@ def outcomes(found: dict[str, Any]) -> dict[str, str]:
 
 
 def test_every_model_keeps_its_place(run: Run, here: Path) -> None:
-    done = run("batch", "src", "out", "--to", "sdf")
+    done = run("batch", "convert", "src", "out", "--to", "sdf")
     assert (done.exit_code, done.stderr) == (0, "3 models: 3 converted\n")
     assert results() == ["deep/er/two.sdf", "deep/warned.sdf", "one.sdf"]
     assert Path("out/one.sdf").read_bytes() == run("convert", "src/one.urdf").stdout_bytes
 
 
 def test_what_was_done_is_not_done_again(run: Run, here: Path) -> None:
-    again = ("batch", "src", "out", "--to", "sdf", "--jobs", "1")
+    again = ("batch", "convert", "src", "out", "--to", "sdf", "--jobs", "1")
     run(*again)
     assert run(*again).stderr == "3 models: 3 converted (3 known from before)\n"
     Path("src/one.urdf").write_text(GOOD.replace("base", "foot"))
@@ -128,15 +131,22 @@ def test_no_model_stops_the_rest(run: Run, here: Path) -> None:
     assert results() == ["deep/er/two.sdf", "deep/warned.sdf", "one.sdf"]
     for name in ("crash", "hang"):
         Path(f"src/{name}.urdf").unlink()
-    done = run("batch", "src", "out", "--to", "sdf", *arguments)
+    done = run("batch", "convert", "src", "out", "--to", "sdf", *arguments)
     assert "raise.urdf: failed: the pass chaos failed" in done.stderr
     assert "(5 known from before)" in done.stderr  # a fault is tried again, and so is a file that cannot be read
+
+
+def test_a_lifted_limit_is_another_request(run: Run, here: Path) -> None:
+    assert here.is_dir()
+    refused = run("batch", "convert", "src", "out", "--to", "sdf", "--max-tags", "3")
+    assert refused.exit_code == 2, refused.stderr
+    assert run("batch", "convert", "src", "out", "--to", "sdf").stderr.endswith("3 models: 3 converted\n")
 
 
 def test_errors_alone_exit_with_1_and_stay_known(run: Run, here: Path) -> None:
     Path("src/wrong.urdf").write_text(WRONG)
     for known in ("", " (4 known from before)"):
-        done = run("batch", "src", "out", "--to", "sdf", "--jobs", "1")
+        done = run("batch", "convert", "src", "out", "--to", "sdf", "--jobs", "1")
         assert done.exit_code == 1
         assert "wrong.urdf: refused: " in done.stderr
         assert done.stderr.endswith(f"4 models: 3 converted, 1 refused{known}\n")
@@ -162,12 +172,12 @@ def test_the_result_of_a_model_that_is_wrong_now_goes(run: Run, here: Path) -> N
 
 
 def test_ledgers_lie_beside_the_results(run: Run, here: Path) -> None:
-    run("batch", "src", "out", "--to", "sdf")
-    assert "(" not in run("batch", "src", "out", "--to", "sdf", "--ledgers", "--jobs", "1").stderr
+    run("batch", "convert", "src", "out", "--to", "sdf")
+    assert "(" not in run("batch", "convert", "src", "out", "--to", "sdf", "--ledgers", "--jobs", "1").stderr
     ledger = Path("out/deep/warned.sdf.ledger.json")
     assert [each["rule"] for each in json.loads(ledger.read_text())["entries"]]
     Path("src/deep/warned.urdf").write_text(WRONG)
-    run("batch", "src", "out", "--to", "sdf", "--ledgers", "--jobs", "1")
+    run("batch", "convert", "src", "out", "--to", "sdf", "--ledgers", "--jobs", "1")
     assert not ledger.exists()
 
 
@@ -180,33 +190,8 @@ def test_two_models_for_one_place_keep_their_endings(run: Run, here: Path) -> No
 
 
 def test_places_that_some_file_systems_take_for_one_are_one() -> None:
-    names = map(PurePosixPath, ("a/Arm.urdf", "a/arm.sdf", "b/arm.urdf.xacro", ".urdf"))
-    made = outputs(names, "sdf")
-    assert sorted(map(str, made.values())) == [".urdf.sdf", "a/Arm.urdf.sdf", "a/arm.sdf.sdf", "b/arm.sdf"]
-
-
-def test_a_model_of_several_files_is_always_done_again(run: Run, here: Path) -> None:
-    Path("src/world.sdf").write_text(
-        '<sdf version="1.11"><world name="w"><include><uri>model://x</uri></include></world></sdf>'
-    )
-    report(run)
-    assert "(3 known from before)" in run("batch", "src", "out", "--to", "sdf").stderr
-
-
-@pytest.mark.parametrize(
-    ("name", "content", "expected"),
-    [
-        ("a.urdf", b"<robot/>", True),
-        ("a.sdf", b"<mesh/>", True),
-        ("a.sdf", b"<inertial auto='true'/>", True),
-        ("a.sdf", b"<inertial auto='true'/><mesh/>", False),
-        ("a.sdf", b"<include/>", False),
-        ("a.sdf", "<include/>".encode("utf-16"), False),
-        ("a.urdf.XACRO", b"<robot/>", False),
-    ],
-)
-def test_a_model_is_alone_if_nothing_else_can_change_it(name: str, content: bytes, *, expected: bool) -> None:
-    assert alone(Path(name), content) is expected
+    made = outputs(("a/Arm.urdf", "a/arm.sdf", "b/arm.urdf.xacro", ".urdf"), "sdf")
+    assert sorted(made.values()) == [".urdf.sdf", "a/Arm.urdf.sdf", "a/arm.sdf.sdf", "b/arm.sdf"]
 
 
 def test_lines_of_the_manifest_that_are_none_are_read_around(run: Run, here: Path) -> None:
@@ -216,18 +201,18 @@ def test_lines_of_the_manifest_that_are_none_are_read_around(run: Run, here: Pat
         [b"{", b"[]", b"\xff", b'{"source": 1}', b"[" * 100_000],
     )
     manifest.write_bytes(b"\n".join([*lines, manifest.read_bytes() + b'{"source": "cut o']))
-    assert "(3 known from before)" in run("batch", "src", "out", "--to", "sdf").stderr
+    assert "(3 known from before)" in run("batch", "convert", "src", "out", "--to", "sdf").stderr
 
 
 @pytest.mark.parametrize("dest", ["src", ".", "src/one.urdf"])
 def test_results_do_not_go_among_the_sources(run: Run, here: Path, dest: str) -> None:
-    assert run("batch", "src", dest, "--to", "sdf").exit_code == 2
-    assert run("batch", "nowhere", "out", "--to", "sdf").exit_code == 2
+    assert run("batch", "convert", "src", dest, "--to", "sdf").exit_code == 2
+    assert run("batch", "convert", "nowhere", "out", "--to", "sdf").exit_code == 2
 
 
 def test_a_folder_of_results_inside_the_sources_is_no_source(run: Run, here: Path) -> None:
     for _ in range(2):
-        assert run("batch", "src", "src/deep/out", "--to", "sdf").stderr.startswith("3 models: 3 converted")
+        assert run("batch", "convert", "src", "src/deep/out", "--to", "sdf").stderr.startswith("3 models: 3 converted")
 
 
 def test_a_place_that_is_taken_is_reported(run: Run, here: Path) -> None:
@@ -246,8 +231,8 @@ def test_names_are_bytes(run: Run, here: Path) -> None:
     assert Path(os.fsdecode(b"out/\xff.sdf")).is_file()
 
 
-def test_patterns_say_what_a_model_is(run: Run, here: Path) -> None:
+def test_patterns_decide_what_a_model_is(run: Run, here: Path) -> None:
     Path("src/odd.xml").write_text(GOOD)
     found = report(run, "--pattern", "*.xml", "--pattern", "er/*.urdf")[1]
     assert list(outcomes(found)) == ["deep/er/two.urdf", "odd.xml"]
-    assert run("batch", "src", "out", "--to", "sdf", "--pattern", "*.none").stderr == "0 models\n"
+    assert run("batch", "convert", "src", "out", "--to", "sdf", "--pattern", "*.none").stderr == "0 models\n"

@@ -89,7 +89,7 @@ def test_without_configuration_there_are_no_names(run: Run, here: Path) -> None:
         ("#" * 2**21, "is larger than"),
     ],
 )  # fmt: skip
-def test_what_is_wrong_is_said_with_its_place(run: Run, here: Path, text: str | bytes, complaint: str) -> None:
+def test_what_is_wrong_is_reported_with_its_place(run: Run, here: Path, text: str | bytes, complaint: str) -> None:
     Path("twinform.toml").write_bytes(text.encode() if isinstance(text, str) else text)
     arguments = FILL if "pipelines" in str(text) and "passes" not in str(text) else FILL[:4]
     done = run(*arguments)
@@ -168,3 +168,25 @@ def test_errors_cannot_be_allowed(run: Run, here: Path) -> None:
 def test_unknown_rules_are_wrong_usage(run: Run, here: Path) -> None:
     done = run("check", "good.urdf", "--deny", "unknown-elemnt")
     assert (done.exit_code, "did you mean unknown-element?" in done.stderr) == (2, True)
+
+
+@pytest.mark.parametrize("line", ["max-size = '1kB'", "max-size = 1000", "max-tags = 9"])
+@pytest.mark.usefixtures("here")
+def test_limits_may_be_settings(run: Run, line: str) -> None:
+    Path("twinform.toml").write_text(line)
+    Path("good.urdf").write_text(Path("good.urdf").read_text() + "<!-- -->" * 200)
+    done = run("check", "good.urdf")
+    assert done.exit_code == 2
+    assert "give a larger --max-" in done.stdout
+    assert run("check", "good.urdf", "--max-size", "1MB", "--max-tags", "1000").exit_code == 0
+
+
+@pytest.mark.parametrize(
+    "line", ["max-size = 'many'", "max-size = 0", "max-size = true", "max-tags = 0", "max-tags = ''"]
+)
+@pytest.mark.usefixtures("here")
+def test_limits_that_mean_nothing_are_no_settings(run: Run, line: str) -> None:
+    Path("twinform.toml").write_text(line)
+    done = run("check", "good.urdf")
+    assert done.exit_code == 2
+    assert f"twinform.toml: {line.partition(' ')[0]}" in done.stderr

@@ -135,7 +135,7 @@ def test_passes_run_and_report(run: Run, folder: Path) -> None:
     assert "[indefinite-inertia]" not in run("convert", source).stderr
 
 
-def test_a_pass_does_not_say_again_what_check_has_said(run: Run, folder: Path) -> None:
+def test_a_pass_does_not_repeat_what_check_has_reported(run: Run, folder: Path) -> None:
     source = folder / "heavy.urdf"
     source.write_text(GOOD.replace('ixx="1"', 'ixx="5"'))
     assert run("convert", source, "--passes", "check-inertia").stderr.count("[impossible-inertia]") == 1

@@ -23,7 +23,7 @@ def test_the_exit_code_is_the_verdict(run: Run, folder: Path, heavier: Path):
     assert run("diff", folder / "wrong.urdf", _ARM).exit_code == 2
 
 
-def test_text_says_where_what_and_by_how_much(run: Run, heavier: Path):
+def test_text_reports_where_what_and_by_how_much(run: Run, heavier: Path):
     done = run("diff", _ARM, heavier)
     line = f"  {_ARM}:25, {heavier}:25: difference: inertial/mass is 4 kg, and 5 kg (by 1 kg, 20 %)"
     assert done.stdout.splitlines() == ["link 'base_link'", line]

@@ -56,7 +56,7 @@ def test_the_world_is_of_the_version_that_was_asked_for(tmp_path: Path) -> None:
     assert twinform.load(world).version == "1.9"
 
 
-def test_the_release_decides_the_words_of_the_bridge(tmp_path: Path) -> None:
+def test_the_release_decides_the_message_types_of_the_bridge(tmp_path: Path) -> None:
     bridge = tmp_path / "b.yaml"
     assert run(tmp_path, "-o", f"{tmp_path}/r.sdf", "--bridge", str(bridge), "--gazebo", "fortress")[0] == 0
     assert "ignition.msgs.IMU" in bridge.read_text()
@@ -105,7 +105,7 @@ def test_nothing_is_written_for_a_model_with_an_error(tmp_path: Path) -> None:
     assert not bridge.exists()
 
 
-def test_a_file_that_cannot_be_written_is_said(tmp_path: Path) -> None:
+def test_a_file_that_cannot_be_written_is_reported(tmp_path: Path) -> None:
     (tmp_path / "taken").write_text("")
     code, text = run(tmp_path, "-o", f"{tmp_path}/r.sdf", "--bridge", f"{tmp_path}/taken/b.yaml")
     assert code == 2
@@ -115,6 +115,6 @@ def test_a_file_that_cannot_be_written_is_said(tmp_path: Path) -> None:
 def test_one_file_is_not_written_for_several_models(tmp_path: Path) -> None:
     (tmp_path / "other.urdf").write_text(ROBOT.format(IMU))
     bridge = tmp_path / "bridge.yaml"
-    code, said = run(tmp_path, str(tmp_path / "other.urdf"), "-o", f"{tmp_path}/out/", "--bridge", str(bridge))
+    code, text = run(tmp_path, str(tmp_path / "other.urdf"), "-o", f"{tmp_path}/out/", "--bridge", str(bridge))
     assert (code, bridge.exists()) == (2, False)
-    assert "--bridge and --world take one input" in said
+    assert "--bridge and --world take one input" in text

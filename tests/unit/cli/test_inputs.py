@@ -51,3 +51,23 @@ def test_arguments_without_a_xacro_file_are_wrong_usage(run: Run, folder: Path) 
 def test_a_folder_for_uris_must_be_there(run: Run, robot: Path) -> None:
     assert run("check", "--path", robot.parent / "none", robot).exit_code == 2
     assert run("check", "--path", robot.parent, robot).exit_code == 0
+
+
+@pytest.mark.parametrize("source", ["good.urdf", "-"])
+def test_limits_are_lifted_by_options(run: Run, folder: Path, source: str) -> None:
+    text = (folder / "good.urdf").read_text()
+    argument = "-" if source == "-" else folder / source
+    for option, least in (("--max-size", len(text.encode())), ("--max-tags", text.count("<"))):
+        assert run("check", argument, option, str(least), text=text).exit_code == 0
+        done = run("check", argument, option, str(least - 1), text=text)
+        assert done.exit_code == 2
+        assert f"give a larger {option}" in done.stdout
+
+
+@pytest.mark.parametrize(
+    "option", ["--max-size=0", "--max-size=-1", "--max-size=many", "--max-size=", "--max-tags=0", "--max-tags=2MB"]
+)
+def test_limits_that_mean_nothing_are_wrong_usage(run: Run, folder: Path, option: str) -> None:
+    done = run("check", folder / "good.urdf", option)
+    assert done.exit_code == 2
+    assert option.partition("=")[0] in done.stderr

@@ -114,7 +114,7 @@ def test_a_pass_that_breaks_the_document_leaves_a_file(run: Run, here: Path) -> 
     assert "the pass breaking made an invalid document" in again.stderr
 
 
-def test_it_says_so_where_the_document_alone_is_not_enough(run: Run, here: Path) -> None:
+def test_it_is_reported_where_the_document_alone_is_not_enough(run: Run, here: Path) -> None:
     assert run("convert", "good.urdf", "--passes", "homesick").exit_code == 1
     again = run("reproduce", "twinform-homesick-good.json")
     assert again.exit_code == 0

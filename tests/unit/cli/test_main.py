@@ -1,5 +1,6 @@
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -58,3 +59,29 @@ def test_a_reader_that_stops_early_sees_no_traceback() -> None:
 def test_the_package_runs_as_the_command() -> None:
     made = subprocess.run([sys.executable, "-m", "twinform", "--version"], capture_output=True, text=True, check=True)
     assert made.stdout.endswith(f"{twinform.__version__}\n")
+
+
+_UNUSED = {
+    "check": ["twinform.passes.legalise", "twinform.passes.framework.base", "twinform.cli.config.settings", "difflib"],
+    "convert": ["twinform.passes.legalise.to_urdf", "twinform.compiler.includes", "twinform.compiler.audit", "difflib"],
+}
+
+
+@pytest.mark.parametrize("command", _UNUSED)
+def test_a_command_imports_what_it_needs(command: str, folder: Path) -> None:
+    program = (
+        "import sys; from twinform.cli import main; main(sys.argv[1:], standalone_mode=False);"
+        f"print(*[name for name in {_UNUSED[command]} if name in sys.modules], file=sys.stderr)"
+    )
+    line = [sys.executable, "-c", program, command, "good.urdf"]
+    done = subprocess.run(line, cwd=folder, capture_output=True, text=True, check=True)
+    assert done.stderr.splitlines()[-1] == ""
+
+
+def test_importing_what_a_command_needs_asks_no_package_and_validates_nothing() -> None:
+    program = (
+        "import sys; import twinform.cli.check, twinform.cli.convert, twinform.passes.legalise.to_sdf;"
+        "unused = ['importlib.metadata', 'importlib.resources', 'pydantic.plugin._loader', 'email'];"
+        "assert not [name for name in unused if name in sys.modules]"
+    )
+    subprocess.run([sys.executable, "-c", program], check=True)

@@ -32,7 +32,7 @@ def tree(folder: Path) -> dict[str, str]:
 
 OVER_AN_INPUT = {
     "the result": "good.urdf -o good.urdf",
-    "the result in other words": "good.urdf -o sub/../good.urdf",
+    "the result by another path": "good.urdf -o sub/../good.urdf",
     "the result by a symbolic link": "good.urdf -o soft.sdf",
     "the result by a hard link": "good.urdf -o hard.sdf",
     "an input by a link": "soft.sdf --to sdf -o good.urdf",

@@ -34,7 +34,7 @@ def test_format_of_a_file_that_tells_nothing_is_that_of_its_suffix(
     assert Source(str(tmp_path / name), name).format == format_
 
 
-def test_content_speaks_louder_than_the_suffix(tmp_path: Path) -> None:
+def test_content_counts_more_than_the_suffix(tmp_path: Path) -> None:
     file = tmp_path / "robot.sdf"
     file.write_text("<robot name='a'/>")
     assert Source(str(file), str(file)).format == "urdf"

@@ -60,7 +60,7 @@ def test_a_robot_in_numbers(run: Run) -> None:
     assert (finger["bytes"], finger["triangles"], finger["visuals"], finger["collisions"]) == (size, 12, 2, 0)
 
 
-def test_what_gazebo_elements_say_counts(run: Run) -> None:
+def test_the_content_of_gazebo_elements_counts(run: Run) -> None:
     (rover,) = stats(run, _EXAMPLES / "rover.urdf")["models"]
     assert rover["sensors"] == {"camera": 1, "imu": 1}
     assert list(rover["plugins"]) == ["gz-sim-diff-drive-system", "gz-sim-joint-state-publisher-system"]
@@ -132,7 +132,7 @@ DOCTYPE = DAE.replace("<COLLADA", "<!DOCTYPE x SYSTEM 'file:///etc/passwd'><COLL
         pytest.param("a.dae", DOCTYPE, None, "it declares a document type", id="hostile dae"),
         pytest.param("a.dae", "<COLLADA", None, "it cannot be read", id="broken dae"),
         pytest.param("a.stl", "", None, "it has no triangles", id="empty stl"),
-        # which of the two is said depends on the decoders that are installed beside trimesh
+        # which of the two is reported depends on the decoders that are installed beside trimesh
         pytest.param("a.stl", "\0" * 80 + "\xff" * 4, None, "it ", id="stl that promises too much"),
         pytest.param("a.obj", "# nothing", None, "it ", id="empty obj"),
         pytest.param("a.blend", "BLENDER", None, "triangles are counted in dae, glb, obj", id="another format"),
@@ -167,7 +167,7 @@ def test_a_mesh_that_is_filled_weighs_what_it_holds(run: Run, tmp_path: Path) ->
     assert stats(run, model, "--no-meshes")["models"][0]["masses_unknown"] == 1
 
 
-def test_a_mesh_that_is_not_there_says_so(run: Run, tmp_path: Path) -> None:
+def test_a_mesh_that_is_not_there_is_reported(run: Run, tmp_path: Path) -> None:
     (tmp_path / "arm.urdf").write_text((_EXAMPLES / "arm.urdf").read_text())
     costs = stats(run, tmp_path / "arm.urdf")["models"][0]["meshes"]
     assert all("is not found" in each["problem"] and each["bytes"] is None for each in costs)

@@ -11,7 +11,7 @@ from twinform.cli.config.trust import is_own
 from .conftest import GOOD, Run
 
 BRIDGE = "bridge-config{file=bridge.yaml}"
-MARK = "# Made by twinform for ros_gz_bridge"
+HEADER = "# Made by twinform for ros_gz_bridge"
 
 
 @pytest.fixture
@@ -46,7 +46,7 @@ def test_a_pass_of_ones_own_configuration_writes_below_the_result(
 ) -> None:
     configure(text)
     assert run("convert", "r.urdf", "-o", "out/r.sdf", *words).exit_code == 0
-    assert Path("out/bridge.yaml").read_text().startswith(MARK)
+    assert Path("out/bridge.yaml").read_text().startswith(HEADER)
     assert not Path("bridge.yaml").exists()
 
 
@@ -148,7 +148,7 @@ def test_a_pass_replaces_only_what_twinform_has_written(run: Run, here: Path) ->
     Path("bridge.yaml").unlink()
     for _ in range(2):
         assert run(*words).exit_code == 0
-    assert Path("bridge.yaml").read_text().startswith(MARK)
+    assert Path("bridge.yaml").read_text().startswith(HEADER)
 
 
 def test_a_file_of_a_pass_appears_with_the_result_or_not_at_all(run: Run, here: Path) -> None:
@@ -163,7 +163,7 @@ def test_a_file_of_a_pass_appears_with_the_result_or_not_at_all(run: Run, here: 
 def test_a_file_of_a_pass_is_for_one_input(run: Run, here: Path) -> None:
     done = run("convert", "r.urdf", "../outside/other.urdf", "-o", "out", "--passes", BRIDGE)
     assert (done.exit_code, Path("out").exists()) == (2, False)
-    done = run("batch", ".", "../out", "--to", "sdf", "--passes", BRIDGE)
+    done = run("batch", "convert", ".", "../out", "--to", "sdf", "--passes", BRIDGE)
     assert (done.exit_code, Path("../out").exists()) == (2, False)
     assert "bridge-config makes a file beside a result, and a batch has many" in done.stderr
 
@@ -206,7 +206,7 @@ def test_folders_of_a_configuration_stay_below_it(run: Run, here: Path, path: st
     assert run("check", "r.urdf", "--config", "twinform.toml").exit_code == 2
 
 
-def test_a_home_is_no_word_of_a_configuration(run: Run, here: Path) -> None:
+def test_a_home_folder_is_no_setting_of_a_configuration(run: Run, here: Path) -> None:
     configure("paths = ['~']")
     assert "is no folder" in run("check", "r.urdf").stderr
 
@@ -229,16 +229,16 @@ def test_models_that_a_configuration_attaches_lie_below_it(run: Run, here: Path,
     assert "palm" in run("convert", "r.urdf", "--to", "urdf", "--passes", "@hand").stdout
 
 
-@pytest.mark.parametrize("mark", ["folder", "file"])
+@pytest.mark.parametrize("entry", ["folder", "file"])
 def test_the_search_ends_at_the_top_of_the_repository(
-    run: Run, here: Path, monkeypatch: pytest.MonkeyPatch, mark: str
+    run: Run, here: Path, monkeypatch: pytest.MonkeyPatch, entry: str
 ) -> None:
     configure("strct = true", "..")
     below = here / "below"
     below.mkdir()
     monkeypatch.chdir(below)
     assert run("check", "../r.urdf").exit_code == 2
-    if mark == "folder":
+    if entry == "folder":
         (here / ".git").mkdir()
     else:
         (here / ".git").write_text("gitdir: elsewhere\n")

@@ -19,7 +19,7 @@ Table = Mapping[str, object]
 def find(start: Path) -> tuple[Path, Table] | None:
     """The nearest configuration in a folder and those above it; `twinform.toml` goes before `pyproject.toml`.
 
-    What lies above the top of the repository, or above the home of the user, is not looked at.
+    What lies above the top of the repository, or above the home folder of the user, is not looked at.
 
     Raises:
         ConfigError: there is one, and it cannot be read.
@@ -38,7 +38,7 @@ def _project(start: Path) -> Iterator[Path]:
     home = os.path.realpath(Path("~").expanduser())
     for folder in (start, *start.parents):
         yield folder
-        if any((folder / mark).exists() for mark in TOPS) or str(folder) == home:
+        if any((folder / entry).exists() for entry in TOPS) or str(folder) == home:
             return
 
 

@@ -1,24 +1,22 @@
 """`--config`: the settings of a project become the defaults of options."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
 from twinform.cli.config.errors import ConfigError
 from twinform.cli.config.files import Table, find, section
-from twinform.cli.config.pipelines import NamedPipelines
-from twinform.cli.config.settings import Settings, parse_settings
-from twinform.cli.config.trust import confined, require_inside
-from twinform.passes import Pipeline
-from twinform.passes.framework.text import Names, no_names
+
+if TYPE_CHECKING:
+    from twinform.passes import Names, Pipeline
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 _KEY = f"{__name__}.project"
 _TRUSTED = f"{__name__}.trusted"
-_DEFAULTS = ("sdf_version", "urdf_version", "strict", "carriers", "passes", "check_passes")
+_DEFAULTS = ("sdf_version", "urdf_version", "strict", "carriers", "passes", "check_passes", "max_size", "max_tags")
 """Settings that are what an option is where the command line has none."""
 
 
@@ -26,27 +24,41 @@ _DEFAULTS = ("sdf_version", "urdf_version", "strict", "carriers", "passes", "che
 class Project:
     """The settings that are in force, the file that they come from, and the pipelines that it names.
 
-    What is not `trusted` must not lead out of the folder of the file.
+    What is not `trusted` must not lead out of the folder of the file. Nothing here needs passes or Pydantic where there
+    is no such file.
     """
 
-    settings: Settings
     path: Path | None = None
-    names: Names = no_names
+    paths: Sequence[str] = ()
+    allow: Sequence[str] = ()
+    deny: Sequence[str] = ()
+    pipelines: Sequence[str] = ()
+    known: "Names | None" = None
     trusted: bool = False
 
     @property
-    def folders(self) -> list[str]:
+    def folders(self) -> Sequence[str]:
         """The folders to look in.
 
         Raises:
             ConfigError: one leads out of that of the file.
         """
-        for folder in self.settings.paths:
-            if self.path and not self.trusted:
-                require_inside(self.path, Path(folder), "paths")
-        return self.settings.paths
+        if self.path is None or self.trusted or not self.paths:
+            return self.paths
+        from twinform.cli.config.trust import require_inside  # noqa: PLC0415 - few projects name folders
 
-    def named(self, name: str) -> Pipeline:
+        for folder in self.paths:
+            require_inside(self.path, Path(folder), "paths")
+        return self.paths
+
+    @property
+    def names(self) -> "Names":
+        """Knows the pipelines, whoever may run them."""
+        from twinform.passes.framework.text import no_names  # noqa: PLC0415 - few commands have pipelines
+
+        return self.known or no_names
+
+    def named(self, name: str) -> "Pipeline":
         """The pipeline of a name, to be run.
 
         Raises:
@@ -55,13 +67,17 @@ class Project:
         """
         return self.confined(self.names(name), f"pipelines.{name}")
 
-    def confined(self, pipeline: Pipeline, key: str) -> Pipeline:
+    def confined(self, pipeline: "Pipeline", key: str) -> "Pipeline":
         """A pipeline that the file has under a key, to be run.
 
         Raises:
             ConfigError: it must not come from this file.
         """
-        return confined(self.path, pipeline, key) if self.path and not self.trusted else pipeline
+        if self.path is None or self.trusted:
+            return pipeline
+        from twinform.cli.config.trust import confined  # noqa: PLC0415 - few commands have pipelines
+
+        return confined(self.path, pipeline, key)
 
 
 def config_options(command: Command) -> Command:
@@ -90,7 +106,7 @@ def config_options(command: Command) -> Command:
 def settings_of(ctx: click.Context) -> Project:
     """The project of a command that has these options."""
     found = ctx.meta.get(_KEY)
-    project = found if isinstance(found, Project) else Project(Settings())
+    project = found if isinstance(found, Project) else Project()
     return replace(project, trusted=bool(ctx.meta.get(_TRUSTED)))
 
 
@@ -110,7 +126,7 @@ def _nearest() -> tuple[Path, Table] | None:
 
 def _none(ctx: click.Context, _option: click.Parameter, value: bool) -> None:
     if value:
-        ctx.meta[_KEY] = Project(Settings())
+        ctx.meta[_KEY] = Project()
         ctx.default_map = {}
 
 
@@ -126,8 +142,12 @@ def _load(ctx: click.Context, _option: click.Parameter, value: Path | None) -> N
     found = (value, _section(value)) if value is not None else _nearest()
     if found is None:
         return
+    from twinform.cli.config.pipelines import NamedPipelines  # noqa: PLC0415 - many projects have no settings
+    from twinform.cli.config.settings import parse_settings  # noqa: PLC0415 - see above
+
     path, table = found
     settings = parse_settings(path, table)
-    ctx.meta[_KEY] = Project(settings, path, NamedPipelines(path, settings.pipelines))
+    names = NamedPipelines(path, settings.pipelines)
+    ctx.meta[_KEY] = Project(path, settings.paths, settings.allow, settings.deny, tuple(settings.pipelines), names)
     given = {name: getattr(settings, name) for name in _DEFAULTS}
     ctx.default_map = {name: value for name, value in given.items() if value is not None}

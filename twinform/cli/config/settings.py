@@ -9,6 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_valida
 
 from twinform.cli.config.errors import ConfigError
 from twinform.cli.config.files import Table
+from twinform.compiler.input.limits import parse_size
 from twinform.passes.framework.options import nearest
 from twinform.schemas import table
 
@@ -28,6 +29,8 @@ class Settings(BaseModel):
     carriers: bool | None = None
     passes: str | None = None
     check_passes: str | None = None
+    max_size: int | str | None = None
+    max_tags: int | None = Field(default=None, gt=0)
     paths: list[str] = Field(default_factory=list[str])
     allow: list[str] = Field(default_factory=list[str])
     deny: list[str] = Field(default_factory=list[str])
@@ -40,6 +43,11 @@ class Settings(BaseModel):
         if version is not None and version not in versions:
             raise ValueError(f"SDF has no version {version!r}; it has {', '.join(versions)}")
         return version
+
+    @field_validator("max_size")
+    @classmethod
+    def _bytes(cls, size: int | str | None) -> int | None:
+        return size if size is None else parse_size(str(size))
 
 
 def parse_settings(path: Path, found: Table) -> Settings:

@@ -1,0 +1,58 @@
+"""`twinform batch check`."""
+
+from pathlib import Path
+from typing import Any, cast
+
+import click
+
+from twinform.cli.batch.models import ModelOptions, model_options, models
+from twinform.cli.batch.running import RunOptions, run_and_end, run_options
+from twinform.cli.inputs import InputOptions, load_options_of, reading_options
+from twinform.cli.policy import policy_of, policy_options
+from twinform.cli.request import pipeline_option
+from twinform.compiler.batch import Batch, Check
+from twinform.passes import Pipeline
+
+
+@click.command("check")
+@click.argument("source", metavar="SRC", type=click.Path(path_type=Path))
+@click.option(
+    "--passes",
+    "check_passes",
+    metavar="PIPELINE",
+    callback=pipeline_option("check-passes"),
+    help="Passes that only look, such as 'check-inertia,check-limits', or @NAME for one that the configuration names.",
+)
+@model_options
+@run_options
+@policy_options
+@reading_options
+@click.pass_context
+def command(
+    ctx: click.Context,
+    source: Path,
+    *,
+    check_passes: Pipeline,
+    expand_includes: bool,
+    allow: tuple[str, ...],
+    deny: tuple[str, ...],
+    **rest: Any,
+) -> None:
+    """Find everything that is wrong with the models of a folder.
+
+    SRC is a folder, a tar or zip archive, or - for a list of names on standard input. Models with errors are named;
+    --report has all findings. Exit code: 0 without errors, 1 with errors, 2 where a file could not be read.
+    """
+    options = cast("RunOptions", rest)
+    job = Check(policy=policy_of(ctx, allow, deny), passes=check_passes, expand_includes=expand_includes)
+    with models(source, cast("ModelOptions", rest)) as found:
+        whole = Batch(
+            source=found.folder,
+            entries=found.entries,
+            job=job,
+            load_options=load_options_of({}, cast("InputOptions", rest)),
+            shard=rest["shard"],
+            seconds=options["timeout"],
+            shown=found.shown,
+        )
+        run_and_end(ctx, whole, options)

@@ -1,0 +1,68 @@
+"""`twinform batch convert`."""
+
+from pathlib import Path
+from typing import Any, Literal, cast
+
+import click
+
+from twinform.cli.batch.models import ModelOptions, model_options, models
+from twinform.cli.batch.running import RunOptions, run_and_end, run_options
+from twinform.cli.inputs import load_options_of, reading_options
+from twinform.cli.policy import policy_of, policy_options
+from twinform.cli.request import Asked, ordering_options, request_of
+from twinform.compiler.batch import Batch, Convert
+
+
+@click.command("convert")
+@click.argument("source", metavar="SRC", type=click.Path(path_type=Path))
+@click.argument("dest", metavar="DEST", type=click.Path(path_type=Path))
+@click.option("--to", "target", type=click.Choice(["sdf", "urdf"]), required=True, help="The format.")
+@ordering_options
+@click.option(
+    "--split", is_flag=True, help="Write each world into a folder: its models, and an SDF that includes them."
+)
+@click.option("--ledgers", is_flag=True, help="Write beside each result what was not expressed.")
+@click.option("--fresh", is_flag=True, help="Work on every model again, also where nothing has changed.")
+@model_options
+@run_options
+@policy_options
+@reading_options
+@click.pass_context
+def command(
+    ctx: click.Context,
+    source: Path,
+    dest: Path,
+    target: Literal["sdf", "urdf"],
+    *,
+    split: bool,
+    ledgers: bool,
+    fresh: bool,
+    allow: tuple[str, ...],
+    deny: tuple[str, ...],
+    **rest: Any,
+) -> None:
+    """Compile every model of a folder.
+
+    SRC is a folder, a tar or zip archive, or - for a list of names on standard input. The results go into DEST, at the
+    same place below it. What was done is not done again, as long as what is asked for, all files that a model was made
+    from, and its result are what they were. Exit code: 0 without errors, 1 with errors, 2 where a file could not be
+    read or written, 130 after Ctrl-C.
+    """
+    asked, options = cast("Asked", rest), cast("RunOptions", rest)
+    asked["sdf_version"] = asked["sdf_version"] if target == "sdf" else None
+    policy = policy_of(ctx, allow, deny)
+    job = Convert(to=request_of(asked, target), policy=policy, split=split, ledgers=ledgers)
+    with models(source, cast("ModelOptions", rest), dest) as found:
+        whole = Batch(
+            source=found.folder,
+            entries=found.entries,
+            job=job,
+            load_options=load_options_of({}, asked),
+            dest=dest,
+            shard=rest["shard"],
+            seconds=options["timeout"],
+            fresh=fresh,
+            report=options["report"],
+            shown=found.shown,
+        )
+        run_and_end(ctx, whole, options)

@@ -1,0 +1,43 @@
+"""`twinform batch diff`."""
+
+from pathlib import Path
+from typing import Any, cast
+
+import click
+
+from twinform.cli.batch.models import pair_options
+from twinform.cli.batch.running import RunOptions, run_and_end, run_options
+from twinform.cli.inputs import InputOptions, file_options, load_options_of
+from twinform.cli.tolerance import tolerance_option
+from twinform.compiler.batch import Batch, Diff, FolderError, of_folder, pairs
+
+
+@click.command("diff")
+@click.argument("a", metavar="A", type=click.Path(path_type=Path))
+@click.argument("b", metavar="B", type=click.Path(path_type=Path))
+@tolerance_option
+@pair_options
+@run_options
+@file_options
+@click.pass_context
+def command(ctx: click.Context, a: Path, b: Path, *, tolerance: float, patterns: tuple[str, ...], **rest: Any) -> None:
+    """Say which models of two folders are the same robots.
+
+    Models are compared that have the same name below A and B, but for the endings of formats: the sources of a
+    conversion with its results. --report has what differs. Exit code: 0 all the same, 1 others, or missing ones, 2
+    where a file could not be read.
+    """
+    options = cast("RunOptions", rest)
+    try:
+        entries = pairs(of_folder(a, patterns), of_folder(b, patterns))
+    except FolderError as error:
+        raise click.UsageError(str(error)) from error
+    whole = Batch(
+        source=a,
+        entries=entries,
+        job=Diff(other=b, tolerance=tolerance),
+        load_options=load_options_of({}, cast("InputOptions", rest)),
+        shard=rest["shard"],
+        seconds=options["timeout"],
+    )
+    run_and_end(ctx, whole, options)

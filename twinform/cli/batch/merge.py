@@ -1,0 +1,26 @@
+"""`twinform batch merge`."""
+
+from pathlib import Path
+
+import click
+
+from twinform.cli.failure import Unusable
+from twinform.compiler.batch import BusyError, merge
+
+
+@click.command("merge")
+@click.argument("dest", metavar="DEST", type=click.Path(path_type=Path))
+@click.argument("others", metavar="FROM...", nargs=-1, type=click.Path(path_type=Path))
+def command(dest: Path, others: tuple[Path, ...]) -> None:
+    """Put the results of several runs together.
+
+    Takes over the results of the folders FROM, as far as they match their manifests, and makes one manifest of
+    those that the shards of DEST have written.
+    """
+    try:
+        number = merge(dest, list(others))
+    except BusyError as error:
+        raise click.UsageError(str(error)) from error
+    except OSError as error:
+        raise Unusable(f"cannot merge {error.filename or dest}: {error.strerror or error}") from error
+    click.echo(f"{number} model{'' if number == 1 else 's'} in {click.format_filename(dest)}", err=True)

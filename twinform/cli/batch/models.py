@@ -1,0 +1,116 @@
+"""Which models a batch has: the argument SRC, and the options that choose among them."""
+
+import sys
+from collections.abc import Callable, Generator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypedDict, TypeVar
+
+import click
+
+from twinform.cli.failure import Unusable
+from twinform.compiler.batch import PATTERNS, Entry, FolderError, Shard, of_folder, of_names, with_arguments
+from twinform.compiler.batch.archives import is_archive, unpacked
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+
+class ModelOptions(TypedDict):
+    """What these options give a command."""
+
+    patterns: tuple[str, ...]
+    names: Path | None
+    arguments: Path | None
+    shard: Shard | None
+
+
+@dataclass(frozen=True, slots=True)
+class Models:
+    """The models of a run, the folder that they are in, and what that is called in messages if not by its name."""
+
+    folder: Path
+    entries: Sequence[Entry]
+    shown: str = ""
+
+
+def _shard(_ctx: click.Context, _option: click.Parameter, value: str | None) -> Shard | None:
+    if value is None:
+        return None
+    number, _, count = value.partition("/")
+    if not (number.isdecimal() and count.isdecimal() and 1 <= int(number) <= int(count)):
+        raise click.BadParameter(f"{value!r} is no part of several, such as 3/16")
+    return Shard(int(number), int(count))
+
+
+_PATH = click.Path(path_type=Path)
+_PATTERN = click.option(
+    "--pattern",
+    "patterns",
+    metavar="GLOB",
+    multiple=True,
+    default=PATTERNS,
+    help=f"Which files are models; repeatable. Else {', '.join(PATTERNS)}.",
+)
+_SHARD = click.option(
+    "--shard",
+    metavar="N/M",
+    callback=_shard,
+    help="Only part N of M; its name decides which one a model is in.",
+)
+_OPTIONS = (
+    _PATTERN,
+    click.option("--names", type=_PATH, metavar="FILE", help="The models by name, one in a line; - is standard input."),
+    click.option(
+        "--arguments",
+        type=_PATH,
+        metavar="FILE",
+        help="Arguments of xacro: CSV or JSONL with a column 'model', one for each argument, and perhaps 'name'.",
+    ),
+    _SHARD,
+)
+
+
+def model_options(command: Command) -> Command:
+    """Give a command the options that choose models."""
+    for option in reversed(_OPTIONS):
+        command = option(command)
+    return command
+
+
+def pair_options(command: Command) -> Command:
+    """The same where each model is compared with another."""
+    return _PATTERN(_SHARD(command))
+
+
+@contextmanager
+def models(source: Path, options: ModelOptions, results: Path | None = None) -> Generator[Models]:
+    """The models of SRC: a folder, an archive, or `-` for a list of names on standard input.
+
+    Raises:
+        click.UsageError: there is no such folder, or an option does not fit it.
+        Unusable: a file cannot be read.
+    """
+    names = options["names"]
+    if str(source) == "-":
+        source, names = Path(), Path("-")
+    try:
+        if is_archive(source):
+            with unpacked(source) as folder:
+                yield Models(folder, _entries(folder, names, options, None), str(source))
+            return
+        yield Models(source, _entries(source, names, options, results))
+    except FolderError as error:
+        raise click.UsageError(str(error)) from error
+
+
+def _entries(folder: Path, names: Path | None, options: ModelOptions, results: Path | None) -> list[Entry]:
+    try:
+        if names is None:
+            found = of_folder(folder, options["patterns"], results)
+        else:
+            text = sys.stdin.buffer.read() if str(names) == "-" else names.read_bytes()
+            found = of_names(folder, text)
+        return with_arguments(found, options["arguments"]) if options["arguments"] else found
+    except OSError as error:
+        raise Unusable(f"cannot read {error.filename}: {error.strerror}") from error

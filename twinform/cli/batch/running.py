@@ -1,0 +1,137 @@
+"""Runs a batch from the command line: where it runs, what is printed, and how it ends."""
+
+import sys
+from collections.abc import Callable, Generator
+from concurrent.futures import BrokenExecutor
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import Any, NoReturn, TextIO, TypedDict, TypeVar
+
+import click
+
+from twinform.cli.batch.progress import progress
+from twinform.cli.failure import UNUSABLE
+from twinform.compiler.batch import (
+    Batch,
+    BusyError,
+    FolderError,
+    Record,
+    Summary,
+    batch,
+    open_report,
+    report_line,
+)
+from twinform.compiler.workers import Runner, process_runner
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+_INTERRUPTED = 130
+"""The exit code of a program that is ended by Ctrl-C, as shells give it."""
+
+
+class RunOptions(TypedDict):
+    """What these options give a command."""
+
+    jobs: int | None
+    timeout: float
+    scheduler: str | None
+    report: Path | None
+    quiet: bool
+
+
+_OPTIONS = (
+    click.option(
+        "--jobs", type=click.IntRange(min=1), metavar="N", help="How many at a time; else one for each processor."
+    ),
+    click.option(
+        "--timeout",
+        type=click.FloatRange(min=0, min_open=True),
+        metavar="SECONDS",
+        default=60.0,
+        show_default=True,
+        help="The time limit for one model.",
+    ),
+    click.option(
+        "--scheduler", metavar="ADDRESS", help="Run on the workers of this scheduler of Dask, such as tcp://host:8786."
+    ),
+    click.option(
+        "--report",
+        type=click.Path(path_type=Path),
+        metavar="FILE",
+        help="A line of JSON for each model, written as it goes; - is standard output.",
+    ),
+    click.option("-q", "--quiet", is_flag=True, help="Print no progress."),
+)
+
+
+def run_options(command: Command) -> Command:
+    """Give a command the options of how a batch is run."""
+    for option in reversed(_OPTIONS):
+        command = option(command)
+    return command
+
+
+def run_and_end(ctx: click.Context, asked: Batch, options: RunOptions) -> NoReturn:
+    """Run a batch to its end, or to the first Ctrl-C; the summary is printed, and the report complete, either way."""
+    summary, problem = Summary(), ""
+    try:
+        _run(asked, options, summary)
+        code = summary.exit_code
+    except KeyboardInterrupt:
+        problem, code = "interrupted; run it again, and it goes on from here", _INTERRUPTED
+    except (FolderError, BusyError) as error:
+        raise click.UsageError(str(error)) from error
+    except BrokenPipeError:
+        raise  # who reads the report has read enough
+    except OSError as error:
+        problem, code = f"cannot write {error.filename or asked.dest}: {error.strerror or error}", UNUSABLE
+    except (BrokenExecutor, RuntimeError) as error:
+        problem, code = f"the work cannot be done there: {str(error).strip().rpartition(chr(10))[2]}", UNUSABLE
+    except SystemExit:
+        click.echo(str(summary), err=True)
+        raise
+    if problem:
+        click.echo(f"Error: {problem}", err=True)
+    click.echo(str(summary), err=True)
+    ctx.exit(code)
+
+
+def _run(asked: Batch, options: RunOptions, summary: Summary) -> None:
+    with ExitStack() as stack:
+        results = stack.enter_context(batch(asked, _runner(options)))
+        report = stack.enter_context(_report(options["report"]))
+        shown = stack.enter_context(progress(len(asked.chosen), quiet=options["quiet"]))
+        for result in results:
+            summary.add(result.record.outcome, known=result.known)
+            if report is not None:
+                report.write(report_line(result))
+            if not result.record.outcome.is_good:
+                _tell(result.record)
+            shown.step(known=result.known)
+
+
+def _tell(record: Record) -> None:
+    """Name a model that has no result on stderr, with its reason, as soon as it is known."""
+    name = click.format_filename(record.source)
+    click.echo(f"{name}: {record.outcome}: {click.format_filename(record.message)}", err=True)
+
+
+@contextmanager
+def _report(path: Path | None) -> Generator[TextIO | None]:
+    if path is None:
+        yield None
+    elif str(path) == "-":
+        yield sys.stdout
+    else:
+        with open_report(path) as file:
+            yield file
+
+
+def _runner(options: RunOptions) -> Runner:
+    if options["scheduler"] is None:
+        return process_runner(options["jobs"], options["timeout"])
+    from twinform.compiler.workers.dask import dask_runner  # noqa: PLC0415 - few have more than one machine
+
+    try:
+        return dask_runner(options["scheduler"])
+    except ImportError as error:
+        raise click.UsageError(f"--scheduler needs Dask: pip install 'twinform[dask]' ({error})") from error

@@ -1,0 +1,39 @@
+"""`twinform batch stats`."""
+
+from pathlib import Path
+from typing import Any, cast
+
+import click
+
+from twinform.cli.batch.models import ModelOptions, model_options, models
+from twinform.cli.batch.running import RunOptions, run_and_end, run_options
+from twinform.cli.inputs import InputOptions, load_options_of, reading_options
+from twinform.compiler.batch import Batch, Stats
+
+
+@click.command("stats")
+@click.argument("source", metavar="SRC", type=click.Path(path_type=Path))
+@click.option("--meshes/--no-meshes", default=True, help="Whether to look into mesh files.")
+@model_options
+@run_options
+@reading_options
+@click.pass_context
+def command(ctx: click.Context, source: Path, *, meshes: bool, expand_includes: bool, **rest: Any) -> None:
+    """Say in numbers what the models of a folder are made of.
+
+    Prints a line of JSON for each model, or writes it to --report. SRC is a folder, a tar or zip archive, or - for a
+    list of names on standard input. Exit code: 0 without errors, 1 with errors, 2 where a file could not be read.
+    """
+    options = cast("RunOptions", rest)
+    options["report"] = options["report"] or Path("-")
+    with models(source, cast("ModelOptions", rest)) as found:
+        whole = Batch(
+            source=found.folder,
+            entries=found.entries,
+            job=Stats(meshes=meshes, expand_includes=expand_includes),
+            load_options=load_options_of({}, cast("InputOptions", rest)),
+            shard=rest["shard"],
+            seconds=options["timeout"],
+            shown=found.shown,
+        )
+        run_and_end(ctx, whole, options)

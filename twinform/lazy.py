@@ -1,0 +1,22 @@
+"""Lazy attributes of packages (PEP 562): a name is imported from its module when it is first asked for."""
+
+import sys
+from collections.abc import Callable, Mapping
+from importlib import import_module
+
+
+def lazy_attributes(package: str, modules: Mapping[str, str]) -> Callable[[str], object]:
+    """The `__getattr__` of a package; `modules` has the names, with blanks between them, that come from each module.
+
+    A type checker does not see it: the package imports the same names under `TYPE_CHECKING`. A test compares the two.
+    """
+    homes = {name: module for module, names in modules.items() for name in names.split()}
+
+    def get(name: str) -> object:
+        if name not in homes:
+            raise AttributeError(f"module {package!r} has no attribute {name!r}")
+        value = getattr(import_module(homes[name]), name)
+        setattr(sys.modules[package], name, value)
+        return value
+
+    return get
