@@ -1,4 +1,4 @@
-"""What is said of a change is all of it: something wherever documents differ, nothing where they do not."""
+"""What is reported of a change is all of it: something wherever documents differ, nothing where they do not."""
 
 from hypothesis import given
 

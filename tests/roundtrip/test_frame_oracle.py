@@ -46,7 +46,7 @@ def _places(model: Model) -> dict[tuple[str, str], Matrix]:
 
 @examples()
 @given(strategies.robots() | strategies.sdf_models())
-def test_frames_are_where_numpy_says(document: Document) -> None:
+def test_frames_are_where_numpy_computes_them(document: Document) -> None:
     model = document.models[0]
     graph, root = FrameGraph(model), MODEL
     for (kind, name), matrix in _places(model).items():

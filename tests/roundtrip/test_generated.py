@@ -50,28 +50,28 @@ def test_a_world_is_itself_once_read_again(world: Document) -> None:
 
 @_SETTINGS
 @given(strategies.robots())
-def test_a_robot_comes_home_from_sdf(robot: Document) -> None:
+def test_a_robot_comes_back_from_sdf(robot: Document) -> None:
     assert_round_trip(robot, via="sdf")
 
 
 @_SETTINGS
 @given(strategies.sdf_models())
-def test_a_model_comes_home_from_urdf(model: Document) -> None:
+def test_a_model_comes_back_from_urdf(model: Document) -> None:
     assert_round_trip(model, via="urdf")
 
 
 @pytest.mark.parametrize("version", table("sdf").versions)
-def test_a_robot_comes_home_from_every_version_of_sdf(version: str) -> None:
+def test_a_robot_comes_back_from_every_version_of_sdf(version: str) -> None:
     @examples(0.2)
     @given(strategies.robots(max_links=5))
-    def comes_home(robot: Document) -> None:
+    def comes_back(robot: Document) -> None:
         assert_round_trip(robot, via="sdf", sdf_version=version)
 
-    comes_home()
+    comes_back()
 
 
 @pytest.mark.parametrize("version", [each for each in table("sdf").versions if len(each) > 3 or each >= "1.8"])
-def test_every_version_that_says_frames_alike_is_itself_once_read_again(version: str) -> None:
+def test_every_version_with_the_same_frames_is_itself_once_read_again(version: str) -> None:
     @examples(0.2)
     @given(strategies.sdf_models(version=version, max_links=5))
     def is_itself(model: Document) -> None:
@@ -85,7 +85,7 @@ def test_every_version_that_says_frames_alike_is_itself_once_read_again(version:
 def test_the_ledger_and_the_output_account_for_every_part(model: Document, carriers: bool) -> None:
     made = twinform.convert(_text(model).encode(), to=_OTHER[model.format], carriers=carriers)
     assert made.source is not None
-    assert [part.says for part in audit(made.source, made.text, made.ledger).unaccounted] == []
+    assert [part.text for part in audit(made.source, made.text, made.ledger).unaccounted] == []
 
 
 @_SETTINGS

@@ -91,7 +91,7 @@ def test_what_the_schema_takes_is_loaded_as_it_is_or_is_an_error(document: Docum
         found = json_data(twinform.loads(json.dumps(data)))
     except CompileError:
         return
-    assert _said(found) == _said(data)
+    assert _content(found) == _content(data)
 
 
 @examples()
@@ -108,11 +108,11 @@ def test_every_accepted_document_has_its_json(version: tuple[str, str], random: 
     assert twinform.convert(made.encode(), to=to).text == same.text
 
 
-def _said(data: Any) -> Any:
-    """What a document says, without what has no weight: its order, its spellings, and empty fields."""
+def _content(data: Any) -> Any:
+    """The content of a document, without what has no weight: its order, its spellings, and empty fields."""
     if is_array(data):
-        return [_said(each) for each in data]
+        return [_content(each) for each in data]
     if not is_object(data):
         return data
-    inner = {name: _said(value) for name, value in data.items() if name not in _ASIDE}
+    inner = {name: _content(value) for name, value in data.items() if name not in _ASIDE}
     return {name: value for name, value in inner.items() if value not in ({}, [])}

@@ -1,4 +1,4 @@
-"""What holds for normal forms, tried on models that Hypothesis makes up: nothing that is said gets lost in one."""
+"""What holds for normal forms, tried on models that Hypothesis makes up: nothing that is written gets lost in one."""
 
 from copy import deepcopy
 
@@ -20,7 +20,7 @@ _SETTINGS = examples(0.5)
 _MODELS = strategies.robots(max_links=6) | strategies.sdf_models(max_links=6)
 _IN_NO_ORDER = frozenset({"plugin"})
 _NEW = "x1y"
-"""What no attribute and no text says, and no default is."""
+"""What no attribute and no text has, and no default is."""
 
 
 def _tree(document: Document) -> XmlElement:

@@ -15,12 +15,12 @@ _KINDS = {name: entry.load() for name, entry in registered_passes().items()}
 def _without_options(kind: type[Pass]) -> Pass | None:
     try:
         return kind()
-    except ValidationError:  # it has to be told something
+    except ValidationError:  # it has options that have to be given
         return None
 
 
 _STEPS = {name: step for name, kind in _KINDS.items() if (step := _without_options(kind)) is not None}
-"""Passes that can be run without being told anything."""
+"""Passes that can be run without options."""
 
 
 @pytest.mark.parametrize("name", sorted(_STEPS))

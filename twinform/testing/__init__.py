@@ -43,7 +43,7 @@ __all__ = [
     "strategies",
 ]
 
-_HOMES = {
+_MODULES = {
     **dict.fromkeys(("Case", "CheckOptions", "Finding", "cases"), "case_files"),
     **dict.fromkeys(("PassCase", "pass_cases"), "pass_case_files"),
     "Edit": "edits",
@@ -55,9 +55,9 @@ _HOMES = {
 def __getattr__(name: str) -> object:
     if name == "strategies":
         return import_module("twinform.testing.strategies")
-    if name not in _HOMES:
+    if name not in _MODULES:
         raise AttributeError(f"module 'twinform.testing' has no attribute {name!r}")
-    return getattr(import_module(f"twinform.testing.{_HOMES[name]}"), name)
+    return getattr(import_module(f"twinform.testing.{_MODULES[name]}"), name)
 
 
 def __dir__() -> list[str]:

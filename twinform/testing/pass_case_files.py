@@ -1,6 +1,6 @@
 """Test cases of passes as data: a model file with the pipeline to run and the expected diagnostics.
 
-A comment `<!-- passes: PIPELINE -->` names the passes; what `case_files.py` says of `expect` holds here for what they
+A comment `<!-- passes: PIPELINE -->` names the passes; what `case_files.py` has on `expect` holds here for what they
 report and what is found in the source. They run in the folder of the file, where relative paths begin. Beside
 `NAME.urdf` lies `NAME.expected.urdf`, and beside `NAME.sdf` `NAME.expected.sdf`: the file after the passes. Where they
 change nothing, or refuse the model, there is none.
@@ -42,10 +42,10 @@ class PassCase(Case):
     @property
     def rules(self) -> frozenset[str]:
         """Every rule that was reported, be it by a finding or an entry of the ledger."""
-        said: tuple[Diagnostic | Entry, ...] = self._made.diagnostics
+        findings: tuple[Diagnostic | Entry, ...] = self._made.diagnostics
         if isinstance(self._made, Conversion):
-            said = (*said, *self._made.ledger.entries)
-        return frozenset(each.rule.name for each in said)
+            findings = (*findings, *self._made.ledger.entries)
+        return frozenset(each.rule.name for each in findings)
 
     @property
     def output_path(self) -> Path:

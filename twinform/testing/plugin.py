@@ -5,7 +5,7 @@ It is loaded at every start of pytest and does nothing until it is asked to:
     [tool.pytest.ini_options]
     twinform_models = ["urdf/*.urdf", "worlds/*.sdf", "*.urdf.xacro"]
 
-Each file that matches is a test `check`, and, where `twinform_round_trip` says so, one more, `round-trip`.
+Each file that matches is a test `check`, and, where `twinform_round_trip` is set, one more, `round-trip`.
 """
 
 from collections.abc import Callable, Iterator

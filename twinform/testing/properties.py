@@ -50,10 +50,10 @@ def assert_round_trip(model: Model, *, via: Language | None = None, sdf_version:
     assert_valid(there)
     trip = RoundTrip.of(source, document)
     try:
-        astray = [one.message for one in trip.astray(trip.back(there))]
+        mismatches = [one.message for one in trip.mismatches(trip.back(there))]
     except CompileError as error:
         raise AssertionError(f"it does not come back from {via}:\n{_report('', error.diagnostics)}") from error
-    assert not astray, f"it does not come back from {via} as it was:\n" + "\n".join(astray[:20])
+    assert not mismatches, f"it does not come back from {via} as it was:\n" + "\n".join(mismatches[:20])
 
 
 def assert_same_robot(one: Model, other: Model) -> None:
@@ -78,8 +78,8 @@ def assert_edits_of_a_file_win(converted: bytes, edits: Iterable[Edit]) -> None:
     """The same of a file that was converted before."""
     every = tuple(edits)
     verdict = judge_edits(unedited(converted), every, apply_all(every, converted))
-    said = "\n".join(map(str, every))
-    assert not verdict.is_fault, "\n".join((f"{verdict.outcome} after {said}:", *verdict.differences[:20]))
+    history = "\n".join(map(str, every))
+    assert not verdict.is_fault, "\n".join((f"{verdict.outcome} after {history}:", *verdict.differences[:20]))
 
 
 def assert_pass_contract(step: Pass, model: Model, *, idempotent: bool = False) -> Document:

@@ -22,7 +22,7 @@ from twinform.schemas import table
 ANOTHER_ROBOT = "another robot"
 
 
-class Astray(NamedTuple):
+class Mismatch(NamedTuple):
     """One thing that is not as it was. `kind` is that of a discrepancy of normal forms, or of a robot that differs.
 
     `path` is its XPath in the source, or where that has nothing of the kind in what came back.
@@ -67,14 +67,14 @@ class RoundTrip:
         known = self.version if self.version in table("sdf").versions else None
         return convert(there.encode(), to="sdf", sdf_version=known).text
 
-    def astray(self, back: str) -> Iterator[Astray]:
+    def mismatches(self, back: str) -> Iterator[Mismatch]:
         """What is not as it was: the robot, its first difference, or texts of the file."""
         found = diff(self.text, back.encode()).differences
         if found:
-            yield Astray(ANOTHER_ROBOT, found[0].a.location.path or found[0].b.location.path, found[0].message)
+            yield Mismatch(ANOTHER_ROBOT, found[0].a.location.path or found[0].b.location.path, found[0].message)
         source, again = normal_form(self.text, name="source"), normal_form(back.encode(), name="back")
         for one in source.compare(again):
-            yield Astray(one.kind, one.location.path, one.message)
+            yield Mismatch(one.kind, one.location.path, one.message)
 
 
 def _is_robot(document: Document) -> bool:

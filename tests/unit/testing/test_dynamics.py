@@ -1,4 +1,4 @@
-"""Drake lets two models go from one state and says whether they move alike."""
+"""Drake lets two models go from one state and reports whether they move alike."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""A property that holds says nothing, and one that does not says why."""
+"""A property that holds prints nothing, and one that does not gives the reason."""
 
 from pathlib import Path
 from typing import ClassVar
@@ -62,12 +62,12 @@ def test_a_pass_that_keeps_it_gives_its_document() -> None:
 
 
 @pytest.mark.parametrize("via", [None, "sdf", "json"])
-def test_a_robot_comes_home(via: str | None) -> None:
+def test_a_robot_comes_back(via: str | None) -> None:
     assert_round_trip(ROVER, via=via)  # pyright: ignore[reportArgumentType] - they are literals
     assert_round_trip(ROVER.read_text(), via=via)  # pyright: ignore[reportArgumentType] - as above
 
 
-def test_another_robot_is_told_from_it() -> None:
+def test_another_robot_is_distinguished_from_it() -> None:
     assert_same_robot(ROVER, ROVER.read_bytes())
     with pytest.raises(AssertionError, match="not the same robot"):
         assert_same_robot(ROVER, ROVER.read_text().replace('radius="', 'radius="1'))

@@ -27,18 +27,18 @@ def _run(folder: Path, settings: str) -> str:
 
 
 def test_nothing_is_collected_where_nobody_asks(repository: Path) -> None:
-    said = _run(repository, "")
-    assert "1 passed" in said
-    assert "good.urdf" not in said
+    output = _run(repository, "")
+    assert "1 passed" in output
+    assert "good.urdf" not in output
 
 
 def test_model_files_are_tests_where_somebody_does(repository: Path) -> None:
-    said = _run(repository, "twinform_models = urdf/*.urdf\ntwinform_round_trip = true")
-    assert "urdf/good.urdf::check PASSED" in said
-    assert "urdf/good.urdf::round-trip PASSED" in said
-    assert "urdf/bad.urdf::check FAILED" in said
-    assert "bad.urdf:2: error: link 'a' is defined twice [duplicate-name]" in said
-    assert "Traceback" not in said
+    output = _run(repository, "twinform_models = urdf/*.urdf\ntwinform_round_trip = true")
+    assert "urdf/good.urdf::check PASSED" in output
+    assert "urdf/good.urdf::round-trip PASSED" in output
+    assert "urdf/bad.urdf::check FAILED" in output
+    assert "bad.urdf:2: error: link 'a' is defined twice [duplicate-name]" in output
+    assert "Traceback" not in output
 
 
 def test_a_pattern_chooses_its_files(repository: Path) -> None:

@@ -1,4 +1,4 @@
-"""What has to come home from the other format, and what is said of it where it does not."""
+"""What has to come back from the other format, and what is reported where it does not."""
 
 import pytest
 
@@ -19,19 +19,19 @@ def _trip(text: str, model: str | None = None) -> RoundTrip:
     return RoundTrip.of(text.encode(), twinform.loads(text), model=model)
 
 
-def test_what_comes_back_as_it_was_is_not_astray() -> None:
-    assert list(_trip(URDF).astray(URDF.replace("1 0 0", "1.0 0 0"))) == []
+def test_what_comes_back_as_it_was_has_no_mismatch() -> None:
+    assert list(_trip(URDF).mismatches(URDF.replace("1 0 0", "1.0 0 0"))) == []
 
 
-def test_another_robot_is_found_first_and_then_the_words_that_make_it() -> None:
-    robot, place = _trip(URDF).astray(URDF.replace("1 0 0", "1 0 0.5"))
+def test_another_robot_is_found_first_and_then_the_parts_that_make_it() -> None:
+    robot, place = _trip(URDF).mismatches(URDF.replace("1 0 0", "1 0 0.5"))
     assert robot.kind == ANOTHER_ROBOT
     assert "0.5" in robot.message
     assert (place.kind, place.path) == ("changed", "/robot[@name='r']/joint[@name='j']/origin")
 
 
 def test_a_name_that_nobody_gave_is_found() -> None:
-    (found,) = _trip(URDF).astray(
+    (found,) = _trip(URDF).mismatches(
         URDF.replace('<link name="a"/>', '<link name="a"><tf:x xmlns:tf="urn:twinform:1"/></link>')
     )
     assert (found.kind, found.path) == ("left over", "/robot[@name='r']/link[@name='a']/tf:x")
@@ -40,7 +40,7 @@ def test_a_name_that_nobody_gave_is_found() -> None:
 def test_of_a_world_the_model_alone_has_to_come_back() -> None:
     text = _trip(WORLD, "w::n").text.decode()
     assert ['"n"' in text, '"m"' in text, "world" in text] == [True, False, False]
-    assert list(_trip(WORLD, "n").astray(f'<sdf version="1.6">{MODEL.format("n", 2)}</sdf>')) == []
+    assert list(_trip(WORLD, "n").mismatches(f'<sdf version="1.6">{MODEL.format("n", 2)}</sdf>')) == []
 
 
 @pytest.mark.parametrize("version", ["1.4", "1.6", "1.9", "1.12"])
@@ -54,7 +54,7 @@ def test_urdf_comes_back_in_its_version_too() -> None:
     assert 'version="1.1"' in _trip(URDF).back(twinform.convert(URDF.encode(), to="sdf").text)
 
 
-def test_what_does_not_come_home_as_it_was_fails_the_round_trip(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_does_not_come_back_as_it_was_fails_the_round_trip(monkeypatch: pytest.MonkeyPatch) -> None:
     assert_round_trip(URDF, via="sdf")
 
     def rename(*_: object) -> str:
@@ -65,7 +65,7 @@ def test_what_does_not_come_home_as_it_was_fails_the_round_trip(monkeypatch: pyt
         assert_round_trip(URDF, via="sdf")
 
 
-def test_what_is_refused_on_the_way_home_fails_the_round_trip(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_refused_in_the_conversion_back_fails_the_round_trip(monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_: object) -> str:
         return twinform.convert(b"<robot/>", to="urdf").text
 

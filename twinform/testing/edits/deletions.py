@@ -62,14 +62,14 @@ def delete_carriers(scene: Scene, random: Random) -> Edit | None:
         return None
     place = random.choice(found).getparent()
     chosen = found if random.random() < 0.5 else [each for each in found if each.getparent() is place]
-    annotations = [each for each in scene.root.iter(etree.Element) if _marks(each)] if chosen is found else []
-    unmarked = tuple(SetAttribute(path_of(each), name, None) for each in annotations for name in _marks(each))
-    return Edit("carrier: delete all", (*unmarked, *(Delete(path_of(each)) for each in chosen)))
+    annotations = [each for each in scene.root.iter(etree.Element) if _our_attributes(each)] if chosen is found else []
+    cleared = tuple(SetAttribute(path_of(each), name, None) for each in annotations for name in _our_attributes(each))
+    return Edit("carrier: delete all", (*cleared, *(Delete(path_of(each)) for each in chosen)))
 
 
-def delete_mark(scene: Scene, random: Random) -> Edit | None:
+def delete_our_attribute(scene: Scene, random: Random) -> Edit | None:
     """An attribute of our namespace, or one of a carrier."""
-    spots = [(each, name) for each in scene.root.iter(etree.Element) for name in _marks(each)]
+    spots = [(each, name) for each in scene.root.iter(etree.Element) for name in _our_attributes(each)]
     spots += [(each, name) for each in scene.carried for name in each.keys()]  # noqa: SIM118 - an element
     if not spots:
         return None
@@ -77,7 +77,7 @@ def delete_mark(scene: Scene, random: Random) -> Edit | None:
     return Edit("carrier: delete an attribute", (SetAttribute(path_of(element), name, None),))
 
 
-def _marks(element: XmlElement) -> list[str]:
+def _our_attributes(element: XmlElement) -> list[str]:
     return [str(name) for name in element.keys() if str(name).startswith(f"{{{NAMESPACE}}}")]  # noqa: SIM118 - an element
 
 

@@ -28,7 +28,7 @@ KINDS: tuple[tuple[int, Draw], ...] = (
     (2, deletions.delete_link),
     (2, deletions.delete_carrier),
     (1, deletions.delete_carriers),
-    (1, deletions.delete_mark),
+    (1, deletions.delete_our_attribute),
     (2, values.change_carried_number),
     (1, arrangements.duplicate_carrier),
     (3, additions.add_part),

@@ -1,7 +1,7 @@
 """An edit of a robot file as data: operations on its XML tree, as a person makes them in a text editor.
 
-An edit says what it does by the paths of elements (`/robot/link[2]/inertial/mass`), so that it can be printed, kept in
-a file and made again: `Edit.from_text(str(edit)) == edit`.
+An edit names what it changes by the paths of elements (`/robot/link[2]/inertial/mass`), so that it can be printed,
+kept in a file and made again: `Edit.from_text(str(edit)) == edit`.
 """
 
 import json
@@ -20,7 +20,7 @@ NAMING = frozenset(
 )
 """Attributes whose value is the name of a part of a robot."""
 _NOT_NAMING = frozenset({"type", "filename", "uri", "format"})
-"""Elements whose text is a word of the language, even where a part has the same name."""
+"""Elements whose text is a keyword, even where a part has the same name."""
 
 
 class EditError(LookupError):
@@ -98,7 +98,7 @@ class Move:
 
 @dataclass(frozen=True, slots=True)
 class Rename:
-    """Replace a name wherever it stands as a name: search and replace. `carriers` says whether in ours too."""
+    """Replace a name wherever it stands as a name: search and replace. `carriers` is whether in ours too."""
 
     at: str
     old: str
@@ -139,7 +139,7 @@ _OPERATIONS: dict[str, type[Operation]] = {
 
 @dataclass(frozen=True, slots=True)
 class Edit:
-    """What a person does to a file in one go; `kind` is the word for it in reports, one of `KINDS`."""
+    """What a person does to a file in one go; `kind` is its name in reports, one of `KINDS`."""
 
     kind: str
     operations: tuple[Operation, ...]

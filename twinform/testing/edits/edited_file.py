@@ -66,13 +66,15 @@ class EditedFile:
     def parts(self) -> frozenset[str]:
         """The names of the links and joints that are in a chain."""
         parts = {
-            str(part.get("name")) for mark in self.root.iter(f"{OURS}part") if (part := mark.getparent()) is not None
+            str(part.get("name"))
+            for annotation in self.root.iter(f"{OURS}part")
+            if (part := annotation.getparent()) is not None
         }
-        return frozenset(parts | {str(last.get("name")) for last in self.marked("joint", "chain")})
+        return frozenset(parts | {str(last.get("name")) for last in self.annotated("joint", "chain")})
 
-    def marked(self, tag: str, mark: str) -> list[XmlElement]:
-        """The elements with a mark."""
-        return [each for each in self.root.iter(tag) if each.find(f"{OURS}{mark}") is not None]
+    def annotated(self, tag: str, annotation: str) -> list[XmlElement]:
+        """The elements with an annotation."""
+        return [each for each in self.root.iter(tag) if each.find(f"{OURS}{annotation}") is not None]
 
 
 def scoped_name(holder: XmlElement | None) -> str:
@@ -80,8 +82,8 @@ def scoped_name(holder: XmlElement | None) -> str:
     if holder is None:
         return ""
     name = holder.get("name") or ""
-    mark = holder.find(f"{OURS}scoped-name")
-    return (mark.text or name) if mark is not None and mark.get("instead_of") == name else name
+    annotation = holder.find(f"{OURS}scoped-name")
+    return (annotation.text or name) if annotation is not None and annotation.get("instead_of") == name else name
 
 
 def end(joint: XmlElement, tag: str) -> str:
@@ -104,16 +106,20 @@ def _leads_to(wanted: str, name: str, held: Mapping[str, str]) -> bool:
 
 
 def _give_names_back(root: XmlElement) -> None:
-    """Call what is marked by its old name, everywhere: a name that had to change is no other part."""
+    """Call what is annotated by its old name, everywhere: a name that had to change is no other part."""
     names: dict[str, str] = {}
-    nested = {scoped_name(frame) for mark in root.iter(f"{OURS}nested") if _is_frame(frame := mark.getparent(), root)}
-    free = any(may_write_scopes(str(mark.get("version"))) for mark in root.iter(f"{OURS}from"))
-    for mark in root.iter(f"{OURS}scoped-name"):
-        holder = mark.getparent()
-        if holder is not None and holder.get("name") == mark.get("instead_of") and mark.text:
-            if not free and not nested.issuperset(_scopes_in(mark.text) or {mark.text}):
+    nested = {
+        scoped_name(frame)
+        for annotation in root.iter(f"{OURS}nested")
+        if _is_frame(frame := annotation.getparent(), root)
+    }
+    free = any(may_write_scopes(str(annotation.get("version"))) for annotation in root.iter(f"{OURS}from"))
+    for annotation in root.iter(f"{OURS}scoped-name"):
+        holder = annotation.getparent()
+        if holder is not None and holder.get("name") == annotation.get("instead_of") and annotation.text:
+            if not free and not nested.issuperset(_scopes_in(annotation.text) or {annotation.text}):
                 continue  # of what it was in nothing tells any more
-            names[str(mark.get("instead_of"))] = mark.text
+            names[str(annotation.get("instead_of"))] = annotation.text
     if not names:
         return
     for element in root.iter(etree.Element):

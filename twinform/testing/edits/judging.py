@@ -75,8 +75,8 @@ def unedited(text: bytes) -> Converted:
     """
     to: Language = "sdf" if etree.fromstring(text).tag == "robot" else "urdf"
     made = convert(text, to=to)
-    said, plainly = _compared(EditedFile(text), made.text)
-    differing, differing_plainly = frozenset(map(_key, said)), frozenset(map(plain_key, plainly))
+    found, plainly = _compared(EditedFile(text), made.text)
+    differing, differing_plainly = frozenset(map(_key, found)), frozenset(map(plain_key, plainly))
     return Converted(text, to, made.text, differing, differing_plainly, _warnings(made.diagnostics))
 
 
@@ -97,10 +97,10 @@ def judge(
         return Verdict(fault, ("it is not refused",), warned, made.text)
     file = EditedFile(edited)
     try:
-        said, read = _compared(file, made.text)
+        compared, read = _compared(file, made.text)
     except Exception as error:  # noqa: BLE001 - a result that cannot be read is no result
         return Verdict(fault, (f"not compared: {type(error).__name__}: {error}",), warned, made.text)
-    found = [each.message for each in said if _key(each) not in before.differing]
+    found = [each.message for each in compared if _key(each) not in before.differing]
     news_plainly = [each for each in read if plain_key(each) not in before.differing_plainly]
     reasons = [explained(each, plainly, file) for each in news_plainly]
     found += [f"plainly: {each.message}" for each, reason in zip(news_plainly, reasons, strict=True) if reason is None]

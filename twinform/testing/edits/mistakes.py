@@ -40,9 +40,9 @@ def _link_twice(scene: Scene, random: Random) -> tuple[Operation, ...]:
     if not scene.links:
         return ()
     link = random.choice(scene.links)
-    home = link.getparent()
-    assert home is not None
-    return (Insert(path_of(home), len(home), f'<link name="{name_of(link)}"/>'),)
+    holder = link.getparent()
+    assert holder is not None
+    return (Insert(path_of(holder), len(holder), f'<link name="{name_of(link)}"/>'),)
 
 
 def _link_without_declaration(scene: Scene, random: Random) -> tuple[Operation, ...]:

@@ -48,8 +48,8 @@ def _sdf_shape(tag: str, name: str, random: Random) -> str:
 
 
 def _sdf_sensor(name: str, random: Random) -> str:
-    said = f"{pose(random)}<update_rate>50</update_rate><always_on>true</always_on>"
-    return f'<sensor name="{name}" type="imu">{said}</sensor>'
+    content = f"{pose(random)}<update_rate>50</update_rate><always_on>true</always_on>"
+    return f'<sensor name="{name}" type="imu">{content}</sensor>'
 
 
 def urdf_inertial(random: Random) -> str:
@@ -87,8 +87,8 @@ def sdf_link(name: str, base: str, kind: str, random: Random) -> tuple[str, str]
     link = f'<link name="{name}">{pose(random, about)}{sdf_inertial(random)}{shape}</link>'
     limit = "<limit><lower>-0.5</lower><upper>0.75</upper></limit>" if kind in {"revolute", "prismatic"} else ""
     axis = f"<axis><xyz>{random.choice(['0 0 1', '0 1 0', '1 0 0'])}</xyz>{limit}</axis>" if kind != "fixed" else ""
-    said = f"{joint_pose}<parent>{base}</parent><child>{name}</child>{axis}"
-    joint = f'<joint name="{name}_joint" type="{kind}">{said}</joint>'
+    content = f"{joint_pose}<parent>{base}</parent><child>{name}</child>{axis}"
+    joint = f'<joint name="{name}_joint" type="{kind}">{content}</joint>'
     return link, joint
 
 

@@ -36,7 +36,7 @@ def plain_key(found: Difference) -> tuple[str | None, ...]:
     aspect = _NAME.sub("", found.aspect)
     if found.group == "kinematics":
         return found.group, aspect
-    return found.group, aspect, *(_value(said.text or "") for said in (found.a, found.b))
+    return found.group, aspect, *(_value(written.text or "") for written in (found.a, found.b))
 
 
 def _value(text: str) -> str:
@@ -55,4 +55,4 @@ def explained(found: Difference, plainly: Plainly, edited: EditedFile) -> str | 
         return None if in_skeleton else "a pass may bring carriers: masses, joints and places count alone"
     if plainly is Plainly.ADDITIONS_TOO and found.group != "frame":
         return None
-    return "only the result has it: carriers add to what the file says" if found.a.text is None else None
+    return "only the result has it: carriers add to the file" if found.a.text is None else None

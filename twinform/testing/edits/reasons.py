@@ -21,8 +21,8 @@ def _is_without_links(found: Difference, _: EditedFile) -> bool:
     return found.group == "frame" and (found.b.text or "").strip("'") == "__model__"
 
 
-def _is_marked_frame(found: Difference, edited: EditedFile) -> bool:
-    """Whether it is a link or a joint that a mark calls a frame, or made for one, or a frame that a mark moves."""
+def _is_annotated_frame(found: Difference, edited: EditedFile) -> bool:
+    """Whether it is a link or joint that an annotation calls a frame or part of one, or a frame that one moves."""
     placed = found.aspect.startswith("pose")
     if found.group not in ({"frame", "link"} if placed else {"frame"}) or (
         found.b.text is not None and not found.aspect
@@ -33,11 +33,11 @@ def _is_marked_frame(found: Difference, edited: EditedFile) -> bool:
     return any(child.tag in annotations for each in named for child in each)
 
 
-def _ends_at_marked_link(found: Difference, edited: EditedFile) -> bool:
-    """Whether it is a joint that holds, or hangs from, a frame that a mark calls a link."""
+def _ends_at_annotated_link(found: Difference, edited: EditedFile) -> bool:
+    """Whether it is a joint that holds, or hangs from, a frame that an annotation calls a link."""
     if found.group != "joint" or found.aspect not in {"parent", "child"}:
         return False
-    return (found.b.text or "").strip("'") in {frame.get("name") for frame in edited.marked("frame", "link")}
+    return (found.b.text or "").strip("'") in {frame.get("name") for frame in edited.annotated("frame", "link")}
 
 
 def _stays_a_link(found: Difference, edited: EditedFile) -> bool:
@@ -67,7 +67,7 @@ def _is_of_chain(found: Difference, edited: EditedFile) -> bool:
         return True
     if found.group == "link":
         return found.aspect == "joint" and _flat(found.a.text) == _flat(found.b.text)
-    if any(each.get("name") == found.name for each in edited.marked("joint", "chain")):
+    if any(each.get("name") == found.name for each in edited.annotated("joint", "chain")):
         return True
     if found.aspect.endswith("mimic/@joint") and (found.a.text or "").strip("'") in edited.parts:
         return True
@@ -75,7 +75,7 @@ def _is_of_chain(found: Difference, edited: EditedFile) -> bool:
         followers = (each for each in edited.root.iter("joint") if each.get("name") == found.name)
         return any(mimic.get("joint") in edited.parts for each in followers for mimic in each.iterfind("mimic"))
     # a joint of a nested model that has come apart has the name that it has outside of it
-    scoped = (mark.text or "" for mark in edited.root.iter(f"{OURS}scoped-name"))
+    scoped = (annotation.text or "" for annotation in edited.root.iter(f"{OURS}scoped-name"))
     apart = found.name if found.a.text is None else (found.name or "").replace("::", "_")
     return not found.aspect and any(name.replace("::", "_") == apart for name in scoped)
 
@@ -102,23 +102,25 @@ def _is_in_loop(found: Difference, edited: EditedFile) -> bool:
 
 
 def _is_named_otherwise(found: Difference, edited: EditedFile) -> bool:
-    """Whether it is a joint whose name in the other format stands in a mark, by its name here or by that one."""
+    """Whether it is a joint whose name in the other format stands in an annotation, by its name here or by that one."""
     if found.group != "joint" or found.aspect:
         return False
-    annotations = [mark for joint in edited.marked("joint", "name") for mark in joint.iterfind(f"{OURS}name")]
+    annotations = [
+        annotation for joint in edited.annotated("joint", "name") for annotation in joint.iterfind(f"{OURS}name")
+    ]
     if found.b.text is None:
-        return any(mark.get("instead_of") == found.name for mark in annotations)
-    return any(mark.text in {found.name, (found.name or "").removesuffix("_joint")} for mark in annotations)
+        return any(annotation.get("instead_of") == found.name for annotation in annotations)
+    return any(annotation.text in {found.name, (found.name or "").removesuffix("_joint")} for annotation in annotations)
 
 
 def _moves_apart(found: Difference, edited: EditedFile) -> bool:
     """Whether it is how a robot moves, with a joint that has another name in the other format.
 
-    Which joint is which is told by names. A joint of a model in the model that holds a link of another one is such.
+    Joints are identified by names. A joint of a model in the model that holds a link of another one is such.
     """
     if found.group != "kinematics":
         return False
-    if edited.marked("joint", "name"):
+    if edited.annotated("joint", "name"):
         return True
     names = {str(link.get("name")): scoped_name(link) for link in edited.root.iterfind("link")}
     for joint in edited.root.iterfind("joint"):
@@ -132,7 +134,7 @@ def _moves_apart(found: Difference, edited: EditedFile) -> bool:
 
 
 def _is_in_held(found: Difference, edited: EditedFile) -> bool:
-    """Whether it is where a frame is, in a robot that a joint holds at the world which a mark calls made."""
+    """Whether it is where a frame is, in a robot that a joint holds at the world that is annotated as synthesized."""
     if found.group != "frame" or not found.aspect.startswith("pose"):
         return False
     made = (joint for joint in edited.root.iterfind("joint") if joint.find(f"{OURS}made") is not None)
@@ -142,14 +144,14 @@ def _is_in_held(found: Difference, edited: EditedFile) -> bool:
 def _may_follow(found: Difference, edited: EditedFile) -> bool:
     """Whether it is how the robot moves, where an annotation tells that a joint follows another one."""
     mimics = edited.root.iter(f"{OURS}version")
-    return found.group == "kinematics" and any(mark.find("mimic") is not None for mark in mimics)
+    return found.group == "kinematics" and any(annotation.find("mimic") is not None for annotation in mimics)
 
 
 def _moves_alike(found: Difference, edited: EditedFile) -> bool:
     """Whether it is to which of several links a frame is attached that are fixed to each other."""
     if found.group != "frame" or found.aspect != "attached_to":
         return False
-    return edited.are_fixed(*((said.text or "").strip("'") for said in (found.a, found.b)))
+    return edited.are_fixed(*((written.text or "").strip("'") for written in (found.a, found.b)))
 
 
 def _is_empty_link(found: Difference, edited: EditedFile) -> bool:
@@ -164,25 +166,25 @@ def _is_beyond_urdf(found: Difference, edited: EditedFile) -> bool:
     if edited.root.tag != "robot":
         return False
     if found.group == "link" and found.aspect.startswith("visual ") and found.aspect.endswith("/material"):
-        named = (each for each in edited.marked("visual", "sdf") if f"'{each.get('name')}'" in found.aspect)
+        named = (each for each in edited.annotated("visual", "sdf") if f"'{each.get('name')}'" in found.aspect)
         carried = [look for visual in named for look in visual.iterfind(f"{OURS}sdf/material")]
         return found.a.text is None and any(all(word.tag not in _COLORS for word in look) for look in carried)
     return found.group == "joint" and found.aspect in _BEYOND_URDF
 
 
 _REASONS: dict[str, Callable[[Difference, EditedFile], bool]] = {
-    "a link that says nothing, which URDF has to have": _is_empty_link,
-    "a mark calls a link a frame, or says where its frame is": _is_marked_frame,
+    "an empty link, which URDF has to have": _is_empty_link,
+    "an annotation calls a link a frame, or places its frame": _is_annotated_frame,
     "a link without mass on a fixed joint, which SDF had as a link": _stays_a_link,
-    "a mark calls a frame a link": _ends_at_marked_link,
+    "an annotation calls a frame a link": _ends_at_annotated_link,
     "a joint of several axes is a chain of joints in URDF": _is_of_chain,
     "a joint has another name in the other format, and moves with another sample": _moves_apart,
     "joints of a robot with loops, of which names choose the tree": _is_in_loop,
-    "a carrier says that a joint follows another": _may_follow,
-    "a joint that a mark calls made holds the robot at the world": _is_in_held,
+    "a carrier has a joint follow another": _may_follow,
+    "a joint annotated as synthesized holds the robot at the world": _is_in_held,
     "a frame is attached to one of several links that are fixed to each other": _moves_alike,
     "a frame of a model without links": _is_without_links,
     "a joint has another name in the other format, which a link has here": _is_named_otherwise,
-    "a carrier says what URDF has no word for": _is_beyond_urdf,
+    "a carrier has what URDF cannot express": _is_beyond_urdf,
 }
 """Differences that the file has without its carriers because URDF cannot express it, by their reason."""

@@ -16,7 +16,7 @@ import numpy as np
 
 from twinform.testing.oracles import drake
 from twinform.testing.oracles.comparison import IN_CHAINS, chained, renamed
-from twinform.testing.oracles.in_process import look
+from twinform.testing.oracles.in_process import read_robot
 from twinform.testing.oracles.robot import Matrix, View, spread
 from twinform.testing.oracles.verdict import Alike, UnreadableError, Verdict
 
@@ -40,7 +40,7 @@ def moved_alike(first: Path, second: Path, seconds: float) -> Verdict:
     Raises:
         UnreadableError: Drake cannot read or simulate one of them.
     """
-    one, other = look(first, "drake"), look(second, "drake")
+    one, other = read_robot(first, "drake"), read_robot(second, "drake")
     here, there = chained(other, one), chained(one, other)
     before = _trajectory(first, View(still=here), seconds)
     after = _trajectory(second, View(renamed(one, other), still=there), seconds)

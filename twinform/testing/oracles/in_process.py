@@ -9,7 +9,7 @@ from twinform.testing.oracles.robot import Robot, View
 from twinform.testing.oracles.verdict import UnreadableError, Verdict
 
 
-def look(path: Path, engine: str, view: View | None = None) -> Robot:
+def read_robot(path: Path, engine: str, view: View | None = None) -> Robot:
     """What an engine sees in a file.
 
     Raises:
@@ -25,20 +25,20 @@ def look(path: Path, engine: str, view: View | None = None) -> Robot:
         raise UnreadableError(engine, path, str(error) or type(error).__name__) from error
 
 
-def versus(first: Robot, files: tuple[Path, Path], engines: tuple[str, str], *, lumped: bool = False) -> Verdict:
+def verdict_on(first: Robot, files: tuple[Path, Path], engines: tuple[str, str], *, lumped: bool = False) -> Verdict:
     """The verdict on two files, of which the first has been looked at.
 
     Raises:
         UnreadableError: an engine cannot read its file.
     """
     (source, result), (before, after) = files, engines
-    second = look(result, after, View(reference=first.reference))
+    second = read_robot(result, after, View(reference=first.reference))
     names = renamed(first, second)
     here, there = chained(first, second), chained(second, first)
     if names or here:
-        second = look(result, after, View(names, first.reference, here))
+        second = read_robot(result, after, View(names, first.reference, here))
     if second.reference != first.reference or there:
-        first = look(source, before, View(reference=second.reference, still=there))
+        first = read_robot(source, before, View(reference=second.reference, still=there))
     tolerance = max(required(engine).formats[path.suffix] for engine, path in zip(engines, files, strict=True))
     return judge(first, second, tolerance=tolerance, lumped=lumped, chains=bool(here or there))
 
@@ -49,4 +49,4 @@ def compared(first: Path, second: Path, engines: tuple[str, str], lumped: bool) 
     Raises:
         UnreadableError: an engine cannot read its file.
     """
-    return versus(look(first, engines[0]), (first, second), engines, lumped=lumped)
+    return verdict_on(read_robot(first, engines[0]), (first, second), engines, lumped=lumped)

@@ -72,7 +72,7 @@ def _culprit(first: Path, second: Path, engines: tuple[str, str]) -> UnreadableE
     from twinform.testing.oracles import in_process  # noqa: PLC0415 - as above
 
     try:
-        call(in_process.look, first, engines[0])
+        call(in_process.read_robot, first, engines[0])
     except ChildDiedError as died:
         return UnreadableError(engines[0], first, str(died))
     return UnreadableError(engines[1], second, "it ends the process")

@@ -1,7 +1,7 @@
 """PyBullet's view of a URDF model, which it is given without shapes (`shapes.py`).
 
 It turns links about with some digits less than others, so that its tolerance is larger. A link without an inertia
-weighs one kg to it, and nothing to everybody else: it is given one that says so.
+weighs one kg to it, and nothing to everybody else: it is given one of zero.
 """
 
 import importlib

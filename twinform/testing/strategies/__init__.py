@@ -2,7 +2,7 @@
 
 A model is drawn as a list of *segments*, each a link with the joint that holds it and a number that picks its parent
 among the links before it. Names and parents follow from positions, so that a segment can be taken out without harm.
-Arguments are keyword-only and say what is valid; one that nothing can fulfil raises `ValueError`.
+Arguments are keyword-only and describe valid values; one that no value can satisfy raises `ValueError`.
 """
 
 from twinform.testing.strategies._bodies import geometries, inertials, links

@@ -12,7 +12,7 @@ from twinform.testing.strategies._values import maybe, poses
 _MOST = 1000
 _PRESENT = 7
 """To each segment that is absent."""
-_NEWEST_WORDS = "1.8"
+_OLDEST_WITH_FRAMES = "1.8"
 """The oldest version of SDF that has frames as these models do."""
 
 
@@ -144,8 +144,8 @@ def _models(
     version: str, least: int, most: int, types: tuple[Any, ...] | None, shapes: tuple[type[Any], ...]
 ) -> st.SearchStrategy[Model]:
     _require(least, most)
-    if tuple(map(int, version.split("."))) < tuple(map(int, _NEWEST_WORDS.split("."))):
-        raise ValueError(f"SDF {version} says frames in other words; these models need {_NEWEST_WORDS} or newer")
+    if tuple(map(int, version.split("."))) < tuple(map(int, _OLDEST_WITH_FRAMES.split("."))):
+        raise ValueError(f"SDF {version} has other syntax for frames; these models need {_OLDEST_WITH_FRAMES} or newer")
     pose = poses(whole=True)
     movement = movements(types=types, with_none=True)
     segment = st.tuples(bodies(Format.SDF, shapes), movement, pose, pose, st.integers(0, _MOST), st.booleans())

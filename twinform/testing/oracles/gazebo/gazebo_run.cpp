@@ -1,4 +1,4 @@
-// Loads URDF and SDF files through libsdformat 12 into an engine of gz-physics 5, lets time pass, and says what the engine has:
+// Loads URDF and SDF files through libsdformat 12 into an engine of gz-physics 5, lets time pass, and reports what the engine has:
 // one JSON object per line for each file named on standard input. Poses are in the world, numbers in SI units and radians.
 //
 //   gazebo_run FOLDER_OF_PLUGINS dart|bullet|tpe [--steps N] [--dt S] [--every N] [--ground Z] [--start RATE] [--seconds N]
@@ -114,7 +114,7 @@ void drive(const scene::Scene<Kind> &scene, const Options &options) {
 
 template <typename Kind>
 void start(const scene::Scene<Kind> &scene, const double rate) {
-  if constexpr (Kind::OPEN) {  // Bullet takes no rates, and says so for each joint
+  if constexpr (Kind::OPEN) {  // Bullet takes no rates, and logs that for each joint
     for (const auto &joint : scene.joints) {
       for (std::size_t i = 0; joint.made && i < joint.made->GetDegreesOfFreedom(); ++i) joint.made->SetVelocity(i, rate);
     }
@@ -175,10 +175,10 @@ void answer(const std::string &path, const sdf::SDFPtr &description,
     for (const sdf::Error &each : loading::load(path, description, root)) {
       errors.push_back(json::quoted(std::to_string(static_cast<int>(each.Code())) + ": " + each.Message()));
     }
-    const std::string said = json::member("errors", json::list(errors));
-    if (!errors.empty()) return said;
+    const std::string listed = json::member("errors", json::list(errors));
+    if (!errors.empty()) return listed;
     const std::string inside = run<Kind>(engine, root, options);
-    return said + ", " + inside.substr(1, inside.size() - 2);
+    return listed + ", " + inside.substr(1, inside.size() - 2);
   }, options.seconds);
   std::vector<std::string> members = {json::member("path", json::quoted(path)),
                                       json::member("signal", std::to_string(ending.signal)),

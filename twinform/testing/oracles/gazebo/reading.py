@@ -93,7 +93,7 @@ def simulation(row: Row) -> Simulation:
 
 
 def console(text: str) -> Console:
-    """Lines by how grave they are, as gz-common, libsdformat and DART mark them."""
+    """Lines by how grave they are, as gz-common, libsdformat and DART label them."""
     found: dict[str, list[str]] = {"errors": [], "warnings": [], "other": []}
     for raw in _COLOR.sub("", text).splitlines():
         line = _ASSERTION.sub(r"Error: assertion \g<claim> of \g<file> failed", raw)

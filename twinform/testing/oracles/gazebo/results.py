@@ -95,7 +95,7 @@ class Moment:
 
 @dataclass(frozen=True)
 class Simulation:
-    """What became of a file in an engine; where it crashed, `stage` says at what, and there is nothing else.
+    """What became of a file in an engine; where it crashed, `stage` is the call, and there is nothing else.
 
     `errors` are those of libsdformat, `left_out` the parts that the engine was not given.
     """

@@ -42,10 +42,10 @@ class Scene {
   std::vector<Joint<Kind>> joints;
   std::vector<std::string> left_out;  // what was not given to the engine
 
-  Scene(const physics::Engine3dPtr<Features> &engine, const sdf::World *said) {
+  Scene(const physics::Engine3dPtr<Features> &engine, const sdf::World *given) {
     sdf::World empty;
-    empty.SetName(said == nullptr ? "default" : said->Name());
-    if (said != nullptr) empty.SetGravity(said->Gravity());
+    empty.SetName(given == nullptr ? "default" : given->Name());
+    if (given != nullptr) empty.SetGravity(given->Gravity());
     world = engine->ConstructWorld(empty);
   }
 
@@ -90,10 +90,10 @@ class Scene {
   }
 
   // along the axes of the link: before 5.3, gz-physics turns an inertia by its pose twice
-  static ignition::math::Inertiald turned(const ignition::math::Inertiald &said) {
-    ignition::math::MassMatrix3d matrix = said.MassMatrix();
-    matrix.SetMoi(said.Moi());
-    return {matrix, Pose3d(said.Pose().Pos(), ignition::math::Quaterniond::Identity)};
+  static ignition::math::Inertiald turned(const ignition::math::Inertiald &given) {
+    ignition::math::MassMatrix3d matrix = given.MassMatrix();
+    matrix.SetMoi(given.Moi());
+    return {matrix, Pose3d(given.Pose().Pos(), ignition::math::Quaterniond::Identity)};
   }
 
   void add_link(const sdf::Link &link, const ModelPtr &model, const std::string &scope) {

@@ -17,7 +17,7 @@ struct Ending {
   int signal = 0;       // what ended the process; 0 where it came to its own end
   std::string answer;   // what the function returned
   std::string console;  // what was written to standard output and standard error beside
-  std::string stage;    // what the function said last that it is about to do
+  std::string stage;    // what the function reported last that it is about to do
 };
 
 // shared with the process that is watched

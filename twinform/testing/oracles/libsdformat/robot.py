@@ -14,7 +14,7 @@ _MOTIONS = {2: Motion.TURNS, 3: Motion.FIXED, 5: Motion.SLIDES, 6: Motion.TURNS}
 """The kinds of joints that move in one way or not at all, by the library's numbers for them."""
 _CONTINUOUS = 2
 _ENDLESS = {"lower": -math.inf, "upper": math.inf}
-"""What a continuous joint has, whatever is written: SDF says that its range has no ends."""
+"""What a continuous joint has, whatever is written: in SDF its range has no ends."""
 
 
 def read(path: Path, view: View) -> Robot:

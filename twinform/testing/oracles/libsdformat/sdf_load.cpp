@@ -1,4 +1,4 @@
-// Loads files with libsdformat 12 and says what it thinks of each, one JSON object per line.
+// Loads files with libsdformat 12 and reports its verdict on each, one JSON object per line.
 // File names come from the arguments, or from standard input, one per line. After `--robots` the first model of each
 // file is described too, with the models in it: poses in the frame of that model, and everything in SI units. After
 // `--models` all models of the root and of the worlds are.
@@ -118,8 +118,8 @@ void describe_joints(const sdf::Model &model, const std::string &scope, const Po
   }
 }
 
-// the XML of an element, without its pose, which is told apart
-std::string said(const sdf::ElementPtr &element) {
+// the XML of an element, without its pose, which is reported separately
+std::string written(const sdf::ElementPtr &element) {
   const sdf::ElementPtr copy = element->Clone();
   if (copy->HasElement("pose")) copy->RemoveChild(copy->GetElement("pose"));
   return json::quoted(copy->ToString(""));
@@ -128,7 +128,7 @@ std::string said(const sdf::ElementPtr &element) {
 void describe_sensor(const sdf::Sensor &sensor, const Pose3d &model, const char *&separator) {
   std::cout << separator << "{\"name\": " << json::quoted(sensor.Name()) << ", \"kind\": " << json::quoted(sensor.TypeStr())
             << ", \"pose\": " << written(model * resolved(sensor.SemanticPose(), "__model__"))
-            << ", \"text\": " << said(sensor.Element()) << "}";
+            << ", \"text\": " << written(sensor.Element()) << "}";
   separator = ", ";
 }
 

@@ -20,7 +20,7 @@ _Shape = tuple[str, int, Matrix]
 
 
 def differences(before: Sequence[RobotRow], after: Sequence[RobotRow]) -> Iterator[str]:
-    """What differs between the models of two files, in words; models are matched by name."""
+    """What differs between the models of two files, as text; models are matched by name."""
     there = {row["name"]: row for row in after}
     for row in before:
         other = there.pop(row["name"], None)
@@ -97,7 +97,7 @@ def _of_shapes(before: RobotRow, after: RobotRow) -> Iterator[str]:
 
 
 def _near(one: Matrix, other: Matrix) -> bool:
-    """Whether two places are the same; urdfdom turns what looks straight up or down by up to 0.005 rad."""
+    """Whether two places are the same; urdfdom turns what points straight up or down by up to 0.005 rad."""
     far = max(1.0, float(np.abs(one[:3, 3]).max()))
     moved, turned = np.abs(one - other)[:3, 3].max(), np.abs(one - other)[:3, :3].max()
     return bool(moved <= TOLERANCE * far and turned <= 5e-3)

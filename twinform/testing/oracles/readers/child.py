@@ -17,7 +17,7 @@ SECONDS = 30
 def main(name: str) -> None:
     """Serve until standard input ends."""
     answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
-    os.dup2(2, 1)  # what a module says while it is imported is no answer
+    os.dup2(2, 1)  # what a module prints while it is imported is no answer
     prepare(name)
     for line in sys.stdin:
         json.dump(_ask(name, Path(line.rstrip("\n"))), answers)
@@ -31,8 +31,8 @@ def _ask(name: str, path: Path) -> dict[str, str]:
         _read(name, path, answer, console)
     _, status = os.waitpid(process, 0)
     ended = os.waitstatus_to_exitcode(status)
-    said = _contents(answer) if ended == 0 else json.dumps({"error": f"ended with {ended}", "said": ""})
-    return {**json.loads(said), "console": _contents(console)}
+    outcome = _contents(answer) if ended == 0 else json.dumps({"error": f"ended with {ended}", "output": ""})
+    return {**json.loads(outcome), "console": _contents(console)}
 
 
 def _read(name: str, path: Path, answer: int, console: int) -> None:
@@ -41,9 +41,9 @@ def _read(name: str, path: Path, answer: int, console: int) -> None:
     os.dup2(console, 1)
     os.dup2(console, 2)
     try:
-        result = {"error": "", "said": FUNCTIONS[name](path)}
+        result = {"error": "", "output": FUNCTIONS[name](path)}
     except (Exception, SystemExit) as error:  # noqa: BLE001  whatever a reader throws, it refuses the file
-        result = {"error": f"{type(error).__name__}: {error}", "said": ""}
+        result = {"error": f"{type(error).__name__}: {error}", "output": ""}
     sys.stdout.flush()
     sys.stderr.flush()
     os.write(answer, json.dumps(result).encode())

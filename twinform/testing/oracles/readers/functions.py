@@ -1,4 +1,4 @@
-"""How each reader is called: a function of a path that raises where the file is refused, and returns what it says."""
+"""How each reader is called: a function of a path that raises where the file is refused, and returns what it reads."""
 
 import importlib
 import json
@@ -92,7 +92,7 @@ def _lxml(path: Path) -> str:
 
 
 def canonical(text: bytes) -> str:
-    """What a rewritten file says, without what is of our namespace."""
+    """The content of a rewritten file, without what is of our namespace."""
     etree = _module("lxml.etree")
     root = etree.fromstring(text, etree.XMLParser(remove_blank_text=True, remove_comments=True, remove_pis=True))
     for element in root.xpath("//*[namespace-uri() = 'urn:twinform:1']"):

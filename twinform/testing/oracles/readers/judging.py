@@ -16,7 +16,7 @@ class Effect(StrEnum):
     """What carriers change, from nothing to the worst."""
 
     NONE = "same"
-    MENTIONED = "says that it skips it"
+    MENTIONED = "reports that it skips it"
     OTHERWISE = "reads otherwise"
     REFUSED = "**refuses**"
 
@@ -33,9 +33,9 @@ def effect(reader: Reader, carried: Path, before: Reading) -> Effect:
 
 def _only_mentions(reader: Reader, now: Reading, before: Reading) -> bool:
     mention = MENTIONS.get(reader.name)
-    kept = [line for line in now.said.splitlines() if mention is None or mention not in line]
-    said = [line for line in before.said.splitlines() if mention is None or mention not in line]
-    return mention is not None and now.error == before.error and kept == said
+    kept = [line for line in now.output.splitlines() if mention is None or mention not in line]
+    expected = [line for line in before.output.splitlines() if mention is None or mention not in line]
+    return mention is not None and now.error == before.error and kept == expected
 
 
 def without_carriers(path: Path, output: Path) -> Path:

@@ -28,7 +28,7 @@ class Reading:
     """Whether a reader accepts a file, why not, and all its messages on it."""
 
     error: str
-    said: str
+    output: str
 
     @property
     def ok(self) -> bool:
@@ -47,7 +47,7 @@ class Reader:
     _process: subprocess.Popen[str] | None = field(default=None, init=False)
 
     def ask(self, path: Path) -> Reading:
-        """What it says of a file; its process is started with the first one."""
+        """Its verdict on a file, and what it prints; its process is started with the first one."""
         if self._process is None:
             command = [sys.executable, "-m", "twinform.testing.oracles.readers.child", self.name]
             quiet, folder = subprocess.DEVNULL, tempfile.gettempdir()  # some leave a log where they are
@@ -59,7 +59,7 @@ class Reader:
         print(path.resolve(), file=self._process.stdin, flush=True)
         row: dict[str, str] = json.loads(self._process.stdout.readline())
         return Reading(
-            _lasting(row["error"], path.resolve()), _lasting(f"{row['said']}\n{row['console']}", path.resolve())
+            _lasting(row["error"], path.resolve()), _lasting(f"{row['output']}\n{row['console']}", path.resolve())
         )
 
     def close(self) -> None:
