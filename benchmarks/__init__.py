@@ -1,1 +1,1 @@
-"""Measurements: what the compiler makes of real files, what other engines say of its output, and how fast it is."""
+"""Measurements: what the compiler makes of real files, what other engines find in its output, and how fast it is."""

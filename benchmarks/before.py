@@ -14,7 +14,7 @@ import json
 import subprocess
 import sys
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -25,7 +25,7 @@ from lxml import etree
 from reports.edits import passes as edit_passes
 from reports.harness.files import SDF_VERSION
 from reports.harness.pages import table
-from tests.corpus.files import CORPUS, MISSING, CorpusFile, Kind, models
+from tests.corpus.files import CORPUS, MISSING, ROOT, CorpusFile, Kind, models
 
 _SHOWN = 20
 """So many files that differ are named."""
@@ -36,7 +36,7 @@ import hashlib, json, sys, time
 sys.path.insert(0, ".")
 import twinform
 
-def words(diagnostics):
+def texts(diagnostics):
     keys = ("message", "location", "severity", "found", "expected", "help", "related")
     return [str([each.rule.name, *(str(getattr(each, key)) for key in keys)]) for each in diagnostics]
 
@@ -48,16 +48,16 @@ for line in sys.stdin:
     path, function, options = json.loads(line)
     start = time.process_time()
     try:
-        made = getattr(twinform, function)(path, **options)
+        result = getattr(twinform, function)(path, **options)
         taken = time.process_time() - start
-        text, said = getattr(made, "text", ""), words(made.diagnostics)
+        text, findings = getattr(result, "text", ""), texts(getattr(result, "diagnostics", ()))
         if function == "convert":
-            said = [*said, str(made.ledger.expressed), *entries(made.ledger)]
+            findings = [*findings, str(result.ledger.expressed), *entries(result.ledger)]
     except twinform.CompileError as error:
-        taken, text, said = -1.0, "", words(error.diagnostics)
+        taken, text, findings = -1.0, "", texts(error.diagnostics)
     except Exception as error:
-        taken, text, said = -1.0, "", [repr(error)]
-    encoded = [each.encode("utf-8", "surrogatepass") for each in (text, "\\n".join(said))]
+        taken, text, findings = -1.0, "", [repr(error)]
+    encoded = [each.encode("utf-8", "surrogatepass") for each in (text, "\\n".join(findings))]
     print(taken, *(hashlib.sha256(each).hexdigest() for each in encoded))
     sys.stdout.flush()
 """
@@ -104,8 +104,8 @@ class Checkout:
             raise ValueError("the process has no pipes")
         self.process.stdin.write(f"{call.line}\n")
         self.process.stdin.flush()
-        taken, text, said = self.process.stdout.readline().split()
-        return float(taken), text, said
+        taken, text, findings = self.process.stdout.readline().split()
+        return float(taken), text, findings
 
 
 @dataclass(slots=True)
@@ -125,18 +125,35 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("checkout", type=Path, help="the folder of the older tree")
     parser.add_argument("--every", type=int, default=1, help="one of so many files of the corpus")
     parser.add_argument("--times", type=int, default=3, help="how often each file is converted")
-    parser.add_argument("--all", action="store_true", help="everything that can be made of a file, not one conversion")
+    parser.add_argument(
+        "--all", action="store_true", help="every conversion and check of a file, not one conversion alone"
+    )
     options = parser.parse_args(arguments)
     if not CORPUS.is_dir():
         print(MISSING, file=sys.stderr)
         return 2
-    both = (Checkout.at("before", options.checkout), Checkout.at("now", Path.cwd()))
-    figures: dict[str, Figures] = defaultdict(Figures)
-    for file in list(models())[:: options.every]:
-        for call in _all_calls(file) if options.all else [_other_format(file)]:
-            _measure(call, both, figures[call.kind], options.times)
+    files = models()[:: options.every]
+    calls = (call for file in files for call in (_all_calls(file) if options.all else [_other_format(file)]))
+    figures = compare(calls, options.checkout, options.times)
     _report(figures)
     return int(any(each.other_output or each.other_findings for each in figures.values()))
+
+
+def compare(calls: Iterable[Call], checkout: Path, times: int) -> dict[str, Figures]:
+    """What the packages of an older checkout and of this one make of each call, in turns, by kind of call."""
+    both = (Checkout.at("before", checkout), Checkout.at("now", ROOT))
+    figures: dict[str, Figures] = defaultdict(Figures)
+    for call in calls:
+        _measure(call, both, figures[call.kind], times)
+    for each in both:
+        each.process.communicate()
+    return figures
+
+
+def figures_table(figures: Mapping[str, Figures]) -> str:
+    """A row for each kind of call."""
+    head = ["", "calls", "same output", "same findings", "neither refuses", "before", "now", "now / before"]
+    return table(head, (_row(kind, each) for kind, each in figures.items()))
 
 
 def _other_format(file: CorpusFile, **options: object) -> Call:
@@ -156,7 +173,7 @@ def _all_calls(file: CorpusFile) -> Iterator[Call]:
         yield Call("check", file.path, "check", {"strict": strict})
     random = Random(file.name)
     names = [name for name in edit_passes.NAMES if name != _WRITES_FILES]
-    with suppress(etree.XMLSyntaxError):  # links to choose from are looked up in files that need no repair
+    with suppress(etree.XMLSyntaxError):  # links to choose from are listed for files that need no repair
         chosen = [edit_passes.pipeline(name, file.path.read_bytes(), random) for name in random.sample(names, _PASSES)]
         for pipeline in filter(None, chosen):
             yield Call("with a pass", file.path, options={"to": own, "passes": pipeline})
@@ -164,13 +181,13 @@ def _all_calls(file: CorpusFile) -> Iterator[Call]:
 
 def _measure(call: Call, both: tuple[Checkout, ...], figures: Figures, times: int) -> None:
     taken: dict[str, list[float]] = defaultdict(list)
-    texts, said = dict[str, str](), dict[str, str]()
+    texts, findings = dict[str, str](), dict[str, str]()
     for _ in range(times):
         for checkout in both:
-            seconds, texts[checkout.name], said[checkout.name] = checkout.answer(call)
+            seconds, texts[checkout.name], findings[checkout.name] = checkout.answer(call)
             taken[checkout.name].append(seconds)
     figures.calls += 1
-    for seen, differing in ((texts, figures.other_output), (said, figures.other_findings)):
+    for seen, differing in ((texts, figures.other_output), (findings, figures.other_findings)):
         if len({*seen.values()}) > 1:
             differing.append(call.name)
     if all(min(each) >= 0 for each in taken.values()):
@@ -179,23 +196,15 @@ def _measure(call: Call, both: tuple[Checkout, ...], figures: Figures, times: in
             figures.seconds[name] += min(each)
 
 
+def _row(kind: str, seen: Figures) -> tuple[object, ...]:
+    same = (seen.calls - len(names) for names in (seen.other_output, seen.other_findings))
+    before, now = seen.seconds["before"], seen.seconds["now"]
+    part = f"{now / before:.2f}" if before else ""
+    return (kind, seen.calls, *same, seen.answered, f"{before:.2f} s", f"{now:.2f} s", part)
+
+
 def _report(figures: dict[str, Figures]) -> None:
-    rows = [
-        [
-            kind,
-            str(each.calls),
-            str(each.calls - len(each.other_output)),
-            str(each.calls - len(each.other_findings)),
-            str(each.answered),
-            f"{each.seconds['before']:.2f} s",
-            f"{each.seconds['now']:.2f} s",
-            f"{each.seconds['before'] / each.seconds['now']:.2f}" if each.seconds["now"] else "",
-        ]
-        for kind, each in figures.items()
-    ]
-    print(
-        table(["", "calls", "same output", "same findings", "neither refuses", "before", "now", "times as fast"], rows)
-    )
+    print(figures_table(figures))
     for kind, each in figures.items():
         for what, names in (("output", each.other_output), ("findings", each.other_findings)):
             for name in names[:_SHOWN]:

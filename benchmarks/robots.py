@@ -6,11 +6,17 @@ BRANCHING = 3
 ELEMENTS_PER_LINK = 21
 
 
-def urdf(links: int) -> str:
-    """A tree of links in which every link has three children, with about twenty elements for each link."""
-    parts = [_link(0), *(_joint(number) + _link(number) for number in range(1, links))]
+def urdf(links: int, *, branching: int = BRANCHING) -> str:
+    """A tree of links in which every link has so many children, with about twenty elements for each link."""
+    parts = [_link(0), *(_joint(number, branching) + _link(number) for number in range(1, links))]
     material = '  <material name="grey">\n    <color rgba="0.5 0.5 0.5 1"/>\n  </material>\n'
-    return f'<?xml version="1.0"?>\n<robot name="tree_of_{links}">\n{material}{"".join(parts)}</robot>\n'
+    name = "chain" if branching == 1 else "tree"
+    return f'<?xml version="1.0"?>\n<robot name="{name}_of_{links}">\n{material}{"".join(parts)}</robot>\n'
+
+
+def chain(links: int) -> str:
+    """A chain of links: the same elements, and every link has one child."""
+    return urdf(links, branching=1)
 
 
 def _link(number: int) -> str:
@@ -39,9 +45,9 @@ def _link(number: int) -> str:
 """
 
 
-def _joint(number: int) -> str:
+def _joint(number: int, branching: int) -> str:
     return f"""  <joint name="joint_{number}" type="revolute">
-    <parent link="link_{(number - 1) // BRANCHING}"/>
+    <parent link="link_{(number - 1) // branching}"/>
     <child link="link_{number}"/>
     <origin xyz="{_vector(number, 7)}" rpy="{_vector(number, 8)}"/>
     <axis xyz="0 0 1"/>

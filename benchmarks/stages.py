@@ -1,71 +1,119 @@
-"""Where the time of a conversion goes: each stage on its own, one after the other."""
+"""Where the time of a conversion goes: a sample of the stack at each tick of the CPU clock, counted by folder and file.
 
+Nothing is taken apart or called in another order: what is sampled is `twinform.convert`. A sample weighs the CPU time
+since the one before, since a call into C, such as that of an XSD, delays the ticks that fall into it to its end.
+"""
+
+import signal
 import time
-from collections.abc import Generator
-from contextlib import contextmanager
-from statistics import median
+from collections import defaultdict
+from collections.abc import Generator, Iterable, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from types import FrameType
 
-from twinform.compiler.driver import plan
-from twinform.compiler.input import urdf as front_end
-from twinform.compiler.input.loading import garbage_collection_paused
-from twinform.compiler.input.parsing import parse
-from twinform.compiler.output import sdf as back_end
-from twinform.compiler.output.emitting import serialized, written_version
-from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Document
-from twinform.ir.verify import verify
-from twinform.schemas import Context, libxml2_errors
+import twinform
+from reports.harness.pages import paragraphs, section, table
+from twinform.compiler.request import Language
+
+TICK = 0.001
+"""In seconds; a kernel makes four of it."""
+ENOUGH = 8.0
+"""So many seconds of a conversion are sampled, or all files once."""
+_PACKAGE = f"{Path(twinform.__file__).parent}/"
+_PYDANTIC = "/pydantic/"
+_STAGES: Sequence[tuple[str, tuple[str, ...]]] = (
+    ("XSD of the output", ("compiler/output/", "schemas/validator.py")),
+    ("XSD of the input", ("schemas/validator.py",)),
+    ("verify the input", ("compiler/input/", "ir/verify/")),
+    ("verify the result", ("ir/verify/",)),
+    ("passes", ("passes/",)),
+    ("write", ("compiler/output/",)),
+    ("parse", ("compiler/input/parsing.py",)),
+    ("Pydantic", ("compiler/input/", _PYDANTIC)),
+    ("read", ("compiler/input/",)),
+)
+"""Each stage, and what has to be on the stack: the first one for which all is."""
+REST = "rest"
+_ORDER = (
+    *("parse", "XSD of the input", "read", "Pydantic", "verify the input", "passes", "verify the result"),
+    *("write", "XSD of the output", REST),
+)
+_ABOUT = """\
+The stack of `twinform.convert` sampled at ticks of the CPU clock. *Read* is what makes the IR of the XML tree: facts
+tables, values, lowering; *write* is the back end, with the text. A stage below 1 % is within the noise."""
 
 
-class Stages:
-    """The seconds of each stage, over all runs, in the order in which they were first run."""
+def stage_of(places: Iterable[str]) -> str:
+    """The stage of a stack, which is given by the files of its frames, those of the package relative to it."""
+    stack = list(places)
+    for stage, wanted in _STAGES:
+        if all(any(_is_in(place, want) for place in stack) for want in wanted):
+            return stage
+    return REST
 
-    def __init__(self) -> None:
-        self.seconds: dict[str, list[float]] = {}
 
-    @contextmanager
-    def time(self, name: str) -> Generator[None]:
-        """Count what happens inside to a stage."""
-        start = time.perf_counter()
+def _is_in(place: str, want: str) -> bool:
+    return want in place if want is _PYDANTIC else place.startswith(want)
+
+
+@contextmanager
+def sampled(seconds: dict[str, float]) -> Generator[None]:
+    """Count the CPU time of what happens inside, by stage."""
+    before = time.process_time()
+
+    def tick(_number: int, frame: FrameType | None) -> None:
+        nonlocal before
+        now = time.process_time()
+        seconds[stage_of(_places(frame))] += now - before
+        before = time.process_time()
+
+    previous = signal.signal(signal.SIGPROF, tick)
+    signal.setitimer(signal.ITIMER_PROF, TICK, TICK)
+    try:
         yield
-        self.seconds.setdefault(name, []).append(time.perf_counter() - start)
-
-    def medians(self) -> dict[str, float]:
-        """The seconds of each stage in a run."""
-        return {name: median(seconds) for name, seconds in self.seconds.items()}
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, previous)
 
 
-def profile_urdf_to_sdf(text: bytes, *, sdf_version: str, runs: int) -> dict[str, float]:
-    """The seconds of each stage of a conversion."""
-    stages = Stages()
-    for _ in range(runs):
-        with garbage_collection_paused():
-            _convert(text, sdf_version, stages)
-    return stages.medians()
+def _places(frame: FrameType | None) -> Generator[str]:
+    while frame is not None:
+        yield frame.f_code.co_filename.removeprefix(_PACKAGE)
+        frame = frame.f_back
 
 
-def _convert(text: bytes, sdf_version: str, stages: Stages) -> None:
-    sink = DiagnosticSink(file="robot.urdf")
-    with stages.time("parse"):
-        root = parse(text, sink)
-    with stages.time("XSD of the input"):
-        clean = not libxml2_errors(root, "urdf", (1, 0))
-    with stages.time("schema reader: structure, values, lowering"):
-        simple = clean and b"xmlns" not in text
-        context = Context(sink, sink.file, "urdf", (1, 0), clean=clean, simple=simple)
-        data = front_end.lower(root, context)
-    with stages.time("pydantic"):
-        document = Document.model_validate({**data})
-    with stages.time("verify"):
-        verify(document, sink)
-    with stages.time("legalisation passes"):
-        document = plan(document, to="sdf", sdf_version=sdf_version).run(document, sink)
-    with stages.time("verify the result"):
-        verify(document, sink)
-    version = written_version(document)
-    with stages.time("emit"):
-        root = back_end.emit(document, version, {})
-    with stages.time("XSD of the output"):
-        libxml2_errors(root, "sdf", version)
-    with stages.time("serialize"):
-        serialized(root, document)
+def profile(paths: Sequence[Path], to: Language) -> Mapping[str, float]:
+    """The seconds of each stage of one conversion of each file."""
+    seconds: dict[str, float] = defaultdict(float)
+    _convert(paths[:1], to)  # reads tables and schemas
+    start, runs = time.process_time(), 0
+    with sampled(seconds):
+        while not runs or time.process_time() - start < ENOUGH:
+            _convert(paths, to)
+            runs += 1
+    return {stage: value / runs for stage, value in seconds.items()}
+
+
+def _convert(paths: Iterable[Path], to: Language) -> None:
+    for path in paths:
+        with suppress(twinform.CompileError):
+            twinform.convert(path, to=to)
+
+
+def page(profiles: Mapping[str, Mapping[str, float]]) -> str:
+    """The section with a column for each profile."""
+    wholes = [sum(seconds.values()) for seconds in profiles.values()]
+    rows = [
+        (
+            stage,
+            *(_cell(seconds.get(stage, 0), whole) for seconds, whole in zip(profiles.values(), wholes, strict=True)),
+        )
+        for stage in _ORDER
+    ]
+    rows.append(("all", *(f"{whole * 1e3:,.0f} ms" for whole in wholes)))
+    return section("Where the time goes", paragraphs(_ABOUT, table(["stage", *profiles], rows)))
+
+
+def _cell(seconds: float, whole: float) -> str:
+    return f"{seconds * 1e3:,.0f} ms ({seconds / whole:.0%})" if whole else ""

@@ -20,6 +20,6 @@ def test_generated_robots_are_without_a_fault(links: int, tmp_path: Path):
     assert not urdfdom.available() or urdfdom.complaints(path) == ()
 
 
-def test_generated_robots_have_the_elements_that_the_page_speaks_of():
+def test_generated_robots_have_the_elements_that_the_page_mentions():
     elements = [robots.urdf(links).count("<") - robots.urdf(links).count("</") for links in (100, 101)]
     assert elements[1] - elements[0] == robots.ELEMENTS_PER_LINK
