@@ -1,1 +1,1 @@
-"""What measures: what the compiler makes of real files, and what other engines say of it. `make report` lists them."""
+"""What measures: what the compiler makes of real files, and what other engines find in it. `make report` lists them."""

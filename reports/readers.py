@@ -23,7 +23,7 @@ SAMPLE = 25
 _ABOUT = """\
 What a conversion carries stands in elements of the namespace `urn:twinform:1`, which every
 other reader is meant to skip. Here readers are asked: each form is put into a small robot, into every kind of element
-named, and the reader's verdict and all that it prints are compared with those of the file without it. *Says that it
+named, and the reader's verdict and all that it prints are compared with those of the file without it. *Reports that it
 skips it* is a line about an unknown element, and nothing else; *reads otherwise* is any other change of what it prints
 or returns.
 
@@ -33,22 +33,24 @@ Comments would be silent, but every tool that rewrites a file may drop or move t
 
 DART reads URDF through urdfdom, and Pinocchio, where it reads SDF, through libsdformat: they are not asked apart.
 Gazebo's `gz sdf` is libsdformat."""
-_MARK = f"<{PREFIX}:mark xmlns:{PREFIX}='{NAMESPACE}'{{0}}>{{1}}</{PREFIX}:mark>"
+_ELEMENT = f"<{PREFIX}:carried xmlns:{PREFIX}='{NAMESPACE}'{{0}}>{{1}}</{PREFIX}:carried>"
 _FORMS = {
-    "an element": _MARK.format("", ""),
-    "with an attribute": _MARK.format(" at='limit'", ""),
-    "with `name`": _MARK.format(" name='a'", ""),
-    "with `::` in `name`": _MARK.format(" name='a::B'", ""),
-    "with text": _MARK.format("", "text"),
-    "around elements of URDF": _MARK.format(
+    "an element": _ELEMENT.format("", ""),
+    "with an attribute": _ELEMENT.format(" at='limit'", ""),
+    "with `name`": _ELEMENT.format(" name='a'", ""),
+    "with `::` in `name`": _ELEMENT.format(" name='a::B'", ""),
+    "with text": _ELEMENT.format("", "text"),
+    "around elements of URDF": _ELEMENT.format(
         "", "<link name='a'/><joint name='j' type='fixed'/><transmission name='t'/>"
     ),
-    "around elements of SDF": _MARK.format("", "<pose relative_to='a'>1 2 3 0 0 0</pose><axis><xyz>1 0 0</xyz></axis>"),
-    "around `::` in `name`": _MARK.format("", "<api name='a::B'/>"),
-    "around an empty attribute": _MARK.format("", "<material name=''/>"),
+    "around elements of SDF": _ELEMENT.format(
+        "", "<pose relative_to='a'>1 2 3 0 0 0</pose><axis><xyz>1 0 0</xyz></axis>"
+    ),
+    "around `::` in `name`": _ELEMENT.format("", "<api name='a::B'/>"),
+    "around an empty attribute": _ELEMENT.format("", "<material name=''/>"),
     "an attribute": "@",
-    "a comment": "<!--mark-->",
-    "an instruction": "<?twinform mark?>",
+    "a comment": "<!--carried-->",
+    "an instruction": "<?twinform carried?>",
 }
 _PLACES = {
     ".urdf": (".", "link", "link/inertial", "link/visual", "link/collision", "joint", "joint/limit"),
@@ -95,7 +97,7 @@ def _placed(form: str, plain: Path, folder: Path) -> Iterator[Path]:
         tree = etree.parse(plain)
         for element in tree.iterfind(place) if place != "." else [tree.getroot()]:
             if form == "@":
-                element.set(f"{{{NAMESPACE}}}mark", "a")
+                element.set(f"{{{NAMESPACE}}}carried", "a")
             else:
                 element.append(etree.fromstring(f"<x>{form}</x>")[0])
         output = folder / f"carried{plain.suffix}"

@@ -1,4 +1,4 @@
-"""What libsdformat 12, the reader of Fortress, says of migrated files, beside what it says of their sources."""
+"""What libsdformat 12, the reader of Fortress, reports about migrated files and about their sources."""
 
 import tempfile
 from collections.abc import Iterable, Iterator

@@ -5,6 +5,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import TypeVar
 
 import twinform
 from reports.classic import transmissions
@@ -17,7 +18,6 @@ from reports.harness.sample import Sample
 from tests.corpus.examine import rules_of
 from tests.corpus.files import CorpusFile, Kind, corpus_files
 from twinform.compiler.audit import audit
-from twinform.compiler.workers import Failure
 from twinform.diagnostics import Diagnostic, Fate, Severity
 from twinform.diagnostics.rules import classic as rules
 from twinform.diagnostics.rules import plugins as plugin_rules
@@ -38,6 +38,7 @@ xacro. A block is *migrated*, or *renamed* where it was one of Ignition, or *wit
 One that is not accounted for fails the command, and so do findings of `check-plugins` about what came out, unless their
 reason is in `reports/classic/known.toml`."""
 
+Key = TypeVar("Key")
 _SUBJECT = re.compile(r"plugin (?:'.*?'|None) of (\S+?),? ")
 _CHECKED = {rule.name for rule in vars(plugin_rules).values() if hasattr(rule, "finds")}
 
@@ -75,7 +76,7 @@ class Outcome:
 def measure(sample: Sample) -> Findings:
     """Migrate every plugin."""
     files = _candidates(sample)
-    outcomes = sorted(_outcomes(sample, files), key=lambda one: one.name)
+    outcomes = sample.outcomes(judge, files, lambda file, why: Outcome(file.name, checks=[why]), seconds=_SECONDS)
     found = [
         (one.name, fault, KNOWN.why("fault", file=one.name, fault=fault)) for one in outcomes for fault in _faults(one)
     ]
@@ -108,10 +109,14 @@ def judge(file: CorpusFile) -> Outcome | None:
 
 def _whole(file: CorpusFile, found: list[Block], language: str) -> Outcome:
     outcome = Outcome(file.name, whole=True)
-    made = twinform.convert(file.path, to="urdf" if language == "urdf" else "sdf", passes=PIPELINE)
-    _tell(outcome, found, made)
-    # what a newer version of SDF says otherwise is nothing of this page
-    plain = audit(made.source, made.text, made.ledger).unaccounted if made.source is not None else ()
+    conversion = twinform.convert(file.path, to="urdf" if language == "urdf" else "sdf", passes=PIPELINE)
+    _count_outcomes(outcome, found, conversion)
+    # what a newer version of SDF expresses in another way is not for this page
+    plain = (
+        audit(conversion.source, conversion.text, conversion.ledger).unaccounted
+        if conversion.source is not None
+        else ()
+    )
     missing = [part for part in plain if "/plugin" in part.location.path or "/sensor" in part.location.path]
     outcome.unaccounted = len(missing)
     return outcome
@@ -121,33 +126,35 @@ def _one_by_one(file: CorpusFile, found: list[Block], why: str) -> Outcome:
     outcome = Outcome(file.name, refused=why)
     for block in found:
         try:
-            made = twinform.convert(block.alone, to="urdf" if block.language == "urdf" else "sdf", passes=PIPELINE)
+            conversion = twinform.convert(
+                block.alone, to="urdf" if block.language == "urdf" else "sdf", passes=PIPELINE
+            )
         except twinform.CompileError as error:
             outcome.ends[block.filename, End.UNACCOUNTED] += 1
             outcome.checks += [f"line {block.line}: {each.message}" for each in error.diagnostics if each.is_error]
         else:
-            _tell(outcome, [block], made)
+            _count_outcomes(outcome, [block], conversion)
     return outcome
 
 
-def _tell(outcome: Outcome, found: list[Block], made: twinform.Conversion) -> None:
+def _count_outcomes(outcome: Outcome, found: list[Block], conversion: twinform.Conversion) -> None:
     """Count what became of some blocks of a file."""
-    wanted, told = Counter(block.filename for block in found), Counter[str]()
-    for entry in made.ledger.entries:
+    wanted, reported = Counter(block.filename for block in found), Counter[str]()
+    for entry in conversion.ledger.entries:
         subject = _SUBJECT.match(entry.message)
         if subject is not None and entry.rule in _ENDS:
-            told[subject[1]] += 1
+            reported[subject[1]] += 1
             if subject[1] in wanted:
                 outcome.ends[subject[1], _ENDS[entry.rule]] += 1
             if entry.fate is Fate.DROPPED:
                 outcome.reasons[subject[1], entry.message.partition(": ")[2]] += 1
-    for filename, count in (wanted - told).items():
+    for filename, count in (wanted - reported).items():
         outcome.ends[filename, End.UNACCOUNTED] += count
-    for each in made.diagnostics:
+    for each in conversion.diagnostics:
         if each.rule is rules.PARAMETER_WITHOUT_COUNTERPART:
             name, _, why = each.message.partition(" has no counterpart: ")
             outcome.lost[name.partition(">")[0] + ">", why] += 1
-    outcome.checks += [f"{each.rule.name}: {each.message}" for each in made.diagnostics if _is_check(each)]
+    outcome.checks += [f"{each.rule.name}: {each.message}" for each in conversion.diagnostics if _is_check(each)]
 
 
 def _is_check(diagnostic: Diagnostic) -> bool:
@@ -163,14 +170,6 @@ def _faults(outcome: Outcome) -> Iterator[str]:
     yield from outcome.checks
 
 
-def _outcomes(sample: Sample, files: list[CorpusFile]) -> Iterable[Outcome]:
-    for file, found in sample.run(judge, files, seconds=_SECONDS):
-        if isinstance(found, Failure):
-            yield Outcome(file.name, checks=[found.cause])
-        elif found is not None:
-            yield found
-
-
 def _candidates(sample: Sample) -> list[CorpusFile]:
     kinds = {Kind.URDF, Kind.SDF, Kind.XACRO, Kind.OLD_GAZEBO}
     return sample.of(file for file in corpus_files() if file.kind in kinds and b"lib" in file.path.read_bytes())
@@ -183,14 +182,14 @@ def _sections(outcomes: list[Outcome], found: list[tuple[str, str, str]]) -> Ite
     yield section("Parameters that went nowhere, and why", _counted("parameter", [one.lost for one in outcomes]))
     rows = [(name, fault, why or "not known") for name, fault, why in found]
     checked = listing(["file", "finding", "why"], rows, empty="Nothing.")
-    yield section("What `check-plugins` says of the results", checked)
+    yield section("What `check-plugins` finds in the results", checked)
     apart = frequent((one.refused, "") for one in outcomes if not one.whole)
     one_by_one = table(["why", "files"], (row[:2] for row in apart))
     yield section("Files whose blocks were migrated one by one, and why", one_by_one)
 
 
 def _by_libsdformat(read: list[Judged]) -> str:
-    title = "What libsdformat 12 says of the results"
+    title = "What libsdformat 12 reports about the results"
     if not read:
         return section(title, "It is not here.")
     refused = "refused as SDF before and after, mostly for includes that are not on this machine"
@@ -211,34 +210,29 @@ def _totals(outcomes: list[Outcome]) -> str:
 
 
 def _row(title: str, found: list[Outcome]) -> tuple[object, ...]:
-    counts = sum((_by_end(one) for one in found), Counter[End]())
+    counts = Counter[End]()
+    for (_, end), count in _total(one.ends for one in found).items():
+        counts[end] += count
     total = counts.total()
     share = f"{100 * (total - counts[End.UNACCOUNTED]) / total:.1f}%" if total else "100%"
     return (title, len(found), total, *(counts[end] for end in End), share, sum(bool(one.checks) for one in found))
 
 
-def _by_end(outcome: Outcome) -> Counter[End]:
-    return Counter(end for (_, end), count in outcome.ends.items() for _ in range(count))
-
-
 def _by_plugin(outcomes: list[Outcome]) -> str:
-    counts: dict[str, Counter[End]] = {}
-    for one in outcomes:
-        for (filename, end), count in one.ends.items():
-            counts.setdefault(filename, Counter())[end] += count
-    ordered = sorted(counts.items(), key=lambda item: (-item[1].total(), item[0]))
-    rows = [(name, ends.total(), *(ends[end] for end in End)) for name, ends in ordered]
-    return table(["file", "blocks", *End], rows)
+    ends = _total(one.ends for one in outcomes)
+    totals = {name: sum(ends[name, end] for end in End) for name, _ in ends}
+    ordered = sorted(totals.items(), key=lambda item: (-item[1], item[0]))
+    return table(["file", "blocks", *End], [(*row, *(ends[row[0], end] for end in End)) for row in ordered])
 
 
 def _counted(what: str, counters: Iterable[Counter[tuple[str, str]]]) -> str:
-    total = Counter[tuple[str, str]]()
-    for each in counters:
-        total += each
-    rows = sorted(
-        ((name, count, why) for (name, why), count in total.items()), key=lambda row: (-row[1], row[0], row[2])
-    )
+    found = [(name, count, why) for (name, why), count in _total(counters).items()]
+    rows = sorted(found, key=lambda row: (-row[1], row[0], row[2]))
     return listing([what, "times", "why"], rows, empty="None.", most=MOST_SHOWN)
+
+
+def _total(counters: Iterable[Counter[Key]]) -> Counter[Key]:
+    return sum(counters, Counter[Key]())
 
 
 REPORT = Report("classic", "From Gazebo Classic to gz-sim, over the corpus", _ABOUT, measure, known=KNOWN)

@@ -17,7 +17,7 @@ THERE, BACK = "ros2-control-from-transmissions", "transmissions-from-ros2-contro
 
 
 @dataclass(frozen=True, slots=True)
-class Told:
+class Transmissions:
     """What became of the transmissions of a file; `same` is whether there, back and there is there."""
 
     name: str
@@ -30,7 +30,7 @@ class Told:
 
 def section(sample: Sample) -> tuple[str, list[str]]:
     """The section of the page, and what is at fault."""
-    found = list(_told(sample))
+    found = list(_all_transmissions(sample))
     stay, foreign = Counter[str](), Counter[str]()
     for one in found:
         stay, foreign = stay + one.stay, foreign + one.foreign
@@ -38,25 +38,25 @@ def section(sample: Sample) -> tuple[str, list[str]]:
         ("robots with transmissions", len(found)),
         ("transmissions in a `<ros2_control>`", sum(one.converted for one in found)),
         *((f"that stay, or stay as well: {why}", count) for why, count in sorted(stay.items())),
-        *((f"said with a warning: {why}", count) for why, count in sorted(foreign.items())),
+        *((f"reported with a warning: {why}", count) for why, count in sorted(foreign.items())),
         ("parts that nothing accounts for", sum(one.unaccounted for one in found)),
         ("robots that are the same there, back and there", sum(1 for one in found if one.same)),
     ]
     faults = [f"{one.name}: {one.unaccounted} parts unaccounted" for one in found if one.unaccounted]
-    faults += [f"{one.name}: transmissions differ after the way back" for one in found if not one.same]
+    faults += [f"{one.name}: transmissions differ after the round trip" for one in found if not one.same]
     about = f"Every accepted URDF file with a `<transmission>`, through `{THERE}`, `{BACK}` and `{THERE}` again."
     return titled("Transmissions as ros2_control", about, table(["what", "number"], rows)), faults
 
 
-def _told(sample: Sample) -> Iterator[Told]:
+def _all_transmissions(sample: Sample) -> Iterator[Transmissions]:
     for file in sample.models(Kind.URDF):
         if b"<transmission" in file.path.read_bytes():
-            told = _of(file)
-            if told is not None:
-                yield told
+            transmissions = _transmissions_of(file)
+            if transmissions is not None:
+                yield transmissions
 
 
-def _of(file: CorpusFile) -> Told | None:
+def _transmissions_of(file: CorpusFile) -> Transmissions | None:
     checked = twinform.check(file.path)
     if checked.document is None or not checked.accepted:
         return None
@@ -64,7 +64,7 @@ def _of(file: CorpusFile) -> Told | None:
     again = twinform.convert(there.text.encode(), to="urdf", passes=f"{BACK},{THERE}")
     missing = audit(there.source, there.text, there.ledger).unaccounted if there.source is not None else ()
     foreign = (rules.FOREIGN_TRANSMISSION, rules.FOREIGN_HARDWARE_INTERFACE)
-    return Told(
+    return Transmissions(
         name=file.name,
         converted=sum(1 for each in there.diagnostics if each.rule is rules.CONVERTED_TRANSMISSION),
         stay=Counter(map(_why, (each for each in there.diagnostics if each.rule is rules.UNCONVERTED_TRANSMISSION))),

@@ -1,1 +1,1 @@
-"""What does the compiler make of every real file, and what does not come home?"""
+"""What does the compiler make of every real file, and what does not come back?"""

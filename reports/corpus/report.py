@@ -1,21 +1,20 @@
 """What the compiler makes of every real file."""
 
+import re
 import time
 from collections import Counter
-from collections.abc import Iterable
-from itertools import groupby
+from collections.abc import Iterable, Sequence
 
-from reports.corpus.astray import COLUMNS as COLUMNS_OF_ASTRAY
-from reports.corpus.astray import by_place
+from reports.corpus.mismatches import COLUMNS as MISMATCH_COLUMNS
+from reports.corpus.mismatches import by_path
 from reports.harness.known import Known
-from reports.harness.pages import frequent, listing, section, table
+from reports.harness.pages import frequent, grouped, listing, section, table
 from reports.harness.report import UNEXPLAINED, Findings, Report
 from reports.harness.sample import Sample
 from tests.corpus.examine import Examined, examine
 from tests.corpus.examine_xacro import Expanded, examine_xacro
 from tests.corpus.files import CorpusFile, Kind, corpus_files, xacro_files
 from tests.corpus.there_and_back import MOST_ROBOTS, SDF_VERSION
-from twinform.compiler.workers import Failure
 
 KNOWN = Known.beside(__file__)
 MOST_SHOWN = 40
@@ -25,14 +24,14 @@ _READERS = (("urdfdom 3.0.1", "check_urdf"), ("libsdformat 12.3", "libsdformat12
 _ABOUT = f"""\
 Only the seconds differ from run to run.
 
-Every URDF and SDF file of the corpus is read (*well-formed* says what a strict XML parser thinks of it, *accepted*
+Every URDF and SDF file of the corpus is read (*well-formed* is the verdict of a strict XML parser, *accepted*
 that `twinform check` finds no error), converted to the other format (URDF to SDF {SDF_VERSION}; of a file with several
 models the first {MOST_ROBOTS}, one by one; includes only where there are no others), and written again in its own
 format and version. *Identical* means that a comparison of XML trees, which knows nothing of the compiler, finds the
 text equal to the file but for white space, comments, the spelling of numbers and the order of unlike siblings.
-*Unaccounted* are elements and attributes that `convert --audit` finds neither in the result nor in the ledger. *Home*
-means that the result of the conversion was converted back, to the version of the source, and that it is the same robot
-by `twinform diff` and has the same [normal form](../explanation/there_and_back.md) as the source: every name, attribute
+*Unaccounted* are elements and attributes that `convert --audit` finds neither in the result nor in the ledger. *There
+and back* means that the result was converted back, to the version of the source, and that it is the same robot by
+`twinform diff` and has the same [normal form](../explanation/there_and_back.md) as the source: every name, attribute
 and text that is not the spelling of a default is back, and nothing else has come along. Of a world, the source is the
 model alone, with what it includes.
 
@@ -49,8 +48,11 @@ Outcome = tuple[CorpusFile, Examined]
 def measure(sample: Sample) -> Findings:
     """Examine every file."""
     start = time.perf_counter()
-    outcomes = sorted(_outcomes(sample), key=lambda outcome: outcome[0].name)
-    macros = sorted(_macros(sample), key=lambda each: each.name)
+    files = {file.name: file for file in sample.models()}
+    found = sample.outcomes(examine, files.values(), _broken)
+    outcomes = [(files[one.name], one) for one in found]
+    expanded = sample.of(xacro_files())
+    macros = sample.outcomes(_examine_xacro, expanded, lambda file, why: Expanded(file.name, faults=(why,)))
     totals = _totals(sample, outcomes, time.perf_counter() - start)
     faults = list(_faults(outcomes, macros))
     return Findings(
@@ -60,16 +62,8 @@ def measure(sample: Sample) -> Findings:
     )
 
 
-def _outcomes(sample: Sample) -> Iterable[Outcome]:
-    for file, result in sample.run(examine, sample.models()):
-        if isinstance(result, Failure):
-            result = Examined(file.name, well_formed=False, faults=(result.cause,))  # noqa: PLW2901
-        yield file, result
-
-
-def _macros(sample: Sample) -> Iterable[Expanded]:
-    for file, result in sample.run(_examine_xacro, sample.of(xacro_files())):
-        yield Expanded(file.name, faults=(result.cause,)) if isinstance(result, Failure) else result
+def _broken(file: CorpusFile, why: str) -> Examined:
+    return Examined(file.name, well_formed=False, faults=(why,))
 
 
 def _examine_xacro(file: CorpusFile) -> Expanded:
@@ -112,58 +106,43 @@ def _sections(outcomes: list[Outcome], macros: list[Expanded], faults: list[tupl
     yield section("Files accepted and not converted", _not_converted(found))
     yield section("Files refused that another reader accepts", _stricter_than_others(outcomes))
     yield section("Files not identical", _listed((one.name, one.difference) for one in found if one.difference))
-    yield section("What does not come home, by kind", _not_home(found))
+    yield section("What does not come back, by kind", _mismatches(found))
     yield section("Broken promises", _listed(faults))
 
 
 def _totals(sample: Sample, outcomes: list[Outcome], seconds: float) -> str:
     kinds = Counter(file.kind for file in sample.of(corpus_files()))
     aside = ", ".join(f"{count} {kind}" for kind, count in kinds.items() if kind not in {Kind.URDF, Kind.SDF})
-    rows = [_row(kind, [found for file, found in outcomes if file.kind is kind]) for kind in (Kind.URDF, Kind.SDF)]
-    rows.append(_row("both", [found for _, found in outcomes]))
+    groups = [(kind, [found for file, found in outcomes if file.kind is kind]) for kind in (Kind.URDF, Kind.SDF)]
+    both = ("both", [found for _, found in outcomes])
     text = f"{sum(kinds.values())} files; of other kinds: {aside}. Wall time {seconds:.0f} s."
-    return text + "\n\n" + table(["format", *_COLUMNS], rows)
+    return text + "\n\n" + _counts("format", (*groups, both), _COLUMNS)
 
 
 def _xacro_totals(macros: list[Expanded]) -> str:
-    groups = groupby(macros, key=lambda one: one.name.split("/", 1)[0])
-    rows = [_xacro_row(repository, list(group)) for repository, group in groups]
-    columns = ("files", "expanded", "accepted", "converted", "seconds")
-    return table(["repository", *columns], [*rows, _xacro_row("all", macros)])
+    groups = grouped((one.name.split("/", 1)[0], one) for one in macros)
+    return _counts("repository", (*groups.items(), ("all", macros)), _XACRO_COLUMNS)
 
 
-def _xacro_row(title: str, found: list[Expanded]) -> tuple[object, ...]:
-    return (
-        title,
-        len(found),
-        sum(one.expanded for one in found),
-        sum(one.accepted for one in found),
-        sum(one.converted for one in found),
-        f"{sum(one.seconds for one in found):.1f}",
-    )
+_COLUMNS = ("well-formed", "accepted", "converted", "unaccounted", "there and back", "identical")
+_XACRO_COLUMNS = ("expanded", "accepted", "converted")
 
 
-_COLUMNS = ("files", "well-formed", "accepted", "converted", "unaccounted", "home", "identical", "seconds")
+def _counts(first: str, groups: Iterable[tuple[str, Sequence[Examined | Expanded]]], columns: Sequence[str]) -> str:
+    """A row for each group: how many files have what a column counts, or how many of such things all have."""
+    rows = (_row(title, found, columns) for title, found in groups)
+    return table([first, "files", *columns, "seconds"], rows)
 
 
-def _row(title: str, found: list[Examined]) -> tuple[object, ...]:
-    return (
-        title,
-        len(found),
-        sum(one.well_formed for one in found),
-        sum(one.accepted for one in found),
-        sum(one.converted for one in found),
-        sum(len(one.unaccounted) for one in found),
-        sum(one.home for one in found),
-        sum(one.identical for one in found),
-        f"{sum(one.seconds for one in found):.1f}",
-    )
+def _row(title: str, found: Sequence[Examined | Expanded], columns: Sequence[str]) -> tuple[object, ...]:
+    values = [[getattr(one, re.sub("[- ]", "_", column)) for one in found] for column in columns]
+    counts = (sum(value if isinstance(value, bool) else len(value) for value in each) for each in values)
+    return (title, len(found), *counts, f"{sum(one.seconds for one in found):.1f}")
 
 
 def _by_repository(outcomes: list[Outcome]) -> str:
-    groups = groupby(outcomes, key=lambda outcome: outcome[0].repository)
-    rows = (_row(repository, [found for _, found in group]) for repository, group in groups)
-    return table(["repository", *_COLUMNS], rows)
+    groups = grouped((file.repository, found) for file, found in outcomes)
+    return _counts("repository", groups.items(), _COLUMNS)
 
 
 def _by_rule(refusals: Iterable[tuple[tuple[str, ...], str]]) -> str:
@@ -176,11 +155,8 @@ def _by_rule(refusals: Iterable[tuple[tuple[str, ...], str]]) -> str:
 def _not_converted(found: list[Examined]) -> str:
     nothing = sum(one.without_robot for one in found)
     text = f"{nothing} files hold no model: lights, actors, physics; there is nothing to convert."
-    groups: dict[str, list[Examined]] = {}
-    for one in sorted(found, key=lambda one: one.not_converted_by):
-        if one.not_converted_by:
-            why = why_not_converted(KNOWN, one.name, one.not_converted_by) or UNEXPLAINED
-            groups.setdefault(why, []).append(one)
+    stopped = sorted((one for one in found if one.not_converted_by), key=lambda one: one.not_converted_by)
+    groups = grouped((why_not_converted(KNOWN, one.name, one.not_converted_by) or UNEXPLAINED, one) for one in stopped)
     rows = [
         (", ".join(group[0].not_converted_by), len(group), group[0].name, why)
         for why, group in sorted(groups.items(), key=lambda item: -len(item[1]))
@@ -199,9 +175,9 @@ def _stricter_than_others(outcomes: list[Outcome]) -> str:
     return "\n\n".join(part.strip() for part in parts if part)
 
 
-def _not_home(found: list[Examined]) -> str:
-    rows = by_place((one.name, one.astray) for one in found)
-    return listing(COLUMNS_OF_ASTRAY, rows, empty="Nothing.", most=MOST_SHOWN)
+def _mismatches(found: list[Examined]) -> str:
+    rows = by_path((one.name, one.mismatches) for one in found)
+    return listing(MISMATCH_COLUMNS, rows, empty="Nothing.", most=MOST_SHOWN)
 
 
 def _listed(rows: Iterable[tuple[str, str]]) -> str:

@@ -4,6 +4,7 @@ import hashlib
 import json
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from enum import StrEnum
 from pathlib import Path
 from random import Random
 from typing import Literal
@@ -25,8 +26,9 @@ MOST_BYTES = 400_000
 """Converted files that are larger are not edited: it would take longer than all others together."""
 SEVERAL = "two or three of these"
 PASS = "pass: "
-NO_WAY_HOME = "no way home without an edit"
+NO_ROUND_TRIP = "no round trip without an edit"
 _USUAL_BYTES = 60_000
+_PASSES = 2
 _PLAINLY = {"attach": Plainly.NONE}
 """The other model that is attached has carriers of its own."""
 _VERSIONS = ("1.11",) * 7 + ("1.9", "1.8", "1.6")
@@ -34,8 +36,8 @@ _ONE_IN = 20
 """So many of the edits that won are shown to Drake."""
 
 
-class Way:
-    """The ways that are tried."""
+class Direction(StrEnum):
+    """The directions that are tried."""
 
     TO_SDF = "URDF -> SDF, edited -> URDF"
     TO_URDF = "SDF -> URDF, edited -> SDF"
@@ -43,7 +45,7 @@ class Way:
 
 @dataclass(frozen=True, slots=True)
 class Job:
-    """A model: a file of the corpus, or of `out/edits`; `edits` of it are tried, and some of the passes."""
+    """A model: a file of the corpus, or of `out/edits`; `edits` of it are tried, and two of the passes."""
 
     name: str
     path: Path
@@ -51,27 +53,23 @@ class Job:
     is_urdf: bool
     seed: int
     edits: int
-    passes: int = 2
-    only_passes: tuple[str, ...] = ()
-    replay: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class Tried:
-    """One edit of one converted model, or one pass; `replay` says it again, `folder` has the files of a fault."""
+    """One edit of one converted model, or one pass; `replay` repeats it, `folder` has the files of a fault."""
 
-    name: str
-    way: str
+    direction: Direction
     kind: str
     verdict: Verdict
-    replay: str = ""
+    replay: str
     folder: str = ""
     pair: tuple[Path, Path] | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Done:
-    """All that was tried on a model; `left_out` says why nothing was, `differing` what differs without an edit."""
+    """All that was tried on a model; `left_out` is why nothing was, `differing` what differs without an edit."""
 
     name: str
     left_out: str = ""
@@ -80,24 +78,34 @@ class Done:
 
 
 @dataclass(frozen=True, slots=True)
-class _Model:
-    """A model on the other side."""
+class Robot:
+    """A robot of a file, and the version of SDF that it is converted to."""
 
     job: Job
     robot: str | None
     version: str | None
-    before: Converted
 
     @property
     def name(self) -> str:
+        """The file, and what of it."""
         return " ".join(filter(None, (self.job.name, self.robot, self.version)))
 
     @property
-    def way(self) -> str:
-        return Way.TO_SDF if self.job.is_urdf else Way.TO_URDF
+    def formats(self) -> tuple[Literal["sdf", "urdf"], Literal["sdf", "urdf"]]:
+        """The format that is edited, and that of the source and the result."""
+        return ("sdf", "urdf") if self.job.is_urdf else ("urdf", "sdf")
 
-    def replay(self, what: str) -> str:
-        return json.dumps([self.job.name, self.robot, self.version, what], ensure_ascii=False)
+    def tried(self, kind: str, verdict: Verdict, what: str) -> Tried:
+        """The verdict on an edit or pass."""
+        replay = json.dumps([self.job.name, self.robot, self.version, what], ensure_ascii=False)
+        return Tried(Direction.TO_SDF if self.job.is_urdf else Direction.TO_URDF, kind, verdict, replay)
+
+
+@dataclass(frozen=True, slots=True)
+class Model(Robot):
+    """A robot on the other side."""
+
+    before: Converted
 
 
 def corpus_jobs(seed: int, edits: dict[bool, int]) -> Iterator[Job]:
@@ -125,43 +133,37 @@ def work(job: Job) -> list[Done]:
 
 def _worked(job: Job, robot: str | None, edits: int, random: Random) -> Done:
     version = random.choice(_VERSIONS) if job.is_urdf else None
-    name = " ".join(filter(None, (job.name, robot, version)))
-    model = converted(job, robot, version)
+    subject = Robot(job, robot, version)
+    model = converted(subject)
     if isinstance(model, str):
-        return Done(name, model, tried=_lost(job, robot, version, model))
+        lost = subject.tried(NO_ROUND_TRIP, Verdict(Outcome.SILENT, (model,)), "[]")
+        return Done(subject.name, model, tried=(lost,) if model.startswith(NO_ROUND_TRIP) else ())
     count = edits if len(model.before.text) < _USUAL_BYTES else max(1, edits // 4)
     tried = [*_edits(model, count, random), *_passes(model, random)]
     differing = tuple(sorted(": ".join(filter(None, key)) for key in model.before.differing))
-    return Done(name, "", differing, tuple(tried))
+    return Done(model.name, "", differing, tuple(tried))
 
 
-def _lost(job: Job, robot: str | None, version: str | None, why: str) -> tuple[Tried, ...]:
-    """The fault of a model that is converted, and cannot be converted back."""
-    if not why.startswith(NO_WAY_HOME):
-        return ()
-    way = Way.TO_SDF if job.is_urdf else Way.TO_URDF
-    replay = json.dumps([job.name, robot, version, "[]"], ensure_ascii=False)
-    return (Tried(job.name, way, NO_WAY_HOME, Verdict(Outcome.SILENT, (why,)), replay),)
-
-
-def converted(job: Job, robot: str | None, version: str | None) -> _Model | str:
-    """A model on the other side, and what differs before any edit; or why there is none."""
-    target: Literal["sdf", "urdf"] = "sdf" if job.is_urdf else "urdf"
+def converted(one: Robot) -> Model | str:
+    """A robot on the other side, and what differs before any edit; or why there is none."""
+    job = one.job
     try:
-        made = twinform.convert(job.path, to=target, sdf_version=version, model=robot, paths=job.paths)
-        text = made.text.encode()
+        conversion = twinform.convert(
+            job.path, to=one.formats[0], sdf_version=one.version, model=one.robot, paths=job.paths
+        )
+        text = conversion.text.encode()
     except twinform.CompileError as error:
         return f"not converted: {', '.join(rules_of(error.diagnostics))}"
     if len(text) > MOST_BYTES:
         return f"too large: {len(text) // 1000} kB"
     try:
-        return _Model(job, robot, version, unedited(text))
-    except Exception as error:  # noqa: BLE001 - whatever it is, what was converted has a way home
+        return Model(job, one.robot, one.version, unedited(text))
+    except Exception as error:  # noqa: BLE001 - whatever it is, what was converted must convert back
         rules = rules_of(error.diagnostics) if isinstance(error, twinform.CompileError) else (str(error),)
-        return f"{NO_WAY_HOME}: {type(error).__name__}: {', '.join(rules)}"
+        return f"{NO_ROUND_TRIP}: {type(error).__name__}: {', '.join(rules)}"
 
 
-def again(model: _Model, what: str) -> tuple[bytes, Tried]:
+def again(model: Model, what: str) -> tuple[bytes, Tried]:
     """The edit or pass of a replay."""
     if what.startswith(PASS):
         pipeline = what.removeprefix(PASS)
@@ -170,71 +172,68 @@ def again(model: _Model, what: str) -> tuple[bytes, Tried]:
     return _edited(model, edits, apply_all(edits, model.before.text))
 
 
-def _edits(model: _Model, count: int, random: Random) -> Iterator[Tried]:
+def _edits(model: Model, count: int, random: Random) -> Iterator[Tried]:
     for _ in range(count):
         edits, text = draw_edits(model.before.text, random)
         _, tried = _edited(model, edits, text)
         yield _kept(model, text, tried, random)
 
 
-def _edited(model: _Model, edits: tuple[Edit, ...], text: bytes) -> tuple[bytes, Tried]:
+def _edited(model: Model, edits: tuple[Edit, ...], text: bytes) -> tuple[bytes, Tried]:
     verdict = judge_edits(model.before, edits, text)
     is_mistake = any(each.kind == MISTAKE for each in edits)
     kind = edits[0].kind if len(edits) == 1 else MISTAKE if is_mistake else SEVERAL
-    said = "[" + ", ".join(map(str, edits)) + "]"
-    return text, Tried(model.name, model.way, kind, verdict, model.replay(said))
+    replay = "[" + ", ".join(map(str, edits)) + "]"
+    return text, model.tried(kind, verdict, replay)
 
 
-def _passes(model: _Model, random: Random) -> Iterator[Tried]:
-    job = model.job
-    names = job.only_passes or random.sample(edit_passes.NAMES, job.passes)
-    for name in names:
-        pipeline = edit_passes.pipeline(name, model.before.text, random)
-        if pipeline is None:
-            continue
-        text, tried = _passed(model, name, pipeline)
-        yield _kept(model, text, tried, random)
+def _passes(model: Model, random: Random) -> Iterator[Tried]:
+    for name in random.sample(edit_passes.NAMES, _PASSES):
+        if (pipeline := edit_passes.pipeline(name, model.before.text, random)) is not None:
+            text, tried = _passed(model, name, pipeline)
+            yield _kept(model, text, tried, random)
 
 
-def _passed(model: _Model, name: str, pipeline: str) -> tuple[bytes, Tried]:
-    same: Literal["sdf", "urdf"] = "urdf" if model.before.to == "sdf" else "sdf"
-    replay, kind = model.replay(PASS + pipeline), PASS + name
+def _passed(model: Model, name: str, pipeline: str) -> tuple[bytes, Tried]:
+    kind, what = PASS + name, PASS + pipeline
     try:
-        made = twinform.convert(model.before.text, to=same, passes=pipeline)
+        conversion = twinform.convert(model.before.text, to=model.formats[0], passes=pipeline)
     except twinform.CompileError as error:
-        refused = Verdict(Outcome.REFUSED, (), rules_of(error.diagnostics))
-        return b"", Tried(model.name, model.way, kind, refused, replay)
+        return b"", model.tried(kind, Verdict(Outcome.REFUSED, (), rules_of(error.diagnostics)), what)
     except Exception as error:  # noqa: BLE001 - every other exception is a fault to report
         verdict = Verdict(Outcome.SILENT, (f"crash of the pass: {type(error).__name__}: {error}",))
-        return b"", Tried(model.name, model.way, kind, verdict, replay)
-    text = made.text.encode()
+        return b"", model.tried(kind, verdict, what)
+    text = conversion.text.encode()
     verdict = judge(model.before, text, plainly=_PLAINLY.get(name, Plainly.SKELETON))
-    return text, Tried(model.name, model.way, kind, verdict, replay)
+    return text, model.tried(kind, verdict, what)
 
 
-def _kept(model: _Model, text: bytes, tried: Tried, random: Random) -> Tried:
+def _kept(model: Model, text: bytes, tried: Tried, random: Random) -> Tried:
     """With the files of a fault, or those that Drake is to see; and no longer the text of the result."""
     folder, pair = "", None
     if tried.verdict.is_fault:
-        folder = _written(model, text, tried, "faults").name
+        folder = written(model, text, tried, OUT / "faults" / _number(tried)).name
     elif tried.verdict.result and random.randrange(_ONE_IN) == 0:
-        place = _written(model, text, tried, "drake")
-        edited, result = (".sdf", ".urdf") if model.job.is_urdf else (".urdf", ".sdf")
-        pair = (place / f"edited{edited}", place / f"result{result}")
+        shown = written(model, text, tried, OUT / "drake" / _number(tried))
+        edited, result = model.formats
+        pair = (shown / f"edited.{edited}", shown / f"result.{result}")
     few = {"differences": tried.verdict.differences[:8], "rules": tried.verdict.rules[:8]}
-    verdict = replace(tried.verdict, **few, result=None)
-    return Tried(tried.name, tried.way, tried.kind, verdict, tried.replay, folder, pair)
+    return replace(tried, verdict=replace(tried.verdict, **few, result=None), folder=folder, pair=pair)
 
 
-def _written(model: _Model, text: bytes, tried: Tried, where: str) -> Path:
-    place = OUT / where / hashlib.sha256(tried.replay.encode()).hexdigest()[:12]
-    edited, result = (".sdf", ".urdf") if model.job.is_urdf else (".urdf", ".sdf")
-    kept(place / f"before{edited}", model.before.text.decode())
-    kept(place / f"home{result}", model.before.result)
-    kept(place / f"edited{edited}", text.decode())
-    kept(place / f"result{result}", tried.verdict.result or "")
-    kept(place / "report.txt", "\n".join((tried.replay, *tried.verdict.differences, *tried.verdict.rules, "")))
-    return place
+def _number(tried: Tried) -> str:
+    return hashlib.sha256(tried.replay.encode()).hexdigest()[:12]
+
+
+def written(model: Model, text: bytes, tried: Tried, folder: Path) -> Path:
+    """The folder, with all files of an edit or pass in it."""
+    edited, result = model.formats
+    kept(folder / f"before.{edited}", model.before.text.decode())
+    kept(folder / f"back.{result}", model.before.result)
+    kept(folder / f"edited.{edited}", text.decode())
+    kept(folder / f"result.{result}", tried.verdict.result or "")
+    kept(folder / "report.txt", "\n".join((tried.replay, *tried.verdict.differences, *tried.verdict.rules, "")))
+    return folder
 
 
 def job_named(name: str) -> Job:

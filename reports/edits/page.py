@@ -1,4 +1,4 @@
-"""What became of edits, as a page and in a few lines, and what Drake says of it."""
+"""What became of edits, as a page and in a few lines, and the verdict of Drake on it."""
 
 import re
 from collections import Counter
@@ -8,24 +8,22 @@ from pathlib import Path
 
 from lxml import etree
 
-from reports.edits.jobs import MOST_BYTES, Done, Tried, Way
+from reports.edits.jobs import MOST_BYTES, Direction, Done, Tried
 from reports.harness.known import Known
 from reports.harness.pages import listing, section, table
 from reports.harness.sample import Sample
 from reports.oracle.judging import DRAKE
-from tests.corpus.files import ROOT
 from twinform.compiler.workers import Failure
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.transforms.notation import OFFSET
 from twinform.testing import oracles
 from twinform.testing.edits.judging import Outcome
 from twinform.testing.oracles.comparison import chained, renamed
-from twinform.testing.oracles.in_process import look, versus
+from twinform.testing.oracles.in_process import read_robot, verdict_on
 from twinform.testing.oracles.robot import Robot, View
 
 KNOWN = Known(Path(__file__).with_name("known.toml"), fits=lambda text, pattern: re.search(pattern, text))
 _TOLERANCE = 1e-9
-_WAYS = (Way.TO_SDF, Way.TO_URDF)
 ABOUT = """\
 Every model of the corpus that is accepted, and models that Hypothesis makes up, are converted; the converted file is
 edited as people edit files, or a built-in pass runs on it; and it is converted on, to the format that it came from. The
@@ -37,7 +35,7 @@ One in twenty of those that are the same is shown to Drake as well."""
 
 @dataclass(frozen=True, slots=True)
 class Drake:
-    """What Drake says of edited files and what became of them; `excused` are differences by their known reason."""
+    """The verdict of Drake on edited files and what became of them; `excused` are differences by their known reason."""
 
     same: int = 0
     unread: int = 0
@@ -75,14 +73,14 @@ def _judged(pair: tuple[Path, Path]) -> str | None:
         return None
     try:
         before = edited.with_stem("before")
-        unedited = versus(look(before, DRAKE), (before, result.with_stem("home")), (DRAKE, DRAKE))
-        source = look(edited, DRAKE)
+        unedited = verdict_on(read_robot(before, DRAKE), (before, result.with_stem("back")), (DRAKE, DRAKE))
+        source = read_robot(edited, DRAKE)
     except oracles.UnreadableError:
         return None
     if not unedited:
         return None
     try:
-        found = versus(source, pair, (DRAKE, DRAKE))
+        found = verdict_on(source, pair, (DRAKE, DRAKE))
     except oracles.UnreadableError as error:
         return f"the result is not read: {error.cause}"
     if not found:
@@ -102,9 +100,9 @@ def _root_is_elsewhere(edited: Path) -> bool:
 
 def _frames(source: Robot, result: Path) -> str:
     """Links whose frames are elsewhere, at the same joint positions."""
-    seen = look(result, DRAKE, View(reference=source.reference))
+    seen = read_robot(result, DRAKE, View(reference=source.reference))
     view = View(renamed(source, seen), source.reference, chained(source, seen))
-    seen = look(result, DRAKE, view)
+    seen = read_robot(result, DRAKE, view)
     if seen.reference != source.reference or chained(seen, source):
         return ""
     gaps = {
@@ -126,10 +124,6 @@ def summary(done: list[Done], failures: list[str], drake: Drake) -> str:
 
 def sections(done: list[Done], tried: list[Tried], failures: list[str], drake: Drake, seed: int) -> Iterator[str]:
     """The sections of the page."""
-    yield from (part.replace(f"{ROOT}/", "") for part in _sections(done, tried, failures, drake, seed))
-
-
-def _sections(done: list[Done], tried: list[Tried], failures: list[str], drake: Drake, seed: int) -> Iterator[str]:
     used = [each for each in done if not each.left_out]
     yield f"Seed {seed}: {len(used)} models, {len(tried)} edits and passes."
     yield _table(tried)
@@ -144,7 +138,8 @@ def _sections(done: list[Done], tried: list[Tried], failures: list[str], drake: 
         yield "Differences to Drake with a known cause:\n\n" + table(["cause", "edits"], rows)
     if drake.faults:
         yield section("Different in Drake", "\n".join(f"- {fault}" for fault in drake.faults))
-    yield section("Refused, by rule", _refusals(tried))
+    refusals = Counter(rule for one in tried if one.verdict.outcome is Outcome.REFUSED for rule in one.verdict.rules)
+    yield section("Refused, by rule", listing(["rule", "edits"], refusals.most_common()))
     differing = [(each.name, "; ".join(each.differing[:3])) for each in used if each.differing]
     yield section("Models that differ before any edit", listing(["model", "what"], differing))
     yield section("Models that were left out", _left_out(done))
@@ -155,20 +150,20 @@ def _table(tried: Iterable[Tried]) -> str:
     every = list(tried)
     kinds = sorted({one.kind for one in every}, key=lambda kind: (kind.startswith("pass: "), kind))
     rows = [
-        _row(way, kind, [one for one in every if one.way == way and one.kind == kind])
-        for way in _WAYS
+        _row(direction, kind, [one for one in every if one.direction == direction and one.kind == kind])
+        for direction in Direction
         for kind in kinds
     ]
-    totals = [_row(way, "all", [one for one in every if one.way == way]) for way in _WAYS]
+    totals = [_row(direction, "all", [one for one in every if one.direction == direction]) for direction in Direction]
     head = ["direction", "edit", "tried", "same", "same, warned", "refused", "wrong", "silent"]
     return table(head, [row for row in (*rows, *totals) if row[2]])
 
 
-def _row(way: str, kind: str, found: list[Tried]) -> tuple[object, ...]:
+def _row(direction: str, kind: str, found: list[Tried]) -> tuple[object, ...]:
     counts = Counter(one.verdict.outcome for one in found)
     wrong = counts[Outcome.WRONG] + counts[Outcome.SILENT]
     return (
-        way, kind, len(found), counts[Outcome.SAME], counts[Outcome.WARNED], counts[Outcome.REFUSED], wrong,
+        direction, kind, len(found), counts[Outcome.SAME], counts[Outcome.WARNED], counts[Outcome.REFUSED], wrong,
         counts[Outcome.SILENT],
     )  # fmt: skip
 
@@ -181,14 +176,9 @@ def _faults(tried: list[Tried]) -> str:
     return listing(["edit", "how", "again with `python -m reports.edits.replay`", "what differs"], rows)
 
 
-def _refusals(tried: list[Tried]) -> str:
-    counts = Counter(rule for one in tried if one.verdict.outcome is Outcome.REFUSED for rule in one.verdict.rules)
-    return listing(["rule", "edits"], counts.most_common())
-
-
 def _left_out(done: list[Done]) -> str:
     large = [(each.name, each.left_out) for each in done if each.left_out.startswith("too large")]
     others = Counter(each.left_out for each in done if each.left_out and not each.left_out.startswith("too large"))
     listed = table(["model", "why"], large) if large else ""
-    words = f"Converted files of more than {MOST_BYTES // 1000} kB are not edited:\n\n{listed}\n" if large else ""
-    return words + "\n" + (table(["why", "models"], others.most_common()) if others else "")
+    intro = f"Converted files of more than {MOST_BYTES // 1000} kB are not edited:\n\n{listed}\n" if large else ""
+    return intro + "\n" + (table(["why", "models"], others.most_common()) if others else "")

@@ -12,7 +12,9 @@ from twinform.testing.edits.scene import Scene, name_of
 
 _GUESTS = ("examples/crate/model.sdf", "examples/gripper.urdf", "reports/edits/nested.sdf")
 _ALWAYS = {
+    "add-plugin": "add-plugin{system=joint-state-publisher}",
     "balance-inertia": "balance-inertia{thickness=0.01}",
+    "bridge-config": "bridge-config{file=bridge.yaml}",
     "check-inertia": "check-inertia",
     "check-limits": "check-limits{effort=500 velocity=20}",
     "check-plugins": "check-plugins",
@@ -40,10 +42,6 @@ def pipeline(name: str, text: bytes, random: Random) -> str | None:
     return _CHOSEN[name](Scene(etree.fromstring(text)), random)
 
 
-def _add_plugin(_: Scene, __: Random) -> str:
-    return "add-plugin{system=joint-state-publisher}"
-
-
 def _add_sensor(scene: Scene, random: Random) -> str | None:
     link = _link(scene, random)
     kind = random.choice(["camera", "imu", "gpu_lidar"])
@@ -53,10 +51,6 @@ def _add_sensor(scene: Scene, random: Random) -> str | None:
 def _attach(scene: Scene, random: Random) -> str | None:
     link, guest = _link(scene, random), ROOT / random.choice(_GUESTS)
     return link and f"attach{{file={_quoted(guest)} to={link} prefix=guest_ xyz=[0,0.1,0.3] rpy=[0,0,0.5]}}"
-
-
-def _bridge_config(_: Scene, __: Random) -> str:
-    return "bridge-config{file=bridge.yaml}"
 
 
 def _rename(scene: Scene, random: Random) -> str | None:
@@ -86,10 +80,8 @@ def _quoted(value: str | Path) -> str:
 
 
 _CHOSEN: dict[str, Callable[[Scene, Random], str | None]] = {
-    "add-plugin": _add_plugin,
     "add-sensor": _add_sensor,
     "attach": _attach,
-    "bridge-config": _bridge_config,
     "rename": _rename,
     "reroot": _reroot,
     "weld-to-world": _weld,

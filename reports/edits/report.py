@@ -4,13 +4,13 @@ import json
 import shutil
 from collections.abc import Iterable, Iterator
 
-from reports.edits.jobs import OUT, Done, Job, Tried, corpus_jobs, work
+from reports.edits.jobs import OUT, Job, Tried, corpus_jobs, work
 from reports.edits.page import ABOUT, drake_judged, sections, summary
 from reports.harness.drawing import drawn
 from reports.harness.files import kept
 from reports.harness.report import Findings, Report
 from reports.harness.sample import Sample
-from twinform.compiler.workers import Failure
+from tests.corpus.files import ROOT
 from twinform.testing import strategies
 
 _SECONDS = 300
@@ -23,13 +23,14 @@ def measure(sample: Sample) -> Findings:
     """Edit, convert, and compare."""
     for folder in ("faults", "drake"):
         shutil.rmtree(OUT / folder, ignore_errors=True)
-    done, failures = _all_done(_jobs(sample), sample)
+    done, failures = sample.lists(work, _jobs(sample), seconds=_SECONDS)
+    done.sort(key=lambda each: each.name)
     drake = drake_judged(done, sample)
     tried = [one for each in done for one in each.tried]
     faults = [one for one in tried if one.verdict.is_fault]
     _list(faults)
     return Findings(
-        list(sections(done, tried, failures, drake, sample.seed)),
+        [part.replace(f"{ROOT}/", "") for part in sections(done, tried, failures, drake, sample.seed)],
         summary(done, failures, drake),
         [*failures, *drake.faults, *(f"{one.kind}: {one.verdict.outcome}: {one.replay}" for one in faults)],
     )
@@ -48,17 +49,6 @@ def _generated(sample: Sample) -> Iterator[Job]:
             path = kept(OUT / "generated" / f"{sample.seed}_{index}.{suffix}", text)
             name = path.relative_to(OUT).as_posix()
             yield Job(name, path, (), suffix == "urdf", sample.seed, _EDITS_OF_MODELS)
-
-
-def _all_done(jobs: list[Job], sample: Sample) -> tuple[list[Done], list[str]]:
-    done: list[Done] = []
-    failures: list[str] = []
-    for job, result in sample.run(work, jobs, seconds=_SECONDS):
-        if isinstance(result, Failure):
-            failures.append(f"{job.name}: {result.cause}")
-        else:
-            done += result
-    return sorted(done, key=lambda each: each.name), sorted(failures)
 
 
 def _list(faults: Iterable[Tried]) -> None:

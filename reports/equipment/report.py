@@ -1,11 +1,11 @@
 """Sensors and plugins as libsdformat 12 finds them in SDF, and in the URDF that is made of it.
 
-It reads a robot in SDF, and the URDF that we make of it, which it turns into SDF as Gazebo does. It says where every
-sensor is and what stands in it; its own words for both are compared.
+It reads a robot in SDF, and the URDF that we make of it, which it turns into SDF as Gazebo does. It reports where every
+sensor is and what is in it; its own descriptions of both are compared.
 """
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
@@ -23,7 +23,7 @@ from reports.harness.sample import Sample, is_good
 from tests.corpus.examine import rules_of
 from tests.corpus.files import CorpusFile, Kind
 from tests.corpus.there_and_back import robots
-from twinform.compiler.workers import Failure
+from twinform.schemas import XmlElement
 from twinform.testing.oracles.libsdformat.library import RobotRow, describe
 from twinform.testing.oracles.libsdformat.robot import pose_matrix
 from twinform.testing.oracles.robot import Matrix
@@ -69,7 +69,8 @@ class _Sensor:
 
 def measure(sample: Sample) -> Findings:
     """Convert, read, and compare."""
-    outcomes = sorted(_outcomes(sample), key=lambda one: one.name)
+    files = filter(is_good, sample.models(Kind.SDF))
+    outcomes = sample.outcomes(judge, files, lambda file, why: Outcome(file.name, Verdict.RESULT, cause=why))
     reasons = {one.name: KNOWN.why("known", one.name) for one in outcomes if one.verdict is not Verdict.SAME}
     bad = [one for one in outcomes if one.verdict in {Verdict.DIFFERENT, Verdict.RESULT} and not reasons[one.name]]
     faults = [f"{one.name}: {one.verdict}: {one.cause}" for one in bad]
@@ -94,10 +95,10 @@ def judge(file: CorpusFile) -> Outcome | None:
     except twinform.CompileError as error:
         return Outcome(file.name, Verdict.REFUSED, *count, ", ".join(rules_of(error.diagnostics)))
     with TemporaryDirectory() as folder:
-        made = Path(folder, "robot.urdf")
-        made.write_text(text, encoding="utf-8")
+        output = Path(folder, "robot.urdf")
+        output.write_text(text, encoding="utf-8")
         try:
-            missing = list(differences(before, describe(made)))
+            missing = list(differences(before, describe(output)))
         except RuntimeError as error:
             return Outcome(file.name, Verdict.RESULT, *count, str(error)[:200])
     return Outcome(file.name, Verdict.DIFFERENT if missing else Verdict.SAME, *count, "; ".join(missing)[:400])
@@ -111,8 +112,8 @@ def differences(before: RobotRow, after: RobotRow) -> Iterator[str]:
         named = [one for one in there if one.key[:2] == key[:2]]
         equal = [one for one in named if one.key == key]
         if named and not equal:
-            words = sorted({*key[2:]} ^ {*named[0].key[2:]})
-            yield f"sensor {key[0]} says other things: {', '.join(words)[:160]}"
+            differing = sorted({*key[2:]} ^ {*named[0].key[2:]})
+            yield f"sensor {key[0]} has other content: {', '.join(differing)[:160]}"
         for one in (one for one in here if one.key == key):
             if equal and (far := min(float(np.abs(one.pose - other.pose).max()) for other in equal)) > CUT_OFF:
                 yield f"sensor {key[0]} has moved by {far:.2g}"
@@ -125,24 +126,24 @@ def _only(here: Counter[tuple[str, ...]], there: Counter[tuple[str, ...]]) -> It
 
 
 def _sensors(robot: RobotRow) -> Iterator[_Sensor]:
-    place = pose_matrix(robot["pose"])
+    frame = pose_matrix(robot["pose"])
     for row in robot["sensors"]:
-        yield _Sensor((row["name"], row["kind"], *_words(row["text"])), place @ pose_matrix(row["pose"]))
+        yield _Sensor((row["name"], row["kind"], *_content(row["text"])), frame @ pose_matrix(row["pose"]))
 
 
 def _plugins(robot: RobotRow) -> Iterator[tuple[str, ...]]:
     for row in robot["plugins"]:
-        yield (row["inside"], *_words(row["text"]))
+        yield (row["inside"], *_content(row["text"]))
 
 
-def _words(text: str) -> list[str]:
+def _content(text: str) -> list[str]:
     """Every attribute and text of some XML with its path, sorted."""
     # where libsdformat writes a prefix that it does not declare, the parser goes on
     root = etree.fromstring(text.encode(), etree.XMLParser(recover=True, remove_comments=True))
     return sorted(_leaves(root, ""))
 
 
-def _leaves(element: etree._Element, around: str) -> Iterator[str]:  # pyright: ignore[reportPrivateUsage] - lxml has no public name for it
+def _leaves(element: XmlElement, around: str) -> Iterator[str]:
     path = f"{around}/{element.tag}"
     yield f"{path}={_spelt(element.text or '')}"
     yield from (f"{path}@{name}={_spelt(str(value))}" for name, value in element.items())
@@ -155,19 +156,11 @@ def _spelt(text: str) -> str:
     return " ".join(map(_number, text.split()))
 
 
-def _number(word: str) -> str:
+def _number(text: str) -> str:
     try:
-        return f"{float(word) + 0.0:.10g}"
+        return f"{float(text) + 0.0:.10g}"
     except ValueError:
-        return word
-
-
-def _outcomes(sample: Sample) -> Iterable[Outcome]:
-    for file, result in sample.run(judge, filter(is_good, sample.models(Kind.SDF))):
-        if isinstance(result, Failure):
-            yield Outcome(file.name, Verdict.RESULT, cause=str(result))
-        elif result is not None:
-            yield result
+        return text
 
 
 def _sections(outcomes: list[Outcome], reasons: dict[str, str]) -> Iterator[str]:
@@ -183,11 +176,5 @@ def _sections(outcomes: list[Outcome], reasons: dict[str, str]) -> Iterator[str]
         yield section("What is not the same, and why", table(["file", "verdict", "why"], why))
 
 
-REPORT = Report(
-    "equipment",
-    "Sensors and plugins of SDF, in the URDF that Gazebo reads",
-    _ABOUT,
-    measure,
-    (corpus, libsdformat),
-    KNOWN,
-)
+_TITLE = "Sensors and plugins of SDF, in the URDF that Gazebo reads"
+REPORT = Report("equipment", _TITLE, _ABOUT, measure, (corpus, libsdformat), KNOWN)

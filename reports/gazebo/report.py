@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NotRequired, TypedDict
 
+from reports.harness.needs import need
 from reports.harness.pages import section, table
 from reports.harness.report import Findings, Report
 from reports.harness.sample import Sample
@@ -20,13 +21,13 @@ branch of August 2026, and the files that are named with each. Whole robots are 
 
 Bullet is the plugin of constraints between free bodies here. It makes a hinge of every joint, in single precision; it
 knows the degrees of freedom of `revolute` and `fixed` alone. Since gz-physics 6 there is Bullet Featherstone beside it.
-TPE has no joints and no forces: links move with their model, as they are told to."""
+TPE has no joints and no forces: links move with their model, as they are set to."""
 _SOURCE = Path(__file__).with_name("features.toml")
 _BODY = "<inertial><mass>1</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"
 _NOTHING = "<inertial><mass>0</mass><inertia><ixx>0</ixx><iyy>0</iyy><izz>0</izz></inertia></inertial>"
 _LINK = '<link name="{0}"><pose>{1} 0 0 0 0 0</pose>{2}</link>'
 _FIX = '<joint name="world_joint" type="fixed"><parent>world</parent><child>a</child></joint>'
-_WORDS = {
+_MACROS = {
     "HELD": f"LINK_A {_FIX}",
     "LINK_A": _LINK.format("a", 0, "BODY"),
     "LINK_B": _LINK.format("b", 1, "BODY"),
@@ -43,6 +44,7 @@ _ENGINES = {
     "Bullet 3.24": gazebo.PhysicsEngine.BULLET,
     "TPE": gazebo.PhysicsEngine.TPE,
 }
+_every_engine = need(lambda: all(map(gazebo.available, _ENGINES.values())), gazebo.MISSING)
 _PUSHED = 1e-3
 """So far apart, in m, is no rounding."""
 _ASKED = {
@@ -64,11 +66,6 @@ class _Group(TypedDict):
     case: list[_Case]
 
 
-def missing() -> str:
-    """Why not every engine is here; empty where all are."""
-    return "" if all(map(gazebo.available, _ENGINES.values())) else gazebo.MISSING
-
-
 def measure(sample: Sample) -> Findings:
     """Run the models."""
     groups: list[_Group] = tomllib.loads(_SOURCE.read_text(encoding="utf-8"))["group"][:: sample.every]
@@ -80,7 +77,7 @@ def _section(group: _Group, folder: Path) -> str:
     files = [_file(case, folder) for case in group["case"]]
     found = [gazebo.simulate(files, engine, _SETTINGS) for engine in _ENGINES.values()]
     rows = [
-        (case["name"], *(_told(one[file.resolve()], case.get("asks", "")) for one in found))
+        (case["name"], *(_summary(one[file.resolve()], case.get("asks", "")) for one in found))
         for case, file in zip(group["case"], files, strict=True)
     ]
     return section(group["title"], table(["", *_ENGINES], rows), f"**Newer releases.** {group['newer']}")
@@ -88,15 +85,15 @@ def _section(group: _Group, folder: Path) -> str:
 
 def _file(case: _Case, folder: Path) -> Path:
     text = case["model"]
-    for word, meaning in _WORDS.items():
-        text = text.replace(word, meaning)
+    for name, meaning in _MACROS.items():
+        text = text.replace(name, meaning)
     path = folder / f"{abs(hash(text))}.sdf"
     path.write_text(f'<sdf version="1.9"><model name="m">{text}</model></sdf>', encoding="utf-8")
     return path
 
 
-def _told(found: gazebo.Simulation, asks: str) -> str:
-    """What happened, in a few words."""
+def _summary(found: gazebo.Simulation, asks: str) -> str:
+    """What happened, in short."""
     if not found.done:
         why = found.errors or found.console.errors[:1]
         return f"**{found.outcome}** at {found.stage}" + (f": {why[0]}" if why else "")
@@ -107,13 +104,9 @@ def _told(found: gazebo.Simulation, asks: str) -> str:
 
 
 def _freedom(found: gazebo.Simulation) -> Iterator[str]:
-    joint = found.joint.get("m::j")
-    if joint is None:
-        return
-    if joint.freedom is None:
-        yield "no joint"
-        return
-    yield f"{joint.freedom} degree{'' if joint.freedom == 1 else 's'} of freedom"
+    if joint := found.joint.get("m::j"):
+        free = joint.freedom
+        yield "no joint" if free is None else f"{free} degree{'' if free == 1 else 's'} of freedom"
 
 
 def _asked(found: gazebo.Simulation, asks: str) -> Iterator[str]:
@@ -129,10 +122,10 @@ def _asked(found: gazebo.Simulation, asks: str) -> Iterator[str]:
 
 
 def _inside(found: gazebo.Simulation, names: tuple[str, ...]) -> Iterator[str]:
-    """Numbers of the joint as DART has them; the others do not tell."""
+    """Numbers of the joint as DART has them; the others do not give them."""
     for joint in found.joints:
         if short(joint.name) == "j" and joint.inside is not None:
             yield from (f"{name} {getattr(joint.inside, name)[0]:.6g}" for name in names)
 
 
-REPORT = Report("gazebo", "What Gazebo's engines make of SDF", _ABOUT, measure, (missing,))
+REPORT = Report("gazebo", "What Gazebo's engines make of SDF", _ABOUT, measure, (_every_engine,))

@@ -137,8 +137,8 @@ def _outcome(pair: _Pair, engine: gazebo.PhysicsEngine, found: dict[Path, gazebo
         return _alone(Outcome(*about, Verdict.NEITHER, ending=ending), result)
     frames = pair.direction is Direction.TO_SDF
     differing = tuple(differences(reference, result, ENGINES[engine], frames=frames))
-    said = "; ".join(reference.console.errors)
-    reasons = tuple((each, reason(pair.file.name, engine, pair.direction, each, said)) for each in differing)
+    errors = "; ".join(reference.console.errors)
+    reasons = tuple((each, reason(pair.file.name, engine, pair.direction, each, errors)) for each in differing)
     if not differing:
         return Outcome(*about, Verdict.SAME)
     verdict = Verdict.KNOWN if all(why for _, why in reasons) else Verdict.DIFFERENT
@@ -156,9 +156,9 @@ def _alone(outcome: Outcome, result: gazebo.Simulation) -> Outcome:
     return replace(outcome, verdict=Verdict.KNOWN if why else Verdict.CRASH, differences=((crash, why),))
 
 
-def reason(name: str, engine: str, direction: str, difference: Difference, said: str) -> str:
-    """Why a difference is right; empty where nobody has looked at it. A pattern that is not given fits everything.
+def reason(name: str, engine: str, direction: str, difference: Difference, errors: str) -> str:
+    """Why a difference is right; empty where nobody has examined it. A pattern that is not given fits everything.
 
-    `said` are the error lines that the reference gets.
+    `errors` are the error lines that the reference gets.
     """
-    return KNOWN.why("known", file=name, engine=engine, direction=direction, difference=str(difference), said=said)
+    return KNOWN.why("known", file=name, engine=engine, direction=direction, difference=str(difference), errors=errors)

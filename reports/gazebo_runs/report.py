@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from reports.gazebo_runs.judging import KNOWN, OUT, SETTINGS, Outcome, Verdict, outcomes
 from reports.harness.files import SDF_VERSION
 from reports.harness.needs import corpus, gazebo
-from reports.harness.pages import listing, section, table
+from reports.harness.pages import grouped, listing, section, table
 from reports.harness.report import Findings, Report
 from reports.harness.sample import Sample, judged_files
 from twinform.testing.oracles.gazebo.differing import AT_REST, MOVED
@@ -57,10 +57,11 @@ def _totals(found: list[Outcome]) -> str:
 
 
 def _causes(found: list[Outcome]) -> str:
-    files: dict[tuple[str, str, str], list[str]] = {}
-    for one in found:
-        for reason in dict.fromkeys(why for _, why in one.differences if why):
-            files.setdefault((one.engine.value, one.direction.value, reason), []).append(one.name)
+    files = grouped(
+        ((one.engine.value, one.direction.value, reason), one.name)
+        for one in found
+        for reason in dict.fromkeys(why for _, why in one.differences if why)
+    )
     rows = [(*cause, len(names), names[0]) for cause, names in sorted(files.items(), key=lambda item: -len(item[1]))]
     return listing(["engine", "conversion", "cause", "files", "for example"], rows)
 

@@ -36,10 +36,10 @@ class Known:
         return cls(Path(module).with_name("known.toml"))
 
     def why(self, table: str, name: str = "", **aspects: str) -> str:
-        """Why it is right; empty where nobody has looked at it."""
-        said = {"name": name, **aspects}
+        """Why it is right; empty where nobody has examined it."""
+        texts = {"name": name, **aspects}
         for index, cause in enumerate(self.causes):
-            if cause.table == table and all(self._fits(said[key], text) for key, text in cause.patterns.items()):
+            if cause.table == table and all(self._fits(texts[key], text) for key, text in cause.patterns.items()):
                 self.used.add(index)
                 return cause.reason
         return ""

@@ -1,4 +1,6 @@
-"""What reports need that may not be here: each says why not, and nothing where it is here."""
+"""What reports need that may not be here: each gives the reason why not, and nothing where it is here."""
+
+from collections.abc import Callable
 
 from tests.corpus import files
 from tests.oracles import urdfdom as check_urdf
@@ -7,26 +9,14 @@ from twinform.testing.oracles import gazebo as gz_physics
 from twinform.testing.oracles import libsdformat as sdformat12
 
 
-def corpus() -> str:
-    """The corpus."""
-    return "" if files.CORPUS.is_dir() else files.MISSING
+def need(is_here: Callable[[], bool], missing: str) -> Callable[[], str]:
+    """The reason why something is missing; empty where it is here."""
+    return lambda: "" if is_here() else missing
 
 
-def drake() -> str:
-    """Drake."""
-    return "" if oracles.available("drake") else "Drake is not here: pip install '.[oracles]'"
-
-
-def libsdformat() -> str:
-    """Libsdformat 12."""
-    return "" if sdformat12.available() else sdformat12.MISSING
-
-
-def urdfdom() -> str:
-    """Urdfdom."""
-    return "" if check_urdf.available() else check_urdf.MISSING
-
-
-def gazebo() -> str:
-    """gz-physics with at least one engine."""
-    return "" if gz_physics.available() else gz_physics.MISSING
+corpus = need(files.CORPUS.is_dir, files.MISSING)
+drake = need(lambda: oracles.available("drake"), "Drake is not here: pip install '.[oracles]'")
+libsdformat = need(sdformat12.available, sdformat12.MISSING)
+urdfdom = need(check_urdf.available, check_urdf.MISSING)
+gazebo = need(gz_physics.available, gz_physics.MISSING)
+"""gz-physics with at least one engine."""

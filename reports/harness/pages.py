@@ -1,11 +1,14 @@
 """Markdown: tables, lists and sections of pages."""
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from pathlib import Path
 from typing import TypeVar
 
+_PREDICATE = re.compile(r"\[[^]]*\]")
 Key = TypeVar("Key", str, tuple[str, ...])
+Group = TypeVar("Group")
+Item = TypeVar("Item")
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
@@ -34,6 +37,29 @@ def frequent(pairs: Iterable[tuple[Key, str]]) -> list[tuple[Key, int, str]]:
     return sorted(((key, count, examples[key]) for key, count in counts.items()), key=lambda row: (-row[1], row[0]))
 
 
+def grouped(pairs: Iterable[tuple[Group, Item]]) -> dict[Group, list[Item]]:
+    """The second of each pair by the first, in the order in which they are met."""
+    found: dict[Group, list[Item]] = {}
+    for group, item in pairs:
+        found.setdefault(group, []).append(item)
+    return found
+
+
+def first(names: Sequence[str], most: int | None = 3) -> str:
+    """So many names, and whether there are more."""
+    return ", ".join(names[:most]) + (", .." if most is not None and len(names) > most else "")
+
+
+def rule_links(rules: Iterable[str], page: str = "../reference/rules.md") -> str:
+    """Links to the pages of rules."""
+    return ", ".join(f"[{rule}]({page}#{rule})" for rule in rules)
+
+
+def without_names(path: str) -> str:
+    """A path in XML without what distinguishes one element from its like, such as its name."""
+    return _PREDICATE.sub("", path)
+
+
 def section(title: str, *parts: str) -> str:
     """A section of a page."""
     return paragraphs(f"## {title}", *parts)
@@ -42,12 +68,6 @@ def section(title: str, *parts: str) -> str:
 def paragraphs(*parts: str) -> str:
     """The parts with an empty line between them."""
     return "\n\n".join(part.strip("\n") for part in parts if part.strip())
-
-
-def write(path: Path, *parts: str) -> None:
-    """A page of paragraphs."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(paragraphs(*parts) + "\n", encoding="utf-8")
 
 
 def _cell(value: object) -> str:

@@ -28,7 +28,7 @@ class Findings:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """What is measured; `needs` say why it cannot be, if so; `known` are the causes that all have to be met."""
+    """What is measured; `needs` explain why it cannot be, if so; `known` are the causes that all have to be met."""
 
     name: str
     title: str
@@ -46,8 +46,8 @@ class Report:
 
     def text(self, found: Findings) -> str:
         """The page."""
-        made = f"Made by `make report NAME={self.name}`."
-        return paragraphs(f"# {self.title}", made, self.about, *found.sections) + "\n"
+        origin = f"Made by `make report NAME={self.name}`."
+        return paragraphs(f"# {self.title}", origin, self.about, *found.sections) + "\n"
 
 
 def run(report: Report, arguments: Sequence[str]) -> int:

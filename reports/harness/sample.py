@@ -22,13 +22,14 @@ class Named(Protocol):
 
 
 Item = TypeVar("Item", bound=Named)
+Outcome = TypeVar("Outcome", bound=Named)
 Job = TypeVar("Job")
 Result = TypeVar("Result")
 
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """All that there is, or a part of it: one of `every`, names with one of the words in `files`, another `seed`."""
+    """All that there is, or a part of it: one of `every`, names that contain one of `files`, another `seed`."""
 
     every: int = 1
     files: tuple[str, ...] = ()
@@ -38,7 +39,7 @@ class Sample:
 
     def of(self, items: Iterable[Item]) -> list[Item]:
         """The chosen ones."""
-        named = [each for each in items if not self.files or any(word in each.name for word in self.files)]
+        named = [each for each in items if not self.files or any(part in each.name for part in self.files)]
         return named[:: self.every]
 
     def models(self, *kinds: Kind) -> list[CorpusFile]:
@@ -49,15 +50,40 @@ class Sample:
     def run(
         self, task: Callable[[Job], Result], jobs: Iterable[Job], *, seconds: float = 60
     ) -> Iterator[tuple[Job, Result | Failure]]:
-        """Do the jobs in processes, in any order; on a terminal, say how many are done."""
+        """Do the jobs in processes, in any order; on a terminal, print how many are done."""
         every = list(jobs)
         for number, pair in enumerate(run_in_processes(task, every, seconds=seconds, processes=self.jobs), start=1):
             if sys.stderr.isatty():
                 print(f"\r{number} of {len(every)}", end="\n" if number == len(every) else "", file=sys.stderr)
             yield pair
 
+    def outcomes(
+        self,
+        task: Callable[[Job], Outcome | None],
+        jobs: Iterable[Job],
+        failed: Callable[[Job, str], Outcome],
+        *,
+        seconds: float = 60,
+    ) -> list[Outcome]:
+        """What came of the jobs, by name; `failed` gives it for those that never came back, None is left out."""
+        answers = self.run(task, jobs, seconds=seconds)
+        found = (failed(job, each.cause) if isinstance(each, Failure) else each for job, each in answers)
+        return sorted((each for each in found if each is not None), key=lambda each: each.name)
+
+    def lists(
+        self, task: Callable[[Item], list[Result]], jobs: Iterable[Item], *, seconds: float = 60
+    ) -> tuple[list[Result], list[str]]:
+        """All that came of the jobs, and those that never came back, with their causes."""
+        found, failures = list[Result](), list[str]()
+        for job, answer in self.run(task, jobs, seconds=seconds):
+            if isinstance(answer, Failure):
+                failures.append(f"{job.name}: {answer.cause}")
+            else:
+                found += answer
+        return found, sorted(failures)
+
     def _elsewhere(self) -> Iterator[CorpusFile]:
-        for path in (Path(word).resolve() for word in self.files if Path(word).is_file()):
+        for path in (Path(part).resolve() for part in self.files if Path(part).is_file()):
             yield CorpusFile(str(path), Kind.URDF if path.suffix == ".urdf" else Kind.SDF, {})
 
 

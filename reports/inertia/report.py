@@ -16,7 +16,7 @@ from reports.harness.needs import corpus, drake
 from reports.harness.pages import section, table
 from reports.harness.report import Findings, Report
 from reports.harness.sample import Sample
-from reports.inertia.loading import ENGINES, Words, complaints
+from reports.inertia.loading import ENGINES, Messages, complaints
 from tests.corpus.examine import rules_of
 from tests.corpus.files import CorpusFile, Kind
 from twinform.testing.oracles.shapes import without_shapes
@@ -38,8 +38,7 @@ _WHY = {
 }
 _ABOUT = f"""\
 Every URDF file of the corpus is loaded by Drake and MuJoCo as it is, without its shapes, which come without their
-meshes. Files of which an engine says that it does not take a mass or an inertia, be it an error or a warning, are given
-to
+meshes. Files of which an engine does not take a mass or an inertia, by an error or a warning, are given to
 `twinform convert --passes '{PIPELINE}'` and loaded again."""
 
 
@@ -48,29 +47,29 @@ class Mended:
     """A file that some engine complained of; `refused` are the rules where it was not mended at all."""
 
     name: str
-    before: dict[str, Words]
-    after: dict[str, Words]
+    before: dict[str, Messages]
+    after: dict[str, Messages]
     deeds: Counter[str]
     refused: tuple[str, ...] = ()
 
     @property
     def content(self) -> bool:
-        """Whether no engine has anything to say about its inertias any more."""
+        """Whether no engine reports anything about its inertias any more."""
         return not self.refused and not any(self.after.values())
 
 
-def about_inertia(words: Words) -> Words:
-    """What is said about masses and inertias."""
-    return tuple(each for each in words if _OF_INERTIAS.search(each))
+def about_inertia(messages: Messages) -> Messages:
+    """The messages about masses and inertias."""
+    return tuple(each for each in messages if _OF_INERTIAS.search(each))
 
 
 def measure(sample: Sample) -> Findings:
     """Ask, mend, and ask again."""
     files = _files(sample)
-    before = {file: said for file, said in _asked(files).items() if any(said.values())}
-    made = {file: _mend(file) for file in before}
-    after = _asked({file: without_shapes(_output(file)) for file, (_, refused) in made.items() if not refused})
-    mended = [Mended(file.name, said, after.get(file, said), *made[file]) for file, said in before.items()]
+    before = {file: answers for file, answers in _asked(files).items() if any(answers.values())}
+    outcome = {file: _mend(file) for file in before}
+    after = _asked({file: without_shapes(_output(file)) for file, (_, refused) in outcome.items() if not refused})
+    mended = [Mended(file.name, answers, after.get(file, answers), *outcome[file]) for file, answers in before.items()]
     left = {each.name: KNOWN.why("left", each.name) for each in mended if not each.content}
     totals = _totals(len(files), mended)
     faults = [f"not explained: {name}" for name, why in left.items() if not why]
@@ -86,10 +85,11 @@ def _files(sample: Sample) -> dict[CorpusFile, bytes]:
     return found
 
 
-def _asked(texts: Mapping[CorpusFile, bytes]) -> dict[CorpusFile, dict[str, Words]]:
-    said = {engine: complaints(engine, list(texts.values())) for engine in ENGINES}
+def _asked(texts: Mapping[CorpusFile, bytes]) -> dict[CorpusFile, dict[str, Messages]]:
+    answers = {engine: complaints(engine, list(texts.values())) for engine in ENGINES}
     return {
-        file: {engine: about_inertia(said[engine][number]) for engine in ENGINES} for number, file in enumerate(texts)
+        file: {engine: about_inertia(answers[engine][number]) for engine in ENGINES}
+        for number, file in enumerate(texts)
     }
 
 
@@ -100,12 +100,12 @@ def _output(file: CorpusFile) -> Path:
 def _mend(file: CorpusFile) -> tuple[Counter[str], tuple[str, ...]]:
     """Mend a file; what was done by rule, and the rules that stand against it."""
     try:
-        made = twinform.convert(file.path, to="urdf", passes=PIPELINE)
+        conversion = twinform.convert(file.path, to="urdf", passes=PIPELINE)
     except twinform.CompileError as error:
         return Counter(), rules_of(error.diagnostics)
-    kept(_output(file), made.text)
+    kept(_output(file), conversion.text)
     done = {"filled-inertia", "balanced-inertia", "split-mass", "token-mass"}
-    return Counter(each.rule.name for each in made.diagnostics if each.rule.name in done), ()
+    return Counter(each.rule.name for each in conversion.diagnostics if each.rule.name in done), ()
 
 
 def _totals(files: int, mended: Sequence[Mended]) -> str:
@@ -121,7 +121,7 @@ def _left(mended: Sequence[Mended], known: dict[str, str]) -> str:
     rows = [(each.name, _why(each.after), known[each.name] or "?") for each in mended if not each.content]
     if not rows:
         return "Afterwards no engine complains of any of them."
-    return section("Not mended", table(("file", "what they say", "why"), rows))
+    return section("Not mended", table(("file", "what they report", "why"), rows))
 
 
 def _list(mended: Sequence[Mended]) -> str:
@@ -131,13 +131,13 @@ def _list(mended: Sequence[Mended]) -> str:
             engines = ", ".join(engine for engine in ENGINES if each.before[engine])
             deeds = ", ".join(f"{rule} {count}" for rule, count in sorted(each.deeds.items()))
             rows.append((each.name, engines, _why(each.before), deeds))
-    return section("Mended", table(("file", "engine", "what it says before", "what was done"), rows))
+    return section("Mended", table(("file", "engine", "what it reports before", "what was done"), rows))
 
 
-def _why(said: dict[str, Words]) -> str:
-    """The complaints in few words."""
-    words = [word for each in said.values() for word in each]
-    short = {next((short for sign, short in _WHY.items() if sign in word), word[:120]) for word in words}
+def _why(answers: dict[str, Messages]) -> str:
+    """The complaints in short."""
+    messages = [message for each in answers.values() for message in each]
+    short = {next((short for sign, short in _WHY.items() if sign in message), message[:120]) for message in messages}
     return ", ".join(sorted(short))
 
 

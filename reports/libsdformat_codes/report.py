@@ -1,6 +1,6 @@
 """The rules for what libsdformat finds, and for what it does not find.
 
-The case files are looked through for those that announce a rule, so the page shows where each one is tried.
+The case files are searched for those that announce a rule, so the page shows where each one is tried.
 """
 
 import re
@@ -9,7 +9,7 @@ from collections import defaultdict
 from pathlib import Path
 from typing import NamedTuple
 
-from reports.harness.pages import section, table
+from reports.harness.pages import rule_links, section, table
 from reports.harness.report import Findings, Report
 from reports.harness.sample import Sample
 from tests.corpus.files import ROOT
@@ -18,12 +18,12 @@ CASES = ROOT / "tests" / "cases" / "check"
 _EXPECT = re.compile(r"<!--\s*expect:\s*\w+\s+([\w-]+)\s*-->")
 _ABOUT = """\
 The error codes of libsdformat 17 by name (numbers change between its versions), with the rules that find the same
-here and a case file of `tests/cases/check` that shows each. Below it are faults that libsdformat reads without a word.
+here and a case file of `tests/cases/check` that shows each. Below it are faults that libsdformat does not find.
 """
 
 
 class Row(NamedTuple):
-    """A code or a fault, the rules for it, and a word where there are none."""
+    """A code or a fault, the rules for it, and a note where there are none."""
 
     title: str
     rules: tuple[str, ...] = ()
@@ -41,7 +41,7 @@ CODES, UNSEEN = _rows("codes"), _rows("unseen")
 def measure(_: Sample) -> Findings:
     """Both tables."""
     cases = announced()
-    sections = [_table("code", CODES, cases), section("Read without a word", _table("fault", UNSEEN, cases))]
+    sections = [_table("code", CODES, cases), section("Read without a finding", _table("fault", UNSEEN, cases))]
     return Findings(sections, f"{len(CODES)} codes, {len(UNSEEN)} faults")
 
 
@@ -55,13 +55,8 @@ def announced() -> dict[str, list[str]]:
 
 
 def _table(title: str, rows: tuple[Row, ...], cases: dict[str, list[str]]) -> str:
-    return table(
-        [title, "rules", "cases"],
-        [
-            (row.title, ", ".join(f"[{rule}](rules.md#{rule})" for rule in row.rules) or row.note, _shown(row, cases))
-            for row in rows
-        ],
-    )
+    found = ((row.title, rule_links(row.rules, "rules.md") or row.note, _shown(row, cases)) for row in rows)
+    return table([title, "rules", "cases"], found)
 
 
 def _shown(row: Row, cases: dict[str, list[str]]) -> str:

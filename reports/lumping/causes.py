@@ -1,11 +1,11 @@
-"""Faults of libsdformat 12 that make it see another robot than the URDF file says, found in the numbers or the file."""
+"""Faults of libsdformat 12 by which it reads another robot than the URDF file has, found in the numbers or the file."""
 
 import math
 
-from reports.lumping.differences import Difference, link_of
+from reports.lumping.differences import Difference
 from twinform.ir import Joint, Model, Pose
 from twinform.ir.transform import Transform
-from twinform.testing.oracles.libsdformat.library import LinkRow, RobotRow
+from twinform.testing.oracles.libsdformat.library import RobotRow
 
 SNAPPED = "a pitch within 0.26 degrees of 90 is taken for 90"
 DROPPED = "links without mass are dropped, with all that hangs on them"
@@ -14,7 +14,7 @@ SMALL = "a link so light that it is taken for massless is dropped"
 CAUSES = {
     SNAPPED: "urdfdom's getRPY merges roll and yaw there [P143]; also where lumping composes poses",
     DROPPED: "silently in 12 [P006, P067, P072]",
-    STOPPED: "its result is ignored, and nothing is said [P140, P141, P043]",
+    STOPPED: "its result is ignored, and nothing is reported [P140, P141, P043]",
     SMALL: "1e-7 kg was measured [P155]",
 }
 """Each with where it was seen: the numbers are those of reference/libsdformat.md."""
@@ -51,7 +51,7 @@ def _why_missing(difference: Difference, ours: RobotRow) -> str:
 
 
 def _massless_above(name: str, model: Model) -> str:
-    """Whether a link on the way up in the file has no mass, which is a frame here."""
+    """Whether a link above it in the file has no mass, which is a frame here."""
     masses = {link.name: link.inertial.mass if link.inertial else None for link in model.links}
     above = {joint.child: joint.parent or "" for joint in model.joints}
     here = next((joint.child or "" for joint in model.joints if joint.name == name), name)
@@ -66,22 +66,19 @@ def _stopped(difference: Difference, theirs: RobotRow, ours: RobotRow) -> bool:
     """Whether a link there has fewer shapes than the file, or no inertia where the file has one."""
     if difference.kind not in {"visual", "collision", "inertia", "visual pose", "collision pose"}:
         return False
-    name = link_of(difference)
-    there, here = _row(theirs, name), _row(ours, name)
-    if there is None or here is None:
-        return False
-    return len(there["shapes"]) < len(here["shapes"])
+    there, here = (_shapes(robot, difference.name) for robot in (theirs, ours))
+    return there is not None and here is not None and there < here
 
 
-def _row(robot: RobotRow, name: str) -> LinkRow | None:
-    return next((row for row in robot["links"] if row["name"] == name), None)
+def _shapes(robot: RobotRow, name: str) -> int | None:
+    return next((len(row["shapes"]) for row in robot["links"] if row["name"] == name), None)
 
 
 def _is_steep(difference: Difference, model: Model) -> bool:
     """Whether an origin that the number depends on points straight up or down."""
     if difference.kind in _POSES and difference.steep(_NEAR):
         return True
-    name = link_of(difference)
+    name = difference.name
     around = {joint.child: joint for joint in model.joints}
     return any(_steep(joint.pose) for joint in model.joints if _above(joint, name, around)) or _above_is_steep(
         name, difference, around
@@ -99,7 +96,7 @@ def _above(joint: Joint, name: str, around: dict[str | None, Joint]) -> bool:
 
 
 def _above_is_steep(name: str, difference: Difference, around: dict[str | None, Joint]) -> bool:
-    """Whether the way from the root to a link or joint has a steep origin, on which its pose depends."""
+    """Whether the path from the root to a link or joint has a steep origin, on which its pose depends."""
     if difference.kind != "pose":
         return False
     joint = next((each for each in around.values() if each.name == name), around.get(name))

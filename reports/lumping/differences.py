@@ -1,11 +1,11 @@
 """What two robots of libsdformat 12 differ in: one that it made of URDF itself, and one that we made for it."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
 
-from twinform.testing.oracles.libsdformat.library import JointRow, LinkRow, RobotRow, ShapeRow
+from twinform.testing.oracles.libsdformat.library import JointRow, LinkRow, RobotRow
 from twinform.testing.oracles.libsdformat.robot import pose_matrix
 from twinform.testing.oracles.robot import Matrix
 
@@ -16,7 +16,7 @@ _UNLIMITED = 1e16
 
 
 class Difference(NamedTuple):
-    """One fact that is not the same: what kind of fact, of which part, and the two values in words."""
+    """One fact that is not the same: what kind of fact, of which part, and the two values as text."""
 
     kind: str
     part: str
@@ -28,8 +28,8 @@ class Difference(NamedTuple):
 
     @property
     def name(self) -> str:
-        """The name of the link or joint that it is about."""
-        return link_of(self)
+        """The name of the link or joint that it is about, which stands last in its part."""
+        return self.part.rsplit("'", 2)[-2] if "'" in self.part else self.part
 
     @property
     def short(self) -> str:
@@ -37,62 +37,46 @@ class Difference(NamedTuple):
         return f"{self.kind} of {self.part}" + (", missing there" if self.theirs == "missing" else "")
 
     def steep(self, near: float) -> bool:
-        """Whether either of two poses turns the x axis to where z or -z was, as far as `near` says of the cosine."""
-        rows = [words.split() for words in (self.theirs, self.ours)]
+        """Whether either of two poses turns the x axis to where z or -z was, by the cosine `near`."""
+        rows = [numbers.split() for numbers in (self.theirs, self.ours)]
         return any(len(row) == _POSE and abs(float(row[9])) > near for row in rows)
 
 
 _POSE = 12
 
 
-def link_of(difference: Difference) -> str:
-    """The name of the link or joint that a difference is about, which stands last in its part."""
-    return difference.part.rsplit("'", 2)[-2] if "'" in difference.part else difference.part
-
-
 def differences(theirs: RobotRow, ours: RobotRow) -> list[Difference]:
     """All of them, links first; numbers are the same up to 1e-9 of one, or of the larger number."""
-    links = {row["name"]: row for row in theirs["links"]}, {row["name"]: row for row in ours["links"]}
-    joints = {row["name"]: row for row in theirs["joints"]}, {row["name"]: row for row in ours["joints"]}
-    found = [*_only("link", links[0], links[1]), *_only("joint", joints[0], joints[1])]
-    for name in links[0].keys() & links[1].keys():
-        found += _link(name, links[0][name], links[1][name])
-    for name in joints[0].keys() & joints[1].keys():
-        found += _joint(name, joints[0][name], joints[1][name])
+    links = [{("link", repr(row["name"])): row for row in robot["links"]} for robot in (theirs, ours)]
+    joints = [{("joint", repr(row["name"])): row for row in robot["joints"]} for robot in (theirs, ours)]
+    found = [*_only(*links), *_only(*joints)]
+    for key in links[0].keys() & links[1].keys():
+        found += _link(" ".join(key), links[0][key], links[1][key])
+    for key in joints[0].keys() & joints[1].keys():
+        found += _joint(" ".join(key), joints[0][key], joints[1][key])
     return sorted(found)
 
 
-def _only(kind: str, theirs: Mapping[str, object], ours: Mapping[str, object]) -> Iterator[Difference]:
-    for name in theirs.keys() - ours.keys():
-        yield Difference(kind, repr(name), "there", "missing")
-    for name in ours.keys() - theirs.keys():
-        yield Difference(kind, repr(name), "missing", "there")
+def _only(theirs: Mapping[tuple[str, str], object], ours: Mapping[tuple[str, str], object]) -> Iterator[Difference]:
+    """What one of the two lacks, by kind and part."""
+    yield from (Difference(*key, "there", "missing") for key in theirs.keys() - ours.keys())
+    yield from (Difference(*key, "missing", "there") for key in ours.keys() - theirs.keys())
 
 
-def _link(name: str, theirs: LinkRow, ours: LinkRow) -> Iterator[Difference]:
-    part = f"link {name!r}"
+def _link(part: str, theirs: LinkRow, ours: LinkRow) -> Iterator[Difference]:
     yield from _numbers("pose", part, _pose(theirs["pose"]), _pose(ours["pose"]))
     yield from _numbers("mass", part, np.array([theirs["mass"]]), np.array([ours["mass"]]))
     if theirs["mass"] or ours["mass"]:
         yield from _numbers("center of mass", part, np.array(theirs["center"][:3]), np.array(ours["center"][:3]))
         yield from _numbers("inertia", part, _tensor(theirs), _tensor(ours))
-    yield from _shapes(part, theirs["shapes"], ours["shapes"])
+    shapes = [{(row["kind"], f"{row['name']!r} of {part}"): row for row in link["shapes"]} for link in (theirs, ours)]
+    yield from _only(*shapes)
+    for key in shapes[0].keys() & shapes[1].keys():
+        poses = (_pose(each[key]["pose"]) for each in shapes)
+        yield from _numbers(f"{key[0]} pose", " ".join(key), *poses)
 
 
-def _shapes(part: str, theirs: Sequence[ShapeRow], ours: Sequence[ShapeRow]) -> Iterator[Difference]:
-    here = {(row["kind"], row["name"]): row for row in ours}
-    there = {(row["kind"], row["name"]): row for row in theirs}
-    for kind, name in there.keys() - here.keys():
-        yield Difference(kind, f"{name!r} of {part}", "there", "missing")
-    for kind, name in here.keys() - there.keys():
-        yield Difference(kind, f"{name!r} of {part}", "missing", "there")
-    for key in here.keys() & there.keys():
-        whole = f"{key[0]} {key[1]!r} of {part}"
-        yield from _numbers(f"{key[0]} pose", whole, _pose(there[key]["pose"]), _pose(here[key]["pose"]))
-
-
-def _joint(name: str, theirs: JointRow, ours: JointRow) -> Iterator[Difference]:
-    part = f"joint {name!r}"
+def _joint(part: str, theirs: JointRow, ours: JointRow) -> Iterator[Difference]:
     if _kind(theirs) != _kind(ours):
         yield Difference("kind", part, str(theirs["kind"]), str(ours["kind"]))
     for key in ("parent", "child"):
@@ -114,7 +98,7 @@ def _limit(key: str, value: float) -> Matrix:
 
 
 def _kind(row: JointRow) -> int:
-    """The kind of a joint; one that turns without limits is continuous, whichever word is used for it."""
+    """The kind of a joint; one that turns without limits is continuous, whichever type is written."""
     limits = row.get("limits", {})
     free = limits.get("lower", 0.0) <= -_UNLIMITED and limits.get("upper", 0.0) >= _UNLIMITED
     return _CONTINUOUS if row["kind"] == _REVOLUTE and free else row["kind"]
@@ -125,10 +109,10 @@ def _numbers(kind: str, part: str, theirs: Matrix, ours: Matrix) -> Iterator[Dif
         return
     gap = float(np.abs(theirs - ours).max())
     if not gap <= TOLERANCE * max(1.0, float(np.abs(theirs).max()), float(np.abs(ours).max())):
-        yield Difference(kind, part, _words(theirs), _words(ours))
+        yield Difference(kind, part, _printed(theirs), _printed(ours))
 
 
-def _words(values: Matrix) -> str:
+def _printed(values: Matrix) -> str:
     return " ".join(f"{value:.10g}" for value in values.ravel())
 
 

@@ -21,7 +21,7 @@ _JOINTS = 1
 
 @dataclass(frozen=True, slots=True)
 class Mode:
-    """A way to lump, the format of the robots that it is tried on, and that of the result."""
+    """A method of lumping, the format of the robots that it is tried on, and that of the result."""
 
     name: str
     source: Literal["urdf", "sdf"]
@@ -60,8 +60,8 @@ class Moved:
         return self.verdict.deviation if self.verdict is not None else math.inf
 
     @property
-    def word(self) -> str:
-        """In words."""
+    def summary(self) -> str:
+        """In short."""
         return "the same" if self.verdict else self.cause
 
 
@@ -84,15 +84,15 @@ def _move(job: tuple[Mode, CorpusFile]) -> Moved:
         plain = twinform.load(file.path)
         if not _is_interesting(plain) or _UNFIT & {each.rule.name for each in twinform.check(file.path).diagnostics}:
             return nothing
-        made = twinform.convert(file.path, to=mode.target, passes=mode.passes, paths=file.paths)
+        conversion = twinform.convert(file.path, to=mode.target, passes=mode.passes, paths=file.paths)
         source = _source(mode, file)
     except twinform.CompileError:
         return nothing
     links = _bodies(plain)
-    lumped = links - _bodies(made.document)
+    lumped = links - _bodies(conversion.document)
     if not lumped:
         return nothing
-    output = _written(mode.name, mode, file, made.text)
+    output = _written(mode.name, mode, file, conversion.text)
     try:
         verdict = moved_alike(source, output, _SECONDS)
     except oracles.UnreadableError as error:
@@ -128,5 +128,5 @@ def _source(mode: Mode, file: CorpusFile) -> Path:
 
 def _written(folder: str, mode: Mode, file: CorpusFile, text: str) -> Path:
     """A robot in a file; Drake is not asked for meshes."""
-    place = OUT / "lumping" / "motion" / folder.replace(" ", "_").replace(",", "")
-    return kept(place / f"{file.name}.{mode.target}", text)
+    root = OUT / "lumping" / "motion" / folder.replace(" ", "_").replace(",", "")
+    return kept(root / f"{file.name}.{mode.target}", text)

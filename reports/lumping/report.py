@@ -1,7 +1,7 @@
 """Fixed joints lumped as libsdformat 12 does, beside what it does itself."""
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import twinform
@@ -13,8 +13,8 @@ from reports.harness.sample import Sample
 from reports.lumping.causes import CAUSES, cause_of
 from reports.lumping.differences import Difference, differences
 from reports.lumping.motion import MODES, Moved, moved
+from tests.corpus.examine import rules_of
 from tests.corpus.files import CorpusFile, Kind
-from twinform.compiler.workers import Failure
 from twinform.testing.oracles.libsdformat.library import describe
 
 PASSES = "lump-fixed-joints{compat=libsdformat}"
@@ -28,7 +28,7 @@ cause is a fault of libsdformat that the numbers or the file show; what has no s
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """A file, what differs and why; `theirs` and `ours` say what either refuses it for."""
+    """A file, what differs and why; `theirs` and `ours` are the reasons why either refuses it."""
 
     name: str
     links: int = 0
@@ -38,7 +38,12 @@ class Outcome:
     found: tuple[tuple[Difference, str], ...] = ()
 
     @property
-    def word(self) -> str:
+    def refusal(self) -> str:
+        """Who refuses it, and why; empty where neither does."""
+        return f"libsdformat: {self.theirs}" if self.theirs else self.ours and f"here: {self.ours}"
+
+    @property
+    def summary(self) -> str:
         """What became of it."""
         if self.theirs:
             return "refused by libsdformat"
@@ -51,15 +56,12 @@ class Outcome:
 
 def measure(sample: Sample) -> Findings:
     """Compare what libsdformat reads, and the motion of lumped robots in Drake."""
-    outcomes = sorted(_outcomes(sample), key=lambda one: one.name)
+    files = sample.models(Kind.URDF)
+    outcomes = sample.outcomes(_judge, files, lambda file, why: Outcome(file.name, ours=why), seconds=_SECONDS)
     motions = [motion for mode in MODES for motion in moved(mode, sample)]
-    failures = [*_unexplained(outcomes), *(f"{one.mode}: {one.name}: {one.cause}" for one in motions if one.differs)]
+    unexplained = [f"{one.name}: {each}" for one in outcomes for each, cause in one.found if not cause]
+    failures = [*unexplained, *(f"{one.mode}: {one.name}: {one.cause}" for one in motions if one.differs)]
     return Findings(list(_page(outcomes, motions)), f"{len(outcomes)} files", failures)
-
-
-def _outcomes(sample: Sample) -> Iterable[Outcome]:
-    for file, found in sample.run(_judge, sample.models(Kind.URDF), seconds=_SECONDS):
-        yield Outcome(file.name, ours=found.cause) if isinstance(found, Failure) else found
 
 
 def _judge(file: CorpusFile) -> Outcome:
@@ -68,13 +70,12 @@ def _judge(file: CorpusFile) -> Outcome:
     except RuntimeError as error:
         return Outcome(file.name, theirs=_code(str(error)))
     try:
-        made = twinform.convert(file.path, to="sdf", sdf_version=SDF_VERSION, passes=PASSES, paths=file.paths)
+        conversion = twinform.convert(file.path, to="sdf", sdf_version=SDF_VERSION, passes=PASSES, paths=file.paths)
         plain = twinform.load(file.path)
     except twinform.CompileError as error:
-        rules = dict.fromkeys(each.rule.name for each in error.diagnostics if each.is_error)
-        return Outcome(file.name, ours=", ".join(rules))
+        return Outcome(file.name, ours=", ".join(rules_of(error.diagnostics)))
     try:
-        ours = describe(kept(OUT / "lumping" / f"{file.name}.sdf", made.text))
+        ours = describe(kept(OUT / "lumping" / f"{file.name}.sdf", conversion.text))
     except RuntimeError as error:
         return Outcome(file.name, ours=str(error))
     model = plain.models[0]
@@ -85,7 +86,7 @@ def _judge(file: CorpusFile) -> Outcome:
 
 def _code(message: str) -> str:
     """The first error without the names in it, so that files with one cause can be counted."""
-    return next((words for sign, words in _REFUSALS.items() if sign in message), message.partition(";")[0][:80])
+    return next((why for sign, why in _REFUSALS.items() if sign in message), message.partition(";")[0][:80])
 
 
 _REFUSALS = {
@@ -97,18 +98,19 @@ _REFUSALS = {
 
 
 def _page(outcomes: list[Outcome], motions: list[Moved]) -> Iterable[str]:
-    words = Counter(one.word for one in outcomes)
-    lumped = [one for one in outcomes if one.lumped and one.word in {"the same", "explained"}]
-    yield table(["files", "number"], [(word, words[word]) for word in _WORDS])
+    counts = Counter(one.summary for one in outcomes)
+    refused = Counter(one.refusal for one in outcomes if one.refusal)
+    lumped = [one for one in outcomes if one.lumped and one.summary in {"the same", "explained"}]
+    yield table(["files", "number"], [(summary, counts[summary]) for summary in _SUMMARIES])
     yield f"In {len(lumped)} of those compared links are lumped: {sum(one.lumped for one in lumped)} in all."
     yield section("Why they differ", table(["cause", "files", "differences", "fault"], _causes(outcomes)))
     different = map(_row, (one for one in outcomes if one.found))
     yield section("File by file", table(["file", "differences", "the first", "cause"], different))
-    yield section("Refused", table(["who and why", "files"], _refusals(outcomes).items()))
+    yield section("Refused", table(["who and why", "files"], refused.most_common()))
     yield _motion_section(motions)
 
 
-_WORDS = ("the same", "explained", "different", "refused by libsdformat", "refused here")
+_SUMMARIES = ("the same", "explained", "different", "refused by libsdformat", "refused here")
 
 
 def _causes(outcomes: list[Outcome]) -> Iterable[tuple[object, ...]]:
@@ -123,29 +125,13 @@ def _row(one: Outcome) -> tuple[object, ...]:
     return one.name, len(one.found), one.found[0][0].short, causes
 
 
-def _refusals(outcomes: list[Outcome]) -> Mapping[str, int]:
-    reasons = [
-        f"libsdformat: {one.theirs}" if one.theirs else f"here: {one.ours}"
-        for one in outcomes
-        if one.theirs or one.ours
-    ]
-    return dict(Counter(reasons).most_common())
-
-
-def _unexplained(outcomes: list[Outcome]) -> Iterable[str]:
-    for one in outcomes:
-        for each, cause in one.found:
-            if not cause:
-                yield f"{one.name}: {each}"
-
-
 def _motion_section(motions: list[Moved]) -> str:
     about = """Robots with fixed joints are let go in Drake from the same state, as they are and lumped, for one second
 without control: positions and velocities of all joints, and of the base where it is free, at eleven times. They are
 from as many repositories as there are; passed over are those that Drake cannot simulate at
 all, and those with inertias that no body can have, in the place of which Drake puts others."""
     head = ["mode", "robot", "links", "lumped", "largest gap", "verdict"]
-    rows = [(one.mode, one.name, one.links, one.lumped, f"{one.gap:.1e}", one.word) for one in motions]
+    rows = [(one.mode, one.name, one.links, one.lumped, f"{one.gap:.1e}", one.summary) for one in motions]
     return section("The same motion", about, table(head, rows))
 
 

@@ -1,16 +1,16 @@
 """The cells of the tables of the mapping."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
+from reports.harness.pages import rule_links
 from reports.mapping.measure import EXPRESSED, Seen
-from reports.mapping.notes import told
+from reports.mapping.notes import destinations
 from reports.mapping.rows import Row
 from reports.mapping.targets import field_of, targets
 from twinform.diagnostics import Fate, Severity
 from twinform.schemas.facts import Fact, print_version
 
-_BOUND = {True: ">=", False: "<="}
-_SAID: dict[Severity, str] = {Severity.ERROR: "**refused:** ", Severity.WARNING: "warning: ", Severity.INFO: "note: "}
+_LABELS: dict[Severity, str] = {Severity.ERROR: "**refused:** ", Severity.WARNING: "warning: ", Severity.INFO: "note: "}
 
 
 def name_of(row: Row) -> str:
@@ -21,40 +21,35 @@ def name_of(row: Row) -> str:
 
 
 def kind(fact: Fact) -> str:
-    """Count, type, unit, bounds, default and words of a row."""
+    """Count, type, unit, bounds, default and enumerated values of a row."""
     free = "anything" if fact.any else ""
+    bounds = ((">=", fact.min), ("<=", fact.max))
     parts = [fact.count, fact.type or fact.reference or free]
-    parts += [fact.unit or "", *_bounds(fact)]
+    parts += [fact.unit or "", *(f"{sign} {bound:g}" for sign, bound in bounds if bound is not None)]
     if fact.default is not None:
         parts.append(f"= {fact.default}")
     if fact.enum:
         parts.append(" ".join(fact.enum))
-    parts += [f"{word} ({dialect})" for word, dialect in fact.also]
+    parts += [f"{value} ({dialect})" for value, dialect in fact.also]
     return ", ".join(part for part in parts if part)
 
 
-def _bounds(fact: Fact) -> Iterator[str]:
-    for bound, lowest in ((fact.min, True), (fact.max, False)):
-        if bound is not None:
-            yield f"{_BOUND[lowest]} {bound:g}"
-
-
 def versions(fact: Fact) -> str:
-    """From when to when there is such a thing; empty for always. Words of dialects are in no version."""
+    """From when to when there is such a thing; empty for always. Those of dialects are in no version."""
     if fact.dialect:
         return f"dialect: {fact.dialect}"
     since = f"{print_version(fact.since)} on" if fact.since > (0, 0) else ""
     until = f"to {print_version(fact.until)}" if fact.until < (99, 99) else ""
-    said = since.replace(" on", f" {until}") if since and until else since + until
-    return f"{said}, deprecated" if fact.deprecated else said
+    text = since.replace(" on", f" {until}") if since and until else since + until
+    return f"{text}, deprecated" if fact.deprecated else text
 
 
 def where(row: Row, seen: Seen) -> tuple[str, str]:
-    """The field of the IR, and what says it in the other format."""
+    """The field of the IR, and what expresses it in the other format."""
     field = field_of(row) or ("kept as it is" if row.fact.place is None else "(its rows)")
     other = "sdf" if row.format == "urdf" else "urdf"
-    if (said := told(row.format).get(row.path)) is not None:
-        return field, said
+    if (text := destinations(row.format).get(row.path)) is not None:
+        return field, text
     if found := targets(row):
         return field, ", ".join(f"[`{path}`](#{other}-{path.partition('/')[0]})" for path in found)
     return field, _by_fate(row, seen)
@@ -78,13 +73,8 @@ def became(seen: Seen) -> str:
 def rules_seen(seen: Seen) -> Iterator[str]:
     """The rules of the ledger first, then those of findings, the worst first."""
     if seen.ledger:
-        yield ", ".join(rule_links(sorted(seen.ledger)))
+        yield rule_links(sorted(seen.ledger))
     for severity in sorted(set(seen.rules.values()), reverse=True):
         own = sorted(rule for rule, each in seen.rules.items() if each is severity and rule not in seen.ledger)
         if own:
-            yield _SAID[severity] + ", ".join(rule_links(own))
-
-
-def rule_links(rules: Iterable[str]) -> Iterator[str]:
-    """Links to the pages of rules."""
-    return (f"[{rule}](../reference/rules.md#{rule})" for rule in rules)
+            yield _LABELS[severity] + rule_links(own)

@@ -1,33 +1,33 @@
-"""The end of the mapping: what is passed over with a warning, kept without a word, or special."""
+"""The end of the mapping: what is passed over with a finding, kept without one, or special."""
 
 import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
 
-from reports.mapping.cells import rule_links
+from reports.harness.pages import rule_links
 from reports.mapping.rows import FORMATS, FormatName, Row, rows, unreachable
 from twinform.schemas import table
 
 _WARNED = """\
 ## What is passed over
 
-### With a word
+### With a finding
 
 * A name that the format does not have, in an element that is not free: unknown-element, unknown-attribute. It is kept
   where it stands, comes back in its own format, and travels in a carrier. Under `--strict` it is an error.
 * A part of another version than the file declares: outside-version. It is read and kept.
 * A second element where there may be one: repeated-element. The first one counts; the others are kept.
 * Text where only elements belong: stray-text.
-* `<gazebo>` tags that mean nothing where they stand: gazebo-tag-without-target; and those that would say what the robot
-  says already: gazebo-conflict. They are carried.
-* Words of other readers of URDF, an info (dialect); they are kept, and travel in carriers.
+* `<gazebo>` tags that mean nothing where they stand: gazebo-tag-without-target; and those that would repeat what the
+  robot has already: gazebo-conflict. They are carried.
+* Elements and values of other readers of URDF, an info (dialect); they are kept, and travel in carriers.
 """
 _SPECIAL = """\
 ### Special
 
 * `gazebo`, `plugin`, `mujoco`, `deformable`, `auto_inertia_params`: free content, kept to the letter with its order.
-* `tf:` (`urn:twinform:1`): our own namespace. Carriers are read and folded back; `<tf:source>` is the memory of the way
-  home.
+* `tf:` (`urn:twinform:1`): our own namespace. Carriers are read and folded back; `<tf:source>` of
+  early versions of twinform is ignored.
 * Elements and attributes of other namespaces: kept where they stand, and carried. `drake:` is known by its prefix.
 * Comments and processing instructions: no part of the document; they do not come through.
 * The prolog, the encoding and the spelling of numbers: the text is written anew, in UTF-8; booleans keep theirs.
@@ -38,7 +38,7 @@ _PASSES = """\
 ## The passes
 
 What the notes call a pass is a class in `twinform/passes/legalise/to_sdf`, `to_urdf` or `sdf_versions`, whose docstring
-says what it changes. `twinform convert FILE --print-pipeline` lists those that a file goes through, and
+describes what it changes. `twinform convert FILE --print-pipeline` lists those that a file goes through, and
 `--dump-ir-after PASS` shows what one of them did.
 """
 _RULES = (
@@ -51,7 +51,7 @@ def passed_over() -> Iterator[str]:
     """The sections at the end."""
     yield _linked(_WARNED, (*_RULES, "dialect"))
     yield from (f"  * {dialect}: {_listed(names)}" for dialect, names in sorted(_dialects().items()))
-    yield "\n### Without a word\n\nParts that no pass needs to understand stay as XML at their place: checked by the"
+    yield "\n### Without a finding\n\nParts that no pass needs to understand stay as XML at their place: checked by the"
     yield "schema, kept in their own format, and in a carrier or a `<gazebo>` element of the other one.\n"
     yield from (f"* {name.upper()} {section}: {_listed(names)}" for name in FORMATS for section, names in _opaque(name))
     yield f"\n{_linked(_SPECIAL, _RULES)}"
@@ -64,8 +64,8 @@ def _dialects() -> dict[str, list[str]]:
     for row in rows("urdf"):
         if row.fact.dialect:
             found[row.fact.dialect].append(row.path)
-        for word, dialect in row.fact.also:
-            found[dialect].append(f"{row.path} = {word}")
+        for value, dialect in row.fact.also:
+            found[dialect].append(f"{row.path} = {value}")
     return found
 
 
@@ -103,5 +103,5 @@ def _listed(names: Iterable[str]) -> str:
 def _linked(text: str, rules: Iterable[str]) -> str:
     """The text with the names of rules after a colon, a comma or in brackets as links."""
     for rule in rules:
-        text = re.sub(rf"(?<=: ){rule}\b|(?<=, ){rule}\b|(?<=\(){rule}(?=\))", next(rule_links([rule])), text)
+        text = re.sub(rf"(?<=: ){rule}\b|(?<=, ){rule}\b|(?<=\(){rule}(?=\))", rule_links([rule]), text)
     return text

@@ -9,7 +9,7 @@ from pathlib import Path
 from lxml import etree
 
 import twinform
-from reports.mapping.rows import Place, Row, places
+from reports.mapping.rows import Part, Row, parts
 from tests.corpus.files import ROOT
 from tests.corpus.there_and_back import robots
 from twinform.compiler.audit import bare_path, fates
@@ -27,7 +27,7 @@ PARTS = CASES / "includes" / "parts"
 """The models that the cases include."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, order=True)
 class Proof:
     """A case file that has the row; those of an earlier folder, and of few rows, show it best."""
 
@@ -38,7 +38,7 @@ class Proof:
 
 @dataclass(slots=True)
 class Seen:
-    """What became of a row in all case files, who had something to say, and the file to look at."""
+    """What became of a row in all case files, which rules had findings, and the file to open."""
 
     fates: Counter[str] = field(default_factory=Counter[str])
     ledger: Counter[str] = field(default_factory=Counter[str])
@@ -47,12 +47,8 @@ class Seen:
 
     def at(self, proof: Proof) -> None:
         """Keep the better one of two files."""
-        if self.proof is None or (proof.folder, proof.size, proof.path) < _order(self.proof):
+        if self.proof is None or proof < self.proof:
             self.proof = proof
-
-
-def _order(proof: Proof) -> tuple[int, int, str]:
-    return proof.folder, proof.size, proof.path
 
 
 def case_files() -> Iterator[tuple[int, Path]]:
@@ -68,30 +64,28 @@ def measured() -> dict[Row, Seen]:
     """All case files read, and converted to the other format where that is possible."""
     seen: dict[Row, Seen] = defaultdict(Seen)
     for folder, path in case_files():
-        _look(folder, path, seen)
+        _measure(folder, path, seen)
     return dict(seen)
 
 
-def _look(folder: int, path: Path, seen: dict[Row, Seen]) -> None:
+def _measure(folder: int, path: Path, seen: dict[Row, Seen]) -> None:
     checked = twinform.check(path)
     root = _tree(path)
     if root is None:
         return
-    here = _in_place(root)
+    here = _by_location(root)
     _note(checked.diagnostics, here, seen)
     if not checked.accepted or checked.document is None:
         return
-    for place in here.values():
-        seen[place.row].at(Proof(folder, len(here), path.relative_to(ROOT).as_posix()))
-    for made in ways(path, checked.document):
-        if isinstance(made, twinform.CompileError):
-            _note(made.diagnostics, here, seen)
-        else:
-            _count(made, seen)
-            _note(made.diagnostics, here, seen)
+    for part in here.values():
+        seen[part.row].at(Proof(folder, len(here), path.relative_to(ROOT).as_posix()))
+    for converted in conversions(path, checked.document):
+        if isinstance(converted, twinform.Conversion):
+            _count(converted, seen)
+        _note(converted.diagnostics, here, seen)
 
 
-def ways(
+def conversions(
     path: Path, document: Document, *, carriers: bool = True
 ) -> Iterator[twinform.Conversion | twinform.CompileError]:
     """The file, or each robot in it, in the other format; the error where it is refused."""
@@ -103,11 +97,11 @@ def ways(
             yield error
 
 
-def _count(made: twinform.Conversion, seen: dict[Row, Seen]) -> None:
-    assert made.source is not None
-    rows = {(place.element, place.attribute): place.row for place in places(made.source)}
-    entries = {_key(entry.location): entry for entry in reversed(made.ledger.entries)}
-    for met in fates(made.source, made.text, made.ledger):
+def _count(converted: twinform.Conversion, seen: dict[Row, Seen]) -> None:
+    assert converted.source is not None
+    rows = {(part.element, part.attribute): part.row for part in parts(converted.source)}
+    entries = {_key(entry.location): entry for entry in reversed(converted.ledger.entries)}
+    for met in fates(converted.source, converted.text, converted.ledger):
         row = rows.get((met.element, met.attribute))
         if row is None:
             continue
@@ -128,16 +122,16 @@ def _covering(element: XmlElement, attribute: str | None, entries: dict[_Key, En
     return None
 
 
-def _note(diagnostics: Iterable[Diagnostic], here: dict[_Key, Place], seen: dict[Row, Seen]) -> None:
+def _note(diagnostics: Iterable[Diagnostic], here: dict[_Key, Part], seen: dict[Row, Seen]) -> None:
     for each in diagnostics:
-        if (place := here.get(_key(each.location))) is not None:
-            seen[place.row].rules[each.rule.name] = each.severity
+        if (part := here.get(_key(each.location))) is not None:
+            seen[part.row].rules[each.rule.name] = each.severity
 
 
-def _in_place(root: XmlElement) -> dict[_Key, Place]:
+def _by_location(root: XmlElement) -> dict[_Key, Part]:
     return {
-        (_line(place.element), _bare(place.element) + (f"/@{place.attribute}" if place.attribute else "")): place
-        for place in places(root)
+        (_line(part.element), _bare(part.element) + (f"/@{part.attribute}" if part.attribute else "")): part
+        for part in parts(root)
     }
 
 

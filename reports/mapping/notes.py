@@ -1,4 +1,4 @@
-"""What a table cannot say of elements: `notes.toml`."""
+"""What a table cannot express about elements: `notes.toml`."""
 
 import tomllib
 from dataclasses import dataclass
@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from reports.mapping.rows import FormatName
+
+_TABLES: dict[str, Any] = tomllib.loads(Path(__file__).with_name("notes.toml").read_text(encoding="utf-8"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,19 +27,14 @@ class Note:
 
     @property
     def paths(self) -> list[str]:
-        """What it is about, as a reader says it: `URDF joint/limit`."""
+        """What it is about, as the page writes it: `URDF joint/limit`."""
         return [f"{each.partition(':')[0].upper()} {each.partition(':')[2]}" for each in self.about]
-
-
-@cache
-def _tables() -> dict[str, Any]:
-    return tomllib.loads(Path(__file__).with_name("notes.toml").read_text(encoding="utf-8"))
 
 
 @cache
 def notes() -> tuple[Note, ...]:
     """All notes, in the order of the file."""
-    return tuple(map(_note, _tables()["note"]))
+    return tuple(map(_note, _TABLES["note"]))
 
 
 def _note(row: dict[str, str | list[str]]) -> Note:
@@ -45,6 +42,6 @@ def _note(row: dict[str, str | list[str]]) -> Note:
     return Note(about, " ".join(str(row["text"]).split()), rules, cases)
 
 
-def told(format: FormatName) -> dict[str, str]:
-    """Where rows go that fill no field which both formats have, by path; the tables say it of all others."""
-    return _tables()["goes"][format]
+def destinations(format: FormatName) -> dict[str, str]:
+    """Where rows go that fill no field which both formats have, by path; the tables have it for all others."""
+    return _TABLES["goes"][format]

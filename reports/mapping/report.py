@@ -1,15 +1,16 @@
-"""The page that says of each element of both formats where it goes.
+"""The page that lists where each element of both formats goes.
 
 Types, versions and places are those of the facts tables, what became of an element is measured on the case files, and
-what only words can say stands in `notes.toml`.
+what only prose can express is in `notes.toml`.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
+from reports.harness.pages import rule_links
 from reports.harness.pages import table as markdown_table
 from reports.harness.report import Findings, Report
 from reports.harness.sample import Sample
-from reports.mapping.cells import became, kind, name_of, rule_links, rules_seen, versions, where
+from reports.mapping.cells import became, kind, name_of, rules_seen, versions, where
 from reports.mapping.lists import passed_over
 from reports.mapping.measure import Seen, measured
 from reports.mapping.notes import Note, notes
@@ -23,12 +24,12 @@ under `tests/cases`, each really converted, and `reports/mapping/notes.toml`. Do
 
 **How to read it.** One section for each element type, with a row for each element and attribute in it; a path begins
 at the type. *Where it goes* names what fills the same field of the IR in the other format. *Became* is what an audit
-of the case files found: *expressed* in words of the other format, *carried* in our namespace, *approximated*, or
+of the case files found: *expressed* in elements of the other format, *carried* in our namespace, *approximated*, or
 *dropped* (with `--no-carriers`, all that is carried would be). *Rules* are those that the ledger names there, and the
 findings of the case files: what is **refused** stops a conversion. `1` is required, `?` may be left out, `*` and `+`
 may repeat.
 
-[What is passed over](#what-is-passed-over) with a word, without one, and what is special stands at the end, the
+[What is passed over](#what-is-passed-over) with a finding, without one, and what is special stands at the end, the
 reasons for all this in [decisions](decisions.md), and the rules in [rules](../reference/rules.md).
 """
 _TITLES: dict[FormatName, str] = {"urdf": "From URDF to SDF", "sdf": "From SDF to URDF"}
@@ -48,10 +49,10 @@ def _contents() -> Iterator[str]:
 
 def _format(name: FormatName) -> Iterator[str]:
     yield f"## {_TITLES[name]}\n"
-    told = notes()
+    all_notes = notes()
     for definition in sections(name):
         group = [row for row in rows(name) if row.definition == definition]
-        own = [note for note in told if (name, definition) in note.sections]
+        own = [note for note in all_notes if (name, definition) in note.sections]
         yield "\n".join(_section(name, definition, group, own))
 
 
@@ -79,37 +80,19 @@ def _opening(name: FormatName, definition: str) -> str:
 
 def _row(row: Row, seen: Seen) -> list[str]:
     case = f"[{seen.proof.path.rpartition('/')[2]}](../../{seen.proof.path})" if seen.proof else ""
-    return [
-        name_of(row),
-        kind(row.fact),
-        versions(row.fact),
-        *where(row, seen),
-        became(seen),
-        "; ".join(rules_seen(seen)),
-        case,
-    ]
+    measured = (became(seen), "; ".join(rules_seen(seen)), case)
+    return [name_of(row), kind(row.fact), versions(row.fact), *where(row, seen), *measured]
 
 
 def _note(note: Note) -> str:
     about = ", ".join(f"`{path}`" for path in note.paths)
-    tail = _sentence("Rules", rule_links(note.rules)) + _sentence("Cases", map(_case_link, note.cases))
-    return f"* {about}: {note.text}{tail}\n"
-
-
-def _sentence(word: str, links: Iterable[str]) -> str:
-    said = ", ".join(links)
-    return f" {word}: {said}." if said else ""
-
-
-def _case_link(path: str) -> str:
-    return f"[{path}](../../tests/cases/{path})"
+    cases = ", ".join(f"[{path}](../../tests/cases/{path})" for path in note.cases)
+    links_after = (
+        f" {title}: {links}." for title, links in (("Rules", rule_links(note.rules)), ("Cases", cases)) if links
+    )
+    return f"* {about}: {note.text}{''.join(links_after)}\n"
 
 
 REPORT = Report(
-    "mapping",
-    "The mapping: every element of both formats",
-    _ABOUT,
-    measure,
-    needs=(),
-    folder="explanation",
+    "mapping", "The mapping: every element of both formats", _ABOUT, measure, needs=(), folder="explanation"
 )

@@ -31,7 +31,7 @@ class Row:
         return f"{self.definition}/{self.steps}"
 
 
-class Place(NamedTuple):
+class Part(NamedTuple):
     """An element of a file, or one attribute of it, and the row that it is."""
 
     element: XmlElement
@@ -58,7 +58,7 @@ def sections(format: FormatName) -> tuple[str, ...]:
     """The definitions that a file may use, from the root outwards."""
     facts = table(format)
     found = [facts.root]
-    for name in found:  # it grows on the way
+    for name in found:  # it grows in the loop
         for row in _rows_below(format, name, facts.definitions[name], ""):
             if row.fact.reference and row.fact.reference not in found:
                 found.append(row.fact.reference)
@@ -78,29 +78,26 @@ def _rows_below(format: FormatName, definition: str, fact: Fact, around: str) ->
             yield from _rows_below(format, definition, below, f"{steps}/")
 
 
-def places(root: XmlElement) -> Iterator[Place]:
+def parts(root: XmlElement) -> Iterator[Part]:
     """The elements and attributes of a file that are rows of the table of its format and version."""
     format: FormatName = "urdf" if root.tag == "robot" else "sdf"
     facts = table(format)
-    version = _version(root, facts.versions[0] if format == "urdf" else facts.versions[-1])
+    default = facts.versions[0 if format == "urdf" else -1]
+    version = parse_version(str(root.get("version") or default))
     stack = [(root, facts.root, facts.definitions[facts.root], "")]
     while stack:
         element, definition, fact, around = stack.pop()
         for name in element.attrib:
             if (row := _row(fact, f"@{name}", version)) is not None:
-                yield Place(element, str(name), Row(format, definition, f"{around}{row.name}", row.since, row))
+                yield Part(element, str(name), Row(format, definition, f"{around}{row.name}", row.since, row))
         for child in element:
             row = _row(fact, str(child.tag), version) if isinstance(child.tag, str) else None
             if row is None:
                 continue
             steps = f"{around}{row.name}"
-            yield Place(child, None, Row(format, definition, steps, row.since, row))
+            yield Part(child, None, Row(format, definition, steps, row.since, row))
             below = facts.definitions[row.reference] if row.reference else row
             stack.append((child, row.reference or definition, below, "" if row.reference else f"{steps}/"))
-
-
-def _version(root: XmlElement, default: str) -> Version:
-    return parse_version(str(root.get("version") or default))
 
 
 def _row(fact: Fact, name: str, version: Version) -> Fact | None:

@@ -1,4 +1,4 @@
-"""Where the IR keeps what a row says, and which rows of the other format fill the same field."""
+"""Where the IR keeps what a row defines, and which rows of the other format fill the same field."""
 
 from collections import defaultdict
 from collections.abc import Iterator
@@ -35,7 +35,7 @@ def targets(row: Row) -> list[str]:
 
 
 def _fits(one: Chain, other: Chain) -> bool:
-    """Whether they name the same field, as far as both say what it is in."""
+    """Whether they name the same field, as far as both state what it is in."""
     return all(a == b for a, b in zip(reversed(one), reversed(other), strict=False))
 
 
@@ -94,10 +94,10 @@ def _follow(row: Fact, kind: type[Node], around: Chain) -> tuple[Chain, type[Nod
     return around, inner
 
 
-def _class_of(annotation: object, around: type[Node], word: str | None) -> type[Node] | None:
-    """The class of nodes in an annotation; of several, the one whose kind is `word`."""
+def _class_of(annotation: object, around: type[Node], kind: str | None) -> type[Node] | None:
+    """The class of nodes in an annotation; of several, the one of that kind."""
     for one in _classes(annotation, around):
-        if word is None or get_args(one.model_fields["kind"].annotation) == (word,):
+        if kind is None or get_args(one.model_fields["kind"].annotation) == (kind,):
             return one
     return None
 

@@ -1,10 +1,10 @@
-"""The mutants that mutmut has made, room by room, and what became of them."""
+"""The mutants that mutmut made, room by room, and what became of them."""
 
 import re
 import tomllib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cached_property
 from pathlib import Path
 from random import Random
 
@@ -17,7 +17,7 @@ from tests.corpus.files import ROOT
 
 NOTICED = ("killed", "timeout")
 UNTRIED = "not checked"
-_EQUIVALENT = Path(__file__).with_name("equivalent.toml")
+_EQUIVALENT = tomllib.loads(Path(__file__).with_name("equivalent.toml").read_text(encoding="utf-8"))
 _FOLDERS = {"ir": ("ir",), "passes": ("passes",), "readers": ("schemas", "compiler")}
 _STRICT = re.compile(r",\s*(?:strict=\w+)?(?=\))")
 _CAST = re.compile(r'\bcast\((?:"[^"]*"|\w+)')
@@ -57,8 +57,8 @@ class Mutant:
 
     @property
     def equivalent(self) -> str:
-        """Why the program does the same with it; empty where it does not, or nobody has looked."""
-        return _reasons().get(self.function, {}).get(self.change, "")
+        """Why the program does the same with it; empty where it does not, or nobody has examined it."""
+        return _EQUIVALENT.get(self.function, {}).get(self.change, "")
 
 
 def mutants(room: str) -> list[Mutant]:
@@ -75,7 +75,7 @@ def draw(room: str, size: int, seed: int) -> list[Mutant]:
 
 
 def is_wording(diff: Sequence[str]) -> bool:
-    """Whether it only says a message in other words: a literal with a blank, in other letters or between XX."""
+    """Whether it only rewords a message: a literal with a blank, in other letters or between XX."""
     before, after = (_LITERAL.findall("\n".join(line for line in diff if line[0] == sign)) for sign in "-+")
     changed = [(old, new.lower()) for old, new in zip(before, after, strict=False) if old != new]
     return len(changed) == 1 and all(
@@ -98,8 +98,3 @@ def _found(room: str) -> Iterator[Mutant]:
             data = SourceFileMutationData(path=path)
             data.load()
             yield from (Mutant(name, path) for name in data.exit_code_by_key)
-
-
-@cache
-def _reasons() -> dict[str, dict[str, str]]:
-    return tomllib.loads(_EQUIVALENT.read_text(encoding="utf-8"))

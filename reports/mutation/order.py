@@ -28,7 +28,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:
-    """A file of tests that cannot be imported fails: mutmut takes pytest's word for it for an interruption by hand."""
+    """A file of tests that cannot be imported fails: mutmut takes pytest's exit code for an interruption by hand."""
     if session.testsfailed and session.exitstatus == pytest.ExitCode.INTERRUPTED:
         session.exitstatus = pytest.ExitCode.TESTS_FAILED
 

@@ -36,7 +36,7 @@ speed; they can only raise the score.
 Never changed are tables and other data outside functions, fields with their defaults, and what is in a function with a
 decorator other than `@staticmethod` and `@classmethod`, such as `@property`, `@cache` and the validators of Pydantic:
 mutmut leaves them out. Passed over when drawn is what only changes the wording of a message: a literal with a blank in
-it that becomes capitals, small letters or stands between XX; names and words without a blank stay in. So is what takes
+it that becomes capitals, small letters or stands between XX; names and texts without a blank stay in. So is what takes
 `strict=True` from a `zip` or the type from a `cast`, which only assert what is so.
 
 The score is what was killed or ran into the time limit, of all that were tried and are not equivalent.
@@ -89,22 +89,12 @@ def _sources(_: str, names: list[str]) -> list[str]:
 def _row(room: str, drawn: Sequence[Mutant]) -> tuple[object, ...]:
     tried = [each for each in drawn if each.status != UNTRIED]
     unseen = [each for each in tried if each.status not in NOTICED]
-    told = [each.status for each in unseen if not each.equivalent]
+    counted = [each.status for each in unseen if not each.equivalent]
     noticed = [sum(each.status == status for each in drawn) for status in NOTICED]
-    score = 100 * sum(noticed) / max(1, sum(noticed) + len(told))
-    missed = told.count("no tests")
-    alike = len(unseen) - len(told)
-    return (
-        room,
-        len(mutants(room)),
-        len(drawn),
-        len(tried),
-        *noticed,
-        len(told) - missed,
-        missed,
-        alike,
-        f"{score:.1f}%",
-    )
+    missed, alike = counted.count("no tests"), len(unseen) - len(counted)
+    score = 100 * sum(noticed) / max(1, sum(noticed) + len(counted))
+    counts = (len(mutants(room)), len(drawn), len(tried), *noticed, len(counted) - missed, missed, alike)
+    return (room, *counts, f"{score:.1f}%")
 
 
 def _lists(left: Sequence[Mutant]) -> Iterator[str]:

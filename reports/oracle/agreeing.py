@@ -1,4 +1,4 @@
-"""One conversion before an engine that reads one of the formats alone, or reads it in its own way."""
+"""One conversion before an engine that reads one of the formats alone, or reads it differently."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from reports.oracle.judging import DRAKE, OUT, Direction, Outcome, cause
 from tests.corpus.files import CORPUS
 from twinform.compiler.workers import Failure
 from twinform.testing import oracles
-from twinform.testing.oracles.in_process import compared, look
+from twinform.testing.oracles.in_process import compared, read_robot
 
 LIBSDFORMAT = "libsdformat"
 URDF_ONLY = ("pinocchio", "mujoco", "pybullet")
@@ -53,7 +53,7 @@ class Agreement:
 
 
 def agreements(sample: Sample, outcomes: Iterable[Outcome]) -> list[Agreement]:
-    """What the engines other than Drake, as far as they are here, say of the results."""
+    """What the engines other than Drake, as far as they are here, find in the results."""
     questions = [one for one in _questions(outcomes) if oracles.available(one.engine)]
     answered = list(sample.run(_answer, questions))
     died = [question for question, answer in answered if isinstance(answer, Failure)]
@@ -91,7 +91,7 @@ def _answer(question: Question) -> Agreement:
 
 
 def _write(question: Question) -> None:
-    """The way back, where a question is about it."""
+    """The conversion back, where a question is about it."""
     if question.result.name.endswith(".back.urdf"):
         there = question.result.with_name(question.result.name.replace(".back.urdf", ".1.11.sdf"))
         # the same file is made for every engine, perhaps at the same time
@@ -99,9 +99,9 @@ def _write(question: Question) -> None:
 
 
 def _source(question: Question) -> None:
-    """Look at the source alone: if this comes back, an engine ended its process on the result."""
+    """Read the source alone: if this comes back, an engine ended its process on the result."""
     try:
-        look(question.source, question.engines[0])
+        read_robot(question.source, question.engines[0])
     except oracles.UnreadableError:
         return
 

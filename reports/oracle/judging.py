@@ -10,7 +10,7 @@ from reports.harness import files
 from reports.harness.files import kept
 from tests.corpus.files import CorpusFile, Kind
 from twinform.testing import oracles
-from twinform.testing.oracles.in_process import look, versus
+from twinform.testing.oracles.in_process import read_robot, verdict_on
 from twinform.testing.oracles.robot import Robot
 
 OUT = files.OUT / "oracle"
@@ -47,7 +47,7 @@ _VERDICTS = {
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """A conversion and its verdict; `cause` says why it is not the same."""
+    """A conversion and its verdict; `cause` is why it is not the same."""
 
     name: str
     direction: Direction
@@ -64,7 +64,7 @@ def directions(file: CorpusFile) -> tuple[Direction, ...]:
 
 
 def judge(file: CorpusFile) -> tuple[Outcome, ...]:
-    """Convert a file every way and judge each result; no exception comes out of it."""
+    """Convert a file in every direction and judge each result; no exception comes out of it."""
     source = _load(file.path)
     return tuple(_judged(file, direction, source) for direction in directions(file))
 
@@ -81,7 +81,9 @@ def rewrite(file: CorpusFile) -> Path | None:
 def post_mortem(file: CorpusFile) -> tuple[Outcome, ...]:
     """For a file on which Drake ended the process: who was to blame, if this call comes back the result was."""
     _load(file.path)
-    return tuple(Outcome(file.name, way, Verdict.RESULT, "Drake ends the process") for way in directions(file))
+    return tuple(
+        Outcome(file.name, direction, Verdict.RESULT, "Drake ends the process") for direction in directions(file)
+    )
 
 
 def _judged(file: CorpusFile, direction: Direction, source: Robot | str) -> Outcome:
@@ -95,7 +97,7 @@ def _judged(file: CorpusFile, direction: Direction, source: Robot | str) -> Outc
     if isinstance(source, str):
         return Outcome(file.name, direction, Verdict.SOURCE, source, output=output)
     try:
-        found = versus(source, (file.path, output), (DRAKE, DRAKE))
+        found = verdict_on(source, (file.path, output), (DRAKE, DRAKE))
     except oracles.UnreadableError as error:
         return Outcome(file.name, direction, Verdict.RESULT, cause(error.cause), output=output)
     return Outcome(
@@ -115,7 +117,7 @@ def _convert(file: CorpusFile, direction: Direction) -> Path:
 def _load(path: Path) -> Robot | str:
     """What Drake sees, or why it sees nothing."""
     try:
-        return look(path, DRAKE)
+        return read_robot(path, DRAKE)
     except oracles.UnreadableError as error:
         return cause(error.cause)
 

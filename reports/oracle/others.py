@@ -1,24 +1,23 @@
-"""The sections of the page on what other engines say, and on robots that were let go."""
+"""The sections of the page on what other engines find, and on robots that were let go."""
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
 from reports.harness.known import Known
-from reports.harness.pages import section, table
+from reports.harness.pages import first, grouped, section, table
 from reports.oracle.agreeing import Agreement, Answer
 from reports.oracle.moving import SECONDS, WANTED, Motion
 from twinform.testing.oracles.dynamics import TOLERANCE
 
 KNOWN = Known.beside(__file__)
-_SHOWN = 3
 _OTHERS = """\
 The same comparison by engines that read one of the two formats, without shapes. *URDF, and the same after SDF 1.11* is
-the file and what it becomes on the way to SDF and back. libsdformat reads URDF as Gazebo does, lumping fixed joints, so
+the file and what it becomes in SDF and back in URDF. libsdformat reads URDF as Gazebo does, lumping fixed joints, so
 that links that are fixed to each other are weighed together; Pinocchio does so too."""
 _MOVING = f"""\
 Drake lets robots go for {SECONDS:g} s from one state, which is not at rest, under gravity and without motors or
-contacts, by an integrator with an accuracy of 1e-10. Positions and velocities of joints and free links, ten times on
-the way, are the same where they differ by no more than {TOLERANCE:g} (of the largest number of the kind, where that is
+contacts, by an integrator with an accuracy of 1e-10. Positions and velocities of joints and free links, at ten
+moments, are the same where they differ by no more than {TOLERANCE:g} (of the largest number of the kind, where that is
 more than one). For each direction robots are taken from one repository after another until {WANTED} move alike."""
 
 
@@ -36,12 +35,12 @@ def agreement_section(agreements: Sequence[Agreement]) -> str:
 
 
 def _exceptions(agreements: Iterable[Agreement]) -> str:
-    groups: dict[tuple[str, ...], list[str]] = {}
-    for one in agreements:
-        if one.answer in {Answer.DIFFERENT, Answer.RESULT}:
-            said = explained(one) or one.cause
-            groups.setdefault((one.question.what, one.question.engine, one.answer, said), []).append(one.question.name)
-    rows = [(*key, len(names), _names(sorted(names))) for key, names in sorted(groups.items())]
+    doubted = (one for one in agreements if one.answer in {Answer.DIFFERENT, Answer.RESULT})
+    groups = grouped(
+        ((one.question.what, one.question.engine, one.answer, explained(one) or one.cause), one.question.name)
+        for one in doubted
+    )
+    rows = [(*key, len(names), first(sorted(names))) for key, names in sorted(groups.items())]
     return table(["compared", "engine", "answer", "cause", "files", "which"], rows)
 
 
@@ -59,7 +58,3 @@ def _moved(one: Motion, known: Mapping[str, str]) -> tuple[str, str, str]:
     if one.verdict:
         return ("the same", measure, one.verdict.of)
     return ("different", measure, known.get(one.outcome.name, one.verdict.cause))
-
-
-def _names(names: list[str]) -> str:
-    return ", ".join(names[:_SHOWN]) + (", .." if len(names) > _SHOWN else "")

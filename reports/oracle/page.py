@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from reports.harness.pages import listing, section, table
+from reports.harness.pages import first, grouped, listing, section, table
 from reports.oracle.judging import Direction, Outcome, Verdict
 from twinform.testing.oracles.comparison import TOLERANCE
 
@@ -27,12 +27,11 @@ _GROUPS = (
     (Verdict.SOURCE, "Sources that Drake cannot read"),
 )
 _IN_FULL = frozenset({Verdict.DIFFERENT, Verdict.RESULT, Verdict.CRASH})
-_SHOWN = 3
 
 
 @dataclass(frozen=True, slots=True)
 class Reader:
-    """What a reference parser says of some results: its errors by file, empty where it has none; None without it.
+    """What a reference parser reports about some results: its errors by file, empty where it has none; None without it.
 
     `known` are the files for which it is known to have errors, with the reason.
     """
@@ -60,8 +59,12 @@ def counts(outcomes: list[Outcome]) -> str:
     """How many conversions met each verdict."""
     found = Counter((one.direction, one.verdict) for one in outcomes)
     rows = [
-        (way, sum(found[way, verdict] for verdict in Verdict), *(found[way, verdict] for verdict in Verdict))
-        for way in Direction
+        (
+            direction,
+            sum(found[direction, verdict] for verdict in Verdict),
+            *(found[direction, verdict] for verdict in Verdict),
+        )
+        for direction in Direction
     ]
     return table(["conversion", "files", *Verdict], rows)
 
@@ -89,26 +92,14 @@ def _explained(reader: Reader, file: str, errors: str) -> str:
 
 
 def _group(outcomes: list[Outcome], verdict: Verdict, known: Mapping[str, str]) -> str:
-    groups: dict[tuple[str, str], list[str]] = {}
-    for (name, cause), ways in _ways(outcomes, verdict).items():
-        reason = f" ({known[name]})" if name in known else ""
-        groups.setdefault((", ".join(ways), cause + reason), []).append(name)
+    met = ((one.name, _cause(one), one.direction) for one in outcomes if one.verdict is verdict)
+    conversions = grouped(((name, cause), direction) for name, cause, direction in met)
+    reasons = {name: f" ({known[name]})" if name in known else "" for name, _ in conversions}
+    groups = grouped(((", ".join(those), cause + reasons[name]), name) for (name, cause), those in conversions.items())
     ordered = sorted(groups.items(), key=lambda item: (item[0][0], -len(item[1]), item[0][1]))
-    most = None if verdict in _IN_FULL else _SHOWN
-    rows = ((ways, cause, len(names), _names(names, most)) for (ways, cause), names in ordered)
+    rows = ((*key, len(names), first(names, None if verdict in _IN_FULL else 3)) for key, names in ordered)
     return listing(["conversion", "cause", "files", "which"], rows)
 
 
-def _ways(outcomes: list[Outcome], verdict: Verdict) -> dict[tuple[str, str], list[str]]:
-    """The conversions that met this verdict, by file and cause."""
-    ways: dict[tuple[str, str], list[str]] = {}
-    for one in outcomes:
-        if one.verdict is verdict:
-            cause = one.cause.partition(":")[0] if verdict is Verdict.REFUSED else one.cause
-            ways.setdefault((one.name, cause), []).append(one.direction)
-    return ways
-
-
-def _names(names: list[str], most: int | None) -> str:
-    more = ", .." if most is not None and len(names) > most else ""
-    return ", ".join(names[:most]) + more
+def _cause(one: Outcome) -> str:
+    return one.cause.partition(":")[0] if one.verdict is Verdict.REFUSED else one.cause

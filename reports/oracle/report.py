@@ -11,7 +11,7 @@ from reports.harness.report import Findings, Report
 from reports.harness.sample import Sample, is_good, judged_files
 from reports.oracle.agreeing import Agreement, Answer, agreements
 from reports.oracle.judging import OUT, Direction, Outcome, Verdict, directions, judge, post_mortem, rewrite
-from reports.oracle.moving import WANTED, WAYS, Motion, motions
+from reports.oracle.moving import DIRECTIONS, WANTED, Motion, motions
 from reports.oracle.others import KNOWN, agreement_section, explained, motion_section
 from reports.oracle.page import ABOUT, Reader, counts, sections
 from tests.corpus.files import CorpusFile, Kind, corpus_files
@@ -33,7 +33,7 @@ def measure(sample: Sample) -> Findings:
     known_motions = _known("motion", (one.outcome.name for one in moved if one.verdict is not None and not one.verdict))
     more = agreement_section(agreed), motion_section(moved, known_motions)
     few = _too_few(outcomes, moved) if sample.every == 1 and not sample.files else []
-    faults = [*few, *_disagreements(agreed), *_astray(moved, known_motions), *_changed(outcomes, readers, known)]
+    faults = [*few, *_disagreements(agreed), *_broken(moved, known_motions), *_changed(outcomes, readers, known)]
     return Findings(sections(outcomes, readers, known, more), counts(outcomes), faults)
 
 
@@ -46,13 +46,16 @@ def _outcomes(sample: Sample) -> Iterable[Outcome]:
             yield from result
     for file, result in sample.run(post_mortem, died):
         if isinstance(result, Failure):
-            yield from (Outcome(file.name, way, Verdict.SOURCE, "Drake ends the process") for way in directions(file))
+            yield from (
+                Outcome(file.name, direction, Verdict.SOURCE, "Drake ends the process")
+                for direction in directions(file)
+            )
         else:
             yield from result
 
 
 def _readers(sample: Sample, outcomes: list[Outcome]) -> tuple[Reader, ...]:
-    """What the two reference parsers say of the results; nothing of a parser that is not installed."""
+    """What the two reference parsers report about the results; nothing of a parser that is not installed."""
     good = {file.name: file for file in sample.of(corpus_files()) if is_good(file)}
     rewritten = _rewritten(sample, good)
     outputs = [(one, one.output.resolve()) for one in outcomes if one.output]
@@ -97,12 +100,12 @@ def _known(table: str, names: Iterable[str]) -> dict[str, str]:
 
 
 def _disagreements(agreed: list[Agreement]) -> list[str]:
-    """What engines say that nobody has explained."""
+    """What engines report that nobody has explained."""
     doubted = (one for one in agreed if one.answer in {Answer.DIFFERENT, Answer.RESULT} and not explained(one))
     return [f"{one.question.engine}: {one.question.name}: {one.answer}: {one.cause}" for one in doubted]
 
 
-def _astray(moved: list[Motion], known: Mapping[str, str]) -> list[str]:
+def _broken(moved: list[Motion], known: Mapping[str, str]) -> list[str]:
     """Robots that move otherwise, for a reason that nobody knows."""
     other = [one for one in moved if one.verdict is not None and not one.verdict and one.outcome.name not in known]
     return [f"{one.outcome.direction}: {one.outcome.name}: {one.verdict}" for one in other]
@@ -113,8 +116,16 @@ def _too_few(outcomes: list[Outcome], moved: list[Motion]) -> list[str]:
     same = Counter(one.direction for one in outcomes if one.verdict in {Verdict.FRAMES, Verdict.INERTIAL})
     alike = Counter(one.outcome.direction for one in moved if one.verdict)
     return [
-        *(f"{way}: only {same[way]} the same, not {least}" for way, least in LEAST.items() if same[way] < least),
-        *(f"{way}: only {alike[way]} robots move alike, not {WANTED}" for way in WAYS if alike[way] < WANTED),
+        *(
+            f"{direction}: only {same[direction]} the same, not {least}"
+            for direction, least in LEAST.items()
+            if same[direction] < least
+        ),
+        *(
+            f"{direction}: only {alike[direction]} robots move alike, not {WANTED}"
+            for direction in DIRECTIONS
+            if alike[direction] < WANTED
+        ),
     ]
 
 

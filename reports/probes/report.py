@@ -9,16 +9,19 @@ from pathlib import Path
 import twinform
 from reports.harness.files import OUT, kept
 from reports.harness.known import Known
+from reports.harness.needs import need
 from reports.harness.pages import table
 from reports.harness.report import Findings, Report
 from reports.harness.sample import Sample
-from reports.probes.values import Part, XmlElement, lost, parsed
+from reports.probes.values import Part, lost, parsed
+from tests.corpus.examine import rules_of
 from tests.corpus.files import SHARED
+from twinform.schemas import XmlElement
 from twinform.testing import oracles
 from twinform.testing.oracles.in_process import compared
 
 PROBES = SHARED / "reference" / "probes" / "urdf"
-MISSING = "there are no probes in reference/probes/urdf; TWINFORM_SHARED says where that is"
+MISSING = "there are no probes in reference/probes/urdf; TWINFORM_SHARED names the folder"
 KNOWN = Known.beside(__file__)
 VERSIONS = {"12": "1.9", "17": "1.12"}
 """The versions of libsdformat, and the newest SDF of each."""
@@ -43,7 +46,7 @@ class Reference:
 
     @property
     def text(self) -> str:
-        """In words."""
+        """In short."""
         if self.status >= _ABORTED:
             return "crash"
         done = "refused" if self.output is None else "converted"
@@ -81,7 +84,7 @@ class Probe:
 
     @cached_property
     def robot(self) -> str:
-        """Whether it is the same robot, in words, and why not."""
+        """Whether it is the same robot, as text, and why not."""
         if self.refused or not oracles.available("libsdformat"):
             return ""
         try:
@@ -95,11 +98,6 @@ class Probe:
             ours = parsed(self.outputs.get(version, b""))
             if reference.output is not None and ours is not None:
                 yield reference.output, ours
-
-
-def missing() -> str:
-    """Why there are no probes; empty where there are."""
-    return "" if PROBES.is_dir() else MISSING
 
 
 def measure(sample: Sample) -> Findings:
@@ -173,14 +171,14 @@ def _converted(path: Path) -> Probe:
     try:
         outputs = {version: twinform.convert(path, to="sdf", sdf_version=sdf) for version, sdf in VERSIONS.items()}
     except twinform.CompileError as error:
-        return Probe(path, {}, tuple(dict.fromkeys(each.rule.name for each in error.diagnostics if each.is_error)))
+        return Probe(path, {}, rules_of(error.diagnostics))
     return Probe(path, {version: output.text.encode() for version, output in outputs.items()}, ())
 
 
 def _reference(path: Path, version: str) -> Reference:
     output = path.with_name(f"{path.stem}.libsdformat{version}.sdf")
-    said = path.with_name(f"{path.stem}.libsdformat{version}.err").read_text(encoding="utf-8", errors="replace")
-    status = _STATUS.search(said)
+    printed = path.with_name(f"{path.stem}.libsdformat{version}.err").read_text(encoding="utf-8", errors="replace")
+    status = _STATUS.search(printed)
     root = parsed(output.read_bytes()) if output.is_file() else None
     return Reference(root, int(status[1]) if status else 0)
 
@@ -194,4 +192,4 @@ def _written(probe: Probe) -> Path:
     return kept(OUT / "probes" / f"{probe.name}.sdf", probe.outputs["12"].decode())
 
 
-REPORT = Report("probes", "Probes", _ABOUT, measure, (missing,), KNOWN)
+REPORT = Report("probes", "Probes", _ABOUT, measure, (need(PROBES.is_dir, MISSING),), KNOWN)

@@ -5,10 +5,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from lxml import etree
-from lxml.etree import _Element as XmlElement  # pyright: ignore[reportPrivateUsage] - lxml has no public name for it
+
+from twinform.schemas import XmlElement
 
 Value = tuple[str, ...]
-"""The words of a text, its numbers in one spelling."""
+"""The parts of a text between blanks, its numbers in one spelling."""
 
 _LUMP = re.compile(r"^.*_fixed_joint_lump__")
 _NUMBERED = re.compile(r"(_visual|_collision)(_\d+)?$")
@@ -25,7 +26,7 @@ class Part:
 
     @property
     def key(self) -> tuple[str, Value]:
-        """What is looked for: the name of the element or attribute, and the value."""
+        """What is searched for: the name of the element or attribute, and the value."""
         return self.where.rpartition("/")[2], self.value
 
     def __str__(self) -> str:
@@ -47,17 +48,13 @@ def parts(root: XmlElement) -> Iterator[Part]:
             yield Part(where, _value(element.text or ""))
 
 
-def _is_recomputed(part: Part) -> bool:
-    return part.key[0] in _MOVED
-
-
 def lost(theirs: XmlElement, ours: XmlElement) -> list[Part]:
     """What is in their file and not in ours: no element or attribute of the name, wherever it is, has the value.
 
     A name may be the one that libsdformat makes of it when it lumps links and numbers shapes.
     """
     known = frozenset(part.key for part in parts(ours))
-    every = (part for part in parts(theirs) if not _is_recomputed(part))
+    every = (part for part in parts(theirs) if part.key[0] not in _MOVED)
     return [part for part in dict.fromkeys(every) if not any(key in known for key in _spellings(part))]
 
 
@@ -70,16 +67,16 @@ def _spellings(part: Part) -> Iterator[tuple[str, Value]]:
 
 
 def _value(text: str) -> Value:
-    return tuple(_word(word) for word in text.split())
+    return tuple(_normalized(part) for part in text.split())
 
 
-def _word(word: str) -> str:
-    if word in {"true", "false"}:
-        return str(int(word == "true"))
+def _normalized(part: str) -> str:
+    if part in {"true", "false"}:
+        return str(int(part == "true"))
     try:
-        return f"{float(word):.5g}"
+        return f"{float(part):.5g}"
     except ValueError:
-        return word
+        return part
 
 
 def _local(element: XmlElement) -> str:

@@ -10,7 +10,7 @@ from typing import Literal
 
 import twinform
 from reports.harness.known import Known
-from reports.harness.pages import frequent, listing, section, table
+from reports.harness.pages import frequent, listing, section, table, without_names
 from reports.harness.report import Findings, Report
 from reports.harness.sample import Sample, is_good
 from reports.sameness.printing import available, printed
@@ -26,7 +26,6 @@ CUT_OFF = 1e-5
 """The tolerance for what libsdformat prints, which keeps six digits of some numbers."""
 MOST_SHOWN = 40
 _SECONDS = 600
-_PREDICATE = re.compile(r"\[[^]]*\]")
 _NAME = re.compile(r"@name='([^']*)'")
 _ABOUT = f"""\
 Only the seconds differ from run to run.
@@ -34,16 +33,16 @@ Only the seconds differ from run to run.
 Every robot of the corpus that is accepted and converted is compared with what it became, by `twinform diff` with its
 tolerance of 1e-9 (of a file with several models the first three, one by one). The last line is about what libsdformat
 12 makes of URDF files that it takes itself, compared with a tolerance of {CUT_OFF:g}. It lumps all fixed joints, which
-is no difference; what differs is what that conversion changes. *With notes* are those of the same ones that say
+is no difference; what differs is what that conversion changes. *With notes* are those of the same ones that express
 something in another way.
 
-Without carriers something may be lost, and then the ledger has to say so. *As the ledger says* are results in which
+Without carriers something may be lost, and then the ledger has to list it. *As in the ledger* are results in which
 every single difference lies in a part of the source that the ledger lists as approximated or dropped, or is a part
-that was made for one of these; and in all of them the audit counts no element or attribute that is neither in the
-result nor in the ledger."""
+that was synthesized for one of these; and in all of them the audit counts no element or attribute that is neither in
+the result nor in the ledger."""
 
 
-class Way(StrEnum):
+class Direction(StrEnum):
     """What is compared with its source."""
 
     TO_SDF = "URDF -> SDF"
@@ -57,7 +56,7 @@ class Verdict(StrEnum):
     """What became of one conversion."""
 
     SAME = "same"
-    LEDGER = "as the ledger says"
+    LEDGER = "as in the ledger"
     COLORS = "same but for materials"
     DIFFERENT = "different"
     REFUSED = "not converted"
@@ -69,7 +68,7 @@ class Outcome:
     """A conversion and its verdict; `kinds` are the aspects that differ, without the names in them."""
 
     name: str
-    way: Way
+    direction: Direction
     verdict: Verdict
     cause: str = ""
     kinds: tuple[str, ...] = ()
@@ -79,7 +78,7 @@ class Outcome:
 
 def measure(sample: Sample) -> Findings:
     """Convert and compare."""
-    outcomes = sorted(_outcomes(sample), key=lambda one: (one.way, one.name))
+    outcomes = sorted(_outcomes(sample), key=lambda one: (one.direction, one.name))
     known = {one.name: KNOWN.why("different", one.name) for one in outcomes if _is_fault(one)}
     faults = [f"{one.name}: {one.verdict}: {one.cause}" for one in outcomes if _is_fault(one) and not known[one.name]]
     totals = _totals(outcomes)
@@ -99,57 +98,64 @@ def judge(file: CorpusFile) -> tuple[Outcome, ...]:
     if checked.document is None or not checked.accepted:
         return ()
     is_urdf = file.kind is Kind.URDF
-    way, bare = (Way.TO_SDF, Way.BARE_TO_SDF) if is_urdf else (Way.TO_URDF, Way.BARE_TO_URDF)
+    direction, bare = (
+        (Direction.TO_SDF, Direction.BARE_TO_SDF) if is_urdf else (Direction.TO_URDF, Direction.BARE_TO_URDF)
+    )
     among = robots(checked.document)
-    found = [_judged(file, way, robot) for robot in among] + [_judged(file, bare, robot) for robot in among]
+    found = [_judged(file, direction, robot) for robot in among] + [_judged(file, bare, robot) for robot in among]
     if is_urdf and available() and is_good(file):
         found += _lumped(file)
     return tuple(found)
 
 
-def _judged(file: CorpusFile, way: Way, robot: str | None) -> Outcome:
+def _judged(file: CorpusFile, direction: Direction, robot: str | None) -> Outcome:
     name = f"{file.name} {robot or ''}".strip()
-    bare = way in {Way.BARE_TO_SDF, Way.BARE_TO_URDF}
-    target: Literal["sdf", "urdf"] = "sdf" if way in {Way.TO_SDF, Way.BARE_TO_SDF} else "urdf"
+    bare = direction in {Direction.BARE_TO_SDF, Direction.BARE_TO_URDF}
+    target: Literal["sdf", "urdf"] = "sdf" if direction in {Direction.TO_SDF, Direction.BARE_TO_SDF} else "urdf"
     try:
-        made = twinform.convert(file.path, to=target, model=robot, carriers=not bare)
+        conversion = twinform.convert(file.path, to=target, model=robot, carriers=not bare)
     except twinform.CompileError as error:
-        return Outcome(name, way, Verdict.REFUSED, ", ".join(rules_of(error.diagnostics)))
+        return Outcome(name, direction, Verdict.REFUSED, ", ".join(rules_of(error.diagnostics)))
     try:
-        return _accounted(file, name, way, made, robot) if bare else _compared(file, name, way, made.text, robot)
+        return (
+            _accounted(file, name, direction, conversion, robot)
+            if bare
+            else _compared(file, name, direction, conversion.text, robot)
+        )
     except Exception as error:  # noqa: BLE001 - every exception is a fault to report
-        return Outcome(name, way, Verdict.CRASH, f"{type(error).__name__}: {error}")
+        return Outcome(name, direction, Verdict.CRASH, f"{type(error).__name__}: {error}")
 
 
-def _accounted(file: CorpusFile, name: str, way: Way, made: twinform.Conversion, robot: str | None) -> Outcome:
+def _accounted(
+    file: CorpusFile, name: str, direction: Direction, conversion: twinform.Conversion, robot: str | None
+) -> Outcome:
     """Whether the ledger has every difference, and the audit nothing that is not accounted for."""
-    assert made.source is not None
+    assert conversion.source is not None
     start = time.perf_counter()
-    found = twinform.diff(file.path, made.text.encode(), model=robot)
+    found = twinform.diff(file.path, conversion.text.encode(), model=robot)
     seconds = time.perf_counter() - start
-    places = [_bare(entry.location.path) for entry in made.ledger.entries]
-    names = [name for entry in made.ledger.entries for name in _NAME.findall(entry.location.path)]
-    names.append(made.document.models[0].name)  # of a model without links: URDF has to have one
-    unlisted = [each for each in found.differences if not _is_listed(each, places, names)]
+    listed = [without_names(entry.location.path) for entry in conversion.ledger.entries]
+    names = [name for entry in conversion.ledger.entries for name in _NAME.findall(entry.location.path)]
+    names.append(conversion.document.models[0].name)  # of a model without links: URDF has to have one
+    unlisted = [each for each in found.differences if not _is_listed(each, listed, names)]
     if any(each.group == "joint" and each not in unlisted for each in found.differences):
         unlisted = [each for each in unlisted if each.group != "kinematics"]  # other joints move links to other places
     silent = [each.message.replace(found.a, "source").replace(found.b, "result") for each in unlisted]
-    silent += [f"{part.location.path}: {part.says}" for part in audit(made.source, made.text, made.ledger).unaccounted]
+    silent += [
+        f"{part.location.path}: {part.text}"
+        for part in audit(conversion.source, conversion.text, conversion.ledger).unaccounted
+    ]
     verdict = Verdict.DIFFERENT if silent else Verdict.SAME if found.same else Verdict.LEDGER
-    return Outcome(name, way, verdict, next(iter(silent), ""), notes=len(found.notes), seconds=seconds)
+    return Outcome(name, direction, verdict, next(iter(silent), ""), notes=len(found.notes), seconds=seconds)
 
 
-def _is_listed(found: Difference, places: list[str], names: list[str]) -> bool:
-    """Whether a difference lies in a place of the ledger, or is a part that was made for one of the names in it."""
+def _is_listed(found: Difference, listed: list[str], names: list[str]) -> bool:
+    """Whether a difference is at a path of the ledger, or in a part that was synthesized for one of its names."""
     if not found.a.location.line:
         called = (found.name, found.name.rpartition("::")[2])
         return any(one.startswith(name) for one in called for name in names)
-    place = _bare(found.a.location.path)
-    return any(one.startswith(place) or place.startswith(one) for one in places)
-
-
-def _bare(path: str) -> str:
-    return _PREDICATE.sub("", path)
+    here = without_names(found.a.location.path)
+    return any(one.startswith(here) or here.startswith(one) for one in listed)
 
 
 def _lumped(file: CorpusFile) -> Iterator[Outcome]:
@@ -157,21 +163,23 @@ def _lumped(file: CorpusFile) -> Iterator[Outcome]:
     if text is None:
         return
     try:
-        yield _compared(file, file.name, Way.LUMPED, text, None, CUT_OFF)
+        yield _compared(file, file.name, Direction.LUMPED, text, None, CUT_OFF)
     except twinform.CompileError as error:  # it prints prefixes that it does not declare
-        yield Outcome(file.name, Way.LUMPED, Verdict.REFUSED, ", ".join(rules_of(error.diagnostics)))
+        yield Outcome(file.name, Direction.LUMPED, Verdict.REFUSED, ", ".join(rules_of(error.diagnostics)))
 
 
-def _compared(file: CorpusFile, name: str, way: Way, text: str, robot: str | None, tolerance: float = 1e-9) -> Outcome:
+def _compared(
+    file: CorpusFile, name: str, direction: Direction, text: str, robot: str | None, tolerance: float = 1e-9
+) -> Outcome:
     start = time.perf_counter()
     found = twinform.diff(file.path, text.encode(), model=robot, tolerance=tolerance)
     seconds = time.perf_counter() - start
     kinds = tuple(dict.fromkeys(f"{each.group}: {_aspect(each.aspect)}" for each in found.differences))
     if found.same:
-        return Outcome(name, way, Verdict.SAME, notes=len(found.notes), seconds=seconds)
+        return Outcome(name, direction, Verdict.SAME, notes=len(found.notes), seconds=seconds)
     verdict = Verdict.COLORS if all("/material" in kind for kind in kinds) else Verdict.DIFFERENT
     cause = found.differences[0].message.replace(found.a, "source").replace(found.b, "result")
-    return Outcome(name, way, verdict, cause, kinds, len(found.notes), seconds)
+    return Outcome(name, direction, verdict, cause, kinds, len(found.notes), seconds)
 
 
 def _aspect(path: str) -> str:
@@ -186,31 +194,31 @@ def _aspect(path: str) -> str:
 def _outcomes(sample: Sample) -> Iterable[Outcome]:
     for file, found in sample.run(judge, sample.models(), seconds=_SECONDS):
         if isinstance(found, Failure):
-            way = Way.TO_SDF if file.kind is Kind.URDF else Way.TO_URDF
-            yield Outcome(file.name, way, Verdict.CRASH, found.cause)
+            direction = Direction.TO_SDF if file.kind is Kind.URDF else Direction.TO_URDF
+            yield Outcome(file.name, direction, Verdict.CRASH, found.cause)
         else:
             yield from found
 
 
 def _is_fault(outcome: Outcome) -> bool:
-    ours = outcome.way is not Way.LUMPED
+    ours = outcome.direction is not Direction.LUMPED
     return ours and outcome.verdict in {Verdict.DIFFERENT, Verdict.COLORS, Verdict.CRASH}
 
 
 def _totals(outcomes: list[Outcome]) -> str:
-    rows = [_row(way, [one for one in outcomes if one.way is way]) for way in Way]
+    rows = [_row(direction, [one for one in outcomes if one.direction is direction]) for direction in Direction]
     return table(["conversion", "robots", *Verdict, "same, with notes", "seconds to compare"], rows)
 
 
-def _row(way: Way, found: list[Outcome]) -> tuple[object, ...]:
+def _row(direction: Direction, found: list[Outcome]) -> tuple[object, ...]:
     counts = Counter(one.verdict for one in found)
     noted = sum(1 for one in found if one.verdict is Verdict.SAME and one.notes)
     seconds = f"{sum(one.seconds for one in found):.1f}"
-    return (way, len(found), *(counts[verdict] for verdict in Verdict), noted, seconds)
+    return (direction, len(found), *(counts[verdict] for verdict in Verdict), noted, seconds)
 
 
 def _by_kind(outcomes: list[Outcome]) -> str:
-    found = frequent((kind, one.name) for one in outcomes if one.way is Way.LUMPED for kind in one.kinds)
+    found = frequent((kind, one.name) for one in outcomes if one.direction is Direction.LUMPED for kind in one.kinds)
     return listing(["what", "files", "for example"], found, empty="libsdformat 12 is not here.", most=MOST_SHOWN)
 
 

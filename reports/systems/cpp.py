@@ -40,42 +40,42 @@ def without_comments(text: str) -> str:
 
 
 def arguments(text: str, start: int) -> tuple[list[str], int]:
-    """The arguments of the call whose bracket opens at `start`, and the place behind it."""
+    """The arguments of the call whose bracket opens at `start`, and the position behind it."""
     found, depth, begin = list[str](), 0, start + 1
-    for place, character in _outside_strings(text, start):
+    for position, character in _outside_strings(text, start):
         if character in _OPENING:
             depth += 1
         elif character in _CLOSING:
             depth -= 1
         if depth == 0 or (depth == 1 and character == ","):
-            found.append(text[begin:place].strip())
-            begin = place + 1
+            found.append(text[begin:position].strip())
+            begin = position + 1
         if depth == 0:
-            return [each for each in found if each], place + 1
+            return [each for each in found if each], position + 1
     return [], len(text)
 
 
 def _outside_strings(text: str, start: int) -> Iterator[tuple[int, str]]:
-    place = start
-    while place < len(text):
-        found = _TOKEN.match(text, place)
+    position = start
+    while position < len(text):
+        found = _TOKEN.match(text, position)
         if found:
-            place = found.end()
+            position = found.end()
             continue
-        yield place, text[place]
-        place += 1
+        yield position, text[position]
+        position += 1
 
 
 @dataclass(frozen=True, slots=True)
 class Scope:
-    """The files in which a name is looked up, the one that mentions it first."""
+    """The files in which a name is searched for, the one that mentions it first."""
 
     texts: tuple[str, ...]
     before: int
     """Where it is mentioned in the first of them: of local variables the last one before that counts."""
 
     def value(self, expression: str, steps: int = _STEPS) -> str | None:
-        """What an expression says, as SDF writes it; None where it is empty or not to be known from the text."""
+        """The value of an expression, as SDF writes it; None where it is empty or not to be known from the text."""
         text = _CAST.sub(r"\1", expression.strip()).strip()
         if text in {"true", "false"}:
             return text
@@ -113,7 +113,7 @@ class Scope:
 
     def _initial(self, text: str, declared: re.Match[str], steps: int) -> str | None:
         if declared[1] == "=":
-            ends = [place for place, character in _outside_strings(text, declared.end()) if character == ";"][:1]
+            ends = [position for position, character in _outside_strings(text, declared.end()) if character == ";"][:1]
             return self.value(_unbraced(text[declared.end() : ends[0]].strip()), steps) if ends else None
         given, end = arguments(text, declared.end() - 1)
         return self.value(", ".join(given), steps) if text[end:].lstrip().startswith(";") else None

@@ -9,11 +9,11 @@ from twinform.passes.plugins.catalog import sensors, systems
 from twinform.passes.plugins.parts import Alternative, Channel, Parameter, PluginKind, SensorKind
 
 _AS_READ = {"topic": "text", "joint": "text", "link": "text", "collision": "text"}
-"""The kind of value that a type of the catalog is read as, where it is another word."""
+"""The kind of value that a type of the catalog is read as, where it has another name."""
 _ZEROS = {"bool": {"false"}, "number": {"0"}, "integer": {"0"}, "vector": {"0 0 0"}}
 """What is read where an element lacks and no default is given."""
 _STRUCTURE = frozenset({"model", "world", "joint", "link", "sensor"})
-"""Words of topics that only say where in the simulation something is."""
+"""Parts of topics that only give where in the simulation something is."""
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -63,8 +63,10 @@ def of_system(kind: PluginKind, source: SystemSource, release: str) -> Iterator[
     for name, row in by_name.items():
         if name not in source.parameters and "[" not in name:
             yield Difference(kind.name, "unread", name, here=row.type)
-    said = {word for read in source.parameters.values() for default in read.defaults for word in default.split("/")}
-    yield from _compared(kind.name, "topic", _topic_words(kind, release), source.topics - _STRUCTURE - said)
+    in_defaults = {
+        part for read in source.parameters.values() for default in read.defaults for part in default.split("/")
+    }
+    yield from _compared(kind.name, "topic", _topic_parts(kind, release), source.topics - _STRUCTURE - in_defaults)
     yield from _compared(kind.name, "message", _messages(kind, release), source.messages)
 
 
@@ -92,18 +94,18 @@ def _of_parameter(owner: str, name: str, rows: list[Parameter], read: Read) -> I
 def _plain(value: str) -> str:
     """A default as it is compared: numbers to nine digits."""
     try:
-        return " ".join(f"{float(word):.9g}" for word in value.split()) or value
+        return " ".join(f"{float(part):.9g}" for part in value.split()) or value
     except ValueError:
         return value.strip()
 
 
-def _topic_words(kind: PluginKind, release: str) -> set[str]:
+def _topic_parts(kind: PluginKind, release: str) -> set[str]:
     patterns = list[str]()
     for channel in kind.channels:
         if release in channel.releases:
             patterns += [channel.pattern, *(each.pattern for each in _alternatives(kind, channel, release))]
     patterns += [each.suffix for each in sensors().values() if kind.name in each.systems and kind.name != "sensors"]
-    return {word for pattern in patterns for word in pattern.split("/") if word and "{" not in word} - _STRUCTURE
+    return {part for pattern in patterns for part in pattern.split("/") if part and "{" not in part} - _STRUCTURE
 
 
 def _alternatives(kind: PluginKind, channel: Channel, release: str) -> Iterator[Alternative]:
@@ -143,5 +145,5 @@ def _of_sensor(kind: SensorKind, source: SensorSource, release: str) -> Iterator
     published = [each for each in kind.publishes if release in each.releases]
     ends = {each.pattern.rpartition("}")[2].rpartition("/")[2] for each in published}
     yield from _compared(owner, "topic", ends - {""}, source.topics)
-    messages = {word for each in published for word in (each.message, each.instead) if word}
+    messages = {part for each in published for part in (each.message, each.instead) if part}
     yield from _compared(owner, "message", {each.rpartition(".")[2] for each in messages}, source.messages)

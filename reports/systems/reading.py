@@ -1,4 +1,4 @@
-"""What the sources of gz-sim say about their systems: parameters with types and defaults, topics and messages."""
+"""What the sources of gz-sim have about their systems: parameters with types and defaults, topics and messages."""
 
 import re
 from collections import defaultdict
@@ -27,22 +27,14 @@ _TOPIC = re.compile(r"^/?[A-Za-z_]\w*(?:/\w+)*/?$")
 _SENT = re.compile(r"Advertise\s*<\s*(?:[\w]+::)*msgs::(\w+)\s*>")
 _HEARD = re.compile(r"Subscriber?\s*\((?:[^;]*?)&\s*(?:\w+::)*(\w+)\s*[,)]", re.DOTALL)
 _KINDS = {
-    "double": "number",
-    "float": "number",
-    "Angle": "number",
-    "int": "integer",
-    "unsigned int": "integer",
-    "uint32_t": "integer",
-    "uint64_t": "integer",
-    "int64_t": "integer",
-    "size_t": "integer",
-    "bool": "bool",
-    "string": "text",
-    "Vector3d": "vector",
-    "Vector2d": "numbers",
-    "Quaterniond": "numbers",
-    "Pose3d": "pose",
-    "Color": "color",
+    "number": ("double", "float", "Angle"),
+    "integer": ("int", "unsigned int", "uint32_t", "uint64_t", "int64_t", "size_t"),
+    "bool": ("bool",),
+    "text": ("string",),
+    "vector": ("Vector3d",),
+    "numbers": ("Vector2d", "Quaterniond"),
+    "pose": ("Pose3d",),
+    "color": ("Color",),
 }
 
 
@@ -50,7 +42,7 @@ _KINDS = {
 class Read:
     """What is known of one parameter: the kinds of values it is read as, its defaults, and where it is asked for.
 
-    `places` are `element` and `attribute`; there is none where only its value is got, since that looks into both.
+    `places` are `element` and `attribute`; there is none where only its value is got, since that reads both.
     """
 
     kinds: set[str] = field(default_factory=set[str])
@@ -77,7 +69,7 @@ class SystemSource:
 
 
 def systems_in(checkout: Path) -> dict[str, SystemSource]:
-    """The systems of a checkout of gz-sim by the last word of the class that files name."""
+    """The systems of a checkout of gz-sim by the last part of the class that files name."""
     found: dict[str, SystemSource] = {}
     for folder in sorted(each for each in (checkout / "src" / "systems").iterdir() if each.is_dir()):
         texts = {each: source_text(each) for each in sorted(folder.rglob("*.[ch][ch]")) if "_TEST" not in each.name}
@@ -107,8 +99,8 @@ def _readings(text: str, others: tuple[str, ...]) -> Iterator[_Reading]:
     yield from (_Reading(found[1], place="element") for found in _COMPARED.finditer(text))
     for pattern in (_METHOD, _HELPER):
         for found in pattern.finditer(text):
-            method, type_, _, word = found.groups()
-            name = Scope((text, *others), found.start()).value(word) or ""
+            method, type_, _, expression = found.groups()
+            name = Scope((text, *others), found.start()).value(expression) or ""
             if not name.isidentifier():
                 continue
             given, end = arguments(text, found.start(3))
@@ -126,7 +118,7 @@ def _readings(text: str, others: tuple[str, ...]) -> Iterator[_Reading]:
 
 
 def _kind(type_: str) -> str | None:
-    return _KINDS.get(type_.rpartition("::")[2].strip()) if type_ else None
+    return next((kind for kind, types in _KINDS.items() if type_.rpartition("::")[2].strip() in types), None)
 
 
 def _from_target(text: str, place: int, scope: Scope) -> str | None:
@@ -140,7 +132,7 @@ def _from_target(text: str, place: int, scope: Scope) -> str | None:
 
 
 def _topics(text: str) -> Iterator[str]:
-    """Parts of topics: the words between slashes of texts that look like one."""
+    """Parts of topics: what is between slashes in texts that have the form of one."""
     for found in _LITERAL.finditer(text):
         if "/" in found[1] and _TOPIC.match(found[1]) and not text[: found.start()].rstrip().endswith("#include"):
             yield from filter(None, found[1].split("/"))

@@ -6,13 +6,12 @@ facts, and only these are compared.
 """
 
 import re
-from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from reports.harness.known import Known
-from reports.harness.pages import section, table
+from reports.harness.pages import grouped, section, table
 from reports.harness.report import Findings, Report
 from reports.harness.sample import Sample
 from reports.systems.judging import Difference, is_of_sim, of_sensors, of_systems
@@ -20,14 +19,14 @@ from reports.systems.reading import systems_in
 from reports.systems.sensors import COMPARED, sensors_in
 from twinform.passes.plugins.catalog import LATEST, releases, sensors, systems
 
-MISSING = "no sources: say ARGS='PATH ...' with checkouts of gz-sim and gz-sensors, one for each release"
+MISSING = "no sources: give ARGS='PATH ...' with checkouts of gz-sim and gz-sensors, one for each release"
 KNOWN = Known.beside(__file__)
 _ABOUT = """\
-With `ARGS="PATH ..."` for checkouts of gz-sim and gz-sensors, by the words that their C++ reads elements, attributes
+With `ARGS="PATH ..."` for checkouts of gz-sim and gz-sensors, by the names that their C++ reads elements, attributes
 and defaults with. Compared are, for every system: the parameters by name (wherever they stand in the plugin), whether
-they are elements or attributes, the kinds of their values, their defaults, the words of topics and the messages; for
-every sensor: the suffix of its default topic, what is published beside it, and the messages. Releases say which systems
-they have.
+they are elements or attributes, the kinds of their values, their defaults, the parts of topics and the messages; for
+every sensor: the suffix of its default topic, what is published beside it, and the messages. Releases list their
+systems.
 
 *=* is without a difference, a number counts differences that are explained below; *-* is a release that has none."""
 _PROJECT = re.compile(r"project\s*\(\s*(?:gz|ignition)-(sim|gazebo|sensors)\d*\s+VERSION\s+(\d+)\.([\d.]+)")
@@ -49,7 +48,7 @@ def measure(sample: Sample) -> Findings:
     Raises:
         SystemExit: there is none of a release in the catalog.
     """
-    checkouts = [checkout(Path(word)) for word in sample.inputs]
+    checkouts = [checkout(Path(path)) for path in sample.inputs]
     found = differences(checkouts)
     if not found:
         raise SystemExit("none of these is gz-sim of a release in the catalog" if checkouts else MISSING)
@@ -100,15 +99,12 @@ def _has(checkouts: list[Checkout], part: str, version: int) -> Checkout | None:
 
 
 def why(difference: Difference) -> str:
-    """Why a difference is right; empty where nobody has looked at it."""
+    """Why a difference is right; empty where nobody has examined it."""
     return KNOWN.why("known", difference.key)
 
 
 def _by_difference(found: Iterable[tuple[Difference, str]]) -> dict[Difference, list[str]]:
-    names: defaultdict[Difference, list[str]] = defaultdict(list)
-    for one, release in found:
-        names[one].append(release)
-    return dict(sorted(names.items()))
+    return dict(sorted(grouped(found).items()))
 
 
 def _sections(found: dict[str, list[Difference]], checkouts: list[Checkout]) -> Iterator[str]:

@@ -1,4 +1,4 @@
-"""What the sources of gz-sensors and gz-sim say about sensors: suffixes of default topics, topics and messages."""
+"""What the sources of gz-sensors and gz-sim have about sensors: suffixes of default topics, topics and messages."""
 
 import re
 from collections.abc import Iterator
@@ -40,7 +40,7 @@ _END = re.compile(r'"(?:/(?=\w)|(?=_\w))(\w+)"')
 
 @dataclass(frozen=True, slots=True)
 class SensorSource:
-    """What the source of one kind of sensor names; `suffix` is None where the rendering does not say it."""
+    """What the source of one kind of sensor names; `suffix` is None where the rendering does not have it."""
 
     suffix: str | None
     topics: frozenset[str]

@@ -1,4 +1,4 @@
-"""One mutated corpus file before us and before the parser of record: what each says of it."""
+"""One mutated corpus file before us and before the parser of record: what each reports about it."""
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
@@ -16,7 +16,7 @@ from twinform.testing.oracles import libsdformat
 from twinform.testing.oracles.libsdformat import Reading
 
 _COLOR = re.compile(r"\x1b\[[0-9;]*m")
-_CONSOLE = re.compile(r"^(?P<word>Error|Warning)(?: \[\w+\.cc:\d+\]|:)\s*(?P<said>.*)")
+_CONSOLE = re.compile(r"^(?P<kind>Error|Warning)(?: \[\w+\.cc:\d+\]|:)\s*(?P<text>.*)")
 _PLACE = re.compile(r"\[/[^\]]*(?:\][^\]]*)*:L\d+\]: ")
 
 
@@ -47,7 +47,7 @@ QUESTIONS = (
 
 @dataclass(frozen=True, slots=True)
 class Opinion:
-    """What a judge says: whether it reads the file, what it has against it, and what it says beside."""
+    """The opinion of a judge: whether it reads the file, its objections, and its other remarks."""
 
     accepts: bool
     objections: tuple[str, ...] = ()
@@ -104,10 +104,10 @@ def _of_libsdformat(paths: Sequence[Path]) -> Iterator[tuple[Path, Opinion]]:
 
 
 def _opinion(reading: Reading, path: str) -> Opinion:
-    said = [_CONSOLE.match(line) for line in _COLOR.sub("", reading.console).splitlines()]
-    lines = [(found["word"], _PLACE.sub("", found["said"])) for found in said if found]
-    errors = tuple(dict.fromkeys(text for word, text in lines if word == "Error"))
-    warnings = tuple(dict.fromkeys(text for word, text in lines if word == "Warning"))
+    printed = [_CONSOLE.match(line) for line in _COLOR.sub("", reading.console).splitlines()]
+    lines = [(found["kind"], _PLACE.sub("", found["text"])) for found in printed if found]
+    errors = tuple(dict.fromkeys(text for kind, text in lines if kind == "Error"))
+    warnings = tuple(dict.fromkeys(text for kind, text in lines if kind == "Warning"))
     if reading.ok:
         return Opinion(accepts=True, remarks=errors + warnings)
     # the error often names an element alone, and the terminal has the reason

@@ -4,104 +4,71 @@ import re
 import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 
-from reports.verdicts.judging import Question, Verdict
-from twinform.diagnostics import Diagnostic
+from reports.verdicts.judging import Verdict
+
+_TABLES = tomllib.loads(Path(__file__).with_name("known.toml").read_text(encoding="utf-8"))
+_CONSEQUENCES = re.compile("|".join(f"(?:{pattern})" for pattern in _TABLES["consequences"]))
+"""Objections that only follow from another one."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Row:
-    """A reason before one judge and in one language, or before all and in both."""
+class Reason:
+    """A reason before one judge and in one language, or before all and in both.
+
+    Of ours, `rule` is the one that refuses, `text` is searched in the path and the message of the finding, `remark` in
+    the judge's other remarks. Of theirs, `text` is searched in the objection, and one of the `rules` has a finding
+    about the file, if there are any.
+    """
 
     why: str
     judge: str = ""
     kind: str = ""
-
-    def holds(self, question: Question) -> bool:
-        """Whether it is about such documents and this judge."""
-        return self.judge in {"", question.judge} and self.kind in {"", question.kind}
+    rule: str = ""
+    text: str = ""
+    remark: str = ""
+    rules: tuple[str, ...] = ()
 
     @property
     def scope(self) -> str:
-        """Where it holds, in words."""
+        """Where it holds, as text."""
         judge = self.judge or "both"
         return f"{judge}, {self.kind.upper()}" if self.kind and judge != "urdfdom" else judge
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Ours(_Row):
-    """Why a judge reads what a rule of ours refuses.
-
-    `says` is searched in the path and the message of our finding, `remark` in what the judge writes beside.
-    """
-
-    rule: str
-    says: str = ""
-    remark: str = ""
-
-    def explains(self, finding: Diagnostic, verdict: Verdict) -> bool:
-        """Whether it is about this finding."""
+    def explains(self, verdict: Verdict, message: str, rule: str = "") -> bool:
+        """Whether it is about a message of a rule of ours or of the judge."""
         return (
-            self.holds(verdict.question)
-            and finding.rule.name == self.rule
-            and bool(re.search(self.says, f"{finding.location.path} {finding.message}"))
+            self.judge in {"", verdict.question.judge}
+            and self.kind in {"", verdict.question.kind}
+            and self.rule == rule
+            and bool(re.search(self.text, message))
             and (not self.remark or any(re.search(self.remark, remark) for remark in verdict.opinion.remarks))
+            and (not self.rules or any(finding.rule.name in self.rules for finding in verdict.findings))
         )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Theirs(_Row):
-    """Why we take what a judge refuses; one of the `rules` says something of it, if there are any."""
-
-    says: str
-    rules: tuple[str, ...] = ()
-
-    def explains(self, objection: str, verdict: Verdict) -> bool:
-        """Whether it is about this objection."""
-        found = {finding.rule.name for finding in verdict.findings}
-        return (
-            self.holds(verdict.question)
-            and bool(re.search(self.says, objection))
-            and (not self.rules or not found.isdisjoint(self.rules))
-        )
+OURS = [Reason(**row) for row in _TABLES["ours"]]
+"""Why a judge reads what a rule of ours refuses."""
+THEIRS = [Reason(rules=tuple(row.pop("rules", ())), **row) for row in _TABLES["theirs"]]
+"""Why we take what a judge refuses."""
 
 
-Reason = Ours | Theirs
+def reasons(verdict: Verdict) -> tuple[Reason, ...]:
+    """Why a judge disagrees; nothing where it does not, or where a part of the disagreement has no reason."""
+    if verdict.accepted == verdict.opinion.accepts:
+        return ()
+    among = OURS if verdict.opinion.accepts else THEIRS
+    found = [next((one for one in among if one.explains(verdict, *dispute)), None) for dispute in _disputed(verdict)]
+    return () if None in found else tuple(dict.fromkeys(reason for reason in found if reason))
 
 
-@dataclass(frozen=True, slots=True)
-class Reasons:
-    """All of them. `consequences` are objections that only follow from another one."""
-
-    consequences: tuple[str, ...]
-    ours: tuple[Ours, ...]
-    theirs: tuple[Theirs, ...]
-
-    def of(self, verdict: Verdict) -> tuple[Reason, ...]:
-        """Why a judge disagrees; nothing where a part of the disagreement has no reason."""
-        found = list(self._of_ours(verdict) if verdict.opinion.accepts else self._of_theirs(verdict))
-        return () if None in found else tuple(dict.fromkeys(reason for reason in found if reason))
-
-    def _of_ours(self, verdict: Verdict) -> Iterator[Reason | None]:
-        for finding in verdict.findings:
-            if finding.is_error:
-                yield next((reason for reason in self.ours if reason.explains(finding, verdict)), None)
-
-    def _of_theirs(self, verdict: Verdict) -> Iterator[Reason | None]:
+def _disputed(verdict: Verdict) -> Iterator[tuple[str, str]]:
+    """The objections of either to the file, and the rule if it is one of ours."""
+    if verdict.opinion.accepts:
+        errors = (finding for finding in verdict.findings if finding.is_error)
+        yield from ((f"{one.location.path} {one.message}", one.rule.name) for one in errors)
+    else:
         objections = verdict.opinion.objections
-        for objection in [one for one in objections if not self._follows(one)] or objections:
-            yield next((reason for reason in self.theirs if reason.explains(objection, verdict)), None)
-
-    def _follows(self, objection: str) -> bool:
-        return any(re.search(pattern, objection) for pattern in self.consequences)
-
-
-@cache
-def reasons() -> Reasons:
-    """The tables of the file."""
-    tables = tomllib.loads(Path(__file__).with_name("known.toml").read_text(encoding="utf-8"))
-    ours = tuple(Ours(**row) for row in tables["ours"])
-    theirs = tuple(Theirs(rules=tuple(row.pop("rules", ())), **row) for row in tables["theirs"])
-    return Reasons(tuple(tables["consequences"]), ours, theirs)
+        own = [one for one in objections if not _CONSEQUENCES.search(one)]
+        yield from ((one, "") for one in own or objections)

@@ -4,11 +4,11 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 
 from reports.harness.needs import corpus, libsdformat, urdfdom
-from reports.harness.pages import section, table
+from reports.harness.pages import rule_links, section, table
 from reports.harness.report import Findings, Report
 from reports.harness.sample import Sample
 from reports.verdicts.judging import QUESTIONS, Question, Verdict, verdicts
-from reports.verdicts.reasons import Ours, Reason, Theirs, reasons
+from reports.verdicts.reasons import OURS, THEIRS, Reason, reasons
 from tests.corpus.files import Kind
 from tests.differential.mutated import mutated, sources
 
@@ -30,10 +30,10 @@ Where only one of the two refuses, there is a reason, by rule or by message and 
 
 
 def measure(sample: Sample) -> Findings:
-    """Ask everybody, and look for the reasons of those who disagree."""
+    """Ask everybody, and find the reasons of those who disagree."""
     seeds = {kind: range(0, count, sample.every) for kind, count in DOCUMENTS.items()}
     found = [verdict for kind in seeds for verdict in judged(kind, seeds[kind])]
-    explained = Counter(reason for verdict in found for reason in _reasons(verdict))
+    explained = Counter(reason for verdict in found for reason in reasons(verdict))
     counts = _counts(found)
     return Findings([counts, *_explanations(explained)], counts, list(map(str, unexplained(found))))
 
@@ -48,11 +48,7 @@ def judged(kind: Kind, seeds: Iterable[int]) -> Iterator[Verdict]:
 
 def unexplained(found: Iterable[Verdict]) -> list[Verdict]:
     """Where only one of the two refuses, and nobody knows why."""
-    return [verdict for verdict in found if verdict.accepted != verdict.opinion.accepts and not reasons().of(verdict)]
-
-
-def _reasons(verdict: Verdict) -> tuple[Reason, ...]:
-    return reasons().of(verdict) if verdict.accepted != verdict.opinion.accepts else ()
+    return [verdict for verdict in found if verdict.accepted != verdict.opinion.accepts and not reasons(verdict)]
 
 
 def _counts(found: list[Verdict]) -> str:
@@ -67,21 +63,18 @@ def _row(question: Question, found: list[Verdict]) -> tuple[object, ...]:
 
 
 def _explanations(explained: Counter[Reason]) -> Iterator[str]:
-    known = reasons()
-    ours = (_of_ours(one, explained[one]) for one in known.ours if explained[one])
+    ours = (
+        (explained[one], one.scope, rule_links([one.rule]), f"`{one.text}`" if one.text else "", one.why)
+        for one in OURS
+        if explained[one]
+    )
     yield section("We refuse, they accept", table(["documents", "judge", "rule", "about", "why"], ours))
-    theirs = (_of_theirs(one, explained[one]) for one in known.theirs if explained[one])
-    yield section("They refuse, we accept", table(["documents", "judge", "message", "what we say", "why"], theirs))
-
-
-def _of_ours(reason: Ours, count: int) -> tuple[object, ...]:
-    about = f"`{reason.says}`" if reason.says else ""
-    return count, reason.scope, f"[{reason.rule}](../reference/rules.md#{reason.rule})", about, reason.why
-
-
-def _of_theirs(reason: Theirs, count: int) -> tuple[object, ...]:
-    words = ", ".join(f"[{rule}](../reference/rules.md#{rule})" for rule in reason.rules) or "nothing"
-    return count, reason.scope, f"`{reason.says}`", words, reason.why
+    theirs = (
+        (explained[one], one.scope, f"`{one.text}`", rule_links(one.rules) or "nothing", one.why)
+        for one in THEIRS
+        if explained[one]
+    )
+    yield section("They refuse, we accept", table(["documents", "judge", "message", "what we report", "why"], theirs))
 
 
 REPORT = Report(

@@ -9,7 +9,7 @@ from reports.oracle.judging import DRAKE
 from tests.corpus.files import CorpusFile
 from tests.corpus.versions import NEWEST
 from twinform.testing import oracles
-from twinform.testing.oracles.in_process import look, versus
+from twinform.testing.oracles.in_process import read_robot, verdict_on
 from twinform.testing.oracles.robot import Robot
 
 VERSIONS = ("1.11", "1.6")
@@ -21,7 +21,7 @@ class Comparison:
     """A model in two versions: the verdict, and its cause where they are not the same."""
 
     name: str
-    way: str
+    subject: str
     verdict: str
     cause: str = ""
 
@@ -29,27 +29,27 @@ class Comparison:
 def judge(file: CorpusFile) -> list[Comparison]:
     """The model as it is, and in other versions; no exception comes out of it."""
     try:
-        source = look(file.path, DRAKE)
+        source = read_robot(file.path, DRAKE)
     except oracles.UnreadableError:
         return [Comparison(file.name, "the file", "not read by Drake")]
     return [_compare(file, source, version) for version in VERSIONS]
 
 
 def _compare(file: CorpusFile, source: Robot, version: str) -> Comparison:
-    way = f"the file and the same in {version}"
+    subject = f"the file and the same in {version}"
     try:
         path = _written(file, version)
     except twinform.CompileError as error:
-        return Comparison(file.name, way, "refused", error.diagnostics[0].message)
+        return Comparison(file.name, subject, "refused", error.diagnostics[0].message)
     try:
-        found = versus(source, (file.path, path), (DRAKE, DRAKE))
+        found = verdict_on(source, (file.path, path), (DRAKE, DRAKE))
     except oracles.UnreadableError as error:
-        return Comparison(file.name, way, "result not read by Drake", _cause(error.cause))
-    return Comparison(file.name, way, f"same ({found.alike})" if found.alike else "different", found.cause)
+        return Comparison(file.name, subject, "result not read by Drake", _cause(error.cause))
+    return Comparison(file.name, subject, f"same ({found.alike})" if found.alike else "different", found.cause)
 
 
 def _cause(message: str) -> str:
-    """What Drake says, without the name of the file."""
+    """The message of Drake, without the name of the file."""
     return message.strip().partition("\n")[0].rpartition("error: ")[2][:160]
 
 

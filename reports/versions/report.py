@@ -28,17 +28,17 @@ _EVERY = 3
 _ABOUT = f"""\
 Every SDF file of the corpus that is accepted goes to {NEWEST}, from there down to an older version, and up again; each
 step is written and read again, and the two documents of {NEWEST} have to be equal in the IR. What the older version
-cannot say travels in carriers, so nothing should be missing; a difference without an entry in a ledger is *lost*.
+cannot express travels in carriers, so nothing should be missing; a difference without an entry in a ledger is *lost*.
 *Stale* are files whose carriers were not trusted although nobody edited them, *unclean* those with parts in the older
 version that it does not have."""
-_DRAKE = """One in three of the models that libsdformat takes: the file as it is, and what it becomes on the way over
+_DRAKE = """One in three of the models that libsdformat takes: the file as it is, and what it becomes by way of
 the newest version. A part of another tool, such as `<drake:joint>`, may name a frame that an older version does not
 have."""
 
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """One model at two versions of SDF, and the first difference when the older one is said in the newer's."""
+    """One model at two versions of SDF, and the first difference when the older one is converted to the newer's."""
 
     older: str
     newer: str
@@ -53,7 +53,8 @@ class Pair:
 
 def measure(sample: Sample) -> Findings:
     """Travel and compare."""
-    trips, failures = _trips(sample)
+    trips, failures = sample.lists(_travel, sample.models(Kind.SDF), seconds=_SECONDS)
+    trips.sort(key=lambda trip: (VERSIONS.index(trip.version), trip.name))
     pairs = list(_pairs())[:: sample.every]
     refused = {
         trip.name: KNOWN.why("refused", trip.name) for trip in trips if not trip.arrived and trip.version == SHOWN
@@ -66,17 +67,6 @@ def measure(sample: Sample) -> Findings:
         f"{_by_version(trips)}\n{_pair_totals(pairs)}",
         [*lost, *failures, *unexplained],
     )
-
-
-def _trips(sample: Sample) -> tuple[list[Trip], list[str]]:
-    trips: list[Trip] = []
-    failures: list[str] = []
-    for file, result in sample.run(_travel, sample.models(Kind.SDF), seconds=_SECONDS):
-        if isinstance(result, Failure):
-            failures.append(f"{file.name}: {result.cause}")
-        else:
-            trips += result
-    return sorted(trips, key=lambda trip: (VERSIONS.index(trip.version), trip.name)), failures
 
 
 def _travel(file: CorpusFile) -> list[Trip]:
@@ -99,7 +89,7 @@ def _pairs() -> Iterable[Pair]:
 def _trip_sections(trips: list[Trip], failures: list[str], why: dict[str, str]) -> Iterable[str]:
     yield section(f"{NEWEST}, an older version, and {NEWEST} again", _by_version(trips))
     refused = [trip for trip in trips if not trip.arrived]
-    yield section("Refused on the way, by rule", _refusals(refused))
+    yield section("Refused during the conversion, by rule", _refusals(refused))
     shown = [
         (one.name, ", ".join(one.refused_by), why[one.name] or UNEXPLAINED) for one in refused if one.version == SHOWN
     ]
@@ -136,7 +126,7 @@ def _refusals(refused: list[Trip]) -> str:
 
 def _pair_section(pairs: list[Pair], why: dict[str, str]) -> str:
     """The differences are those of the files: two versions of a model are seldom the same model."""
-    about = f"The older file said in the version of the newer one, and the newer one. {_pair_totals(pairs)}"
+    about = f"The older file converted to the version of the newer one, and the newer one. {_pair_totals(pairs)}"
     rows = [(pair.newer, pair.first, why[pair.newer] or UNEXPLAINED) for pair in pairs if pair.first]
     columns = ["newer file", "first difference (the older, the newer)", "cause"]
     return section("One model at two versions", about, table(columns, rows))
@@ -149,16 +139,20 @@ def _pair_totals(pairs: list[Pair]) -> str:
 
 
 def _drake_section(sample: Sample) -> str:
-    title = "In the eyes of Drake"
+    title = "Compared by Drake"
     if not oracles.available("drake"):
         return section(title, "Drake was not there.")
     found: list[Comparison] = []
     for file, result in sample.run(judge, sample.of(_shown_to_drake()), seconds=_SECONDS):
         found += [Comparison(file.name, "the file", "not read by Drake")] if isinstance(result, Failure) else result
-    counts = Counter((one.way, one.verdict) for one in found)
+    counts = Counter((one.subject, one.verdict) for one in found)
     rows = [(*key, count) for key, count in sorted(counts.items())]
-    odd = [(one.name, one.way, one.cause) for one in sorted(found, key=lambda one: one.name) if one.cause]
-    tables = table(["way", "verdict", "files"], rows) + "\n" + listing(["file", "way", "why"], odd, empty="")
+    odd = [(one.name, one.subject, one.cause) for one in sorted(found, key=lambda one: one.name) if one.cause]
+    tables = (
+        table(["given to Drake", "verdict", "files"], rows)
+        + "\n"
+        + listing(["file", "given to Drake", "why"], odd, empty="")
+    )
     return section(title, _DRAKE, tables)
 
 

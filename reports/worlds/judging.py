@@ -32,7 +32,7 @@ _QUOTED = re.compile(r"'[^']*'")
 
 
 class Together(StrEnum):
-    """What `diff` says of the world that was put together again."""
+    """What `diff` reports about the world that was put together again."""
 
     SAME = "the same"
     DIFFERENT = "different"
@@ -42,7 +42,7 @@ class Together(StrEnum):
 
 
 class Loaded(StrEnum):
-    """What libsdformat 12 says of the split world."""
+    """What libsdformat 12 reports about the split world."""
 
     SAME = "loads, the same"
     OTHER = "loads, another world"
@@ -90,7 +90,7 @@ def _has_models(document: Document) -> bool:
 
 
 def _around(path: Path, folders: tuple[Path, ...]) -> tuple[Path, ...]:
-    """Where the includes of a file are looked up, also from elsewhere."""
+    """Where the includes of a file are searched for, also from elsewhere."""
     near = folders_around(path)
     return (*near, *(folder / "models" for folder in near), *folders)
 
@@ -138,9 +138,9 @@ def _source(path: Path, folders: tuple[Path, ...], out: Path) -> Path:
         if parent is not None:
             parent.remove(include)
     out.mkdir()
-    made = out / path.name
-    made.write_bytes(etree.tostring(root))
-    return made
+    target = out / path.name
+    target.write_bytes(etree.tostring(root))
+    return target
 
 
 class MissingError(Exception):

@@ -37,7 +37,7 @@ and that all shapes are where they were. Names of links that it lumps do not cou
 *Not comparable* are files with includes inside their models whose files are not in the corpus."""
 
 
-class Way(StrEnum):
+class Target(StrEnum):
     """What the models of a world become."""
 
     URDF = "URDF where Gazebo reads it as the same robot"
@@ -46,12 +46,12 @@ class Way(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Job:
-    """One world, taken apart in one way."""
+    """One world, taken apart into models of one format."""
 
     name: str
     path: Path
     folders: tuple[Path, ...]
-    way: Way
+    target: Target
 
     @property
     def origin(self) -> str:
@@ -60,8 +60,8 @@ class Job:
 
     def judged(self) -> Outcome | None:
         """What becomes of it."""
-        folder = OUT / "worlds" / self.way.name.lower() / self.name.replace("/", "_")
-        found = judge(self.name, self.path, self.folders, folder, "urdf" if self.way is Way.URDF else "sdf")
+        folder = OUT / "worlds" / self.target.name.lower() / self.name.replace("/", "_")
+        found = judge(self.name, self.path, self.folders, folder, "urdf" if self.target is Target.URDF else "sdf")
         shutil.rmtree(folder, ignore_errors=True)
         return found
 
@@ -70,8 +70,8 @@ def measure(sample: Sample) -> Findings:
     """Take apart, put together, and compare."""
     worlds = [*sample.of(_generated(sample.seed))]
     jobs = [
-        *(Job(file.name, file.path, file.paths, way) for file in sample.models(Kind.SDF) for way in Way),
-        *(Job(path.stem, path, (), way) for path in worlds for way in Way),
+        *(Job(file.name, file.path, file.paths, target) for file in sample.models(Kind.SDF) for target in Target),
+        *(Job(path.stem, path, (), target) for path in worlds for target in Target),
     ]
     outcomes = list(_outcomes(sample, jobs))
     reasons = {one.name: KNOWN.why("different", one.name) for _, one in outcomes if one.fault}
@@ -95,7 +95,7 @@ def _generated(seed: int) -> Iterator[Path]:
 
 def _outcomes(sample: Sample, jobs: list[Job]) -> Iterator[tuple[Job, Outcome]]:
     found_by_job = sample.run(Job.judged, jobs, seconds=_SECONDS)
-    for job, found in sorted(found_by_job, key=lambda pair: (pair[0].way, pair[0].name)):
+    for job, found in sorted(found_by_job, key=lambda pair: (pair[0].target, pair[0].name)):
         if isinstance(found, Failure):
             yield job, Outcome(job.name, Together.CRASH, cause=found.cause)
         elif found is not None:
@@ -104,7 +104,7 @@ def _outcomes(sample: Sample, jobs: list[Job]) -> Iterator[tuple[Job, Outcome]]:
 
 def _sections(outcomes: list[tuple[Job, Outcome]], reasons: dict[str, str]) -> Iterator[str]:
     yield _totals(outcomes)
-    urdf = [one for job, one in outcomes if job.way is Way.URDF]
+    urdf = [one for job, one in outcomes if job.target is Target.URDF]
     yield (
         f"Of {sum(one.urdf + one.sdf for one in urdf)} models {sum(one.urdf for one in urdf)} become URDF, and "
         f"{sum(one.sdf for one in urdf)} stay SDF, for these reasons:"
@@ -118,14 +118,14 @@ def _sections(outcomes: list[tuple[Job, Outcome]], reasons: dict[str, str]) -> I
 
 
 def _totals(outcomes: list[tuple[Job, Outcome]]) -> str:
-    groups = dict.fromkeys((job.way, job.origin) for job, _ in outcomes)
+    groups = dict.fromkeys((job.target, job.origin) for job, _ in outcomes)
     rows: list[tuple[object, ...]] = []
-    for way, origin in groups:
-        found = [one for job, one in outcomes if (job.way, job.origin) == (way, origin)]
+    for target, origin in groups:
+        found = [one for job, one in outcomes if (job.target, job.origin) == (target, origin)]
         together = Counter(one.together for one in found)
         loaded = Counter(one.loaded for one in found)
         counts = (*(together[each] for each in Together), *(loaded[each] for each in Loaded))
-        rows.append((way, origin, len(found), *counts))
+        rows.append((target, origin, len(found), *counts))
     return table(["models become", "worlds from", "worlds", *Together, *Loaded], rows)
 
 

@@ -1,7 +1,6 @@
 """Every xacro file of the corpus beside what the `xacro` command makes of it."""
 
 from collections import Counter
-from collections.abc import Iterable
 from statistics import median
 
 from reports.harness.known import Known
@@ -10,7 +9,6 @@ from reports.harness.report import UNEXPLAINED, Findings, Report
 from reports.harness.sample import Sample
 from tests.corpus.expressions import Evaluated, evaluated, expressions
 from tests.corpus.plain_xacro import Compared, Verdict, compare, users_of_xacro
-from twinform.compiler.workers import Failure
 
 KNOWN = Known.beside(__file__)
 _ABOUT = """\
@@ -18,7 +16,7 @@ Only the seconds differ from run to run.
 
 Every file of the corpus that uses xacro, whatever its name is, is expanded by the compiler and by the `xacro` command
 in a process of its own, with no arguments and with the packages that lie anywhere in the corpus (for the command, a
-stand-in of the index of ROS says where). The trees are *the same* if their canonical XML is, comments included. Most
+stand-in of the index of ROS has them). The trees are *the same* if their canonical XML is, comments included. Most
 files that are refused are parts of robots whose other packages the corpus does not have; both then have to refuse them
 for the same reason.
 
@@ -29,7 +27,8 @@ does not is on the page about [work with xacro](../how-to/xacro.md#what-is-refus
 
 def measure(sample: Sample) -> Findings:
     """Expand in both ways, and compare."""
-    files = sorted(_compared(sample), key=lambda each: each.name)
+    used = sample.of(users_of_xacro())
+    files = sample.outcomes(compare, used, lambda file, why: Compared(file.name, Verdict.DIFFERENT, why))
     known = {each.name: KNOWN.why("files", each.name) for each in files if not each.is_alike}
     results = [each for expression in list(expressions())[:: sample.every] for each in evaluated(expression)]
     differing = [each for each in files if not each.is_alike]
@@ -44,11 +43,6 @@ def measure(sample: Sample) -> Findings:
     ]
     faults = [*unexplained, *(repr(each) for each in results if not each.is_alike)]
     return Findings(sections, f"{_totals(files)}\n{_expression_totals(results)}", faults)
-
-
-def _compared(sample: Sample) -> Iterable[Compared]:
-    for file, result in sample.run(compare, sample.of(users_of_xacro())):
-        yield Compared(file.name, Verdict.DIFFERENT, result.cause) if isinstance(result, Failure) else result
 
 
 def _totals(files: list[Compared]) -> str:
@@ -66,12 +60,8 @@ def _refused(files: list[Compared]) -> str:
 
 def _expression_totals(results: list[Evaluated]) -> str:
     different = {each.expression for each in results}
-    row = (
-        len(different),
-        len(results),
-        sum(not each.theirs.is_mistake for each in results),
-        sum(not each.is_alike for each in results),
-    )
+    valued = sum(not each.theirs.is_mistake for each in results)
+    row = (len(different), len(results), valued, sum(not each.is_alike for each in results))
     return table(["expressions", "evaluated", "with a value", "different"], [row])
 
 

@@ -5,11 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from reports.corpus.astray import by_place
+from reports.corpus.mismatches import by_path
 from reports.corpus.report import why_not_converted
 from reports.harness.known import Known
 from tests.corpus.files import ROOT
-from twinform.testing.round_trips import Astray
+from twinform.testing.round_trips import Mismatch
 
 KNOWN = """
 [not_converted]
@@ -36,9 +36,9 @@ def test_the_tables_of_reasons_hold_files_that_there_are(corpus: Path, report: s
     assert [name for name in names if not (corpus / name).is_file()] == []
 
 
-def test_what_is_astray_is_counted_by_kind_and_place_whatever_it_is_called():
-    lost = [Astray("missing", f"/robot/link[@name='{name}']/@type", f"{name} is not back") for name in "abc"]
-    assert by_place([("y", lost[1:]), ("x", [*lost[:1], Astray("order", "/robot/joint[2]", "order")])]) == [
+def test_mismatches_are_counted_by_kind_and_path_without_names():
+    lost = [Mismatch("missing", f"/robot/link[@name='{name}']/@type", f"{name} is not back") for name in "abc"]
+    assert by_path([("y", lost[1:]), ("x", [*lost[:1], Mismatch("order", "/robot/joint[2]", "order")])]) == [
         (2, 3, "missing", "/robot/link/@type", "x: a is not back"),
         (1, 1, "order", "/robot/joint", "x: order"),
     ]

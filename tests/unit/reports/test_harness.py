@@ -18,10 +18,10 @@ KNOWN = """
 "b[1].sdf" = "a name with brackets"
 [[rows]]
 file = "a/*"
-says = "*mass*"
+message = "*mass*"
 reason = "of a mass"
 [[rows]]
-says = "*"
+message = "*"
 reason = "of the rest"
 """
 
@@ -46,18 +46,18 @@ def test_numbers_stand_to_the_right_and_bars_are_escaped():
     ]
 
 
-def test_a_long_list_is_cut_and_an_empty_one_says_so():
+def test_a_long_list_is_cut_and_an_empty_one_is_none():
     assert listing(["a"], []) == "None."
     assert listing(["a"], [("x",), ("y",), ("z",)], most=1).splitlines()[-2:] == ["", "2 more."]
 
 
-def test_the_first_cause_that_fits_is_found_and_what_is_not_used_is_told(known: Known):
+def test_the_first_cause_that_fits_is_found_and_what_is_not_used_is_reported(known: Known):
     assert known.why("files", "a/b") == "all of a"
     assert known.why("files", "b[1].sdf") == "a name with brackets"
-    assert known.why("rows", file="c", says="no mass") == "of the rest"
+    assert known.why("rows", file="c", message="no mass") == "of the rest"
     assert known.why("files", "c") == ""
     assert len(known.unused()) == 1
-    assert known.why("rows", file="a/b", says="no mass") == "of a mass"
+    assert known.why("rows", file="a/b", message="no mass") == "of a mass"
     assert known.unused() == []
 
 
@@ -72,7 +72,7 @@ def _report(faults: tuple[str, ...] = (), missing: str = "") -> Report:
     return Report("none", "Nothing", "About.", lambda _: Findings(["Text."], "summary", faults), (lambda: missing,))
 
 
-def test_a_sample_is_printed_and_written_where_it_is_told_to(capsys: pytest.CaptureFixture[str], tmp_path: Path):
+def test_a_sample_is_printed_and_written_where_the_option_says(capsys: pytest.CaptureFixture[str], tmp_path: Path):
     text = "# Nothing\n\nMade by `make report NAME=none`.\n\nAbout.\n\nText.\n"
     assert run(_report(), ["--every", "2"]) == 0
     assert capsys.readouterr().out == f"{text}\n"

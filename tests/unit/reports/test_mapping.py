@@ -4,7 +4,7 @@ import pytest
 
 from reports.harness.sample import Sample
 from reports.mapping.measure import CASES
-from reports.mapping.notes import Note, notes, told
+from reports.mapping.notes import Note, destinations, notes
 from reports.mapping.report import REPORT, measure
 from reports.mapping.rows import FORMATS, FormatName, rows, sections, unreachable
 from reports.mapping.targets import field_of, targets
@@ -28,8 +28,8 @@ def test_a_note_names_elements_rules_and_cases_that_there_are(note: Note) -> Non
 
 
 @pytest.mark.parametrize("format", FORMATS)
-def test_where_things_go_is_told_of_elements_that_there_are(format: FormatName) -> None:
-    assert set(told(format)) <= _known(format)
+def test_where_things_go_is_noted_for_elements_that_there_are(format: FormatName) -> None:
+    assert set(destinations(format)) <= _known(format)
 
 
 def test_links_of_the_page_lead_to_its_sections_and_to_files() -> None:

@@ -112,7 +112,7 @@ def test_topics_and_messages_are_found() -> None:
     assert found.messages == {"Twist", "Odometry"}
 
 
-def test_sensors_say_suffixes_topics_and_messages() -> None:
+def test_sensors_have_suffixes_topics_and_messages() -> None:
     assert suffixes_in('const std::string gpuLidarSuffix{"/scan"}; std::string rgbdCameraSuffix{""};') == {
         "gpuLidar": "scan",
         "rgbdCamera": "",
@@ -136,7 +136,7 @@ def test_what_the_catalog_has_right_is_no_difference() -> None:
     assert _judged(joint_name=Read({"text"})) == set()
 
 
-def test_what_differs_is_said() -> None:
+def test_what_differs_is_reported() -> None:
     assert _judged() == {("unread", "joint_name", "joint", "")}
     assert _judged(joint_name=Read(places={"attribute"})) == {("place", "joint_name", "element", "attribute")}
     assert _judged(joint_name=Read({"number"}, {"1"}), gain=Read({"number"})) == {
@@ -152,7 +152,7 @@ def test_what_differs_is_said() -> None:
     }
 
 
-def test_systems_that_only_one_side_has_are_said() -> None:
+def test_systems_that_only_one_side_has_are_reported() -> None:
     found = {each.key for each in of_systems({"Newest": SystemSource({}, frozenset(), frozenset())}, "harmonic")}
     assert "Newest system not in the catalog" in found
     assert "imu system not in the source" in found
@@ -177,7 +177,7 @@ def test_a_checkout_is_read_by_the_names_that_files_use(tmp_path: Path) -> None:
     assert differences([checkout(tmp_path)]).keys() == {"harmonic"}
 
 
-def test_without_sources_and_with_a_wrong_path_it_says_so(tmp_path: Path) -> None:
+def test_without_sources_and_with_a_wrong_path_it_reports_so(tmp_path: Path) -> None:
     with pytest.raises(SystemExit, match="no sources"):
         measure(Sample())
     with pytest.raises(SystemExit, match="no checkout"):
