@@ -1,13 +1,13 @@
 """What all tests share."""
 
 import gc
-import os
 from collections.abc import Generator
 from pathlib import Path
 
 import pytest
 
 from tests.corpus.files import CORPUS, MISSING
+from tests.profile import DEEP
 
 pytest.register_assert_rewrite("tests.expected")  # so that it shows what differs, as tests do
 
@@ -24,7 +24,7 @@ def corpus() -> Path:
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Leave what takes long to `make prove`."""
-    if os.environ.get("TWINFORM_PROFILE") != "deep":
+    if not DEEP:
         for item in items:
             if item.get_closest_marker("deep"):
                 item.add_marker(pytest.mark.skip(reason="only with TWINFORM_PROFILE=deep"))

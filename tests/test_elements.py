@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import twinform
-from reports.mapping.measure import CASES, measured, ways
+from reports.mapping.measure import CASES, conversions, measured
 from reports.mapping.rows import FORMATS, FormatName, rows
 from tests.corpus.there_and_back import robots
 from tests.oracles.xml_trees import first_difference
@@ -21,14 +21,14 @@ def _name(path: Path) -> str:
 
 _FILES = [path for folder in ("elements", "whole") for path in sorted((CASES / folder).iterdir())]
 _SDF = [path for path in _FILES if path.suffix == ".sdf"]
-_OLD_WORDS = [path for path in _SDF if path.stem.startswith("words") or path.stem.endswith("_1_4")]
-"""Files about what later versions say in another way."""
+_OLD_SYNTAX = [path for path in _SDF if path.stem.startswith("syntax") or path.stem.endswith("_1_4")]
+"""Files about what later versions write in another way."""
 _SCREWS = frozenset({"joints.sdf", "screw_1_10.sdf"})
 """Files with joints that SDF 1.4 does not have."""
 _OLDER = [
     pytest.param(path, version, id=f"{_name(path)}-{version}")
     for path in _SDF
-    if path not in _OLD_WORDS
+    if path not in _OLD_SYNTAX
     for version in ("1.4", "1.5", "1.6", "1.9")
     if version != "1.4" or path.name not in _SCREWS
 ]
@@ -65,15 +65,15 @@ def test_it_is_written_as_it_was_read(path: Path) -> None:
 @pytest.mark.parametrize("carriers", [True, False], ids=["carriers", "no_carriers"])
 @pytest.mark.parametrize("path", _FILES, ids=_name)
 def test_an_audit_accounts_for_every_part_there_and_back(path: Path, carriers: bool) -> None:
-    for made in ways(path, _read(path), carriers=carriers):
+    for made in conversions(path, _read(path), carriers=carriers):
         assert isinstance(made, twinform.Conversion)
         assert _unaccounted(made) == []
-        assert _unaccounted(twinform.convert(made.text.encode(), to=_home(path), carriers=carriers)) == []
+        assert _unaccounted(twinform.convert(made.text.encode(), to=_own_format(path), carriers=carriers)) == []
 
 
 @pytest.mark.parametrize("path", _FILES, ids=_name)
 def test_the_other_format_drops_nothing_of_a_robot(path: Path) -> None:
-    for made in ways(path, _read(path)):
+    for made in conversions(path, _read(path)):
         assert isinstance(made, twinform.Conversion)
         dropped = [entry for entry in made.ledger.entries if entry.fate is Fate.DROPPED]
         assert [entry.message for entry in dropped if entry.rule.name != _OUTSIDE] == []
@@ -81,16 +81,16 @@ def test_the_other_format_drops_nothing_of_a_robot(path: Path) -> None:
 
 
 @pytest.mark.parametrize("path", _FILES, ids=_name)
-def test_it_comes_home_from_the_other_format_as_it_was(path: Path) -> None:
+def test_it_comes_back_from_the_other_format_as_it_was(path: Path) -> None:
     document = _read(path)
     for robot in robots(document):
-        there = twinform.convert(path, to="urdf" if _home(path) == "sdf" else "sdf", model=robot)
+        there = twinform.convert(path, to="urdf" if _own_format(path) == "sdf" else "sdf", model=robot)
         trip = RoundTrip.of(path, document, model=robot)
-        assert [one.message for one in trip.astray(trip.back(there.text))] == []
+        assert [one.message for one in trip.mismatches(trip.back(there.text))] == []
 
 
-@pytest.mark.parametrize("path", _OLD_WORDS, ids=_name)
-def test_the_newest_version_says_old_words_without_a_loss(path: Path) -> None:
+@pytest.mark.parametrize("path", _OLD_SYNTAX, ids=_name)
+def test_the_newest_version_expresses_old_syntax_without_a_loss(path: Path) -> None:
     newer = twinform.convert(path, to="sdf", sdf_version="1.12")
     assert [entry.message for entry in newer.ledger.entries if entry.fate is Fate.DROPPED] == []
     found = [each for each in twinform.check(newer.text.encode()).diagnostics if each.severity > Severity.INFO]
@@ -105,8 +105,8 @@ def test_an_older_version_brings_it_back(path: Path, version: str) -> None:
     assert first_difference(path.read_bytes(), again.text.encode()) is None
 
 
-def test_a_pose_in_a_frame_of_its_own_element_comes_home_from_a_version_without_such_frames() -> None:
-    path = CASES / "elements/words_1_5.sdf"
+def test_a_pose_in_a_frame_of_its_own_element_comes_back_from_a_version_without_such_frames() -> None:
+    path = CASES / "elements/syntax_1_5.sdf"
     newer = twinform.convert(path, to="sdf", sdf_version="1.9")
     again = twinform.convert(newer.text.encode(), to="sdf", sdf_version="1.5")
     assert first_difference(path.read_bytes(), again.text.encode()) is None
@@ -119,11 +119,11 @@ def test_the_audit_does_not_take_a_whole_file_for_carried() -> None:
     assert (counted.expressed, counted.carried) == (made.ledger.expressed, made.ledger.count(Fate.CARRIED))
 
 
-def _home(path: Path) -> FormatName:
+def _own_format(path: Path) -> FormatName:
     return "sdf" if path.suffix == ".sdf" else "urdf"
 
 
 def _unaccounted(made: twinform.Conversion) -> list[str]:
     assert made.source is not None
     parts = audit(made.source, made.text, made.ledger).unaccounted
-    return [f"line {part.location.line}: {part.location.path}: {part.says}" for part in parts]
+    return [f"line {part.location.line}: {part.location.path}: {part.text}" for part in parts]

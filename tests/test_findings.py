@@ -1,7 +1,7 @@
-"""All that is said about the case files: places, messages, what was found and expected, and the ledger.
+"""All findings about the case files: places, messages, what was found and expected, and the ledger.
 
 The cases announce which rules speak on which line; here stands the rest, in `tests/findings/`, one file for each case
-about which anything is said.
+with findings.
 """
 
 import os
@@ -21,7 +21,7 @@ _TESTS = Path(__file__).parent
 _CASES, _FINDINGS = _TESTS / "cases", _TESTS / "findings"
 _PASSES = re.compile(r"<!--\s*passes:\s*(.*?)\s*-->", re.DOTALL)
 _FOLDERS = ("check", "convert", "elements", "passes", "versions", "whole")
-"""The cases of passes stay in their format, and all others are said in the other one."""
+"""The cases of passes stay in their format, and all others are converted to the other one."""
 _LOOKED_IN = re.compile(r"(?<=looked in )[^;]+")
 """Folders of this machine, which stand in the help about files that are not found."""
 _OTHER: dict[str, Literal["urdf", "sdf"]] = {"urdf": "sdf", "sdf": "urdf"}
@@ -36,14 +36,14 @@ def _name(case: Case) -> str:
 
 
 @pytest.mark.parametrize("case", _all(), ids=_name)
-def test_what_is_said_is_what_was_read_over_once(case: Case) -> None:
-    said = _said(case)
+def test_findings_are_what_was_read_over_once(case: Case) -> None:
+    findings = _findings_of(case)
     expected = _FINDINGS / f"{_name(case)}.txt"
-    if said and not expected.exists():
+    if findings and not expected.exists():
         expected.parent.mkdir(parents=True, exist_ok=True)
-        expected.write_text(said, encoding="utf-8")
+        expected.write_text(findings, encoding="utf-8")
         pytest.fail(f"{expected.name} was missing and is written now; read it before you keep it")
-    assert said == (expected.read_text(encoding="utf-8") if expected.exists() else "")
+    assert findings == (expected.read_text(encoding="utf-8") if expected.exists() else "")
 
 
 def test_nothing_is_kept_about_cases_that_are_gone() -> None:
@@ -51,7 +51,7 @@ def test_nothing_is_kept_about_cases_that_are_gone() -> None:
     assert kept <= {f"{_name(case)}.txt" for case in _all()}
 
 
-def _said(case: Case) -> str:
+def _findings_of(case: Case) -> str:
     with chdir(case.path.parent):
         try:
             made = _converted(case)

@@ -17,14 +17,14 @@ _FILES = {"urdf": "porter_description/urdf/porter.urdf", "sdf": "yard/worlds/yar
 
 @dataclass(frozen=True, slots=True)
 class Mistake:
-    """One edit in a file without mistakes; `mistakes.toml` says what its fields mean."""
+    """One edit in a file without mistakes; `mistakes.toml` explains its fields."""
 
     file: str
     what: str
     find: str
     write: str
     at: str
-    says: tuple[str, ...]
+    mentions: tuple[str, ...]
     encoding: str
     passes: str
 
@@ -37,7 +37,7 @@ class Mistake:
             row["find"],
             row["write"],
             row.get("at", ""),
-            tuple(row["says"]),
+            tuple(row["mentions"]),
             row.get("encoding", "utf-8"),
             row.get("passes", ""),
         )
@@ -57,8 +57,12 @@ class Mistake:
 
     def is_what(self, found: Diagnostic, line: int) -> bool:
         """Whether a finding is this mistake: on its line, with all that somebody needs to know to mend it."""
-        said = f"{found.message} {found.help or ''}"
-        return found.location.line == line and found.severity > Severity.INFO and all(one in said for one in self.says)
+        report = f"{found.message} {found.help or ''}"
+        return (
+            found.location.line == line
+            and found.severity > Severity.INFO
+            and all(one in report for one in self.mentions)
+        )
 
 
 _MISTAKES = [Mistake.of(row) for row in tomllib.loads((_FOLDER / "mistakes.toml").read_text("utf-8"))["mistake"]]

@@ -11,7 +11,7 @@ from twinform.testing import PassCase, pass_cases
 
 _CASES = Path(__file__).parent / "cases/passes"
 _EDITS = frozenset(rule.name for rule in vars(edits).values() if isinstance(rule, Rule))
-"""Rules whose notes are all listed too: what is said of a change of structure is part of what a case shows."""
+"""Rules whose notes are all listed too: what is reported of a change of structure is part of what a case shows."""
 _EVERY_RUN_COUNTS = {
     "limits/tighten_limits.urdf": "a margin is taken off what is left",
     "structure/attach.sdf": "the second gripper would have the names of the first",

@@ -55,7 +55,7 @@ def test_the_pass_runs_in_a_pipeline_and_reports_by_its_rule(site: Path) -> None
     assert denied.returncode == 1
 
 
-def test_the_rule_has_a_page_and_says_who_brings_it(site: Path) -> None:
+def test_the_rule_has_a_page_and_names_who_brings_it(site: Path) -> None:
     page = twinform(site, "explain", "unusual-name").stdout
     assert page.startswith("unusual-name (warning) (from twinform-house-style)\n")
     assert "Scripts of the house" in page

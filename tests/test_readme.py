@@ -1,4 +1,4 @@
-"""The README says what happens."""
+"""The README shows what happens."""
 
 import doctest
 import os
@@ -9,7 +9,7 @@ import pytest
 _ROOT = Path(__file__).parents[1]
 
 
-def test_the_python_tour_prints_what_it_says(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_python_tour_prints_what_it_shows(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(_ROOT)
     result = doctest.testfile(os.fspath(_ROOT / "README.md"), module_relative=False)
     assert result.attempted >= 7

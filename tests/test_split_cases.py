@@ -1,4 +1,4 @@
-"""The cases of `--split`: worlds, what is said when they are taken apart, and the files that they become."""
+"""The cases of `--split`: worlds, what is reported when they are taken apart, and the files that they become."""
 
 import shutil
 from pathlib import Path

@@ -89,7 +89,7 @@ def test_libsdformat_loads_the_robot_and_its_world(tmp_path: Path) -> None:
     assert sum(masses) == pytest.approx(12 + 4 * 0.8 + 0.3)
 
 
-def test_the_robot_comes_home_as_it_was(out: Path) -> None:
+def test_the_robot_comes_back_as_it_was(out: Path) -> None:
     back = twinform.convert(out / "standard_robot.sdf", to="urdf").document
     first = twinform.load(_ROOT / "examples/standard_robot.urdf")
     assert [link.name for link in back.models[0].links] == [link.name for link in first.models[0].links]

@@ -15,18 +15,18 @@ from twinform.compiler import LoadResult
 from twinform.compiler.audit import audit
 from twinform.diagnostics import Diagnostic
 from twinform.ir import Document, Format
-from twinform.testing.round_trips import Astray
+from twinform.testing.round_trips import Mismatch
 
 
 @dataclass(frozen=True, slots=True)
 class Examined:
     """What the compiler makes of a file. The rules are those of the errors that stopped it, each once.
 
-    `without_robot` says that there is no model in it, so nothing to convert to URDF.
+    `without_robot` means that there is no model in it, so nothing to convert to URDF.
     `unaccounted` are elements and attributes of it that an audit of the conversions does not find again.
-    `difference` is the first place where the file and its own text from the compiler differ, `home` whether every
-    robot that was converted comes back as it was, and `astray` what of them does not. `faults` are broken promises:
-    tracebacks, and refusals that name no line.
+    `difference` is the first place where the file and its own text from the compiler differ, `there_and_back` whether
+    every robot that was converted comes back as it was, and `mismatches` what of them does not. `faults` are broken
+    promises: tracebacks, and refusals that name no line.
     """
 
     name: str
@@ -39,8 +39,8 @@ class Examined:
     identical: bool = False
     difference: str = ""
     unaccounted: tuple[str, ...] = ()
-    home: bool = False
-    astray: tuple[Astray, ...] = ()
+    there_and_back: bool = False
+    mismatches: tuple[Mismatch, ...] = ()
     faults: tuple[str, ...] = ()
     seconds: float = 0.0
 
@@ -80,20 +80,20 @@ def _converted(file: CorpusFile, document: Document, found: Examined) -> Examine
         if not robots(document):
             return replace(found, without_robot=True)
         there = list(taken_there(file, document))
-        astray = tuple(each for one in there for each in one.astray())
+        mismatches = tuple(each for one in there for each in one.mismatches())
     except twinform.CompileError as error:
         faults = (*found.faults, *without_line(error.diagnostics))
         return replace(found, not_converted_by=rules_of(error.diagnostics), faults=faults)
     except Exception as error:  # noqa: BLE001 - every other exception is a fault to report
         return replace(found, faults=(*found.faults, fault(error)))
-    lost = tuple(part for one in there for part in _lost(one.made))
-    return replace(found, converted=True, home=not astray, astray=astray, unaccounted=lost)
+    lost = tuple(part for one in there for part in _lost(one.conversion))
+    return replace(found, converted=True, there_and_back=not mismatches, mismatches=mismatches, unaccounted=lost)
 
 
-def _lost(made: twinform.Conversion) -> tuple[str, ...]:
-    assert made.source is not None
-    parts = audit(made.source, made.text, made.ledger).unaccounted
-    return tuple(f"line {part.location.line}: {part.location.path}: {part.says}" for part in parts)
+def _lost(conversion: twinform.Conversion) -> tuple[str, ...]:
+    assert conversion.source is not None
+    parts = audit(conversion.source, conversion.text, conversion.ledger).unaccounted
+    return tuple(f"line {part.location.line}: {part.location.path}: {part.text}" for part in parts)
 
 
 def _written_again(path: Path, data: bytes, document: Document, found: Examined) -> Examined:

@@ -1,4 +1,4 @@
-"""Every expression of real xacro files, evaluated by xacro and by us, with values made up for its names."""
+"""Every expression of real xacro files, evaluated by xacro and by us, with invented values for its names."""
 
 import ast
 import contextlib

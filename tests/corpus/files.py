@@ -16,15 +16,15 @@ ROOT = Path(__file__).resolve().parents[2]
 SHARED = Path(os.environ.get("TWINFORM_SHARED", ROOT.parent / "shared"))
 CORPUS = Path(os.environ.get("TWINFORM_CORPUS", SHARED / "corpus"))
 INDEX = SHARED / "reference" / "corpus_index.csv"
-MISSING = f"there is no corpus at {os.path.relpath(CORPUS, ROOT)}; TWINFORM_CORPUS says where it is"
+MISSING = f"there is no corpus at {os.path.relpath(CORPUS, ROOT)}; TWINFORM_CORPUS names its folder"
 
 _ASIDE = re.compile(rb"<!--.*?-->|<\?.*?\?>", re.DOTALL)
 _FIRST_TAG = re.compile(rb"<([A-Za-z_][\w:.-]*)")
 _SUFFIXES = frozenset({".urdf", ".sdf", ".world", ".xacro", ".config", ".in", ".gazebo", ".xml"})
 _PORTION = 40
-_LOOKED_UP_IN = {"": "osrf+gazebo_models", "gazebosim+sdformat/test": "gazebosim+sdformat/test/integration/model"}
-"""Where includes are looked up beside the folders around the file: what came with Gazebo Classic for all, and what the
-tests of a repository set."""
+_SEARCHED = {"": "osrf+gazebo_models", "gazebosim+sdformat/test": "gazebosim+sdformat/test/integration/model"}
+"""Where includes are searched for beside the folders around the file: what came with Gazebo Classic for all, and what
+the tests of a repository set."""
 
 
 class Kind(StrEnum):
@@ -40,7 +40,7 @@ class Kind(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class CorpusFile:
-    """A real model: `name` is its path in the corpus, `row` what other readers said of it."""
+    """A real model: `name` is its path in the corpus, `row` what other readers reported on it."""
 
     name: str
     kind: Kind
@@ -53,8 +53,8 @@ class CorpusFile:
 
     @property
     def paths(self) -> tuple[Path, ...]:
-        """The folders in which its includes are looked up, beside those around it."""
-        return tuple(CORPUS / there for here, there in _LOOKED_UP_IN.items() if self.name.startswith(here))
+        """The folders in which its includes are searched for, beside those around it."""
+        return tuple(CORPUS / there for here, there in _SEARCHED.items() if self.name.startswith(here))
 
     @property
     def repository(self) -> str:
@@ -118,7 +118,7 @@ def _kind(path: Path) -> Kind:
         return Kind.OLD_GAZEBO
     if root in {"robot", "sdf"}:
         return Kind.URDF if root == "robot" else Kind.SDF
-    # not XML, or a root that neither format has: the name says what it was meant to be
+    # not XML, or a root that neither format has: the name shows what it was meant to be
     return Kind.URDF if path.suffix == ".urdf" else Kind.SDF
 
 

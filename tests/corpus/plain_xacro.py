@@ -49,7 +49,7 @@ class Verdict(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Compared:
-    """A file, what became of it, what was said of it, and the seconds of the processor that each took."""
+    """A file, what became of it, what was printed about it, and the seconds of the processor that each took."""
 
     name: str
     verdict: Verdict
@@ -60,12 +60,12 @@ class Compared:
 
     @property
     def reason(self) -> str:
-        """Why it is refused here, in one of a few words."""
+        """Why it is refused here, by one of a few reasons."""
         return reason_of(self.ours)
 
     @property
     def is_alike(self) -> bool:
-        """Whether both say the same of it."""
+        """Whether both agree on it."""
         return self.verdict is Verdict.SAME or (
             self.verdict is Verdict.BOTH_REFUSE and self.reason == reason_of(self.theirs)
         )
@@ -85,11 +85,11 @@ def compare(file: CorpusFile) -> Compared:
     """Expand a file in both ways, with no arguments, and with packages from anywhere in the corpus."""
     search = SearchPath.of(_folders(file), {})
     before = _seconds()
-    ours, our_words = _ours(file.path, search)
+    ours, our_errors = _ours(file.path, search)
     between = _seconds()
-    theirs, their_words = _theirs(file.path, _packages(file, search))
+    theirs, their_errors = _theirs(file.path, _packages(file, search))
     seconds = (between - before, _seconds() - between)
-    return Compared(file.name, _verdict(ours, theirs), our_words, their_words, *seconds)
+    return Compared(file.name, _verdict(ours, theirs), our_errors, their_errors, *seconds)
 
 
 def _verdict(ours: bytes | None, theirs: bytes | None) -> Verdict:
@@ -119,8 +119,8 @@ def _theirs(path: Path, packages: Mapping[str, str]) -> tuple[bytes | None, str]
     done = subprocess.run(command, capture_output=True, env=environment, timeout=_SECONDS, check=False)
     if not done.returncode:
         return done.stdout, ""
-    said = done.stderr.decode(errors="replace")
-    return None, " ".join(_ERROR.split(said, maxsplit=1)[-1].split())
+    output = done.stderr.decode(errors="replace")
+    return None, " ".join(_ERROR.split(output, maxsplit=1)[-1].split())
 
 
 def _packages(file: CorpusFile, search: SearchPath) -> dict[str, str]:

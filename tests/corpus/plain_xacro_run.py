@@ -10,7 +10,7 @@ _PACKAGES: dict[str, str] = json.loads(os.environ["PACKAGES"])
 
 
 def get_package_share_directory(name: str) -> str:
-    """Where a package is, as `ament_index_python` says it."""
+    """Where a package is, as `ament_index_python` gives it."""
     if name not in _PACKAGES:
         raise LookupError(f"package {name!r} not found")
     return _PACKAGES[name]

@@ -1,4 +1,4 @@
-"""No real file breaks the compiler, and none is refused without a place to look at."""
+"""No real file breaks the compiler, and none is refused without a line."""
 
 from pathlib import Path
 
@@ -26,9 +26,9 @@ def test_an_accepted_file_is_converted_or_the_rules_against_it_are_named(corpus:
 
 
 @pytest.mark.parametrize("chunk", CHUNKS)
-def test_a_robot_comes_home_from_the_other_format_as_it_was(corpus: Path, chunk: str):
+def test_a_robot_comes_back_from_the_other_format_as_it_was(corpus: Path, chunk: str):
     assert corpus.is_dir()
-    assert {found.name: found.astray[:3] for found in examined(CHUNKS[chunk]) if found.astray} == {}
+    assert {found.name: found.mismatches[:3] for found in examined(CHUNKS[chunk]) if found.mismatches} == {}
 
 
 @pytest.mark.parametrize("chunk", CHUNKS)

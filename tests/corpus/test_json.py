@@ -25,7 +25,7 @@ def _faults(file: CorpusFile) -> list[str]:
         expected = twinform.convert(file.path, to=to).text
     except CompileError:
         return []
-    made = twinform.convert(file.path, to="json").text
-    faults = [f"{file.name}: {message}" for message in complaints(json.loads(made))]
-    back = twinform.convert(made.encode(), to=to).text
+    as_json = twinform.convert(file.path, to="json").text
+    faults = [f"{file.name}: {message}" for message in complaints(json.loads(as_json))]
+    back = twinform.convert(as_json.encode(), to=to).text
     return faults if back == expected else [*faults, f"{file.name} is another text"]

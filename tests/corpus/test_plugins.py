@@ -27,7 +27,7 @@ ANOTHER_MEASURE = {
     "gazebosim+gz-sim/examples/worlds/tunnel.sdf": "the wheels are 0.73 m apart, and the plugin was copied with 1.25 m",
     "gazebosim+gz-sim/test/worlds/drive_to_pose_controller.sdf": "the joints that the plugin names are not in the file",
 }
-"""Files whose authors say other wheels than their models have."""
+"""Files whose plugins have other wheels than their models."""
 
 
 def test_wheels_are_measured_as_their_authors_did(corpus: Path) -> None:
@@ -41,7 +41,7 @@ def test_wheels_are_measured_as_their_authors_did(corpus: Path) -> None:
 
 
 def drives(file: CorpusFile) -> Iterator[tuple[float, float]]:
-    """Wheel separation and radius of each differential drive: what the file says, and what is measured."""
+    """Wheel separation and radius of each differential drive: what the file has, and what is measured."""
     if b"diff-drive" not in file.path.read_bytes():
         return
     try:
@@ -59,11 +59,11 @@ def compared(plugin: Plugin, model: Model) -> Iterator[tuple[float, float]]:
         return tuple(each.text or "" for each in plugin.content if each.name == option.replace("-", "_"))
 
     for parameter, measure in MEASURES["diff-drive"].items():
-        for said in names(parameter):
+        for value in names(parameter):
             try:
-                yield float(said), measure(Measured(model, Format.SDF, names))
+                yield float(value), measure(Measured(model, Format.SDF, names))
             except NotMeasuredError:
-                yield float(said), 0.0
+                yield float(value), 0.0
 
 
 @pytest.mark.parametrize("chunk", CHUNKS)
@@ -87,7 +87,7 @@ def problems(files: Iterable[CorpusFile]) -> Iterator[tuple[str, str]]:
 
 
 def first_link(document: Document) -> tuple[Model, Link] | None:
-    """A link to put sensors on, in a model whose name says which it is."""
+    """A link to put sensors on, in a model whose name shows which it is."""
     models = [*document.models, *(model for world in document.worlds for model in world.models)]
     names = [model.name for model in models]
     for model in models:
@@ -105,16 +105,16 @@ def added(document: Document, model: Model, link: Link) -> str:
     ]
     pipeline = Pipeline((*steps, AddPlugin.model_validate({"system": "pose-publisher", "model": model.name})))
     sink = DiagnosticSink()
-    made = pipeline.run(document, sink)
-    bridges(made, "harmonic", sink, "w")
+    equipped = pipeline.run(document, sink)
+    bridges(equipped, "harmonic", sink, "w")
     if sink.has_errors:
         return "; ".join(each.message for each in sink.diagnostics if each.is_error)
-    if len(sensors_of(made)) != len(sensors_of(document)) + len(steps):
+    if len(sensors_of(equipped)) != len(sensors_of(document)) + len(steps):
         return "the sensors are not there"
-    if not any("pose-publisher" in (plugin.filename or "") for plugin, _ in plugins_of(made)):
+    if not any("pose-publisher" in (plugin.filename or "") for plugin, _ in plugins_of(equipped)):
         return "the plugin is not there"
-    if pipeline.run(made, DiagnosticSink()) != made:
+    if pipeline.run(equipped, DiagnosticSink()) != equipped:
         return "adding twice is not adding once"
     found = DiagnosticSink()
-    emit(made, found, fit=True)
+    emit(equipped, found, fit=True)
     return "; ".join(each.message for each in found.diagnostics if each.is_error)

@@ -53,7 +53,7 @@ def _faults(file: CorpusFile) -> list[str]:
 
 
 def _of_dialects(rules: AbstractSet[Rule]) -> bool:
-    """Whether there is nothing unusual in it but the words of dialects and of other versions."""
+    """Whether there is nothing unusual in it but the syntax of dialects and of other versions."""
     return not rules & {*_REFUSED_BY_ALL, structure.UNKNOWN_ELEMENT}
 
 

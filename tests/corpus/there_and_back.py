@@ -1,4 +1,4 @@
-"""A real file taken to the other format and home again, each robot of it."""
+"""A real file taken to the other format and back, each robot of it."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -7,7 +7,7 @@ import twinform
 from tests.corpus.files import CorpusFile
 from twinform.ir import Document, Format, Include, Model
 from twinform.passes.analyses.candidates import candidates
-from twinform.testing.round_trips import Astray, RoundTrip
+from twinform.testing.round_trips import Mismatch, RoundTrip
 
 SDF_VERSION = "1.9"
 """What URDF is converted to: the newest version that libsdformat 12 reads."""
@@ -23,15 +23,15 @@ class There:
 
     name: str | None
     trip: RoundTrip
-    made: twinform.Conversion
+    conversion: twinform.Conversion
 
-    def astray(self, text: str | None = None) -> Iterator[Astray]:
-        """What is not as it was once it has come home; `text` is what has become of it there."""
+    def mismatches(self, text: str | None = None) -> Iterator[Mismatch]:
+        """What is not as it was once it has come back; `text` is what has become of it there."""
         try:
-            yield from self.trip.astray(self.trip.back(text or self.made.text))
+            yield from self.trip.mismatches(self.trip.back(text or self.conversion.text))
         except twinform.CompileError as error:
             first = next(each for each in error.diagnostics if each.is_error)
-            yield Astray(f"refused: {first.rule.name}", first.location.path, first.message)
+            yield Mismatch(f"refused: {first.rule.name}", first.location.path, first.message)
 
 
 def taken_there(file: CorpusFile, document: Document) -> Iterator[There]:
@@ -42,10 +42,10 @@ def taken_there(file: CorpusFile, document: Document) -> Iterator[There]:
     """
     for robot in robots(document):
         if document.format is Format.URDF:
-            made = twinform.convert(file.path, to="sdf", sdf_version=SDF_VERSION)
+            conversion = twinform.convert(file.path, to="sdf", sdf_version=SDF_VERSION)
         else:
-            made = twinform.convert(file.path, to="urdf", model=robot, paths=file.paths)
-        yield There(robot, RoundTrip.of(file.path, document, model=robot, paths=file.paths), made)
+            conversion = twinform.convert(file.path, to="urdf", model=robot, paths=file.paths)
+        yield There(robot, RoundTrip.of(file.path, document, model=robot, paths=file.paths), conversion)
 
 
 def robots(document: Document) -> list[str | None]:

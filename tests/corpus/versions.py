@@ -18,8 +18,8 @@ NEWEST = "1.12"
 class Trip:
     """A file in the newest version, in an older one and in the newest again.
 
-    `refused_by` are the rules of the errors on the way; `difference` is the first one between the two newest, and
-    `accounted` says whether a ledger speaks of anything that does not come back. `stale` says that carriers were not
+    `refused_by` are the rules of the errors met; `difference` is the first one between the two newest, and
+    `accounted` is whether a ledger mentions anything that does not come back. `stale` means that carriers were not
     trusted although nobody touched the file; `unclean` that the older file has parts that its version does not have.
     """
 
@@ -58,7 +58,7 @@ def there_and_back(path: Path, name: str, version: str) -> Trip | None:
 
 
 def upgraded_difference(older: Path, newer: Path) -> str | None:
-    """The first difference between a file and an older one of the same model, said in its version.
+    """The first difference between a file and an older one of the same model, written in its version.
 
     Raises:
         CompileError: one of them is refused.

@@ -1,4 +1,4 @@
-"""URDF files of the corpus that libsdformat takes, though it does not take SDF that says the same, and why."""
+"""URDF files of the corpus that libsdformat takes, though it does not take SDF that means the same, and why."""
 
 _WEIGHED_TOGETHER = "links with impossible inertia, which it lumps into their parents when it reads URDF itself"
 LIBSDFORMAT = {

@@ -99,7 +99,7 @@ def test_torque_drives_a_robot_with_friction_as_its_source(name: str, form: str,
 
 
 @pytest.mark.parametrize("form", FORMS)
-def test_an_arm_turns_its_joints_as_fast_as_they_are_told(form: str, folder: Path) -> None:
+def test_an_arm_turns_its_joints_as_fast_as_they_are_commanded(form: str, folder: Path) -> None:
     path = _form("arm", form, folder)
     turning = [
         joint

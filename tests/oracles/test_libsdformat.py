@@ -59,7 +59,7 @@ def _converted(files: Iterator[CorpusFile], folder: Path) -> Iterator[tuple[Path
         yield path, file.name
 
 
-def test_good_and_bad_files_are_told_apart(tmp_path: Path):
+def test_good_and_bad_files_are_distinguished(tmp_path: Path):
     good, bad, missing = tmp_path / "good.sdf", tmp_path / "bad.sdf", tmp_path / "missing.sdf"
     good.write_text("<sdf version='1.9'><model name='m'><link name='a'/></model></sdf>")
     bad.write_text("<sdf version='1.9'><model name='m'/></sdf>")
@@ -81,7 +81,7 @@ def test_a_file_that_the_library_does_not_survive_spoils_no_other(tmp_path: Path
 
 @pytest.mark.parametrize("name", ["frame_link", "gazebo_joint", "gazebo_tags", "world_link"])
 def test_what_is_carried_is_passed_over_in_silence(name: str, tmp_path: Path):
-    """Carriers and marks are no concern of Gazebo."""
+    """Carriers and annotations are no concern of Gazebo."""
     made = twinform.convert(CASES / f"{name}.urdf", to="sdf", sdf_version=SDF_VERSION).text
     path = tmp_path.resolve() / "made.sdf"
     path.write_text(made)

@@ -13,7 +13,7 @@ from tests.corpus.files import ROOT
 from tests.profile import DEEP
 from twinform.testing import oracles
 from twinform.testing.oracles import libsdformat
-from twinform.testing.oracles.in_process import look
+from twinform.testing.oracles.in_process import read_robot
 from twinform.testing.oracles.libsdformat.library import describe
 from twinform.testing.oracles.robot import Matrix, Sample, inverse
 
@@ -63,7 +63,7 @@ def test_links_move_alike_whichever_of_them_is_the_root(suffix: str, tmp_path: P
     to = "urdf" if suffix == "urdf" else "sdf"
     source.write_text(twinform.convert(ROOT / "examples/rover.urdf", to=to).text)
     output.write_text(twinform.convert(source, to=to, passes="reroot{link=rear_left_wheel}").text)
-    before, after = look(source, "drake"), look(output, "drake")
+    before, after = read_robot(source, "drake"), read_robot(output, "drake")
     assert {*before.joints} == {*after.joints}
     for one, other in zip(before.samples, after.samples, strict=True):
         here, there = _from_base(one), _from_base(other)

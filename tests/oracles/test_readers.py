@@ -101,6 +101,6 @@ def test_a_reader_that_minds_is_found_out(tmp_path: Path) -> None:
         pytest.skip(mindful.needs)
     # an empty attribute is what carriers avoid
     text = twinform.convert(URDF.encode(), to="sdf", sdf_version=SDF_VERSION).text
-    marked = text.replace("</model>", '<tf:urdf><material name=""/></tf:urdf></model>')
-    assert _effect(mindful, marked, tmp_path, ".sdf") is Effect.OTHERWISE
+    annotated = text.replace("</model>", '<tf:urdf><material name=""/></tf:urdf></model>')
+    assert _effect(mindful, annotated, tmp_path, ".sdf") is Effect.OTHERWISE
     mindful.close()

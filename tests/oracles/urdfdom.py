@@ -1,4 +1,4 @@
-"""What urdfdom, the parser of ROS, says of a file."""
+"""What urdfdom, the parser of ROS, reports on a file."""
 
 import shutil
 import subprocess
@@ -15,7 +15,7 @@ def available() -> bool:
 def complaints(path: Path) -> tuple[str, ...]:
     """Its error messages; none where it reads the whole file.
 
-    The exit status alone is not enough: after a fault in a link the parser drops the rest of the link, says so, and
+    The exit status alone is not enough: after a fault in a link the parser drops the rest of the link, logs that, and
     calls the file good.
     """
     done = subprocess.run(["check_urdf", str(path)], capture_output=True, text=True, check=False, errors="replace")

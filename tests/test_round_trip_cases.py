@@ -1,4 +1,4 @@
-"""What once did not come home: every file of `tests/cases/home` goes to the other format and back, and is as it was."""
+"""What once did not come back: every file of `tests/cases/round_trip` is as it was after a round trip."""
 
 from pathlib import Path
 
@@ -9,7 +9,7 @@ from twinform.compiler.audit import audit
 from twinform.testing.round_trips import RoundTrip
 
 CASES = Path(__file__).parent / "cases"
-HOME = sorted((CASES / "home").iterdir())
+ROUND_TRIPS = sorted((CASES / "round_trip").iterdir())
 ACCEPTED = [
     path
     for path in sorted((CASES / "convert").iterdir())
@@ -21,14 +21,14 @@ def _name(path: Path) -> str:
     return f"{path.parent.name}/{path.name}"
 
 
-@pytest.mark.parametrize("path", HOME, ids=_name)
-def test_it_comes_home(path: Path) -> None:
+@pytest.mark.parametrize("path", ROUND_TRIPS, ids=_name)
+def test_it_comes_back(path: Path) -> None:
     trip = RoundTrip.of(path, twinform.load(path))
     there = twinform.convert(path, to="urdf" if path.suffix == ".sdf" else "sdf").text
-    assert list(trip.astray(trip.back(there))) == []
+    assert list(trip.mismatches(trip.back(there))) == []
 
 
-@pytest.mark.parametrize("path", [*HOME, *ACCEPTED], ids=_name)
+@pytest.mark.parametrize("path", [*ROUND_TRIPS, *ACCEPTED], ids=_name)
 def test_an_audit_accounts_for_every_part_there_and_back(path: Path) -> None:
     own, other = ("sdf", "urdf") if path.suffix == ".sdf" else ("urdf", "sdf")
     there = twinform.convert(path, to=other)
