@@ -6,14 +6,17 @@ SHELL := bash
 
 PYTHON ?= python3
 JOBS ?= 2
-# of `make report`: which one, and its options
+# of `make report`: which one, and its options; of `make bench` too
 NAME ?=
 ARGS ?=
+# of `make bench`: the folder of an older checkout
+BEFORE ?=
 BIN := .venv/bin
 # what .venv was made from; a change of the project file makes it again
 SYNCED := .venv/.synced
 ORACLES := .venv/.oracles
 READERS := .venv/.readers
+PEERS := .venv/.peers
 DEMO := out/demo
 
 .PHONY: help sync fmt generate lint wheel test demo report bench before prove coverage fuzz clean
@@ -40,6 +43,10 @@ fmt: $(SYNCED) ## format, and mend what the linter can mend
 
 generate: $(SYNCED) ## write the files that are made from tables: schemas and reference pages
 	$(BIN)/python -m twinform.schemas.generate
+	$(BIN)/python -m twinform.compiler.input.readers.generate
+	$(BIN)/python -m twinform.diagnostics.built_in_table twinform/diagnostics/built_in.py
+	$(BIN)/python -m twinform.passes.framework.built_in_table twinform/passes/framework/built_in.py
+	$(BIN)/python -m twinform.compiler.input.readers.generate
 	$(BIN)/python -m twinform.diagnostics.pages docs/reference/rules.md
 	$(BIN)/python -m twinform.passes.framework.pages docs/reference/passes.md
 	$(BIN)/python -m twinform.passes.legalise.page docs/explanation/pipeline.md
@@ -53,6 +60,10 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/basedpyright
 	$(BIN)/lint-imports
 	$(BIN)/python -m twinform.schemas.generate --check
+	$(BIN)/python -m twinform.compiler.input.readers.generate --check
+	$(BIN)/python -m twinform.diagnostics.built_in_table twinform/diagnostics/built_in.py --check
+	$(BIN)/python -m twinform.passes.framework.built_in_table twinform/passes/framework/built_in.py --check
+	$(BIN)/python -m twinform.compiler.input.readers.generate --check
 	$(BIN)/python -m twinform.diagnostics.pages docs/reference/rules.md --check
 	$(BIN)/python -m twinform.passes.framework.pages docs/reference/passes.md --check
 	$(BIN)/python -m twinform.passes.legalise.page docs/explanation/pipeline.md --check
@@ -75,7 +86,7 @@ prove: $(ORACLES) ## all tests at depth: 1,000 examples of each property, 100,00
 coverage: $(ORACLES) # how much of the package the tests run, branches and child processes too
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal --cov --cov-report=term --cov-report=html:out/coverage
 
-fuzz: $(SYNCED) # ten minutes of atheris for each target; docs/evidence/proof.md says how to run it for hours
+fuzz: $(SYNCED) # ten minutes of atheris for each target; docs/evidence/proof.md has how to run it for hours
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --group fuzz
 	mkdir -p out/fuzz/load out/fuzz/pipeline
 	PYTHONPATH=. $(BIN)/python fuzz/load.py out/fuzz/load tests/fuzz/found/load examples -max_total_time=600
@@ -104,8 +115,12 @@ $(READERS): $(ORACLES)
 	npm install --silent --no-audit --no-fund --prefix out/readers urdf-loader three jsdom || echo "without npm"
 	touch $@
 
-bench: $(SYNCED) ## how fast it is; writes docs/evidence/performance.md
-	$(BIN)/python -m benchmarks.bench
+$(PEERS): $(SYNCED)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[bench]' || echo "not all peers are here"
+	touch $@
+
+bench: $(PEERS) ## how fast it is, beside its peers; writes docs/evidence/performance.md: BEFORE=../older ARGS="--quick"
+	$(BIN)/python -m benchmarks.bench $(if $(BEFORE),--before $(BEFORE)) $(ARGS)
 
 before: $(SYNCED) ## outputs and speed of this tree beside those of an older checkout: make before WITH=../older
 	$(BIN)/python -m benchmarks.before $(WITH) --every 8
