@@ -27,8 +27,8 @@ write_root: Write = $root
 _IMPORT = Template("from twinform.schemas.$module import (\n$names\n)")
 _TYPES = ("TextOutput", "Write")
 _HELPERS = {
-    "text_output": "bool_attribute bool_text in_attribute in_text number pose_numbers vector3",
-    "values": "format_numbers format_value",
+    "text_output": "bool_attribute bool_text in_attribute in_text pose_numbers vector3",
+    "values": "format_number format_numbers format_value",
 }
 """The functions that code calls, by their modules."""
 _KINDS = Template("$name: dict[str, Write] = {\n$writers\n}\n")
@@ -94,7 +94,7 @@ _END_OF_TEXT = Template("""\
 _SHOWN = {
     "bool": "{bool$escape(values, $quote$field$quote)}",
     "string": "{in$escape(value)}",
-    "double": "{number(value)}",
+    "double": "{format_number(value)}",
     "vector3": "{vector3(value)}",
     **dict.fromkeys(("vector2d", "quaternion", "color", "color4"), "{format_numbers(value)}"),
 }

@@ -73,11 +73,6 @@ def _spelling(values: Mapping[str, Any], field: str) -> str:
     return spelt if spelt is not None and parse_bool(spelt) == values[field] else format_value(values[field])
 
 
-def number(value: float) -> str:
-    """The shortest text that reads back as the same double."""
-    return repr(value).removesuffix(".0")
-
-
 def vector3(values: Sequence[float]) -> str:
     """A vector of three numbers, which nearly all are."""
     x, y, z = values

@@ -37,7 +37,7 @@ def format_value(value: object) -> str:
 
 def format_numbers(values: tuple[float, ...]) -> str:
     """The text of a vector."""
-    return " ".join([repr(value).removesuffix(".0") for value in values])
+    return " ".join(map(format_number, values))
 
 
 _TRUE = frozenset({"true", "1"})

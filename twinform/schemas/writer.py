@@ -13,7 +13,7 @@ from lxml import etree
 from lxml.etree import SubElement
 
 from twinform.schemas.facts import Fact, Table, Version, rows_by_name, table
-from twinform.schemas.values import format_numbers, format_value, parse_bool
+from twinform.schemas.values import format_number, format_numbers, format_value, parse_bool
 from twinform.schemas.xml import XmlElement
 
 Write = Callable[[Any, XmlElement], None]
@@ -279,7 +279,7 @@ def _show_text(value: str, _: Any) -> str:
 
 
 def _show_number(value: float, _: Any) -> str:
-    return repr(value).removesuffix(".0")
+    return format_number(value)
 
 
 def _show_vector(value: tuple[float, ...], _: Any) -> str:

@@ -9,11 +9,11 @@ from twinform.schemas.text_output import (
     bool_text,
     in_attribute,
     in_text,
-    number,
     pose_numbers,
     vector3,
 )
 from twinform.schemas.values import (
+    format_number,
     format_numbers,
     format_value,
 )
@@ -90,7 +90,7 @@ def write_light(node: Any, out: TextOutput, indent: str) -> str:
     if (value := values["cast_shadows"]) is not None:
         body += f"{inner}<cast_shadows>{bool_text(values, 'cast_shadows')}</cast_shadows>"
     if (value := values["intensity"]) is not None:
-        body += f"{inner}<intensity>{number(value)}</intensity>"
+        body += f"{inner}<intensity>{format_number(value)}</intensity>"
     if (value := values["diffuse"]) is not None:
         body += f"{inner}<diffuse>{format_numbers(value)}</diffuse>"
     if (value := values["specular"]) is not None:
@@ -138,13 +138,13 @@ def write_joint_axis_dynamics(node: Any, out: TextOutput, indent: str) -> str:
     inner = indent + "  "
     body = ""
     if (value := values["damping"]) is not None:
-        body += f"{inner}<damping>{number(value)}</damping>"
+        body += f"{inner}<damping>{format_number(value)}</damping>"
     if (value := values["friction"]) is not None:
-        body += f"{inner}<friction>{number(value)}</friction>"
+        body += f"{inner}<friction>{format_number(value)}</friction>"
     if (value := values["spring_reference"]) is not None:
-        body += f"{inner}<spring_reference>{number(value)}</spring_reference>"
+        body += f"{inner}<spring_reference>{format_number(value)}</spring_reference>"
     if (value := values["spring_stiffness"]) is not None:
-        body += f"{inner}<spring_stiffness>{number(value)}</spring_stiffness>"
+        body += f"{inner}<spring_stiffness>{format_number(value)}</spring_stiffness>"
     if values["opaque"]:
         return out.with_untyped(node, "joint/axis/dynamics", indent, body=body)
     return f"{indent}<dynamics>{body}{indent}</dynamics>" if body else ""
@@ -156,17 +156,17 @@ def write_joint_axis_limit(node: Any, out: TextOutput, indent: str) -> str:
     inner = indent + "  "
     body = ""
     if (value := values["lower"]) is not None:
-        body += f"{inner}<lower>{number(value)}</lower>"
+        body += f"{inner}<lower>{format_number(value)}</lower>"
     if (value := values["upper"]) is not None:
-        body += f"{inner}<upper>{number(value)}</upper>"
+        body += f"{inner}<upper>{format_number(value)}</upper>"
     if (value := values["effort"]) is not None:
-        body += f"{inner}<effort>{number(value)}</effort>"
+        body += f"{inner}<effort>{format_number(value)}</effort>"
     if (value := values["velocity"]) is not None:
-        body += f"{inner}<velocity>{number(value)}</velocity>"
+        body += f"{inner}<velocity>{format_number(value)}</velocity>"
     if (value := values["stiffness"]) is not None:
-        body += f"{inner}<stiffness>{number(value)}</stiffness>"
+        body += f"{inner}<stiffness>{format_number(value)}</stiffness>"
     if (value := values["dissipation"]) is not None:
-        body += f"{inner}<dissipation>{number(value)}</dissipation>"
+        body += f"{inner}<dissipation>{format_number(value)}</dissipation>"
     if values["opaque"]:
         return out.with_untyped(node, "joint/axis/limit", indent, body=body)
     return f"{indent}<limit>{body}{indent}</limit>" if body else ""
@@ -182,11 +182,11 @@ def write_mimic(node: Any, out: TextOutput, indent: str) -> str:
     if (value := values["axis"]) is not None:
         attributes += f' axis="{in_attribute(value)}"'
     if (value := values["multiplier"]) is not None:
-        body += f"{inner}<multiplier>{number(value)}</multiplier>"
+        body += f"{inner}<multiplier>{format_number(value)}</multiplier>"
     if (value := values["offset"]) is not None:
-        body += f"{inner}<offset>{number(value)}</offset>"
+        body += f"{inner}<offset>{format_number(value)}</offset>"
     if (value := values["reference"]) is not None:
-        body += f"{inner}<reference>{number(value)}</reference>"
+        body += f"{inner}<reference>{format_number(value)}</reference>"
     if values["opaque"]:
         return out.with_untyped(node, "mimic", indent, attributes=attributes, body=body)
     if body:
@@ -246,7 +246,7 @@ def write_sensor(node: Any, out: TextOutput, indent: str) -> str:
     if (value := values["always_on"]) is not None:
         body += f"{inner}<always_on>{bool_text(values, 'always_on')}</always_on>"
     if (value := values["update_rate"]) is not None:
-        body += f"{inner}<update_rate>{number(value)}</update_rate>"
+        body += f"{inner}<update_rate>{format_number(value)}</update_rate>"
     if (value := values["visualize"]) is not None:
         body += f"{inner}<visualize>{bool_text(values, 'visualize')}</visualize>"
     if (value := values["topic"]) is not None:
@@ -280,13 +280,13 @@ def write_joint(node: Any, out: TextOutput, indent: str) -> str:
     if (value := values["child"]) is not None:
         body += f"{inner}<child>{in_text(value)}</child>"
     if (value := values["gearbox_ratio"]) is not None:
-        body += f"{inner}<gearbox_ratio>{number(value)}</gearbox_ratio>"
+        body += f"{inner}<gearbox_ratio>{format_number(value)}</gearbox_ratio>"
     if (value := values["gearbox_reference_body"]) is not None:
         body += f"{inner}<gearbox_reference_body>{in_text(value)}</gearbox_reference_body>"
     if (value := values["thread_pitch"]) is not None:
-        body += f"{inner}<thread_pitch>{number(value)}</thread_pitch>"
+        body += f"{inner}<thread_pitch>{format_number(value)}</thread_pitch>"
     if (value := values["screw_thread_pitch"]) is not None:
-        body += f"{inner}<screw_thread_pitch>{number(value)}</screw_thread_pitch>"
+        body += f"{inner}<screw_thread_pitch>{format_number(value)}</screw_thread_pitch>"
     if (value := values["axis"]) is not None:
         body += write_joint_axis(value, out, inner)
     if (value := values["axis2"]) is not None:
@@ -322,17 +322,17 @@ def write_inertial_inertia(node: Any, out: TextOutput, indent: str) -> str:
     inner = indent + "  "
     body = ""
     if (value := values["ixx"]) is not None:
-        body += f"{inner}<ixx>{number(value)}</ixx>"
+        body += f"{inner}<ixx>{format_number(value)}</ixx>"
     if (value := values["ixy"]) is not None:
-        body += f"{inner}<ixy>{number(value)}</ixy>"
+        body += f"{inner}<ixy>{format_number(value)}</ixy>"
     if (value := values["ixz"]) is not None:
-        body += f"{inner}<ixz>{number(value)}</ixz>"
+        body += f"{inner}<ixz>{format_number(value)}</ixz>"
     if (value := values["iyy"]) is not None:
-        body += f"{inner}<iyy>{number(value)}</iyy>"
+        body += f"{inner}<iyy>{format_number(value)}</iyy>"
     if (value := values["iyz"]) is not None:
-        body += f"{inner}<iyz>{number(value)}</iyz>"
+        body += f"{inner}<iyz>{format_number(value)}</iyz>"
     if (value := values["izz"]) is not None:
-        body += f"{inner}<izz>{number(value)}</izz>"
+        body += f"{inner}<izz>{format_number(value)}</izz>"
     if values["opaque"]:
         return out.with_untyped(node, "inertial/inertia", indent, body=body)
     return f"{indent}<inertia>{body}{indent}</inertia>" if body else ""
@@ -348,7 +348,7 @@ def write_inertial(node: Any, out: TextOutput, indent: str) -> str:
     if (value := values["pose"]) is not None:
         body += (write_inertial_pose if out.version >= (1, 8) else write_pose)(value, out, inner)
     if (value := values["mass"]) is not None:
-        body += f"{inner}<mass>{number(value)}</mass>"
+        body += f"{inner}<mass>{format_number(value)}</mass>"
     if (value := values["inertia"]) is not None:
         body += write_inertial_inertia(value, out, inner)
     if values["opaque"]:
@@ -384,9 +384,9 @@ def write_geometry_capsule(node: Any, out: TextOutput, indent: str) -> str:
     inner = indent + "  "
     body = ""
     if (value := values["radius"]) is not None:
-        body += f"{inner}<radius>{number(value)}</radius>"
+        body += f"{inner}<radius>{format_number(value)}</radius>"
     if (value := values["length"]) is not None:
-        body += f"{inner}<length>{number(value)}</length>"
+        body += f"{inner}<length>{format_number(value)}</length>"
     if values["opaque"]:
         return out.with_untyped(node, "geometry/capsule", indent, body=body, keep=True)
     return f"{indent}<capsule>{body}{indent}</capsule>" if body else f"{indent}<capsule/>"
@@ -398,9 +398,9 @@ def write_geometry_cone(node: Any, out: TextOutput, indent: str) -> str:
     inner = indent + "  "
     body = ""
     if (value := values["radius"]) is not None:
-        body += f"{inner}<radius>{number(value)}</radius>"
+        body += f"{inner}<radius>{format_number(value)}</radius>"
     if (value := values["length"]) is not None:
-        body += f"{inner}<length>{number(value)}</length>"
+        body += f"{inner}<length>{format_number(value)}</length>"
     if values["opaque"]:
         return out.with_untyped(node, "geometry/cone", indent, body=body, keep=True)
     return f"{indent}<cone>{body}{indent}</cone>" if body else f"{indent}<cone/>"
@@ -412,9 +412,9 @@ def write_geometry_cylinder(node: Any, out: TextOutput, indent: str) -> str:
     inner = indent + "  "
     body = ""
     if (value := values["radius"]) is not None:
-        body += f"{inner}<radius>{number(value)}</radius>"
+        body += f"{inner}<radius>{format_number(value)}</radius>"
     if (value := values["length"]) is not None:
-        body += f"{inner}<length>{number(value)}</length>"
+        body += f"{inner}<length>{format_number(value)}</length>"
     if values["opaque"]:
         return out.with_untyped(node, "geometry/cylinder", indent, body=body, keep=True)
     return f"{indent}<cylinder>{body}{indent}</cylinder>" if body else f"{indent}<cylinder/>"
@@ -490,7 +490,7 @@ def write_geometry_polyline(node: Any, out: TextOutput, indent: str) -> str:
     inner = indent + "  "
     body = ""
     if (value := values["height"]) is not None:
-        body += f"{inner}<height>{number(value)}</height>"
+        body += f"{inner}<height>{format_number(value)}</height>"
     if values["opaque"]:
         return out.with_untyped(node, "geometry/polyline", indent, body=body, keep=True)
     return f"{indent}<polyline>{body}{indent}</polyline>" if body else f"{indent}<polyline/>"
@@ -502,7 +502,7 @@ def write_geometry_sphere(node: Any, out: TextOutput, indent: str) -> str:
     inner = indent + "  "
     body = ""
     if (value := values["radius"]) is not None:
-        body += f"{inner}<radius>{number(value)}</radius>"
+        body += f"{inner}<radius>{format_number(value)}</radius>"
     if values["opaque"]:
         return out.with_untyped(node, "geometry/sphere", indent, body=body, keep=True)
     return f"{indent}<sphere>{body}{indent}</sphere>" if body else f"{indent}<sphere/>"
@@ -541,9 +541,9 @@ def write_surface_bounce(values: dict[str, Any], indent: str) -> str:
     inner = indent + "  "
     body = ""
     if (value := values["restitution_coefficient"]) is not None:
-        body += f"{inner}<restitution_coefficient>{number(value)}</restitution_coefficient>"
+        body += f"{inner}<restitution_coefficient>{format_number(value)}</restitution_coefficient>"
     if (value := values["threshold"]) is not None:
-        body += f"{inner}<threshold>{number(value)}</threshold>"
+        body += f"{inner}<threshold>{format_number(value)}</threshold>"
     return f"{indent}<bounce>{body}{indent}</bounce>" if body else ""
 
 
@@ -552,15 +552,15 @@ def write_surface_friction_ode(values: dict[str, Any], indent: str) -> str:
     inner = indent + "  "
     body = ""
     if (value := values["mu"]) is not None:
-        body += f"{inner}<mu>{number(value)}</mu>"
+        body += f"{inner}<mu>{format_number(value)}</mu>"
     if (value := values["mu2"]) is not None:
-        body += f"{inner}<mu2>{number(value)}</mu2>"
+        body += f"{inner}<mu2>{format_number(value)}</mu2>"
     if (value := values["fdir1"]) is not None:
         body += f"{inner}<fdir1>{vector3(value)}</fdir1>"
     if (value := values["slip1"]) is not None:
-        body += f"{inner}<slip1>{number(value)}</slip1>"
+        body += f"{inner}<slip1>{format_number(value)}</slip1>"
     if (value := values["slip2"]) is not None:
-        body += f"{inner}<slip2>{number(value)}</slip2>"
+        body += f"{inner}<slip2>{format_number(value)}</slip2>"
     return f"{indent}<ode>{body}{indent}</ode>" if body else ""
 
 
@@ -577,13 +577,13 @@ def write_surface_contact_ode(values: dict[str, Any], indent: str) -> str:
     inner = indent + "  "
     body = ""
     if (value := values["kp"]) is not None:
-        body += f"{inner}<kp>{number(value)}</kp>"
+        body += f"{inner}<kp>{format_number(value)}</kp>"
     if (value := values["kd"]) is not None:
-        body += f"{inner}<kd>{number(value)}</kd>"
+        body += f"{inner}<kd>{format_number(value)}</kd>"
     if (value := values["max_vel"]) is not None:
-        body += f"{inner}<max_vel>{number(value)}</max_vel>"
+        body += f"{inner}<max_vel>{format_number(value)}</max_vel>"
     if (value := values["min_depth"]) is not None:
-        body += f"{inner}<min_depth>{number(value)}</min_depth>"
+        body += f"{inner}<min_depth>{format_number(value)}</min_depth>"
     return f"{indent}<ode>{body}{indent}</ode>" if body else ""
 
 
@@ -618,7 +618,7 @@ def write_collision(node: Any, out: TextOutput, indent: str) -> str:
     if (value := values["pose"]) is not None:
         body += write_pose(value, out, inner)
     if (value := values["laser_retro"]) is not None:
-        body += f"{inner}<laser_retro>{number(value)}</laser_retro>"
+        body += f"{inner}<laser_retro>{format_number(value)}</laser_retro>"
     if (value := values["max_contacts"]) is not None:
         body += f"{inner}<max_contacts>{format_value(value)}</max_contacts>"
     if (value := values["geometry"]) is not None:

@@ -6,10 +6,10 @@ from twinform.schemas.text_output import (
     TextOutput,
     Write,
     in_attribute,
-    number,
     vector3,
 )
 from twinform.schemas.values import (
+    format_number,
     format_numbers,
 )
 
@@ -34,17 +34,17 @@ def write_link_inertial_inertia(node: Any, out: TextOutput, indent: str) -> str:
     values = node.__dict__
     attributes = ""
     if (value := values["ixx"]) is not None:
-        attributes += f' ixx="{number(value)}"'
+        attributes += f' ixx="{format_number(value)}"'
     if (value := values["ixy"]) is not None:
-        attributes += f' ixy="{number(value)}"'
+        attributes += f' ixy="{format_number(value)}"'
     if (value := values["ixz"]) is not None:
-        attributes += f' ixz="{number(value)}"'
+        attributes += f' ixz="{format_number(value)}"'
     if (value := values["iyy"]) is not None:
-        attributes += f' iyy="{number(value)}"'
+        attributes += f' iyy="{format_number(value)}"'
     if (value := values["iyz"]) is not None:
-        attributes += f' iyz="{number(value)}"'
+        attributes += f' iyz="{format_number(value)}"'
     if (value := values["izz"]) is not None:
-        attributes += f' izz="{number(value)}"'
+        attributes += f' izz="{format_number(value)}"'
     if values["opaque"]:
         return out.with_untyped(node, "link/inertial/inertia", indent, attributes=attributes)
     return f"{indent}<inertia{attributes}/>" if attributes else ""
@@ -58,7 +58,7 @@ def write_link_inertial(node: Any, out: TextOutput, indent: str) -> str:
     if (value := values["pose"]) is not None:
         body += write_origin(value, out, inner)
     if (value := values["mass"]) is not None:
-        body += f'{inner}<mass value="{number(value)}"/>'
+        body += f'{inner}<mass value="{format_number(value)}"/>'
     if (value := values["inertia"]) is not None:
         body += write_link_inertial_inertia(value, out, inner)
     if values["opaque"]:
@@ -82,9 +82,9 @@ def write_geometry_cylinder(node: Any, out: TextOutput, indent: str) -> str:
     values = node.__dict__
     attributes = ""
     if (value := values["radius"]) is not None:
-        attributes += f' radius="{number(value)}"'
+        attributes += f' radius="{format_number(value)}"'
     if (value := values["length"]) is not None:
-        attributes += f' length="{number(value)}"'
+        attributes += f' length="{format_number(value)}"'
     if values["opaque"]:
         return out.with_untyped(node, "geometry/cylinder", indent, attributes=attributes, keep=True)
     return f"{indent}<cylinder{attributes}/>"
@@ -95,7 +95,7 @@ def write_geometry_sphere(node: Any, out: TextOutput, indent: str) -> str:
     values = node.__dict__
     attributes = ""
     if (value := values["radius"]) is not None:
-        attributes += f' radius="{number(value)}"'
+        attributes += f' radius="{format_number(value)}"'
     if values["opaque"]:
         return out.with_untyped(node, "geometry/sphere", indent, attributes=attributes, keep=True)
     return f"{indent}<sphere{attributes}/>"
@@ -106,9 +106,9 @@ def write_geometry_capsule(node: Any, out: TextOutput, indent: str) -> str:
     values = node.__dict__
     attributes = ""
     if (value := values["radius"]) is not None:
-        attributes += f' radius="{number(value)}"'
+        attributes += f' radius="{format_number(value)}"'
     if (value := values["length"]) is not None:
-        attributes += f' length="{number(value)}"'
+        attributes += f' length="{format_number(value)}"'
     if values["opaque"]:
         return out.with_untyped(node, "geometry/capsule", indent, attributes=attributes, keep=True)
     return f"{indent}<capsule{attributes}/>"
@@ -231,19 +231,19 @@ def write_joint_limit(node: Any, out: TextOutput, indent: str) -> str:
     values = node.__dict__
     attributes = ""
     if (value := values["lower"]) is not None:
-        attributes += f' lower="{number(value)}"'
+        attributes += f' lower="{format_number(value)}"'
     if (value := values["upper"]) is not None:
-        attributes += f' upper="{number(value)}"'
+        attributes += f' upper="{format_number(value)}"'
     if (value := values["effort"]) is not None:
-        attributes += f' effort="{number(value)}"'
+        attributes += f' effort="{format_number(value)}"'
     if (value := values["velocity"]) is not None:
-        attributes += f' velocity="{number(value)}"'
+        attributes += f' velocity="{format_number(value)}"'
     if (value := values["acceleration"]) is not None:
-        attributes += f' acceleration="{number(value)}"'
+        attributes += f' acceleration="{format_number(value)}"'
     if (value := values["deceleration"]) is not None:
-        attributes += f' deceleration="{number(value)}"'
+        attributes += f' deceleration="{format_number(value)}"'
     if (value := values["jerk"]) is not None:
-        attributes += f' jerk="{number(value)}"'
+        attributes += f' jerk="{format_number(value)}"'
     if values["opaque"]:
         return out.with_untyped(node, "joint/limit", indent, attributes=attributes)
     return f"{indent}<limit{attributes}/>" if attributes else ""
@@ -254,9 +254,9 @@ def write_joint_dynamics(node: Any, out: TextOutput, indent: str) -> str:
     values = node.__dict__
     attributes = ""
     if (value := values["damping"]) is not None:
-        attributes += f' damping="{number(value)}"'
+        attributes += f' damping="{format_number(value)}"'
     if (value := values["friction"]) is not None:
-        attributes += f' friction="{number(value)}"'
+        attributes += f' friction="{format_number(value)}"'
     if values["opaque"]:
         return out.with_untyped(node, "joint/dynamics", indent, attributes=attributes)
     return f"{indent}<dynamics{attributes}/>" if attributes else ""
@@ -269,9 +269,9 @@ def write_joint_mimic(node: Any, out: TextOutput, indent: str) -> str:
     if (value := values["joint"]) is not None:
         attributes += f' joint="{in_attribute(value)}"'
     if (value := values["multiplier"]) is not None:
-        attributes += f' multiplier="{number(value)}"'
+        attributes += f' multiplier="{format_number(value)}"'
     if (value := values["offset"]) is not None:
-        attributes += f' offset="{number(value)}"'
+        attributes += f' offset="{format_number(value)}"'
     if values["opaque"]:
         return out.with_untyped(node, "joint/mimic", indent, attributes=attributes)
     return f"{indent}<mimic{attributes}/>" if attributes else ""
