@@ -13,7 +13,6 @@ from twinform.compiler.batch.dependencies import Dependency, are_same, dependenc
 from twinform.compiler.batch.entries import Entry
 from twinform.compiler.batch.record import Outcome, Record, Row
 from twinform.compiler.batch.time_limit import LateError, time_limit
-from twinform.compiler.input.limits import LARGEST
 from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.input.regular_files import read_regular
 from twinform.compiler.observing import observed
@@ -157,7 +156,7 @@ def _alone(task: Task) -> Task:
 
 def _worked(task: Task) -> Done:
     try:
-        content = read_regular(task.path, LARGEST + 1)
+        content = read_regular(task.path, task.load_options.limits.size)
     except OSError as error:
         return Done(outcome=Outcome.UNREADABLE, message=f"it cannot be read: {error.strerror}", dependencies=None)
     try:

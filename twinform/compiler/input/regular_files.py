@@ -5,6 +5,8 @@ import os
 import stat
 from pathlib import Path
 
+from twinform.compiler.input.limits import read_up_to
+
 _DO_NOT_WAIT = getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
 _WORDS = {
     stat.S_IFIFO: "a pipe",
@@ -15,8 +17,8 @@ _WORDS = {
 }
 
 
-def read_regular(path: Path, most: int = -1) -> bytes:
-    """The bytes of a file, at most so many; a symbolic link is followed.
+def read_regular(path: Path, size: int | None = None) -> bytes:
+    """The bytes of a file, or of one that has more than `size`, one byte more than these; symbolic links are followed.
 
     Raises:
         OSError: it cannot be read, or is no regular file.
@@ -25,7 +27,7 @@ def read_regular(path: Path, most: int = -1) -> bytes:
     descriptor = os.open(path, os.O_RDONLY | _DO_NOT_WAIT)
     with os.fdopen(descriptor, "rb") as file:
         _require_regular(os.fstat(file.fileno()), path)  # something else may have taken its place
-        return file.read(most)
+        return file.read() if size is None else read_up_to(file, size)
 
 
 def _require_regular(status: os.stat_result, path: Path) -> None:

@@ -11,6 +11,7 @@ from twinform.compiler.batch.entries import Entry
 from twinform.compiler.batch.jobs import Convert
 from twinform.compiler.batch.record import Outcome
 from twinform.compiler.batch.task import Done, Task, work
+from twinform.compiler.input.limits import LARGEST, Limits
 from twinform.diagnostics import DiagnosticSink, Policy
 from twinform.ir import Document
 from twinform.passes import Pass, Pipeline
@@ -43,6 +44,19 @@ def test_a_model_is_converted_with_its_ledger(tmp_path: Path) -> None:
     assert '<link name="a">' in done.texts["r.sdf"]
     assert done.ledger == {"expressed": 4, "carried": 0, "approximated": 0, "dropped": 0}
     assert json.loads(done.texts["r.sdf.ledger.json"])["expressed"] == 4
+
+
+def test_a_lifted_limit_reads_the_whole_file(tmp_path: Path) -> None:
+    path = tmp_path / "r.urdf"
+    padding = f"<!--{' ' * 2**20}-->"
+    path.write_text(f'<robot name="r">{padding * (LARGEST // 2**20)}<link name="a"/></robot>')
+    job = Convert(to=ConversionRequest(to="sdf", passes=Pipeline(())), policy=Policy(), ledgers=False)
+    outcomes = [
+        work(Task(entry=Entry("r.urdf", "r.urdf"), job=job, root=str(tmp_path), load_options=options, output="r.sdf"))
+        for options in (LoadOptions(), LoadOptions(limits=Limits(size=2 * LARGEST)))
+    ]
+    assert [done.outcome for done in outcomes] == [Outcome.UNREADABLE, Outcome.CONVERTED]
+    assert "give a larger --max-size" in str(outcomes[0].diagnostics)
 
 
 def test_warnings_are_kept(tmp_path: Path) -> None:
