@@ -1,7 +1,7 @@
 """Did you mean: suggests the known name that is nearest to one that is not known, as the help of a finding."""
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from itertools import islice
 
 _LONGEST = 80
@@ -49,7 +49,7 @@ def _nearest(name: str, others: Iterable[str], alike: float) -> str:
     from difflib import SequenceMatcher  # noqa: PLC0415 - most files have no slip
 
     matcher = SequenceMatcher(b=name)
-    letters = [*Counter(name).items()]
+    letters = Counter(name)
     bounds = [(_most_alike(name, letters, each), each) for each in others]
     best = alike, ""
     for bound, other in sorted((pair for pair in bounds if pair[0] >= alike), reverse=True):
@@ -60,9 +60,9 @@ def _nearest(name: str, others: Iterable[str], alike: float) -> str:
     return best[1]
 
 
-def _most_alike(name: str, letters: Iterable[tuple[str, int]], other: str) -> float:
+def _most_alike(name: str, letters: Mapping[str, int], other: str) -> float:
     """How much alike two names can be at most, by the letters that they share; it is the `quick_ratio` of `difflib`."""
-    shared = sum([min(count, other.count(letter)) for letter, count in letters])
+    shared = sum(map(min, letters.values(), map(other.count, letters)))
     return 2 * shared / (len(name) + len(other))
 
 
