@@ -190,7 +190,8 @@ def _lines_with_faults(context: Context) -> set[int]:
 def _without_tolerated(context: Context) -> Generator[None]:
     """The tree lacks what was reported and kept, and has syntax of its version; in the end it is as it was."""
     gone = {element for element, part in context.tolerated if part is None}
-    parents = {parent: list(parent) for element in gone if (parent := element.getparent()) is not None}
+    parents = {parent for element in gone if (parent := element.getparent()) is not None}
+    whole = [(parent, list(parent)) for parent in parents]
     changed = {element for element, _, _ in context.replaced}
     changed.update(element for element, part in context.tolerated if part is not None)
     before = [(element, element.items(), element.text, element.tail) for element in changed]
@@ -198,12 +199,12 @@ def _without_tolerated(context: Context) -> Generator[None]:
         _replace(element, part, word)
     for element, part in context.tolerated:
         _replace(element, part, None)
-    for parent, children in parents.items():
+    for parent, children in whole:
         parent[:] = [child for child in children if child not in gone]
     try:
         yield
     finally:
-        for parent, children in parents.items():
+        for parent, children in whole:
             parent[:] = children
         for element, attributes, text, tail in before:
             element.attrib.clear()
