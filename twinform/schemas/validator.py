@@ -4,7 +4,8 @@ The schema reader has read the document before and reported whatever is wrong wi
 for as well because the two are independent readings of the same facts: where they differ, one of them is wrong.
 """
 
-import copy
+from collections.abc import Generator
+from contextlib import contextmanager
 from functools import cache
 from itertools import islice
 from threading import local
@@ -65,7 +66,8 @@ def validate(
     if errors is None:
         errors = refusals(root, context, engine)
     if errors and (context.tolerated or context.replaced):
-        errors = refusals(without_tolerated(root, context), context, engine)
+        with _without_tolerated(context):
+            errors = refusals(root, context, engine)
     explained = _lines_with_faults(context) if errors else set[int]()
     for error in errors:
         if error.line not in explained and not context.sink.left_out:
@@ -180,36 +182,43 @@ def refusals(root: XmlElement, context: Context, engine: Engine) -> list[SchemaE
 def _lines_with_faults(context: Context) -> set[int]:
     """The lines of the elements that the schema reader found a fault in."""
     lines = {found.location.line for found in context.sink.diagnostics if found.rule.name in _FAULTS}
-    # a copy of a tree loses the lines past 65,535, so where there are faults an error without a line may be one of them
+    # where there are faults, an error without a line may be one of them
     return lines | {0} if lines else lines
 
 
-def without_tolerated(root: XmlElement, context: Context) -> XmlElement:
-    """A copy of the tree that lacks what was reported and kept."""
-    whole = copy.deepcopy(root)
-    doomed = {element for element, _ in context.tolerated} | {element for element, _, _ in context.replaced}
-    copies = {element: twin for element, twin in zip(root.iter(), whole.iter(), strict=True) if element in doomed}
+@contextmanager
+def _without_tolerated(context: Context) -> Generator[None]:
+    """The tree lacks what was reported and kept, and has syntax of its version; in the end it is as it was."""
+    gone = {element for element, part in context.tolerated if part is None}
+    parents = {parent for element in gone if (parent := element.getparent()) is not None}
+    whole = [(parent, list(parent)) for parent in parents]
+    changed = {element for element, _, _ in context.replaced}
+    changed.update(element for element, part in context.tolerated if part is not None)
+    before = [(element, element.items(), element.text, element.tail) for element in changed]
     for element, part, word in context.replaced:
-        _replace(copies[element], part, word)
+        _replace(element, part, word)
     for element, part in context.tolerated:
-        _remove(copies[element], part)
-    return whole
+        _replace(element, part, None)
+    for parent, children in whole:
+        parent[:] = [child for child in children if child not in gone]
+    try:
+        yield
+    finally:
+        for parent, children in whole:
+            parent[:] = children
+        for element, attributes, text, tail in before:
+            element.attrib.clear()
+            element.attrib.update(attributes)
+            element.text, element.tail = text, tail
 
 
-def _replace(element: XmlElement, part: str, word: str) -> None:
+def _replace(element: XmlElement, part: str | None, word: str | None) -> None:
+    """Give an attribute or a text another value, or none."""
     if part == "#text":
         element.text = word
-    else:
-        element.set(part, word)
-
-
-def _remove(element: XmlElement, part: str | None) -> None:
-    parent = element.getparent()
-    if part == "#text":
-        element.text = None
     elif part == "#tail":
-        element.tail = None
+        element.tail = word
+    elif part is not None and word is not None:
+        element.set(part, word)
     elif part is not None:
         element.attrib.pop(part, None)
-    elif parent is not None:
-        parent.remove(element)

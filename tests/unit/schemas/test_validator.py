@@ -34,6 +34,7 @@ ROBOTS = {
     "an unknown element": f"{LINKS}<links><a/>text</links>",
     "an unknown element with text behind it": f"{LINKS}<links/> text",
     "an unknown attribute": "<link name='a' mass='1'/>",
+    "unknown attributes among others": "<link mass='1' x:a='2' name='a' odd='3'>text<a/>text</link>",
     "stray text": f"text {LINKS} more <material name='m'>even here</material> and more",
     "a repeated element": LINKS + JOINT.format("<origin/><origin xyz='odd'/>"),
     "a newer element": SHAPE.format("<capsule radius='1' length='1'/>"),

@@ -1,6 +1,7 @@
 """Lines of findings: from the line of the node that holds a part to that of the part itself, by the path.
 
 Nodes know where they were written, and their simple parts, such as the `<child>` of a joint, only the step to them.
+Findings of the schema reader need none of this: it has the elements themselves.
 """
 
 import re

@@ -29,6 +29,8 @@ LONGEST_NAME = 1024
 DEEPEST_MODELS = 64
 """The most models in each other, since a part in them is reached through all. The most in a real file are four."""
 
+_PIECE = 2**16
+"""So much is read at once: most files are smaller, and Python reserves as much memory as it is asked for."""
 _SHORTEST_ATTRIBUTE = len(' a=""')
 _LONG_TAG = re.compile(rb"<[^<]{%d}" % min(MOST_ATTRIBUTES * _SHORTEST_ATTRIBUTE, LONGEST_NAME))
 """A tag that might hold too much, or one that long text follows; few files have any."""
@@ -99,7 +101,7 @@ def read_up_to(file: BinaryIO, size: int) -> bytes:
     parts: list[bytes] = []
     left = size + 1
     while left > 0:
-        wanted = min(left, LARGEST + 1)  # Python reserves as much memory as it is asked for
+        wanted = min(left, _PIECE)
         parts.append(file.read(wanted))
         left = left - wanted if len(parts[-1]) == wanted else 0
     return b"".join(parts)

@@ -96,10 +96,11 @@ def _check_text(text: bytes, sink: DiagnosticSink, load_options: LoadOptions) ->
     except UnreadableError:
         return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True)
     if document is not None and not sink.has_errors:
+        read = len(sink.diagnostics)
         verify(document, sink)
         if document.format is Format.URDF:
             check_extensions(document, sink)
-    sink.diagnostics[:] = with_exact_lines(sink.diagnostics, tree, sink.file)
+        sink.diagnostics[read:] = with_exact_lines(sink.diagnostics[read:], tree, sink.file)
     found = tuple(sorted(sink.diagnostics, key=lambda each: each.location.line))
     return LoadResult(sink.file, document, found, tree=tree)
 
@@ -215,7 +216,7 @@ def read_document(
     if document is not None:
         amend(document, "namespaces", _namespaces(root, namespace, inside=_declares_inside(root, text, sink)))
         if sink.has_errors:
-            _verify_what_is_there(document, sink)
+            _verify_what_is_there(document, root, sink)
     return document, root
 
 
@@ -267,14 +268,15 @@ def lower_tree(root: XmlElement, sink: DiagnosticSink, *, valid: bool = False) -
     return document
 
 
-def _verify_what_is_there(document: Document, sink: DiagnosticSink) -> None:
+def _verify_what_is_there(document: Document, root: XmlElement, sink: DiagnosticSink) -> None:
     """After an error the names and references are still checked, so that the author sees all at once.
 
     Left out are findings that may only follow from what could not be read.
     """
     found = DiagnosticSink(file=sink.file, strict=sink.strict)
     verify(document, found)
-    sink.extend(each for each in found.diagnostics if each.rule not in _CONSEQUENCES)
+    kept = (each for each in found.diagnostics if each.rule not in _CONSEQUENCES)
+    sink.extend(with_exact_lines(kept, root, sink.file))
 
 
 def declared_version(root: XmlElement, format_: str, sink: DiagnosticSink) -> Version:

@@ -3,6 +3,8 @@
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from lxml import etree
+
 from twinform.diagnostics import DiagnosticSink, Location, Severity
 from twinform.diagnostics.rules import xacro as rules
 from twinform.schemas import XmlElement
@@ -11,6 +13,8 @@ from twinform.schemas.xml import path_of
 _HELP = "give the file the suffix .xacro, or pass --xacro"
 _SETTINGS = frozenset({"ros2_control", "transmission"})
 """What is neither the robot nor becomes a part of it in Gazebo: expressions there are for whoever reads it."""
+_MAY_HAVE_EXPRESSIONS = etree.XPath("descendant-or-self::*[(text() | @*)[contains(., '${')]]")
+"""Nearly no element has one, and libxml2 is quicker to say so."""
 
 
 def report_unexpanded(root: XmlElement, sink: DiagnosticSink) -> None:
@@ -46,18 +50,14 @@ def _is_of_xacro(tag: str) -> bool:
 
 def _with_expressions(root: XmlElement) -> Iterator[_Expression]:
     """The elements that have `${...}`; what only plugins and xacro read is theirs."""
-    stack = [(root, False)]
-    while stack:
-        element, is_aside = stack.pop()
-        tag = str(element.tag)
-        if tag[0] == "{" or tag == "plugin":
+    for element in _MAY_HAVE_EXPRESSIONS(root):
+        around = {str(each.tag) for each in (element, *element.iterancestors())}
+        if any(tag[0] == "{" or tag == "plugin" for tag in around):
             continue
-        is_aside = is_aside or tag in _SETTINGS
         texts = (element.text or "", *element.values())
         found = next((each.strip() for each in texts if "${" in each and "}" in each), None)
         if found is not None:
-            yield _Expression(element, found, is_aside)
-        stack.extend([(child, is_aside) for child in reversed(element)])
+            yield _Expression(element, found, not _SETTINGS.isdisjoint(around))
 
 
 def _count(number: int, word: str) -> str:

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from functools import lru_cache
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
@@ -12,9 +13,13 @@ _ADDRESS = re.compile(r"/(?:\d+\.\d+/)?(?P<owner>[^/]+)/models/(?P<name>[^/]+)(?
 
 def caches(environment: Mapping[str, str]) -> tuple[Path, ...]:
     """The folders in which the programs of Gazebo keep what they fetched."""
-    named = environment.get("GZ_FUEL_CACHE_PATH")
-    home = Path(environment.get("HOME") or Path.home())
-    return (*([Path(named)] if named else []), home / ".gz" / "fuel", home / ".ignition" / "fuel")
+    return _caches(environment.get("GZ_FUEL_CACHE_PATH"), environment.get("HOME") or str(Path.home()))
+
+
+@lru_cache(maxsize=16)
+def _caches(named: str | None, home: str) -> tuple[Path, ...]:
+    """Every file that is read asks for them, and few need them."""
+    return (*([Path(named)] if named else []), Path(home, ".gz", "fuel"), Path(home, ".ignition", "fuel"))
 
 
 def cached(uri: str, folders: Iterable[Path]) -> Path | None:

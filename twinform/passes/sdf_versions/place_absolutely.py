@@ -23,9 +23,10 @@ from twinform.ir import (
     Sensor,
     Visual,
     World,
+    bits_of,
+    census_of,
     count_parts,
     rewrite,
-    walk,
 )
 from twinform.ir.frames import MODEL, WORLD, FrameGraph, Kind
 from twinform.ir.transform import Transform
@@ -50,7 +51,7 @@ _IN_LINKS = ("visuals", "collisions", "sensors", "lights")
 def has_early_frames(document: Document) -> bool:
     """Whether a document of a version before 1.7 has frames, which may stand in 1.5 and 1.6 and mean nothing there."""
     early = document.format is Format.SDF and parse_version(known_version(document.version)) < _NAMES
-    return early and any(isinstance(node, Frame) for node in walk(document))
+    return early and census_of(document) & bits_of(Frame) != 0
 
 
 class PlaceAbsolutely(VersionPass):
