@@ -216,7 +216,7 @@ def _run(
         raise CompileError(tuple(sink.diagnostics))
     lost = sum(entry.weight for entry in sink.entries)
     ledger = Ledger(max(0, loaded.size - lost), sink.traced_entries())
-    origin = loaded.tree if loaded.text is None else loaded.text
+    origin = loaded.tree if loaded.content is None else loaded.content
     return Conversion(text, document, tuple(sink.diagnostics), ledger, origin, tuple(sink.side_files))
 
 

@@ -105,7 +105,7 @@ def _check_text(text: bytes, sink: DiagnosticSink, load_options: LoadOptions) ->
         sink.diagnostics[:] = with_exact_lines(sink.diagnostics, whole, sink.file)
     found = tuple(sorted(sink.diagnostics, key=lambda each: each.location.line))
     tree = tree if load_options.keep_tree else None
-    return LoadResult(sink.file, document, found, tree=tree, text=text, tree_size=size)
+    return LoadResult(sink.file, document, found, tree=tree, content=text, tree_size=size)
 
 
 def _check_json(text: bytes, sink: DiagnosticSink, load_options: LoadOptions) -> LoadResult:

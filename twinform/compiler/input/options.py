@@ -37,7 +37,7 @@ class LoadResult:
     """What `check` found. `unreadable` means that there is no model at all: no file, no XML, or another format.
 
     The document may be there in spite of errors; `accepted` is whether it has any. `tree` is the XML that it came
-    from, parsed from `text` where that was no document in memory, and `tree_size` its size where it was not kept.
+    from, parsed from `content` where that was no document in memory, and `tree_size` its size where it was not kept.
     `origins` lead from its lines to where they were written if it was expanded. Where includes were expanded,
     `included` is the size of their files, `entries` what became of parts of them, and `mixed` means that the files may
     have been of several versions.
@@ -48,7 +48,7 @@ class LoadResult:
     diagnostics: tuple[Diagnostic, ...]
     unreadable: bool = False
     tree: XmlElement | None = None
-    text: bytes | None = field(default=None, repr=False)
+    content: bytes | None = field(default=None, repr=False)
     tree_size: int | None = None
     origins: Mapping[str, Origins] = field(default_factory=dict[str, Origins])
     included: int = 0
