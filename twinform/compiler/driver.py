@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 
 from twinform.compiler.errors import CompileError
@@ -28,7 +29,7 @@ from twinform.passes.sdf_versions import has_early_frames
 from twinform.schemas import Engine, XmlElement, table
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)  # no slots: `source` is kept in the dictionary
 class Conversion:
     """What `convert` made: the text, its document, the diagnostics and the ledger.
 
@@ -43,9 +44,9 @@ class Conversion:
     origin: bytes | XmlElement | None = field(default=None, repr=False, compare=False)
     side_files: tuple[SideFile, ...] = ()
 
-    @property
+    @cached_property
     def source(self) -> XmlElement | None:
-        """The XML that it was made from, for those who count: `twinform.compiler.audit`. A file is parsed again."""
+        """The XML that it was made from, for those who count: `twinform.compiler.audit`. A file is parsed once more."""
         return read_tree_again(self.origin) if isinstance(self.origin, bytes) else self.origin
 
 

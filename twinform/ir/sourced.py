@@ -118,7 +118,7 @@ def maker(
 def amend(part: Sourced, field: str, value: object) -> None:
     """Write a value into a part that was just made and that nobody else has seen: others are frozen."""
     part.__dict__[field] = value  # pyright: ignore[reportIndexIssue] - typeshed has the view that classes have
-    _set_written(part, {*part.__pydantic_fields_set__, field})
+    _set_written(part, _names(frozenset((*part.__pydantic_fields_set__, field))))
     _set_census(part, None)
 
 

@@ -54,10 +54,12 @@ def test_models_in_worlds_are_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
     assert seen(convert(WORLD.encode(), to="sdf", sdf_version="1.11")) == seen(usual)
 
 
-def test_the_source_is_parsed_again(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_source_is_parsed_once_more(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(loading, "LARGE", 0)
-    source = convert(WARNED.encode(), to="sdf").source
+    made = convert(WARNED.encode(), to="sdf")
+    source = made.source
     assert source is not None
+    assert made.source is source
     assert [child.tag for child in source] == ["link", "link", "joint", "gazebo", "gazebo"]
 
 
