@@ -2,11 +2,19 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 
 from twinform.compiler.errors import CompileError
 from twinform.compiler.input.limits import LARGEST, MOST_TAGS, Limits
-from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, garbage_collection_paused, read
+from twinform.compiler.input.loading import (
+    Input,
+    LoadOptions,
+    LoadResult,
+    garbage_collection_paused,
+    read,
+    read_tree_again,
+)
 from twinform.compiler.output.emitting import emit, emit_legal
 from twinform.compiler.request import ConversionRequest, Language, UrdfVersion
 from twinform.compiler.search.uris import LocalAssets, SearchPath
@@ -21,11 +29,11 @@ from twinform.passes.sdf_versions import has_early_frames
 from twinform.schemas import Engine, XmlElement, table
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)  # no slots: `source` is kept in the dictionary
 class Conversion:
     """What `convert` made: the text, its document, the diagnostics and the ledger.
 
-    `source` is the XML that it was made from, for those who count: `twinform.compiler.audit`. `side_files` are files
+    `origin` is what it was read from: the bytes of a file, or the XML of a document in memory. `side_files` are files
     that passes made to lie beside the text.
     """
 
@@ -33,8 +41,13 @@ class Conversion:
     document: Document
     diagnostics: tuple[Diagnostic, ...]
     ledger: Ledger
-    source: XmlElement | None = field(default=None, repr=False, compare=False)
+    origin: bytes | XmlElement | None = field(default=None, repr=False, compare=False)
     side_files: tuple[SideFile, ...] = ()
+
+    @cached_property
+    def source(self) -> XmlElement | None:
+        """The XML that it was made from, for those who count: `twinform.compiler.audit`. A file is parsed once more."""
+        return read_tree_again(self.origin) if isinstance(self.origin, bytes) else self.origin
 
 
 def plan(
@@ -121,14 +134,16 @@ def run_conversion(
         CompileError: the source, a pass or the result has an error.
     """
     with garbage_collection_paused():
+        load_options = replace(load_options, keep_tree=False)
         loaded = read(source, load_options, name=name)
         request = replace(request, assets=LocalAssets(load_options.search, Path(loaded.path)))
         if loaded.accepted and (request.expand_includes or request.to == "urdf" or request.model is not None):
             from twinform.compiler.includes.expanding import expand  # noqa: PLC0415 - most conversions need no includes
 
             wanted = None if request.expand_includes else _wanted(loaded.document, request)
-            before, loaded = loaded, expand(loaded, load_options, wanted=wanted, carriers=request.carriers)
-            request = replace(request, model=name_once_expanded(before.document, loaded.document, request.model))
+            before = loaded.document
+            loaded = expand(loaded, load_options, wanted=wanted, carriers=request.carriers)
+            request = replace(request, model=name_once_expanded(before, loaded.document, request.model))
         request = replace(request, mixed=has_mixed_words(loaded))
         if loaded.document is None or not (loaded.accepted or (request.passes and _may_be_mended(loaded))):
             raise CompileError(loaded.diagnostics, unreadable=loaded.unreadable)
@@ -202,7 +217,8 @@ def _run(
         raise CompileError(tuple(sink.diagnostics))
     lost = sum(entry.weight for entry in sink.entries)
     ledger = Ledger(max(0, loaded.size - lost), sink.traced_entries())
-    return Conversion(text, document, tuple(sink.diagnostics), ledger, loaded.tree, tuple(sink.side_files))
+    origin = loaded.tree if loaded.content is None else loaded.content
+    return Conversion(text, document, tuple(sink.diagnostics), ledger, origin, tuple(sink.side_files))
 
 
 def _with_files(request: ConversionRequest, load_options: LoadOptions, file: str) -> Pipeline:

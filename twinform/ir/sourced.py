@@ -1,7 +1,7 @@
 """Base class of parts with a source location."""
 
 from collections.abc import Callable, Mapping
-from functools import cache
+from functools import cache, lru_cache
 from typing import Annotated, Any, Self, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, SkipValidation
@@ -31,7 +31,7 @@ class Sourced(BaseModel):
     @classmethod
     def unchecked(cls, **values: Any) -> Self:
         """A part with values that need no validation, since they come from parts or trees that had it."""
-        return assembled(cls, {**_defaults(cls), **values}, set(values))
+        return assembled(cls, _defaults(cls) | values, set(values))
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
         """The same part with other values, which are not validated.
@@ -41,7 +41,12 @@ class Sourced(BaseModel):
         """
         if deep or not update:
             return super().model_copy(update=update, deep=deep)
-        return assembled(type(self), {**self.__dict__, **update}, self.__pydantic_fields_set__ | update.keys())
+        written = self.__pydantic_fields_set__
+        if not update.keys() <= written:
+            written = _names(frozenset(written | update.keys()))
+        values = self.__dict__.copy()
+        values.update(update)
+        return assembled(type(self), values, written)
 
     def __eq__(self, other: object) -> bool:
         if self.__class__ is not other.__class__:
@@ -66,6 +71,13 @@ _set_values, _set_written, _set_extra, _set_private, _set_census = (
 )
 """The slots of a part, without the detour through its `__setattr__`, which refuses because parts are frozen."""
 _MOST_SHARED = 256
+_INSTANCES_WITH_ROOM = 30
+
+
+@lru_cache(maxsize=4096)
+def _names(fields: frozenset[str]) -> set[str]:
+    """One set for all parts in which the same fields were written: nobody changes it."""
+    return set(fields)
 
 
 def _unknown(_: tuple[str, ...]) -> None:
@@ -86,14 +98,14 @@ def maker(
     def share(fields: tuple[str, ...]) -> tuple[set[str], int | None]:
         if len(shared) >= _MOST_SHARED:
             shared.clear()
-        found = shared[fields] = set(fields), census(fields)
+        found = shared[fields] = _names(frozenset(fields)), census(fields)
         return found
 
     def make(values: dict[str, Any]) -> AnyPart:
         fields = tuple(values)
         written, bits = shared.get(fields) or share(fields)
         made = _new(kind)
-        _set_values(made, {**defaults, **values})
+        _set_values(made, defaults | values)
         _set_written(made, written)
         _set_extra(made, None)
         _set_private(made, None)
@@ -106,7 +118,7 @@ def maker(
 def amend(part: Sourced, field: str, value: object) -> None:
     """Write a value into a part that was just made and that nobody else has seen: others are frozen."""
     part.__dict__[field] = value  # pyright: ignore[reportIndexIssue] - typeshed has the view that classes have
-    _set_written(part, {*part.__pydantic_fields_set__, field})
+    _set_written(part, _names(frozenset((*part.__pydantic_fields_set__, field))))
     _set_census(part, None)
 
 
@@ -123,4 +135,21 @@ def assembled(kind: type[AnyPart], values: dict[str, Any], written: set[str]) ->
 
 @cache
 def _defaults(kind: type[Sourced]) -> dict[str, Any]:
-    return {name: field.get_default(call_default_factory=True) for name, field in kind.model_fields.items()}
+    """The values of a part in which nothing is written, in a dictionary whose copies share its keys.
+
+    Python makes such dictionaries for the instances of a class, the first of which have room for more attributes than
+    there are. With one of its own a part would need twice the memory.
+    """
+    values = {name: field.get_default(call_default_factory=True) for name, field in kind.model_fields.items()}
+    holder = type(kind.__name__, (), {})
+    for _ in range(_INSTANCES_WITH_ROOM):
+        _instance_values(holder, values)
+    return _instance_values(holder, values).copy()
+
+
+def _instance_values(kind: type[object], values: Mapping[str, object]) -> dict[str, Any]:
+    """The dictionary of a new instance of a class that has these attributes."""
+    made = kind()
+    for name, value in values.items():
+        setattr(made, name, value)
+    return vars(made)

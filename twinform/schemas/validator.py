@@ -78,12 +78,15 @@ def validate(
 def libxml2_errors(root: XmlElement, format: str, version: Version) -> list[SchemaError]:
     """What libxml2 does not accept by the XSD 1.0 projection.
 
-    lxml finds a path for each error, and counts siblings for that. So where there are many, the errors are counted
-    first; if they are many too, they have no lines.
+    lxml finds a path for each error, and counts siblings for that. So where there are many, a parser is asked first
+    whether there is any error; then they are counted, and if they are many too, they have no lines.
     """
     schema = _libxml2_schema(format, version)
     if _CROWDED(root):
-        found = _errors_without_places(root, schema)
+        text = etree.tostring(root)
+        if is_valid_text(text, format, version):
+            return []
+        found = _errors_without_places(text, schema)
         if not found or len(found) == MOST:
             return found
     if schema.validate(root):
@@ -91,17 +94,17 @@ def libxml2_errors(root: XmlElement, format: str, version: Version) -> list[Sche
     return [SchemaError(entry.line, entry.message) for entry in islice(schema.error_log, MOST)]
 
 
-def _errors_without_places(root: XmlElement, schema: etree.XMLSchema) -> list[SchemaError]:
-    """The errors that a parser finds on its way through the text of a tree."""
+def _errors_without_places(text: bytes, schema: etree.XMLSchema) -> list[SchemaError]:
+    """The errors that a parser finds on its way through a text."""
     parser = etree.XMLParser(schema=schema, resolve_entities=False, no_network=True, collect_ids=False)
     try:
-        etree.fromstring(etree.tostring(root), parser)
+        etree.fromstring(text, parser)
     except etree.XMLSyntaxError as error:
         return [SchemaError(0, entry.message) for entry in islice(error.error_log, MOST)]
     return []
 
 
-def is_valid_text(text: str, format: str, version: Version) -> bool:
+def is_valid_text(text: str | bytes, format: str, version: Version) -> bool:
     """Whether libxml2 takes the text of a file, and accepts it by the XSD 1.0 projection.
 
     A parser whose target has no methods for elements makes no tree, and validates as it parses.

@@ -4,6 +4,7 @@ What is counted here is counted in the bytes, before there is a tree, since the 
 """
 
 import re
+import sys
 from dataclasses import dataclass
 from typing import BinaryIO, NamedTuple, cast
 
@@ -73,6 +74,7 @@ class Limits:
 
 
 USUAL_LIMITS = Limits()
+LIFTED_LIMITS = Limits(sys.maxsize, sys.maxsize)
 
 
 class Excess(NamedTuple):

@@ -13,8 +13,8 @@ from twinform.compiler.errors import CompileError
 from twinform.compiler.input import sdf, urdf
 from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.gazebo_extensions import check_extensions
-from twinform.compiler.input.limits import LARGEST, MOST_TAGS, USUAL_LIMITS, Limits, excess_of_json
-from twinform.compiler.input.options import Input, LoadOptions, LoadResult, expanded_name, name_of_input
+from twinform.compiler.input.limits import LARGEST, LIFTED_LIMITS, MOST_TAGS, USUAL_LIMITS, Limits, excess_of_json
+from twinform.compiler.input.options import Input, LoadOptions, LoadResult, expanded_name, name_of_input, parts_of
 from twinform.compiler.input.parser_quirks import report_split_values, report_tabbed_numbers
 from twinform.compiler.input.parsing import (
     UnreadableError,
@@ -24,6 +24,7 @@ from twinform.compiler.input.parsing import (
     strip_default_namespace,
 )
 from twinform.compiler.input.unexpanded_xacro import report_unexpanded
+from twinform.compiler.input.used_up_tree import LARGE, used_up
 from twinform.compiler.search.uris import SearchPath
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import model, reading, structure
@@ -92,7 +93,7 @@ def _check_text(text: bytes, sink: DiagnosticSink, load_options: LoadOptions) ->
     try:
         if _JSON.match(text):
             return _check_json(text, sink, load_options)
-        document, tree = read_document(text, sink, load_options.engine, load_options.limits)
+        document, tree, size = read_document(text, sink, load_options)
     except UnreadableError:
         return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True)
     if document is not None and not sink.has_errors:
@@ -100,9 +101,12 @@ def _check_text(text: bytes, sink: DiagnosticSink, load_options: LoadOptions) ->
         verify(document, sink)
         if document.format is Format.URDF:
             check_extensions(document, sink)
-        sink.diagnostics[read:] = with_exact_lines(sink.diagnostics[read:], tree, sink.file)
+        if len(sink.diagnostics) > read:
+            whole = read_tree_again(text) if tree is None else tree
+            sink.diagnostics[read:] = with_exact_lines(sink.diagnostics[read:], whole, sink.file)
     found = tuple(sorted(sink.diagnostics, key=lambda each: each.location.line))
-    return LoadResult(sink.file, document, found, tree=tree)
+    tree = tree if load_options.keep_tree else None
+    return LoadResult(sink.file, document, found, tree=tree, content=text, tree_size=size)
 
 
 def _check_json(text: bytes, sink: DiagnosticSink, load_options: LoadOptions) -> LoadResult:
@@ -192,14 +196,17 @@ def _document(loaded: LoadResult) -> Document:
 
 
 def read_document(
-    text: bytes, sink: DiagnosticSink, engine: Engine, limits: Limits = USUAL_LIMITS
-) -> tuple[Document | None, XmlElement]:
-    """The document of an XML text and its tree. Where it has errors, the document is there if it can be.
+    text: bytes, sink: DiagnosticSink, load_options: LoadOptions
+) -> tuple[Document | None, XmlElement | None, int | None]:
+    """The document of an XML text, its tree, and the size of that if it need not be kept; a large one is not then.
+
+    Where the text has errors, the document is there if it can be.
 
     Raises:
         UnreadableError: it is not XML.
     """
-    root, namespace = read_tree(text, sink, limits)
+    engine = load_options.engine
+    root, namespace = read_tree(text, sink, load_options.limits)
     report_split_values(text, sink)
     if b"<xacro:" in text or b"${" in text:
         report_unexpanded(root, sink)
@@ -210,14 +217,17 @@ def read_document(
     errors = refusals(root, context, engine)
     context.clean = not errors
     context.simple = context.clean and (_is_plain(text, sink) or not has_prefixed_attributes(root))
-    document = _built(build, root, context)
+    namespaces = _namespaces(root, namespace, inside=_declares_inside(root, text, sink))
+    size = None if load_options.keep_tree else parts_of(root)
+    is_used_up = not load_options.keep_tree and context.simple and len(text) > LARGE
+    document = _built(build, used_up(root) if is_used_up else root, context)
     if errors:
         validate(root, context, engine, errors)
     if document is not None:
-        amend(document, "namespaces", _namespaces(root, namespace, inside=_declares_inside(root, text, sink)))
+        amend(document, "namespaces", namespaces)
         if sink.has_errors:
-            _verify_what_is_there(document, root, sink)
-    return document, root
+            _verify_what_is_there(document, read_tree_again(text) if is_used_up else root, sink)
+    return document, None if is_used_up else root, size
 
 
 def _built(
@@ -248,6 +258,11 @@ def read_tree(text: bytes, sink: DiagnosticSink, limits: Limits = USUAL_LIMITS) 
         sink.report(reading.UNKNOWN_ROOT, message, where, found=str(root.tag), expected="robot or sdf")
         raise UnreadableError
     return root, namespace
+
+
+def read_tree_again(text: bytes) -> XmlElement:
+    """The tree of a text that `read_tree` took before, whatever its size."""
+    return read_tree(text, DiagnosticSink(), LIFTED_LIMITS)[0]
 
 
 def lower_tree(root: XmlElement, sink: DiagnosticSink, *, valid: bool = False) -> Document | None:

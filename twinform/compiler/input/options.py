@@ -20,6 +20,7 @@ class LoadOptions:
 
     `search` are the folders for URIs, `arguments` those of xacro. `xacro` selects which files are expanded: by default
     those whose name ends so, all where it is true, and none where it is false. `limits` say how large files may be.
+    Without `keep_tree` the result has no tree, which needs more memory than the document.
     """
 
     strict: bool = False
@@ -28,6 +29,7 @@ class LoadOptions:
     arguments: Mapping[str, str] = field(default_factory=dict[str, str])
     xacro: bool | None = None
     limits: Limits = USUAL_LIMITS
+    keep_tree: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +37,8 @@ class LoadResult:
     """What `check` found. `unreadable` means that there is no model at all: no file, no XML, or another format.
 
     The document may be there in spite of errors; `accepted` is whether it has any. `tree` is the XML that it came
-    from, and `origins` lead from its lines to where they were written if it was expanded. Where includes were expanded,
+    from, parsed from `content` where that was no document in memory, and `tree_size` its size where it was not kept.
+    `origins` lead from its lines to where they were written if it was expanded. Where includes were expanded,
     `included` is the size of their files, `entries` what became of parts of them, and `mixed` means that the files may
     have been of several versions.
     """
@@ -45,6 +48,8 @@ class LoadResult:
     diagnostics: tuple[Diagnostic, ...]
     unreadable: bool = False
     tree: XmlElement | None = None
+    content: bytes | None = field(default=None, repr=False)
+    tree_size: int | None = None
     origins: Mapping[str, Origins] = field(default_factory=dict[str, Origins])
     included: int = 0
     entries: tuple[Entry, ...] = ()
@@ -59,8 +64,10 @@ class LoadResult:
     @property
     def size(self) -> int:
         """How many elements and attributes the source has."""
+        if self.tree_size is not None:
+            return self.included + self.tree_size
         if self.tree is not None:
-            return self.included + _parts(self.tree)
+            return self.included + parts_of(self.tree)
         return count_parts(self.document) if self.document else 0
 
     @property
@@ -74,7 +81,8 @@ def expanded_name(file: str) -> str:
     return f"{file} (expanded)"
 
 
-def _parts(tree: XmlElement) -> int:
+def parts_of(tree: XmlElement) -> int:
+    """How many elements and attributes a tree has."""
     return sum(1 + len(element.keys()) for element in tree.iter())
 
 
