@@ -43,7 +43,7 @@ class ConversionRequest:
             return Pipeline()
         from twinform.passes.legalise.to_urdf.select_model import SelectModel  # noqa: PLC0415 - few ask for a model
 
-        return Pipeline((SelectModel(model=self.model),))
+        return Pipeline((SelectModel.unchecked(model=self.model),))
 
     def legalisation(self, source: Document) -> Pipeline:
         """The passes that the target asks for."""

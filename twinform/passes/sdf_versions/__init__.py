@@ -37,21 +37,21 @@ def change_version(declared: str | None, asked: str, *, carriers: bool = True) -
     if parse_version(old) < parse_version(asked):
         steps = raise_version(old, asked, carriers=carriers)
     else:
-        back = PutBack(version=asked, source=old, carriers=carriers)
+        back = PutBack.unchecked(version=asked, source=old, carriers=carriers)
         steps = (back, *lower_version(old, asked, carriers=carriers))
-    return (*steps, SetVersion(version=asked))
+    return (*steps, SetVersion.unchecked(version=asked))
 
 
 def raise_version(declared: str | None, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
     """The passes that upgrade an older file, with what it carries."""
     old, new = parse_version(known_version(declared)), parse_version(asked)
-    back = PutBack(version=asked, source=print_version(old), carriers=carriers)
+    back = PutBack.unchecked(version=asked, source=print_version(old), carriers=carriers)
     after: list[Pass] = []  # what came back may be in newer or older syntax
     if new < _ANY_POSE:
-        after.append(WritePlainPoses(version=asked, carriers=carriers))
+        after.append(WritePlainPoses.unchecked(version=asked, carriers=carriers))
     if new >= _NAMED_STATES:
-        after.append(RenameStates(version=asked, carriers=carriers))
-    return (*forward(old, new), back, *after, LeaveOut(version=asked, carriers=carriers))
+        after.append(RenameStates.unchecked(version=asked, carriers=carriers))
+    return (*forward(old, new), back, *after, LeaveOut.unchecked(version=asked, carriers=carriers))
 
 
 @lru_cache(maxsize=64)
@@ -61,14 +61,14 @@ def raise_words(declared: str | None, *, carriers: bool = True, mixed: bool = Fa
     `mixed` means that the file has syntax of newer versions too.
     """
     old, newest = known_version(declared), table("sdf").versions[-1]
-    back = PutBack(version=newest, source=old, carriers=carriers)
+    back = PutBack.unchecked(version=newest, source=old, carriers=carriers)
     return (*forward(parse_version(old), parse_version(newest), names=False, mixed=mixed), back)
 
 
 def raise_for_merging(declared: str, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
     """The same in the conversion to a file of several versions: what its version lacks is left out when it is whole."""
-    back = PutBack(version=asked, source=declared, carriers=carriers)
-    return (*forward(parse_version(declared), parse_version(asked)), back, SetVersion(version=asked))
+    back = PutBack.unchecked(version=asked, source=declared, carriers=carriers)
+    return (*forward(parse_version(declared), parse_version(asked)), back, SetVersion.unchecked(version=asked))
 
 
 def raise_unversioned(*, carriers: bool = True) -> tuple[Pass, ...]:

@@ -123,7 +123,7 @@ class _Placer:
             frame = holder.frames[index]
             message = f"frame {frame.name!r} has no place in SDF before 1.7"
             self.keeper.sink.report(shared_rules.OLDER_VERSION, message, frame.location, found=frame.name)
-            pieces = [Opaque(element=to_element(frame, "frame", "sdf"))]
+            pieces = [Opaque.unchecked(element=to_element(frame, "frame", "sdf"))]
             condition = VersionCondition(since=_NAMES, index=index)
             weight = count_parts(frame)
             holder = self.keeper.keep(
@@ -212,7 +212,7 @@ class _Poses:
     def _keep(self, message: str, pose: Pose) -> tuple[Element, ...]:
         written = to_element(pose, "pose", "sdf")
         self.placer.keeper.account(rules.OTHER_WORDS, message, NOWHERE, 1 + len(written.attributes))
-        carriers = version_carriers([Opaque(element=written)], VersionCondition(since=_NAMES, instead="pose"))
+        carriers = version_carriers([Opaque.unchecked(element=written)], VersionCondition(since=_NAMES, instead="pose"))
         return tuple(part.element for part in carriers if part.element) if self.placer.keeper.carriers else ()
 
 

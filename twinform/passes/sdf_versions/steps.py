@@ -42,37 +42,37 @@ def forward(old: Version, new: Version, *, names: bool = True, mixed: bool = Fal
 
 def _to_named_frames(changes: Changes, version: str, old: Version, *, names: bool, mixed: bool) -> Iterator[Pass]:
     if changes(4):
-        yield MoveTimeSteps(version=version)
+        yield MoveTimeSteps.unchecked(version=version)
     if changes(5):
-        yield FitJointTypes(version=version)
+        yield FitJointTypes.unchecked(version=version)
     if changes(6):
-        yield MoveWorldFields(version=version)
-        yield SpreadImuNoise(version=version)
-        yield NameTheNameless(version=version)
+        yield MoveWorldFields.unchecked(version=version)
+        yield SpreadImuNoise.unchecked(version=version)
+        yield NameTheNameless.unchecked(version=version)
     if changes(7):
-        yield NamePoseFrames(version=version)
+        yield NamePoseFrames.unchecked(version=version)
     if changes(5) or changes(7):
-        yield NameAxisFrames(version=version, source_before_1_5=old < (1, 5), both=mixed)
+        yield NameAxisFrames.unchecked(version=version, source_before_1_5=old < (1, 5), both=mixed)
     if changes(7) and names:
-        yield ClearNames(version=version)
+        yield ClearNames.unchecked(version=version)
 
 
 def _from_named_frames(changes: Changes, version: str, *, names: bool) -> Iterator[Pass]:
     if changes(8):
-        yield PlaceInertials(version=version)
+        yield PlaceInertials.unchecked(version=version)
     if changes(8) and names:
-        yield NestModels(version=version)
+        yield NestModels.unchecked(version=version)
     if changes(10):
-        yield WriteThreadPitches(version=version)
+        yield WriteThreadPitches.unchecked(version=version)
     if changes(12):
-        yield RenameStates(version=version)
+        yield RenameStates.unchecked(version=version)
 
 
 def unversioned(version: str, *, carriers: bool = True) -> Iterator[Pass]:
     """The passes for syntax of any version in a text that declares none, where no newer version has another meaning."""
-    yield SpreadImuNoise(version=version, annotate=carriers)
-    yield NamePoseFrames(version=version)
-    yield NameAxisFrames(version=version)
+    yield SpreadImuNoise.unchecked(version=version, annotate=carriers)
+    yield NamePoseFrames.unchecked(version=version)
+    yield NameAxisFrames.unchecked(version=version)
 
 
 def backward(new: Version, old: Version, *, carriers: bool = True) -> Iterator[Pass]:
@@ -80,7 +80,7 @@ def backward(new: Version, old: Version, *, carriers: bool = True) -> Iterator[P
     changes: Changes = lambda minor: old < (1, minor) <= new  # noqa: E731 - a name for the lines below
     yield from _models_back(changes, print_version(old), print_version(new), carriers=carriers)
     yield from _values_back(changes, print_version(old), carriers=carriers)
-    yield LeaveOut(version=print_version(old), carriers=carriers)
+    yield LeaveOut.unchecked(version=print_version(old), carriers=carriers)
 
 
 def meaning_back(new: Version, old: Version) -> Iterator[Pass]:
@@ -88,43 +88,43 @@ def meaning_back(new: Version, old: Version) -> Iterator[Pass]:
     changes: Changes = lambda minor: old < (1, minor) <= new  # noqa: E731 - a name for the lines below
     version = print_version(old)
     if changes(5):
-        yield TurnAxes(version=version)
+        yield TurnAxes.unchecked(version=version)
     if changes(6):
-        yield GatherImuNoise(version=version)
+        yield GatherImuNoise.unchecked(version=version)
     if changes(10):
-        yield BoundLimits(version=version)
+        yield BoundLimits.unchecked(version=version)
     if changes(4):
-        yield MoveTimeSteps(version=version, back=True)
+        yield MoveTimeSteps.unchecked(version=version, back=True)
 
 
 def _models_back(changes: Changes, version: str, source: str, *, carriers: bool) -> Iterator[Pass]:
     """What is where, from the outside in."""
     if changes(12):
-        yield RenameStates(version=version, carriers=carriers, back=True)
+        yield RenameStates.unchecked(version=version, carriers=carriers, back=True)
     if changes(11):
-        yield WriteInertias(version=version, carriers=carriers)
+        yield WriteInertias.unchecked(version=version, carriers=carriers)
     if changes(5):
-        yield FlattenNested(version=version, carriers=carriers, source=source)
+        yield FlattenNested.unchecked(version=version, carriers=carriers, source=source)
     if changes(8):
-        yield ConnectLinks(version=version, carriers=carriers)
+        yield ConnectLinks.unchecked(version=version, carriers=carriers)
     if changes(7) or changes(5):
-        yield TurnAxes(version=version, carriers=carriers)
+        yield TurnAxes.unchecked(version=version, carriers=carriers)
     if changes(8) or changes(7):
-        yield PlaceAbsolutely(version=version, carriers=carriers)
+        yield PlaceAbsolutely.unchecked(version=version, carriers=carriers)
 
 
 def _values_back(changes: Changes, version: str, *, carriers: bool) -> Iterator[Pass]:
     """How it is written."""
     if changes(9):
-        yield WritePlainPoses(version=version, carriers=carriers)
+        yield WritePlainPoses.unchecked(version=version, carriers=carriers)
     if any(map(changes, (4, 5, 6))):
-        yield FitJointTypes(version=version, carriers=carriers)
+        yield FitJointTypes.unchecked(version=version, carriers=carriers)
     if changes(10):
-        yield BoundLimits(version=version, carriers=carriers)
-        yield WriteThreadPitches(version=version, carriers=carriers, back=True)
-        yield NameTheNameless(version=version, carriers=carriers)
+        yield BoundLimits.unchecked(version=version, carriers=carriers)
+        yield WriteThreadPitches.unchecked(version=version, carriers=carriers, back=True)
+        yield NameTheNameless.unchecked(version=version, carriers=carriers)
     if changes(6):
-        yield GatherImuNoise(version=version, carriers=carriers)
-        yield MoveWorldFields(version=version, carriers=carriers, back=True)
+        yield GatherImuNoise.unchecked(version=version, carriers=carriers)
+        yield MoveWorldFields.unchecked(version=version, carriers=carriers, back=True)
     if changes(4):
-        yield MoveTimeSteps(version=version, carriers=carriers, back=True)
+        yield MoveTimeSteps.unchecked(version=version, carriers=carriers, back=True)

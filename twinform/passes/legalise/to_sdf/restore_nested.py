@@ -126,8 +126,8 @@ def _with_rest(model: Model, path: str, annotated: dict[str, Element], sink: Dia
     if found is None:
         return model
     pieces = (
-        *(Opaque(attribute=pair) for pair in found.attributes),
-        *(Opaque(element=child) for child in found.children),
+        *(Opaque.unchecked(attribute=pair) for pair in found.attributes),
+        *(Opaque.unchecked(element=child) for child in found.children),
     )
     try:
         whole = absorb(model.model_copy(update={"canonical_link": None}), pieces, VersionCondition(), _NEWEST)

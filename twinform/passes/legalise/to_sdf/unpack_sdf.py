@@ -82,7 +82,9 @@ def _without_carriers(node: AnyNode) -> AnyNode:
 
 def _is_blank_pose(carrier: Opaque) -> bool:
     """Whether it is an empty pose, which the link has by now."""
-    return all(piece.element is not None and piece.element == Element(name="pose") for piece in unpack(carrier))
+    return all(
+        piece.element is not None and piece.element == Element.unchecked(name="pose") for piece in unpack(carrier)
+    )
 
 
 def _is_overruled(carrier: Opaque, node: Node) -> bool:
