@@ -3,14 +3,12 @@
 from functools import lru_cache
 
 from twinform.passes.framework.base import Pass
+from twinform.passes.sdf_versions import kinds
 from twinform.passes.sdf_versions.base import known_version
-from twinform.passes.sdf_versions.leave_out import LeaveOut
-from twinform.passes.sdf_versions.place_absolutely import has_early_frames
+from twinform.passes.sdf_versions.early_frames import has_early_frames
 from twinform.passes.sdf_versions.put_back import PutBack
-from twinform.passes.sdf_versions.rename_states import RenameStates
 from twinform.passes.sdf_versions.set_version import SetVersion
 from twinform.passes.sdf_versions.steps import backward, forward, meaning_back, unversioned
-from twinform.passes.sdf_versions.write_plain_poses import WritePlainPoses
 from twinform.schemas import Version, parse_version, print_version, table
 
 __all__ = [
@@ -48,10 +46,10 @@ def raise_version(declared: str | None, asked: str, *, carriers: bool = True) ->
     back = PutBack.unchecked(version=asked, source=print_version(old), carriers=carriers)
     after: list[Pass] = []  # what came back may be in newer or older syntax
     if new < _ANY_POSE:
-        after.append(WritePlainPoses.unchecked(version=asked, carriers=carriers))
+        after.append(kinds.WritePlainPoses.unchecked(version=asked, carriers=carriers))
     if new >= _NAMED_STATES:
-        after.append(RenameStates.unchecked(version=asked, carriers=carriers))
-    return (*forward(old, new), back, *after, LeaveOut.unchecked(version=asked, carriers=carriers))
+        after.append(kinds.RenameStates.unchecked(version=asked, carriers=carriers))
+    return (*forward(old, new), back, *after, kinds.LeaveOut.unchecked(version=asked, carriers=carriers))
 
 
 @lru_cache(maxsize=64)
