@@ -22,7 +22,7 @@ from typing import TypeVar
 from lxml import etree
 
 from twinform.ir import Element, Node, Opaque, bits_named, untyped_elements
-from twinform.schemas import XmlElement, parse_version, table, writer
+from twinform.schemas import XmlElement, parse_version, versions_of, writer
 
 NAMESPACE = "urn:twinform:1"
 PREFIX = "tf"
@@ -114,7 +114,7 @@ def unpack(part: Opaque) -> tuple[Opaque, ...]:
 def to_element(node: Node, tag: str, dialect: str, definition: str | None = None) -> Element:
     """A typed node as the element that it is in a format; the definition has the tag's name where none is given."""
     made = etree.Element(tag)
-    writer(dialect, parse_version(table(dialect).versions[-1])).write(node, made, definition or tag)
+    writer(dialect, parse_version(versions_of(dialect)[-1])).write(node, made, definition or tag)
     return from_xml(made)
 
 

@@ -9,7 +9,7 @@ from twinform.passes.sdf_versions.early_frames import has_early_frames
 from twinform.passes.sdf_versions.put_back import PutBack
 from twinform.passes.sdf_versions.set_version import SetVersion
 from twinform.passes.sdf_versions.steps import backward, forward, meaning_back, unversioned
-from twinform.schemas import Version, parse_version, print_version, table
+from twinform.schemas import Version, parse_version, print_version, versions_of
 
 __all__ = [
     "change_version",
@@ -58,7 +58,7 @@ def raise_words(declared: str | None, *, carriers: bool = True, mixed: bool = Fa
 
     `mixed` means that the file has syntax of newer versions too.
     """
-    old, newest = known_version(declared), table("sdf").versions[-1]
+    old, newest = known_version(declared), versions_of("sdf")[-1]
     back = PutBack.unchecked(version=newest, source=old, carriers=carriers)
     return (*forward(parse_version(old), parse_version(newest), names=False, mixed=mixed), back)
 
@@ -71,7 +71,7 @@ def raise_for_merging(declared: str, asked: str, *, carriers: bool = True) -> tu
 
 def raise_unversioned(*, carriers: bool = True) -> tuple[Pass, ...]:
     """The passes that upgrade old syntax where nobody has declared a version, as in `<gazebo>` elements."""
-    return tuple(unversioned(table("sdf").versions[-1], carriers=carriers))
+    return tuple(unversioned(versions_of("sdf")[-1], carriers=carriers))
 
 
 def lower_version(declared: str | None, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
@@ -81,4 +81,4 @@ def lower_version(declared: str | None, asked: str, *, carriers: bool = True) ->
 
 def lower_meaning(asked: str) -> tuple[Pass, ...]:
     """The passes for what means something else in an older version; newer syntax stays."""
-    return tuple(meaning_back(parse_version(table("sdf").versions[-1]), parse_version(asked)))
+    return tuple(meaning_back(parse_version(versions_of("sdf")[-1]), parse_version(asked)))

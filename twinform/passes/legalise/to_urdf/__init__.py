@@ -30,7 +30,7 @@ from twinform.passes.legalise.to_urdf.unfold_joints import UnfoldJoints
 from twinform.passes.legalise.to_urdf.unpack_urdf import UnpackUrdf
 from twinform.passes.legalise.to_urdf.upgrade_sdf import UpgradeSdf
 from twinform.passes.sdf_versions.spread_imu_noise import GatherImuNoise
-from twinform.schemas import table
+from twinform.schemas import versions_of
 
 __all__ = ["UrdfVersion", "to_urdf"]
 
@@ -51,7 +51,7 @@ def to_urdf(
     return (
         SelectModel.unchecked(model=model),
         UpgradeSdf.unchecked(carriers=carriers, mixed=mixed_source),
-        GatherImuNoise.unchecked(version=table("sdf").versions[-1], annotated=True),
+        GatherImuNoise.unchecked(version=versions_of("sdf")[-1], annotated=True),
         FlattenForUrdf.unchecked(carriers=carriers),
         FoldPlanarJoints.unchecked(carriers=carriers),
         ComputeInertias.unchecked(carriers=carriers),
