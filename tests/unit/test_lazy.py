@@ -10,7 +10,13 @@ import pytest
 
 from twinform.lazy import lazy_attributes
 
-PACKAGES = ("twinform", "twinform.compiler", "twinform.passes")
+PACKAGES = (
+    "twinform",
+    "twinform.compiler",
+    "twinform.passes",
+    "twinform.passes.framework.hooks",
+    "twinform.passes.sdf_versions.kinds",
+)
 
 
 def _typed(package: str) -> dict[str, str]:

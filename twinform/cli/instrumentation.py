@@ -9,7 +9,7 @@ import click
 
 from twinform.cli.failure import UNUSABLE
 from twinform.passes import CombinedInstrumentation, PassError, PassInstrumentation
-from twinform.passes.framework.hooks import Dumps, PrintChanges, Statistics, table
+from twinform.passes.framework.hooks import Dumps, Statistics, table
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -69,8 +69,12 @@ class InputInstrumentation:
     @property
     def instrumentation(self) -> PassInstrumentation:
         """All that looks at the passes; the clock last, for it has to be nearest to them."""
-        changes = [PrintChanges(self._print)] if self.options.changes else []
-        return CombinedInstrumentation([self._dumps, *changes, *([self._statistics] if self._statistics else [])])
+        watching: list[PassInstrumentation] = [self._dumps]
+        if self.options.changes:
+            from twinform.passes.framework.hooks import PrintChanges  # noqa: PLC0415 - few ask for changes
+
+            watching.append(PrintChanges(self._print))
+        return CombinedInstrumentation([*watching, *([self._statistics] if self._statistics else [])])
 
     def end(self) -> None:
         """Print what is known only now.

@@ -9,13 +9,13 @@ from twinform.cli.inputs import InputOptions
 from twinform.cli.pipeline_option import pipeline_option
 from twinform.compiler import URDF_VERSIONS, ConversionRequest, Language, UrdfVersion
 from twinform.passes import Pipeline
-from twinform.schemas import table
+from twinform.schemas import versions_of
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 
 def _known_version(_ctx: click.Context, _option: click.Parameter, value: str | None) -> str | None:
-    versions = table("sdf").versions
+    versions = versions_of("sdf")
     if value is not None and value not in versions:
         raise click.BadParameter(f"SDF has no version {value!r}; it has {', '.join(versions)}")
     return value

@@ -26,7 +26,7 @@ from twinform.ir.verify import verify
 from twinform.passes import Pass, PassInstrumentation, Pipeline
 from twinform.passes.analyses.candidates import candidates, name_once_expanded, wanted_includes
 from twinform.passes.sdf_versions import has_early_frames
-from twinform.schemas import Engine, XmlElement, table
+from twinform.schemas import Engine, XmlElement, versions_of
 
 
 @dataclass(frozen=True)  # no slots: `source` is kept in the dictionary
@@ -179,7 +179,7 @@ def _is_outside_version(found: Diagnostic) -> bool:
 
 
 def _known(version: str | None) -> str | None:
-    versions = table("sdf").versions
+    versions = versions_of("sdf")
     if version is not None and version not in versions:
         raise ValueError(f"SDF has no version {version!r}; it has {', '.join(versions)}")
     return version

@@ -7,7 +7,7 @@ from twinform.ir import Document, Format
 from twinform.passes import NO_ASSETS, Assets, Pipeline
 from twinform.passes.carriers.provenance import has_mixed_words, source_version
 from twinform.passes.legalise import Target, legalisation
-from twinform.schemas import table
+from twinform.schemas import versions_of
 
 Language = Literal["sdf", "urdf", "json"]
 UrdfVersion = Literal["1.0", "1.1", "1.2"]
@@ -43,7 +43,7 @@ class ConversionRequest:
             return Pipeline()
         from twinform.passes.legalise.to_urdf.select_model import SelectModel  # noqa: PLC0415 - few ask for a model
 
-        return Pipeline((SelectModel(model=self.model),))
+        return Pipeline((SelectModel.unchecked(model=self.model),))
 
     def legalisation(self, source: Document) -> Pipeline:
         """The passes that the target asks for."""
@@ -56,7 +56,7 @@ class ConversionRequest:
         """What a document becomes: of the version that is asked for, or else of the one that it came from."""
         own = source.version if source.format is Format.SDF else None
         before = None if source.format is format_ else source_version(source, format_)
-        before = before if before in table(format_).versions else None
+        before = before if before in versions_of(format_) else None
         version = self.sdf_version or own or before or DEFAULT_SDF_VERSION
         known: dict[str, UrdfVersion] = {each: each for each in URDF_VERSIONS}
         urdf = self.urdf_version or known.get(before or "", "1.0")

@@ -2,13 +2,14 @@
 
 from collections.abc import Callable, Mapping
 from functools import cache, lru_cache
-from typing import Annotated, Any, Self, TypeVar
+from typing import Annotated, Any, ParamSpec, Self, TypeVar, cast
 
 from pydantic import BaseModel, ConfigDict, Field, SkipValidation
 from pydantic.json_schema import SkipJsonSchema
 
 from twinform.diagnostics import NOWHERE, Location, Source
 
+Values = ParamSpec("Values")
 AnyPart = TypeVar("AnyPart", bound="Sourced")
 
 _UNSEEN = frozenset({"source", "spelling"})
@@ -28,10 +29,11 @@ class Sourced(BaseModel):
         """Where it was read; nowhere for what a pass made."""
         return self.source.location if self.source else NOWHERE
 
-    @classmethod
-    def unchecked(cls, **values: Any) -> Self:
-        """A part with values that need no validation, since they come from parts or trees that had it."""
-        return assembled(cls, _defaults(cls) | values, set(values))
+    @classmethod  # pyright: ignore[reportArgumentType] - a class is a callable that makes its objects
+    def unchecked(cls: Callable[Values, AnyPart], *_: Values.args, **values: Values.kwargs) -> AnyPart:
+        """A part with values that need no validation: they come from parts or trees that had it, or from our code."""
+        kind = cast("type[AnyPart]", cls)
+        return assembled(kind, _defaults(kind) | values, set(values))
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
         """The same part with other values, which are not validated.

@@ -1,7 +1,7 @@
 """Facts tables of both formats, and what is made from them: readers, writers, XSDs and validators."""
 
 from twinform.schemas.element_reader import ElementReader
-from twinform.schemas.facts import Fact, Table, Version, parse_version, print_version, rows_by_name, table
+from twinform.schemas.facts import Fact, Table, Version, parse_version, print_version, rows_by_name, table, versions_of
 from twinform.schemas.messages import Context
 from twinform.schemas.packaged import json_schema_text, schema_text
 from twinform.schemas.reader import Reader, reader
@@ -69,6 +69,7 @@ __all__ = [
     "undeclared_namespace",
     "undeclared_prefix",
     "validate",
+    "versions_of",
     "writer",
     "xmlschema_errors",
 ]

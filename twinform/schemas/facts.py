@@ -154,6 +154,11 @@ _TABLES = {
 }
 
 
+def versions_of(format: str) -> tuple[str, ...]:
+    """The versions of `urdf` or `sdf`, from the oldest on, without reading the table."""
+    return _TABLES[format][1]
+
+
 @cache
 def table(format: str) -> Table:
     """The facts of `urdf` or `sdf`."""

@@ -19,8 +19,6 @@ from twinform.schemas.facts import Version, print_version
 from twinform.schemas.messages import Context
 from twinform.schemas.packaged import schema_text
 from twinform.schemas.xml import XmlElement
-from twinform.schemas.xsd_assertions import without_assertions
-from twinform.schemas.xsd_names import without_names
 
 if TYPE_CHECKING:
     from lxml.etree import ParserTarget
@@ -169,6 +167,9 @@ def _libxml2_schema(format_: str, version: Version) -> etree.XMLSchema:
 @cache
 def _xmlschema_schema(format_: str, version: Version, *, names: bool, assertions: bool) -> "XMLSchema11":
     from xmlschema import XMLSchema11  # noqa: PLC0415 - a tenth of a second
+
+    from twinform.schemas.xsd_assertions import without_assertions  # noqa: PLC0415 - only this engine knows them
+    from twinform.schemas.xsd_names import without_names  # noqa: PLC0415 - see above
 
     text = schema_text(format_, version, "1.1")
     text = text if names else without_names(text)

@@ -17,7 +17,7 @@ from twinform.ir import Document, Format
 from twinform.passes.analyses.candidates import name_once_expanded, wanted_includes
 from twinform.passes.includes import has_includes
 from twinform.passes.legalise.to_urdf.select_model import SelectModel
-from twinform.schemas import table
+from twinform.schemas import versions_of
 
 ANOTHER_ROBOT = "another robot"
 
@@ -64,7 +64,7 @@ class RoundTrip:
         """
         if self.format is Format.URDF:
             return convert(there.encode(), to="urdf", urdf_version=_urdf_version(self.version)).text
-        known = self.version if self.version in table("sdf").versions else None
+        known = self.version if self.version in versions_of("sdf") else None
         return convert(there.encode(), to="sdf", sdf_version=known).text
 
     def mismatches(self, back: str) -> Iterator[Mismatch]:

@@ -11,7 +11,7 @@ from twinform.cli.config.errors import ConfigError
 from twinform.cli.config.files import Table
 from twinform.compiler.input.limits import parse_size
 from twinform.passes.framework.options import nearest
-from twinform.schemas import table
+from twinform.schemas import versions_of
 
 UrdfVersion = Literal["1.0", "1.1", "1.2"]
 
@@ -39,7 +39,7 @@ class Settings(BaseModel):
     @field_validator("sdf_version")
     @classmethod
     def _exists(cls, version: str | None) -> str | None:
-        versions = table("sdf").versions
+        versions = versions_of("sdf")
         if version is not None and version not in versions:
             raise ValueError(f"SDF has no version {version!r}; it has {', '.join(versions)}")
         return version

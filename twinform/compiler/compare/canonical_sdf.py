@@ -23,7 +23,7 @@ from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
 from twinform.passes.legalise.to_urdf.floating_links import without_loose_floating
 from twinform.passes.legalise.to_urdf.select_model import SelectModel
 from twinform.passes.sdf_versions import raise_words
-from twinform.schemas import table
+from twinform.schemas import versions_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +88,7 @@ def _comparable(model: Model) -> Model:
 
 
 def _to_newest_sdf(document: Document) -> tuple[Pass, ...]:
-    newest = table("sdf").versions[-1]
+    newest = versions_of("sdf")[-1]
     if document.format is Format.URDF:
         return to_sdf(newest, carriers=True, scopes=False)
     return raise_words(document.version)

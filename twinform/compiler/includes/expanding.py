@@ -18,7 +18,7 @@ from twinform.ir.verify import verify
 from twinform.passes import Pipeline
 from twinform.passes.includes import Included, expand_includes, frame_of_sdf, has_includes
 from twinform.passes.legalise import Target, legalisation
-from twinform.schemas import Version, parse_version, table
+from twinform.schemas import Version, parse_version, versions_of
 
 _DEEPEST = 32
 _MOST = 10_000
@@ -187,7 +187,7 @@ class _Reader:
 
     def _as_sdf(self, document: Document, path: Path, around: Document) -> Document:
         """A URDF document in the terms of the file that includes it."""
-        version = around.version if around.version in table("sdf").versions else _NEWEST_WITHOUT_HARM
+        version = around.version if around.version in versions_of("sdf") else _NEWEST_WITHOUT_HARM
         target = Target(Format.SDF, version or _NEWEST_WITHOUT_HARM, carriers=self.carriers)
         own = DiagnosticSink(str(path), self.load_options.strict, origins=self.sink.origins)
         document = Pipeline(legalisation(Format.URDF, document.version, target)).run(document, own)
@@ -213,7 +213,7 @@ def _nesting(document: Document) -> int:
 
 
 def _version(document: Document) -> Version | None:
-    return parse_version(document.version) if document.version in table("sdf").versions else None
+    return parse_version(document.version) if document.version in versions_of("sdf") else None
 
 
 def _folder(include: Include, path: Path) -> str:

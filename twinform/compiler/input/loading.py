@@ -40,11 +40,10 @@ from twinform.schemas import (
     declared_namespaces,
     has_prefixed_attributes,
     parse_version,
-    print_version,
     refusals,
-    table,
     undeclared_prefix,
     validate,
+    versions_of,
 )
 
 _ROOTS: dict[str, tuple[str, Callable[[XmlElement, Context], Document | None]]] = {
@@ -296,17 +295,17 @@ def _verify_what_is_there(document: Document, root: XmlElement, sink: Diagnostic
 
 def declared_version(root: XmlElement, format_: str, sink: DiagnosticSink) -> Version:
     """The version that the schema reader goes by: the declared one where the format has it, else the newest."""
-    facts, declared = table(format_), root.get("version")
+    known, declared = versions_of(format_), root.get("version")
     if declared is None and format_ in _WITHOUT_VERSION:
         return _WITHOUT_VERSION[format_]
-    if declared in facts.versions:
+    if declared in known:
         return parse_version(declared)
     where = Location(line=root.sourceline or 0, path=f"/{root.tag}/@version")
-    newest = print_version(facts.newest)
+    newest = known[-1]
     if declared is not None:
         message = f"{format_.upper()} has no version {declared!r}; read as {newest}"
-        sink.report(structure.UNKNOWN_VERSION, message, where, found=declared, expected=", ".join(facts.versions))
-    return facts.newest
+        sink.report(structure.UNKNOWN_VERSION, message, where, found=declared, expected=", ".join(known))
+    return parse_version(newest)
 
 
 def _is_plain(text: bytes, sink: DiagnosticSink) -> bool:

@@ -24,8 +24,8 @@ from twinform.schemas import (
     path_of,
     print_version,
     reader,
-    table,
     validate,
+    versions_of,
 )
 
 _NAMED = re.compile(r"\[@name='([^']*)'\]")
@@ -126,10 +126,10 @@ def serialized(root: XmlElement, document: Document) -> str:
 
 def written_version(document: Document) -> Version:
     """The version whose schema a document follows; the newest where it declares none that exists."""
-    facts = table(document.format)
-    if document.version in facts.versions:
+    known = versions_of(document.format)
+    if document.version in known:
         return parse_version(document.version)
-    return (1, 0) if document.format is Format.URDF and document.version is None else facts.newest
+    return (1, 0) if document.format is Format.URDF and document.version is None else parse_version(known[-1])
 
 
 def _validate(

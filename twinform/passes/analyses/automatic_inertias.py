@@ -62,8 +62,8 @@ def written_out(inertial: Inertial, found: Solid) -> tuple[Inertial, list[Opaque
     names of the fields that are computed.
     """
     overlooked = to_element(inertial.model_copy(update={"mass": None, "opaque": ()}), "inertial", "sdf")
-    pieces = [Opaque(attribute=pair) for pair in overlooked.attributes]
-    pieces += [Opaque(element=child) for child in overlooked.children]
+    pieces = [Opaque.unchecked(attribute=pair) for pair in overlooked.attributes]
+    pieces += [Opaque.unchecked(element=child) for child in overlooked.children]
     made = ("pose", "inertia") if inertial.mass is not None else ("mass", "pose", "inertia")
     return inertial_of(found, inertial), pieces, made
 

@@ -12,7 +12,7 @@ from twinform.passes.appearance.classic_materials import ClassicMaterial, classi
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.framework.base import Pass
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
-from twinform.schemas import format_value, parse_version, table
+from twinform.schemas import format_value, parse_version, versions_of
 
 _PBR = "pbr/metal"
 _PBR_SINCE = (1, 6)
@@ -111,7 +111,7 @@ class Materials(Pass):
 def _has_pbr(document: Document) -> bool:
     """Whether the document's version has PBR; what stands in the `<gazebo>` elements of URDF is of the newest."""
     version = document.version
-    if document.format is not Format.SDF or version is None or version not in table("sdf").versions:
+    if document.format is not Format.SDF or version is None or version not in versions_of("sdf"):
         return True
     return parse_version(version) >= _PBR_SINCE
 

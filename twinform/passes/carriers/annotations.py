@@ -31,7 +31,7 @@ SYNTHESIZED = "made"
 def annotation(kind: str, text: str | None = None, attributes: Mapping[str, str | None] | None = None) -> Opaque:
     """An annotation; attributes that are None are left out."""
     written = tuple((name, value) for name, value in (attributes or {}).items() if value is not None)
-    return Opaque(element=Element(name=f"{{{NAMESPACE}}}{kind}", text=text, attributes=written))
+    return Opaque.unchecked(element=Element.unchecked(name=f"{{{NAMESPACE}}}{kind}", text=text, attributes=written))
 
 
 def with_annotation(

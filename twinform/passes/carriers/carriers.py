@@ -22,7 +22,7 @@ from typing import TypeVar
 from lxml import etree
 
 from twinform.ir import Element, Node, Opaque, bits_named, untyped_elements
-from twinform.schemas import XmlElement, parse_version, table, writer
+from twinform.schemas import XmlElement, parse_version, versions_of, writer
 
 NAMESPACE = "urn:twinform:1"
 PREFIX = "tf"
@@ -53,7 +53,7 @@ def carry(node: AnyNode, pieces: Iterable[Opaque], dialect: str, about: Attribut
 
 def pack(pieces: Iterable[Opaque], dialect: str, about: Attributes = ()) -> tuple[Opaque, ...]:
     """A carrier for each of the pieces, with these attributes besides."""
-    return tuple([Opaque(element=_carrier(piece, dialect, about)) for piece in pieces])
+    return tuple([Opaque.unchecked(element=_carrier(piece, dialect, about)) for piece in pieces])
 
 
 def bits_of_ours(*kinds: str) -> int:
@@ -105,23 +105,23 @@ def unpack(part: Opaque) -> tuple[Opaque, ...]:
     at = element.get("at") or ""
     name, value, text = element.get("attribute"), element.get("value"), element.get("text")
     if name is not None:
-        return (Opaque(at=at, attribute=(name, _blank_value(element) if value is None else value)),)
+        return (Opaque.unchecked(at=at, attribute=(name, _blank_value(element) if value is None else value)),)
     if text is not None:
-        return (Opaque(at=at, text=text),)
-    return tuple(Opaque(at=at, element=_with_empty(child)) for child in element.children)
+        return (Opaque.unchecked(at=at, text=text),)
+    return tuple(Opaque.unchecked(at=at, element=_with_empty(child)) for child in element.children)
 
 
 def to_element(node: Node, tag: str, dialect: str, definition: str | None = None) -> Element:
     """A typed node as the element that it is in a format; the definition has the tag's name where none is given."""
     made = etree.Element(tag)
-    writer(dialect, parse_version(table(dialect).versions[-1])).write(node, made, definition or tag)
+    writer(dialect, parse_version(versions_of(dialect)[-1])).write(node, made, definition or tag)
     return from_xml(made)
 
 
 def from_xml(xml: XmlElement) -> Element:
     """An XML tree as an `Element`."""
     return Element.unchecked(
-        name=xml.tag,
+        name=str(xml.tag),
         attributes=tuple(xml.items()),
         text=(xml.text or "").strip() or None,
         children=tuple([from_xml(child) for child in xml]),
@@ -137,7 +137,7 @@ def _carrier(piece: Opaque, dialect: str, about: Attributes) -> Element:
     if piece.text is not None:
         attributes.append(("text", piece.text))
     children = (_without_empty(piece.element),) if piece.element is not None else ()
-    return Element(name=f"{{{NAMESPACE}}}{dialect}", attributes=tuple(attributes), children=children)
+    return Element.unchecked(name=f"{{{NAMESPACE}}}{dialect}", attributes=tuple(attributes), children=children)
 
 
 def _is_blank(value: str) -> bool:
@@ -162,7 +162,9 @@ def _without_empty(element: Element) -> Element:
     if not any(_is_blank(value) for each in element.walk() for _, value in each.attributes):
         return element
     empty = [pair for pair in element.attributes if _is_blank(pair[1])]
-    annotations = [Element(name=_EMPTY, attributes=(("attribute", name), *_blanks(value))) for name, value in empty]
+    annotations = [
+        Element.unchecked(name=_EMPTY, attributes=(("attribute", name), *_blanks(value))) for name, value in empty
+    ]
     attributes = tuple(pair for pair in element.attributes if pair not in empty)
     children = (*annotations, *map(_without_empty, element.children))
     return element.model_copy(update={"attributes": attributes, "children": children})

@@ -41,7 +41,7 @@ def followed(element: Element, names: Mapping[str, Followed], *, carriers: bool)
         children.append(child.model_copy(update={"text": found.name}))
         if carriers:
             text = (child.text or "").strip()
-            children.append(Element(name=_LUMPED, attributes=(("instead_of", found.name),), text=text))
+            children.append(Element.unchecked(name=_LUMPED, attributes=(("instead_of", found.name),), text=text))
     same = len(children) == len(element.children) and all(map(_is_same, children, element.children))
     return element if same else element.model_copy(update={"children": tuple(children)})
 

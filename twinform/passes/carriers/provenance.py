@@ -6,7 +6,7 @@
 
 from twinform.ir import Document, Format, Model
 from twinform.passes.carriers.annotations import find_annotation, with_annotation, without_annotation
-from twinform.schemas import parse_version, table
+from twinform.schemas import parse_version, versions_of
 
 _SCOPES = (1, 8)
 """Since this version `::` in a name means that it is in a nested model."""
@@ -46,7 +46,7 @@ def wrote_scopes(model: Model) -> bool:
 
 def may_write_scopes(version: str) -> bool:
     """Whether `::` may stand in any name in a version of SDF; in one that does not exist it may not."""
-    return version in table("sdf").versions and parse_version(version) < _SCOPES
+    return version in versions_of("sdf") and parse_version(version) < _SCOPES
 
 
 def has_mixed_words(document: Document) -> bool:

@@ -93,7 +93,12 @@ def version_carriers(pieces: list[Opaque], condition: VersionCondition) -> tuple
     carriers = pack(pieces, DIALECT, replace(condition, without=()).attributes())
     if not condition.without:
         return carriers
-    return (*carriers, Opaque(element=Element(name=f"{{{NAMESPACE}}}{DIALECT}", attributes=condition.attributes())))
+    return (
+        *carriers,
+        Opaque.unchecked(
+            element=Element.unchecked(name=f"{{{NAMESPACE}}}{DIALECT}", attributes=condition.attributes())
+        ),
+    )
 
 
 def is_version_carrier(part: Opaque) -> bool:

@@ -1,12 +1,16 @@
 """Base classes of passes: over a document, and over its models one by one."""
 
 from abc import ABC, abstractmethod
-from typing import ClassVar
+from collections.abc import Callable
+from typing import ClassVar, ParamSpec, TypeVar, cast
 
 from pydantic import BaseModel, ConfigDict
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Model, replace_fields
+
+Options = ParamSpec("Options")
+AnyPass = TypeVar("AnyPass", bound="Pass")
 
 
 class Pass(BaseModel, ABC):
@@ -32,6 +36,15 @@ class Pass(BaseModel, ABC):
 
     example: ClassVar[str] = ""
     """A pipeline that uses it, for its page."""
+
+    @classmethod  # pyright: ignore[reportArgumentType] - a class is a callable that makes its objects
+    def unchecked(cls: Callable[Options, AnyPass], *_: Options.args, **options: Options.kwargs) -> AnyPass:
+        """A pass with options that come from our own code, where a type checker has seen them.
+
+        The first object of a class that is validated makes Pydantic build its validator, which takes longer than to run
+        most passes.
+        """
+        return cast("type[AnyPass]", cls).model_construct(None, **options)
 
     @abstractmethod
     def run(self, document: Document, sink: DiagnosticSink) -> Document:

@@ -6,7 +6,7 @@ from functools import cache
 from twinform.ir import Format
 from twinform.passes.framework.base import Pass
 from twinform.passes.legalise import Target, legalisation
-from twinform.schemas import table
+from twinform.schemas import versions_of
 
 
 @cache
@@ -16,7 +16,7 @@ def legalisation_kinds() -> dict[str, type[Pass]]:
 
 
 def _ways() -> Iterator[tuple[Pass, ...]]:
-    versions = table("sdf").versions
+    versions = versions_of("sdf")
     for version in versions:
         yield legalisation(Format.URDF, None, Target(Format.SDF, version))
         for other in versions:

@@ -10,7 +10,7 @@ from twinform.passes.framework.base import Pass
 from twinform.passes.framework.pages import summary
 from twinform.passes.framework.pipeline import Pipeline
 from twinform.passes.legalise import Target, legalisation
-from twinform.schemas import table
+from twinform.schemas import versions_of
 
 _INTRODUCTION = """\
 # The pipeline
@@ -48,7 +48,7 @@ class Direction(NamedTuple):
 
 def directions() -> Iterator[Direction]:
     """Those of the page; between them they have every pass."""
-    versions = table("sdf").versions
+    versions = versions_of("sdf")
     oldest, newest = versions[0], versions[-1]
     older = "An older version takes some of the passes of the last chapter, before the last one of these."
     usual = Target(Format.SDF)

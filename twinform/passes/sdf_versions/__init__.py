@@ -3,15 +3,13 @@
 from functools import lru_cache
 
 from twinform.passes.framework.base import Pass
+from twinform.passes.sdf_versions import kinds
 from twinform.passes.sdf_versions.base import known_version
-from twinform.passes.sdf_versions.leave_out import LeaveOut
-from twinform.passes.sdf_versions.place_absolutely import has_early_frames
+from twinform.passes.sdf_versions.early_frames import has_early_frames
 from twinform.passes.sdf_versions.put_back import PutBack
-from twinform.passes.sdf_versions.rename_states import RenameStates
 from twinform.passes.sdf_versions.set_version import SetVersion
 from twinform.passes.sdf_versions.steps import backward, forward, meaning_back, unversioned
-from twinform.passes.sdf_versions.write_plain_poses import WritePlainPoses
-from twinform.schemas import Version, parse_version, print_version, table
+from twinform.schemas import Version, parse_version, print_version, versions_of
 
 __all__ = [
     "change_version",
@@ -37,21 +35,21 @@ def change_version(declared: str | None, asked: str, *, carriers: bool = True) -
     if parse_version(old) < parse_version(asked):
         steps = raise_version(old, asked, carriers=carriers)
     else:
-        back = PutBack(version=asked, source=old, carriers=carriers)
+        back = PutBack.unchecked(version=asked, source=old, carriers=carriers)
         steps = (back, *lower_version(old, asked, carriers=carriers))
-    return (*steps, SetVersion(version=asked))
+    return (*steps, SetVersion.unchecked(version=asked))
 
 
 def raise_version(declared: str | None, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
     """The passes that upgrade an older file, with what it carries."""
     old, new = parse_version(known_version(declared)), parse_version(asked)
-    back = PutBack(version=asked, source=print_version(old), carriers=carriers)
+    back = PutBack.unchecked(version=asked, source=print_version(old), carriers=carriers)
     after: list[Pass] = []  # what came back may be in newer or older syntax
     if new < _ANY_POSE:
-        after.append(WritePlainPoses(version=asked, carriers=carriers))
+        after.append(kinds.WritePlainPoses.unchecked(version=asked, carriers=carriers))
     if new >= _NAMED_STATES:
-        after.append(RenameStates(version=asked, carriers=carriers))
-    return (*forward(old, new), back, *after, LeaveOut(version=asked, carriers=carriers))
+        after.append(kinds.RenameStates.unchecked(version=asked, carriers=carriers))
+    return (*forward(old, new), back, *after, kinds.LeaveOut.unchecked(version=asked, carriers=carriers))
 
 
 @lru_cache(maxsize=64)
@@ -60,20 +58,20 @@ def raise_words(declared: str | None, *, carriers: bool = True, mixed: bool = Fa
 
     `mixed` means that the file has syntax of newer versions too.
     """
-    old, newest = known_version(declared), table("sdf").versions[-1]
-    back = PutBack(version=newest, source=old, carriers=carriers)
+    old, newest = known_version(declared), versions_of("sdf")[-1]
+    back = PutBack.unchecked(version=newest, source=old, carriers=carriers)
     return (*forward(parse_version(old), parse_version(newest), names=False, mixed=mixed), back)
 
 
 def raise_for_merging(declared: str, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
     """The same in the conversion to a file of several versions: what its version lacks is left out when it is whole."""
-    back = PutBack(version=asked, source=declared, carriers=carriers)
-    return (*forward(parse_version(declared), parse_version(asked)), back, SetVersion(version=asked))
+    back = PutBack.unchecked(version=asked, source=declared, carriers=carriers)
+    return (*forward(parse_version(declared), parse_version(asked)), back, SetVersion.unchecked(version=asked))
 
 
 def raise_unversioned(*, carriers: bool = True) -> tuple[Pass, ...]:
     """The passes that upgrade old syntax where nobody has declared a version, as in `<gazebo>` elements."""
-    return tuple(unversioned(table("sdf").versions[-1], carriers=carriers))
+    return tuple(unversioned(versions_of("sdf")[-1], carriers=carriers))
 
 
 def lower_version(declared: str | None, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
@@ -83,4 +81,4 @@ def lower_version(declared: str | None, asked: str, *, carriers: bool = True) ->
 
 def lower_meaning(asked: str) -> tuple[Pass, ...]:
     """The passes for what means something else in an older version; newer syntax stays."""
-    return tuple(meaning_back(parse_version(table("sdf").versions[-1]), parse_version(asked)))
+    return tuple(meaning_back(parse_version(versions_of("sdf")[-1]), parse_version(asked)))

@@ -12,7 +12,7 @@ from twinform.ir.frames import FrameError
 from twinform.passes.carriers.sdf_versions import Keeper
 from twinform.passes.framework.base import Pass
 from twinform.passes.transforms.nodes import map_elements
-from twinform.schemas import Version, parse_version, table
+from twinform.schemas import Version, parse_version, versions_of
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -84,5 +84,5 @@ def is_foreign(element: Element) -> bool:
 
 def known_version(declared: str | None) -> str:
     """The version that a file is read as: the newest where it declares none that exists."""
-    versions = table("sdf").versions
+    versions = versions_of("sdf")
     return declared if declared in versions else versions[-1]

@@ -21,7 +21,7 @@ def _bare(node: Node) -> Node:
 
 
 def _bare_element(element: Element) -> Element:
-    kept = (child for child in element.children if not is_version_carrier(Opaque(element=child)))
+    kept = (child for child in element.children if not is_version_carrier(Opaque.unchecked(element=child)))
     return replace_fields(element, children=tuple(map(_bare_element, kept)))
 
 

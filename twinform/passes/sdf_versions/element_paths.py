@@ -20,7 +20,7 @@ def put(element: Element, path: tuple[str, ...], made: Element) -> Element:
         return element.model_copy(update={"children": (*element.children, made)})
     found = element.find(path[0])
     if found is None:
-        inner = put(Element(name=path[0]), path[1:], made)
+        inner = put(Element.unchecked(name=path[0]), path[1:], made)
         return element.model_copy(update={"children": (*element.children, inner)})
     return replace(element, found, put(found, path[1:], made))
 

@@ -62,13 +62,13 @@ def _fixed(keeper: Keeper, joint: Joint) -> Joint:
     pieces = [_type(joint)]
     if joint.axis is not None:
         written = to_element(Joint(name="", type="fixed", axis=joint.axis), "joint", "sdf").find("axis")
-        pieces += [Opaque(element=written)] if written else []
+        pieces += [Opaque.unchecked(element=written)] if written else []
     changed = joint.model_copy(update={"type": "revolute", "axis": _STILL})
     return _keep(keeper, changed, joint, pieces, VersionCondition(since=_NEWER["fixed"], without=("axis",)))
 
 
 def _type(joint: Joint) -> Opaque:
-    return Opaque(attribute=("type", joint.type))
+    return Opaque.unchecked(attribute=("type", joint.type))
 
 
 def _keep(keeper: Keeper, changed: Joint, joint: Joint, pieces: list[Opaque], condition: VersionCondition) -> Joint:

@@ -178,7 +178,8 @@ class _Elements:
             return part, []
         at = f"{part.at}/{name}" if part.at else name
         lifted = [
-            Leftover((), Opaque(at=at, attribute=pair, source=part.source), condition) for pair, condition in attributes
+            Leftover((), Opaque.unchecked(at=at, attribute=pair, source=part.source), condition)
+            for pair, condition in attributes
         ]
         return part.model_copy(update={"element": element}), lifted
 
@@ -199,7 +200,7 @@ class _Elements:
         gone = [pair for pair, _ in lost]
         if form.fact.type is None:
             for pair, condition in lost:
-                children += self._keep(Opaque(attribute=pair), condition, f"the attribute {pair[0]!r}", where)
+                children += self._keep(Opaque.unchecked(attribute=pair), condition, f"the attribute {pair[0]!r}", where)
             lost = []
         attributes = tuple(pair for pair in element.attributes if pair not in gone)
         return replace_fields(element, attributes=attributes, children=tuple(children)), lost
@@ -212,13 +213,16 @@ class _Elements:
         if row is not None and row.type and any(not is_foreign(inner) for inner in child.children):
             row, span = None, span.containers()  # a wrench is a value, and was a position and a force
         if row is None:
-            return self._keep(Opaque(element=child), span.condition(self.version), f"<{child.name}>", where)
+            return self._keep(Opaque.unchecked(element=child), span.condition(self.version), f"<{child.name}>", where)
         inner, lost = self._element(child, row, span.shape(row), where)
         beside = [
             element
             for pair, condition in lost
             for element in self._keep(
-                Opaque(at=child.name, attribute=pair), condition, f"the attribute {pair[0]!r} of <{child.name}>", where
+                Opaque.unchecked(at=child.name, attribute=pair),
+                condition,
+                f"the attribute {pair[0]!r} of <{child.name}>",
+                where,
             )
         ]
         return [inner, *beside]

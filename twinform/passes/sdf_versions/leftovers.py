@@ -79,6 +79,6 @@ def _pieces(element: Element, at: str, depth: int) -> Iterator[Opaque]:
         return
     for pair in element.attributes:
         if at or pair[0] not in _IDENTITY:
-            yield Opaque(at=at, attribute=pair)
+            yield Opaque.unchecked(at=at, attribute=pair)
     for child in element.children:
-        yield Opaque(at=at, element=child)
+        yield Opaque.unchecked(at=at, element=child)

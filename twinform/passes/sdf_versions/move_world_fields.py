@@ -47,7 +47,7 @@ def _out_of(world: World, part: Opaque, physics: Element) -> World:
     left, field = take(physics, (_FIELD,))
     if field is not None and not _has(world, _FIELD):
         physics = left
-        moved.append(Opaque(element=field, source=part.source))
+        moved.append(Opaque.unchecked(element=field, source=part.source))
     if not update and not moved:
         return world
     changed = part.model_copy(update={"element": physics})
@@ -61,14 +61,14 @@ def _back(carriers: bool, field: bool, world: World) -> World:
         fields = []
     moved = [part.element for part in fields if part.element]
     if world.gravity is not None:
-        moved.insert(0, Element(name="gravity", text=format_value(world.gravity)))
+        moved.insert(0, Element.unchecked(name="gravity", text=format_value(world.gravity)))
     if not moved:
         return world
     rest = [part for part in world.opaque if part not in fields]
     place = next((i for i, part in enumerate(rest) if part.element and part.element.name == "physics"), None)
     if place is None:
         place = len(rest)
-        rest.append(Opaque(element=_made(carriers=carriers), source=world.source))
+        rest.append(Opaque.unchecked(element=_made(carriers=carriers), source=world.source))
     physics = rest[place].element
     for element in moved:
         physics = put(physics, (), element) if physics else None
@@ -80,7 +80,7 @@ def _made(*, carriers: bool) -> Element:
     """A `<physics>` that is there for its gravity alone."""
     annotations = version_carriers([], VersionCondition(since=_SINCE, without=(".",))) if carriers else ()
     children = tuple(part.element for part in annotations if part.element)
-    return Element(name="physics", attributes=(("type", "ode"),), children=children)
+    return Element.unchecked(name="physics", attributes=(("type", "ode"),), children=children)
 
 
 def _has(world: World, name: str) -> bool:

@@ -10,8 +10,6 @@ from twinform.ir import (
     Collision,
     Document,
     Element,
-    Format,
-    Frame,
     Include,
     Inertial,
     Joint,
@@ -23,8 +21,6 @@ from twinform.ir import (
     Sensor,
     Visual,
     World,
-    bits_of,
-    census_of,
     count_parts,
     rewrite,
 )
@@ -32,26 +28,19 @@ from twinform.ir.frames import MODEL, WORLD, FrameGraph, Kind
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition, version_carriers
-from twinform.passes.sdf_versions.base import VersionPass, known_version
+from twinform.passes.sdf_versions.base import VersionPass
+from twinform.passes.sdf_versions.early_frames import NAMED_FRAMES
 from twinform.passes.transforms.element_poses import ElementPoses
 from twinform.passes.transforms.nodes import pose_piece
-from twinform.schemas import Version, parse_version
+from twinform.schemas import Version
 
 Posed = TypeVar("Posed", Visual, Collision, Sensor, Light, Inertial, Include, Link, Joint, Model)
 Holder = TypeVar("Holder", Model, World)
 
-_NAMES: Version = (1, 7)
-"""Since this version a pose may name its frame."""
 _PLACEMENT: Version = (1, 8)
 """Since this version a model may say which of its frames its pose is about."""
 _ORIGIN = (0.0, 0.0, 0.0)
 _IN_LINKS = ("visuals", "collisions", "sensors", "lights")
-
-
-def has_early_frames(document: Document) -> bool:
-    """Whether a document of a version before 1.7 has frames, which may stand in 1.5 and 1.6 and mean nothing there."""
-    early = document.format is Format.SDF and parse_version(known_version(document.version)) < _NAMES
-    return early and census_of(document) & bits_of(Frame) != 0
 
 
 class PlaceAbsolutely(VersionPass):
@@ -70,7 +59,7 @@ class PlaceAbsolutely(VersionPass):
 
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document without named frames."""
-        named = self.number >= _NAMES
+        named = self.number >= NAMED_FRAMES
         place = _Placer(keeper, named=named)
         document = rewrite(document, World, place.world)
         models = tuple(place.model(place.root(model)) for model in document.models)
@@ -124,8 +113,8 @@ class _Placer:
             frame = holder.frames[index]
             message = f"frame {frame.name!r} has no place in SDF before 1.7"
             self.keeper.sink.report(shared_rules.OLDER_VERSION, message, frame.location, found=frame.name)
-            pieces = [Opaque(element=to_element(frame, "frame", "sdf"))]
-            condition = VersionCondition(since=_NAMES, index=index)
+            pieces = [Opaque.unchecked(element=to_element(frame, "frame", "sdf"))]
+            condition = VersionCondition(since=NAMED_FRAMES, index=index)
             weight = count_parts(frame)
             holder = self.keeper.keep(
                 holder, pieces, condition, shared_rules.OLDER_VERSION, message, frame.location, weight
@@ -143,7 +132,7 @@ class _Placer:
         called = getattr(node, "name", None)
         what = f"{type(node).__name__.lower()} {called!r}" if called else f"the {type(node).__name__.lower()}"
         message = f"the pose of {what} is in a frame that the version cannot name"
-        condition = VersionCondition(since=_PLACEMENT if self.named else _NAMES, without=gone)
+        condition = VersionCondition(since=_PLACEMENT if self.named else NAMED_FRAMES, without=gone)
         weight = count_parts(written) if written else 0
         return self.keeper.keep(changed, pieces, condition, rules.OTHER_WORDS, message, node.location, weight)
 
@@ -213,7 +202,9 @@ class _Poses:
     def _keep(self, message: str, pose: Pose) -> tuple[Element, ...]:
         written = to_element(pose, "pose", "sdf")
         self.placer.keeper.account(rules.OTHER_WORDS, message, NOWHERE, 1 + len(written.attributes))
-        carriers = version_carriers([Opaque(element=written)], VersionCondition(since=_NAMES, instead="pose"))
+        carriers = version_carriers(
+            [Opaque.unchecked(element=written)], VersionCondition(since=NAMED_FRAMES, instead="pose")
+        )
         return tuple(part.element for part in carriers if part.element) if self.placer.keeper.carriers else ()
 
 

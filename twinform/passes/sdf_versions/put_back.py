@@ -132,7 +132,7 @@ def _restored_element(element: Element, version: Version) -> Element | None:
     made: list[Opaque] = []
     changed = False
     for child in element.children:
-        part = Opaque(element=child)
+        part = Opaque.unchecked(element=child)
         if is_version_carrier(part) and (condition := condition_of(part)).fit(version):
             changed = True
             if _ITSELF in condition.without:

@@ -75,7 +75,7 @@ def _second_angle(joint: Element) -> Element:
     def moved(child: Element) -> Element:
         if child.name != "angle" or child.get("axis") != "1":
             return child
-        return Element(name="axis2_state", children=(Element(name="position", text=child.text),))
+        return Element.unchecked(name="axis2_state", children=(Element.unchecked(name="position", text=child.text),))
 
     return joint.model_copy(update={"children": tuple(map(moved, joint.children))})
 
@@ -85,6 +85,6 @@ def _second_angle_back(joint: Element) -> Element:
         position = child.children[0] if child.name == "axis2_state" and len(child.children) == 1 else None
         if position is None or position.name != "position" or position.attributes:
             return child
-        return Element(name="angle", attributes=(("axis", "1"),), text=position.text)
+        return Element.unchecked(name="angle", attributes=(("axis", "1"),), text=position.text)
 
     return joint.model_copy(update={"children": tuple(map(moved, joint.children))})

@@ -63,10 +63,12 @@ def gathered(element: Element) -> Element:
         return element
     kept = tuple(child for child in element.children if child.name not in {*_MEASURED.values(), _ANNOTATION})
     numbers = tuple(
-        Element(name=old, children=noise.children) for old, noise in noises.items() if noise and noise.children
+        Element.unchecked(name=old, children=noise.children)
+        for old, noise in noises.items()
+        if noise and noise.children
     )
-    type_ = Element(name="type", text=types.pop())
-    return element.model_copy(update={"children": (*kept, Element(name="noise", children=(type_, *numbers)))})
+    type_ = Element.unchecked(name="type", text=types.pop())
+    return element.model_copy(update={"children": (*kept, Element.unchecked(name="noise", children=(type_, *numbers)))})
 
 
 def _common_noise(imu: Element, measured: str) -> Element | None:
@@ -94,10 +96,12 @@ def _imu(annotate: bool, element: Element) -> Element:
     kind = noise.find("type")
     type_ = (kind.text if kind else None) or _DEFAULT
     for old, new in _MEASURED.items():
-        numbers = noise.find(old) or Element(name=old)
+        numbers = noise.find(old) or Element.unchecked(name=old)
         children = tuple(child for child in numbers.children if child.name in _NUMBERS)
-        made = Element(name="noise", attributes=(("type", type_),), children=children)
+        made = Element.unchecked(name="noise", attributes=(("type", type_),), children=children)
         for axis in ("x", "y", "z"):
             if not has(imu, (new, axis, "noise")):
                 imu = put(imu, (new, axis), made)
-    return imu.model_copy(update={"children": (Element(name=_ANNOTATION), *imu.children)}) if annotate else imu
+    return (
+        imu.model_copy(update={"children": (Element.unchecked(name=_ANNOTATION), *imu.children)}) if annotate else imu
+    )

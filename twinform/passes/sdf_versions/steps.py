@@ -3,26 +3,7 @@
 from collections.abc import Callable, Iterator
 
 from twinform.passes.framework.base import Pass
-from twinform.passes.sdf_versions.bound_limits import BoundLimits
-from twinform.passes.sdf_versions.clear_names import ClearNames
-from twinform.passes.sdf_versions.connect_links import ConnectLinks
-from twinform.passes.sdf_versions.fit_joint_types import FitJointTypes
-from twinform.passes.sdf_versions.flatten_nested import FlattenNested
-from twinform.passes.sdf_versions.leave_out import LeaveOut
-from twinform.passes.sdf_versions.move_time_steps import MoveTimeSteps
-from twinform.passes.sdf_versions.move_world_fields import MoveWorldFields
-from twinform.passes.sdf_versions.name_axis_frames import NameAxisFrames
-from twinform.passes.sdf_versions.name_pose_frames import NamePoseFrames
-from twinform.passes.sdf_versions.name_the_nameless import NameTheNameless
-from twinform.passes.sdf_versions.nest_models import NestModels
-from twinform.passes.sdf_versions.place_absolutely import PlaceAbsolutely
-from twinform.passes.sdf_versions.place_inertials import PlaceInertials
-from twinform.passes.sdf_versions.rename_states import RenameStates
-from twinform.passes.sdf_versions.spread_imu_noise import GatherImuNoise, SpreadImuNoise
-from twinform.passes.sdf_versions.turn_axes import TurnAxes
-from twinform.passes.sdf_versions.write_inertias import WriteInertias
-from twinform.passes.sdf_versions.write_plain_poses import WritePlainPoses
-from twinform.passes.sdf_versions.write_thread_pitches import WriteThreadPitches
+from twinform.passes.sdf_versions import kinds
 from twinform.schemas import Version, print_version
 
 Changes = Callable[[int], bool]
@@ -42,37 +23,37 @@ def forward(old: Version, new: Version, *, names: bool = True, mixed: bool = Fal
 
 def _to_named_frames(changes: Changes, version: str, old: Version, *, names: bool, mixed: bool) -> Iterator[Pass]:
     if changes(4):
-        yield MoveTimeSteps(version=version)
+        yield kinds.MoveTimeSteps.unchecked(version=version)
     if changes(5):
-        yield FitJointTypes(version=version)
+        yield kinds.FitJointTypes.unchecked(version=version)
     if changes(6):
-        yield MoveWorldFields(version=version)
-        yield SpreadImuNoise(version=version)
-        yield NameTheNameless(version=version)
+        yield kinds.MoveWorldFields.unchecked(version=version)
+        yield kinds.SpreadImuNoise.unchecked(version=version)
+        yield kinds.NameTheNameless.unchecked(version=version)
     if changes(7):
-        yield NamePoseFrames(version=version)
+        yield kinds.NamePoseFrames.unchecked(version=version)
     if changes(5) or changes(7):
-        yield NameAxisFrames(version=version, source_before_1_5=old < (1, 5), both=mixed)
+        yield kinds.NameAxisFrames.unchecked(version=version, source_before_1_5=old < (1, 5), both=mixed)
     if changes(7) and names:
-        yield ClearNames(version=version)
+        yield kinds.ClearNames.unchecked(version=version)
 
 
 def _from_named_frames(changes: Changes, version: str, *, names: bool) -> Iterator[Pass]:
     if changes(8):
-        yield PlaceInertials(version=version)
+        yield kinds.PlaceInertials.unchecked(version=version)
     if changes(8) and names:
-        yield NestModels(version=version)
+        yield kinds.NestModels.unchecked(version=version)
     if changes(10):
-        yield WriteThreadPitches(version=version)
+        yield kinds.WriteThreadPitches.unchecked(version=version)
     if changes(12):
-        yield RenameStates(version=version)
+        yield kinds.RenameStates.unchecked(version=version)
 
 
 def unversioned(version: str, *, carriers: bool = True) -> Iterator[Pass]:
     """The passes for syntax of any version in a text that declares none, where no newer version has another meaning."""
-    yield SpreadImuNoise(version=version, annotate=carriers)
-    yield NamePoseFrames(version=version)
-    yield NameAxisFrames(version=version)
+    yield kinds.SpreadImuNoise.unchecked(version=version, annotate=carriers)
+    yield kinds.NamePoseFrames.unchecked(version=version)
+    yield kinds.NameAxisFrames.unchecked(version=version)
 
 
 def backward(new: Version, old: Version, *, carriers: bool = True) -> Iterator[Pass]:
@@ -80,7 +61,7 @@ def backward(new: Version, old: Version, *, carriers: bool = True) -> Iterator[P
     changes: Changes = lambda minor: old < (1, minor) <= new  # noqa: E731 - a name for the lines below
     yield from _models_back(changes, print_version(old), print_version(new), carriers=carriers)
     yield from _values_back(changes, print_version(old), carriers=carriers)
-    yield LeaveOut(version=print_version(old), carriers=carriers)
+    yield kinds.LeaveOut.unchecked(version=print_version(old), carriers=carriers)
 
 
 def meaning_back(new: Version, old: Version) -> Iterator[Pass]:
@@ -88,43 +69,43 @@ def meaning_back(new: Version, old: Version) -> Iterator[Pass]:
     changes: Changes = lambda minor: old < (1, minor) <= new  # noqa: E731 - a name for the lines below
     version = print_version(old)
     if changes(5):
-        yield TurnAxes(version=version)
+        yield kinds.TurnAxes.unchecked(version=version)
     if changes(6):
-        yield GatherImuNoise(version=version)
+        yield kinds.GatherImuNoise.unchecked(version=version)
     if changes(10):
-        yield BoundLimits(version=version)
+        yield kinds.BoundLimits.unchecked(version=version)
     if changes(4):
-        yield MoveTimeSteps(version=version, back=True)
+        yield kinds.MoveTimeSteps.unchecked(version=version, back=True)
 
 
 def _models_back(changes: Changes, version: str, source: str, *, carriers: bool) -> Iterator[Pass]:
     """What is where, from the outside in."""
     if changes(12):
-        yield RenameStates(version=version, carriers=carriers, back=True)
+        yield kinds.RenameStates.unchecked(version=version, carriers=carriers, back=True)
     if changes(11):
-        yield WriteInertias(version=version, carriers=carriers)
+        yield kinds.WriteInertias.unchecked(version=version, carriers=carriers)
     if changes(5):
-        yield FlattenNested(version=version, carriers=carriers, source=source)
+        yield kinds.FlattenNested.unchecked(version=version, carriers=carriers, source=source)
     if changes(8):
-        yield ConnectLinks(version=version, carriers=carriers)
+        yield kinds.ConnectLinks.unchecked(version=version, carriers=carriers)
     if changes(7) or changes(5):
-        yield TurnAxes(version=version, carriers=carriers)
+        yield kinds.TurnAxes.unchecked(version=version, carriers=carriers)
     if changes(8) or changes(7):
-        yield PlaceAbsolutely(version=version, carriers=carriers)
+        yield kinds.PlaceAbsolutely.unchecked(version=version, carriers=carriers)
 
 
 def _values_back(changes: Changes, version: str, *, carriers: bool) -> Iterator[Pass]:
     """How it is written."""
     if changes(9):
-        yield WritePlainPoses(version=version, carriers=carriers)
+        yield kinds.WritePlainPoses.unchecked(version=version, carriers=carriers)
     if any(map(changes, (4, 5, 6))):
-        yield FitJointTypes(version=version, carriers=carriers)
+        yield kinds.FitJointTypes.unchecked(version=version, carriers=carriers)
     if changes(10):
-        yield BoundLimits(version=version, carriers=carriers)
-        yield WriteThreadPitches(version=version, carriers=carriers, back=True)
-        yield NameTheNameless(version=version, carriers=carriers)
+        yield kinds.BoundLimits.unchecked(version=version, carriers=carriers)
+        yield kinds.WriteThreadPitches.unchecked(version=version, carriers=carriers, back=True)
+        yield kinds.NameTheNameless.unchecked(version=version, carriers=carriers)
     if changes(6):
-        yield GatherImuNoise(version=version, carriers=carriers)
-        yield MoveWorldFields(version=version, carriers=carriers, back=True)
+        yield kinds.GatherImuNoise.unchecked(version=version, carriers=carriers)
+        yield kinds.MoveWorldFields.unchecked(version=version, carriers=carriers, back=True)
     if changes(4):
-        yield MoveTimeSteps(version=version, carriers=carriers, back=True)
+        yield kinds.MoveTimeSteps.unchecked(version=version, carriers=carriers, back=True)

@@ -89,4 +89,4 @@ class _Turner:
 def _written(field: str, axis: Axis) -> Opaque:
     attributes = () if axis.expressed_in is None else (("expressed_in", axis.expressed_in),)
     text = format_value(axis.xyz) if axis.xyz is not None else None
-    return Opaque(at=field, element=Element(name="xyz", attributes=attributes, text=text))
+    return Opaque.unchecked(at=field, element=Element.unchecked(name="xyz", attributes=attributes, text=text))

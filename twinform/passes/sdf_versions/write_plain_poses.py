@@ -62,6 +62,6 @@ def _element(keeper: Keeper, element: Element) -> Element:
     changed = replace(element, pose, plain)
     if not keeper.carriers:
         return changed
-    carriers = version_carriers([Opaque(element=pose)], VersionCondition(since=_SINCE, instead="pose"))
+    carriers = version_carriers([Opaque.unchecked(element=pose)], VersionCondition(since=_SINCE, instead="pose"))
     children = (*changed.children, *(part.element for part in carriers if part.element))
     return changed.model_copy(update={"children": children})

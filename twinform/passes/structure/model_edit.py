@@ -12,7 +12,7 @@ from twinform.diagnostics.rules import edits as rules
 from twinform.ir import Document, Format, Model, World, replace_fields
 from twinform.ir.frames import FrameError
 from twinform.passes.framework.base import Pass
-from twinform.schemas import parse_version, table
+from twinform.schemas import parse_version, versions_of
 
 FRAMES_EVERYWHERE = "1.8"
 """The first version of SDF in which joints connect any two frames, and poses may be in any."""
@@ -96,7 +96,7 @@ def in_new_words(document: Document, sink: DiagnosticSink, change: Callable[[Doc
 
 def _modern(document: Document, sink: DiagnosticSink) -> Document:
     """A document of SDF before 1.8 in the syntax of 1.8; any other as it is."""
-    known, version = table("sdf").versions, document.version
+    known, version = versions_of("sdf"), document.version
     if document.format is not Format.SDF or version not in known:
         return document
     if parse_version(version) >= parse_version(FRAMES_EVERYWHERE):

@@ -16,7 +16,7 @@ def unique_name(name: str, taken: Container[str]) -> str:
 
 def piece(node: Node, tag: str) -> Opaque:
     """A node as an SDF element that can travel in a carrier."""
-    return Opaque(element=to_element(node, tag, "sdf"))
+    return Opaque.unchecked(element=to_element(node, tag, "sdf"))
 
 
 def pose_piece(pose: Pose) -> Opaque:
@@ -26,7 +26,7 @@ def pose_piece(pose: Pose) -> Opaque:
 
 def text_piece(name: str, text: str, at: str = "") -> Opaque:
     """An element with text."""
-    return Opaque(at=at, element=Element(name=name, text=text))
+    return Opaque.unchecked(at=at, element=Element.unchecked(name=name, text=text))
 
 
 def map_elements(parts: Iterable[Opaque], change: Callable[[Element], Element]) -> tuple[Opaque, ...]:

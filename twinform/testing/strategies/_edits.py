@@ -9,7 +9,7 @@ from twinform.compiler import convert
 from twinform.compiler.output.emitting import emit
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format
-from twinform.schemas import table
+from twinform.schemas import versions_of
 from twinform.testing.documents import document
 from twinform.testing.edits import Edit, draw_edits
 from twinform.testing.edits.drawing import MOST
@@ -63,7 +63,7 @@ def xml_documents(*, format: Literal["urdf", "sdf"] = "sdf", version: str | None
     They have all elements and attributes of the format, with values that fit; names need not refer to anything, so
     that such a document need not be a model.
     """
-    versions = table(format).versions
+    versions = versions_of(format)
     if version is not None and version not in versions:
         raise ValueError(f"{format} has no version {version!r}; it has {', '.join(versions)}")
 

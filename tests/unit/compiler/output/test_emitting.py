@@ -1,5 +1,7 @@
 """The text of documents: without a tree where that is possible, and with the findings of the tree where it is not."""
 
+from typing import Any
+
 import pytest
 
 import twinform
@@ -16,7 +18,7 @@ ROBOT = b"""<robot name="r">
 </robot>"""
 
 
-def _sdf(*models: Model, **fields: object) -> Document:
+def _sdf(*models: Model, **fields: Any) -> Document:
     return Document.unchecked(format=Format.SDF, version="1.11", models=models, **fields)
 
 

@@ -9,7 +9,9 @@ import pytest
 
 import twinform
 from twinform.compiler import plan
+from twinform.ir import Format
 from twinform.passes.framework.text import parse_pipeline
+from twinform.passes.legalise import Target, legalisation
 from twinform.passes.legalise.known import legalisation_kinds
 from twinform.passes.legalise.page import pipeline_page
 
@@ -29,6 +31,13 @@ def test_every_pass_of_legalisation_is_there_with_a_link_that_leads_to_it() -> N
     for text, link, _ in items:
         name = text.partition("{")[0]
         assert f'"{name}"' in (PAGE.parent / link).read_text()
+
+
+@pytest.mark.parametrize("target", [Target(Format.SDF, "1.4"), Target(Format.SDF, "1.12"), Target(Format.URDF)])
+def test_passes_made_without_validation_have_valid_options(target: Target) -> None:
+    source = Format.URDF if target.format is Format.SDF else Format.SDF
+    for step in legalisation(source, "1.6", target):
+        assert type(step).model_validate(step.model_dump()) == step
 
 
 def test_every_pass_of_legalisation_can_be_written_as_text() -> None:

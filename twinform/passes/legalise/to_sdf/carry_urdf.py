@@ -62,7 +62,7 @@ class CarryUrdf(ModelPass):
             return node
         if isinstance(node, Joint) and node.type in BALLS:
             message = f"{node.type} joint {node.name!r} has a type that only dialects of URDF have"
-            kept = [Opaque(attribute=("type", node.type))]
+            kept = [Opaque.unchecked(attribute=("type", node.type))]
             ball = self._swept(node.model_copy(update={"type": "ball"}), sink, back)
             return self._carry(ball, kept, sink, message)
         return self._swept(node, sink, back)

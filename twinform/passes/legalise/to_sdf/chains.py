@@ -23,7 +23,7 @@ from twinform.passes.carriers.joint_chains import (
 from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.passes.carriers.token_mass import is_chain_token, is_token
 from twinform.passes.legalise.to_sdf.mimic_references import with_reference
-from twinform.schemas import parse_version, table
+from twinform.schemas import parse_version, versions_of
 
 _KINDS: dict[str, JointType] = {str(kind): kind for kind in CHAINS}
 _TURNS = frozenset({"revolute", "continuous"})
@@ -227,7 +227,7 @@ def _unpacked(joint: Joint, names: tuple[str, ...]) -> Joint:
             pieces += unpack(part)
         else:
             opaque.append(part)
-    newest = parse_version(table("sdf").versions[-1])
+    newest = parse_version(versions_of("sdf")[-1])
     try:
         return absorb(joint.model_copy(update={"opaque": tuple(opaque)}), pieces, VersionCondition(), newest)
     except CarrierError as error:

@@ -191,14 +191,14 @@ class _Fold:
         text = " ".join(part.text for part in extension.opaque if part.text) if not content else ""
         if extension.reference is not None:
             attributes.insert(0, ("reference", extension.reference))
-        element = Element(name="gazebo", attributes=tuple(attributes), text=text or None, children=content)
+        element = Element.unchecked(name="gazebo", attributes=tuple(attributes), text=text or None, children=content)
         fate = Fate.CARRIED if self.carriers else Fate.DROPPED
         if content == extension.content:
             self.sink.account(fate, rule, message, extension.location, element.weight)
         else:
             for part in content or (element,):
                 self.sink.account(fate, rule, message, place_of(part, extension), part.weight)
-        self.kept += pack([Opaque(element=element)], "urdf", about)
+        self.kept += pack([Opaque.unchecked(element=element)], "urdf", about)
 
     def _into_shapes(self, link: Link, blob: Blob) -> Link:
         """Each child of the blob goes into every shape of its kind, in place of what is there."""

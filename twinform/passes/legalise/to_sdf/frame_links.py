@@ -104,7 +104,11 @@ class FrameLinks(ModelPass):
         if joint.axis is None:
             return frame
         whole = to_element(joint.model_copy(update={"opaque": ()}), "joint", "urdf")
-        rest = [Opaque(element=child) for child in whole.children if child.name not in {"origin", "parent", "child"}]
+        rest = [
+            Opaque.unchecked(element=child)
+            for child in whole.children
+            if child.name not in {"origin", "parent", "child"}
+        ]
         return self._keep(frame, rest, f"the axis of the fixed joint {joint.name!r} has no effect", sink)
 
     def _keep_physics(self, model: Model, joints: list[Joint], sink: DiagnosticSink) -> Model:
@@ -114,11 +118,11 @@ class FrameLinks(ModelPass):
             parts = [part.element for part in joint.opaque if part.element and part not in _carriers(joint)]
             if not parts:
                 continue
-            element = Element(name="gazebo", attributes=(("reference", joint.name),), children=tuple(parts))
+            element = Element.unchecked(name="gazebo", attributes=(("reference", joint.name),), children=tuple(parts))
             message = f"joint {joint.name!r} becomes a frame, which has no <{parts[0].name}>"
             fate = Fate.CARRIED if self.carriers else Fate.DROPPED
             sink.account(fate, to_sdf.FRAME_LINK, message, joint.location, element.weight)
-            kept.append(Opaque(element=element))
+            kept.append(Opaque.unchecked(element=element))
         return carry(model, kept, "urdf") if self.carriers else model
 
     def _keep_flags(self, model: Model, links: list[Link], sink: DiagnosticSink) -> Model:
@@ -129,19 +133,19 @@ class FrameLinks(ModelPass):
             if all(value is None for value in written.values()):
                 continue
             bare = to_element(Link(name="", spelling=link.spelling, **written), "link", "sdf")
-            element = Element(name="gazebo", attributes=(("reference", link.name),), children=bare.children)
+            element = Element.unchecked(name="gazebo", attributes=(("reference", link.name),), children=bare.children)
             names = ", ".join(field for field, value in written.items() if value is not None)
             message = f"{names} of {link.name!r} have no body to act on"
             fate = Fate.CARRIED if self.carriers else Fate.DROPPED
             sink.account(fate, to_sdf.FRAME_LINK, message, link.location, len(bare.children))
-            kept.append(Opaque(element=element))
+            kept.append(Opaque.unchecked(element=element))
         return carry(model, kept, "urdf") if self.carriers else model
 
     def _rest_of_link(self, frame: Frame, link: Link, sink: DiagnosticSink) -> Frame:
         if link.inertial is None:
             return frame
         bare = Link(name=link.name, inertial=link.inertial)
-        rest = [Opaque(element=child) for child in to_element(bare, "link", "urdf").children]
+        rest = [Opaque.unchecked(element=child) for child in to_element(bare, "link", "urdf").children]
         return self._keep(frame, rest, f"the frame {link.name!r} has no inertia", sink)
 
     def _keep(self, frame: Frame, rest: list[Opaque], message: str, sink: DiagnosticSink) -> Frame:

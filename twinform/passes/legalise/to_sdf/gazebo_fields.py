@@ -38,8 +38,11 @@ def set_link_fields(link: Link, values: Values) -> Link:
     update: dict[str, object] = {field: value for field, value in written.items() if field != "velocity_decay"}
     if "velocity_decay" in written:
         text = format_value(written["velocity_decay"])
-        parts = (Element(name="linear", text=text), Element(name="angular", text=text))
-        update["opaque"] = (*link.opaque, Opaque(element=Element(name="velocity_decay", children=parts)))
+        parts = (Element.unchecked(name="linear", text=text), Element.unchecked(name="angular", text=text))
+        update["opaque"] = (
+            *link.opaque,
+            Opaque.unchecked(element=Element.unchecked(name="velocity_decay", children=parts)),
+        )
     return link.model_copy(update=update) if update else link
 
 
@@ -82,4 +85,4 @@ def _physics(values: list[tuple[str, object]]) -> Opaque:
             found = holder.find(step)
             holder = found if found is not None else etree.SubElement(holder, step)
         holder.text = format_value(value)
-    return Opaque(element=from_xml(root))
+    return Opaque.unchecked(element=from_xml(root))

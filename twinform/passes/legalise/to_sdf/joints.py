@@ -73,7 +73,7 @@ class UrdfJoints(ModelPass):
         message = f"planar joint {joint.name!r} is two sliding joints and a turning one in SDF, with links without mass"
         sink.report(to_sdf.JOINT_CHAIN, message, joint.location.at("@type"), found="planar")
         rest = [child for child in to_element(joint, "joint", "urdf").children if child.name in _BESIDE_AXIS]
-        pieces = [Opaque(attribute=("type", "planar")), *(Opaque(element=child) for child in rest)]
+        pieces = [Opaque.unchecked(attribute=("type", "planar")), *(Opaque.unchecked(element=child) for child in rest)]
         return self._keep(turn, pieces, f"planar joint {joint.name!r} is a chain of joints", sink, to_sdf.JOINT_CHAIN)
 
     def _free(self, link: Link, joint: Joint, sink: DiagnosticSink) -> Link:
@@ -87,8 +87,8 @@ class UrdfJoints(ModelPass):
             return freed
         rest = tuple(child for child in element.children if child.name not in {"parent", "child"})
         attributes = (("joint", joint.name), ("parent", joint.parent or ""))
-        annotation = Element(name=f"{{{NAMESPACE}}}{FLOATING}", attributes=attributes, children=rest)
-        return freed.model_copy(update={"opaque": (*freed.opaque, Opaque(element=annotation))})
+        annotation = Element.unchecked(name=f"{{{NAMESPACE}}}{FLOATING}", attributes=attributes, children=rest)
+        return freed.model_copy(update={"opaque": (*freed.opaque, Opaque.unchecked(element=annotation))})
 
     def _joint(self, joint: Joint, sink: DiagnosticSink) -> Joint:
         match joint.type:
@@ -120,7 +120,7 @@ class UrdfJoints(ModelPass):
         rest = [child for child in to_element(joint, "joint", "urdf").children if child.name in OF_AN_AXIS]
         kept = joint.model_copy(update={"axis": None})
         message = f"the {joint.type} joint {joint.name!r} has no axis"
-        return self._keep(kept, [Opaque(element=child) for child in rest], message, sink)
+        return self._keep(kept, [Opaque.unchecked(element=child) for child in rest], message, sink)
 
     def _moving(self, joint: Joint, sink: DiagnosticSink) -> Joint:
         axis = joint.axis or Axis()
@@ -170,5 +170,5 @@ def _is_free(joint: Joint, model: Model) -> bool:
 def _without(limit: Limit, names: tuple[str, ...]) -> tuple[Limit, list[Opaque]]:
     """The limit without what it has by these names, and that as attributes of URDF."""
     written = [(name, getattr(limit, name)) for name in names if getattr(limit, name) is not None]
-    rest = [Opaque(at="limit", attribute=(name, format_value(value))) for name, value in written]
+    rest = [Opaque.unchecked(at="limit", attribute=(name, format_value(value))) for name, value in written]
     return (limit.model_copy(update={name: None for name, _ in written}) if written else limit), rest

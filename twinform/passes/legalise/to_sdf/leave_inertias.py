@@ -18,7 +18,7 @@ from twinform.passes.carriers.carriers import is_carrier, unpack
 from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.passes.framework.assets import AssetPass
 from twinform.passes.framework.base import ModelPass
-from twinform.schemas import parse_version, table
+from twinform.schemas import parse_version, versions_of
 
 _SINCE = (1, 11)
 _FIELDS = ("mass", "pose", "inertia")
@@ -76,7 +76,7 @@ def _unpacked(inertial: Inertial) -> Inertial:
     """The inertial with all that it carries of SDF."""
     pieces = tuple(piece for part in inertial.opaque if is_carrier(part, "sdf") for piece in unpack(part))
     kept = tuple(part for part in inertial.opaque if not is_carrier(part, "sdf"))
-    newest = parse_version(table("sdf").versions[-1])
+    newest = parse_version(versions_of("sdf")[-1])
     return absorb(inertial.model_copy(update={"opaque": kept}), pieces, VersionCondition(), newest)
 
 

@@ -17,7 +17,7 @@ from twinform.passes.legalise.names import renamed
 from twinform.passes.legalise.to_sdf.restore_frames import SCOPE
 from twinform.passes.sdf_versions.nest_models import nest
 from twinform.passes.transforms.notation import NESTED
-from twinform.schemas import parse_version, table
+from twinform.schemas import parse_version, versions_of
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -126,8 +126,8 @@ def _with_rest(model: Model, path: str, annotated: dict[str, Element], sink: Dia
     if found is None:
         return model
     pieces = (
-        *(Opaque(attribute=pair) for pair in found.attributes),
-        *(Opaque(element=child) for child in found.children),
+        *(Opaque.unchecked(attribute=pair) for pair in found.attributes),
+        *(Opaque.unchecked(element=child) for child in found.children),
     )
     try:
         whole = absorb(model.model_copy(update={"canonical_link": None}), pieces, VersionCondition(), _NEWEST)
@@ -138,7 +138,7 @@ def _with_rest(model: Model, path: str, annotated: dict[str, Element], sink: Dia
         return model
 
 
-_NEWEST = parse_version(table("sdf").versions[-1])
+_NEWEST = parse_version(versions_of("sdf")[-1])
 
 
 def _with_known_links(model: Model) -> Model:

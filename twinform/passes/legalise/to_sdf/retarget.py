@@ -15,7 +15,7 @@ from twinform.passes.carriers.provenance import (
 )
 from twinform.passes.framework.base import Pass
 from twinform.passes.transforms.notation import BODY
-from twinform.schemas import table
+from twinform.schemas import versions_of
 
 
 class RetargetSdf(Pass):
@@ -39,7 +39,7 @@ class RetargetSdf(Pass):
         return document.model_copy(
             update={
                 "format": Format.SDF,
-                "version": self.version if before is None or before in table("sdf").versions else before,
+                "version": self.version if before is None or before in versions_of("sdf") else before,
                 "models": models,
                 "namespaces": (*kept, (PREFIX, NAMESPACE)) if any(map(has_ours, models)) else kept,
             }

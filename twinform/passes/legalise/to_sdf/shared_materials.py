@@ -100,7 +100,7 @@ def _definition(material: Material, named: set[str | None]) -> Opaque:
     plain = not material.opaque and (material.color or material.texture)
     if plain and material.name in named:
         return annotation(SHARED_MATERIAL, material.name)
-    (whole,) = pack([Opaque(element=to_element(material, "material", "urdf"))], "urdf")
+    (whole,) = pack([Opaque.unchecked(element=to_element(material, "material", "urdf"))], "urdf")
     return whole
 
 

@@ -25,7 +25,7 @@ from twinform.passes.carriers.material_annotations import COLORS, SCRIPTS
 from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.transforms.urdf_color import urdf_color
-from twinform.schemas import parse_version, table
+from twinform.schemas import parse_version, versions_of
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -82,7 +82,9 @@ def _without_carriers(node: AnyNode) -> AnyNode:
 
 def _is_blank_pose(carrier: Opaque) -> bool:
     """Whether it is an empty pose, which the link has by now."""
-    return all(piece.element is not None and piece.element == Element(name="pose") for piece in unpack(carrier))
+    return all(
+        piece.element is not None and piece.element == Element.unchecked(name="pose") for piece in unpack(carrier)
+    )
 
 
 def _is_overruled(carrier: Opaque, node: Node) -> bool:
@@ -157,7 +159,7 @@ def _absorbed(node: AnyNode, carriers: Iterable[Opaque]) -> AnyNode:
     for carrier in carriers:
         index = carrier.element.get("index") if carrier.element else None
         condition = VersionCondition(index=int(index) if index and index.isdecimal() else None)
-        node = absorb(node, unpack(carrier), condition, parse_version(table("sdf").versions[-1]))
+        node = absorb(node, unpack(carrier), condition, parse_version(versions_of("sdf")[-1]))
     return node
 
 

@@ -51,7 +51,7 @@ class WorldLink(ModelPass):
         sink.account(fate, to_sdf.WORLD_LINK, message, world.location, count_parts(world))
         if not self.carriers:
             return model
-        return carry(model, [Opaque(element=to_element(world, "link", "urdf"))], "urdf")
+        return carry(model, [Opaque.unchecked(element=to_element(world, "link", "urdf"))], "urdf")
 
 
 def _on_model(joint: Joint) -> Joint:

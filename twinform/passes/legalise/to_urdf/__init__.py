@@ -30,7 +30,7 @@ from twinform.passes.legalise.to_urdf.unfold_joints import UnfoldJoints
 from twinform.passes.legalise.to_urdf.unpack_urdf import UnpackUrdf
 from twinform.passes.legalise.to_urdf.upgrade_sdf import UpgradeSdf
 from twinform.passes.sdf_versions.spread_imu_noise import GatherImuNoise
-from twinform.schemas import table
+from twinform.schemas import versions_of
 
 __all__ = ["UrdfVersion", "to_urdf"]
 
@@ -49,32 +49,32 @@ def to_urdf(
     """
     shapes: UrdfVersion = "1.2" if mixed else urdf_version
     return (
-        SelectModel(model=model),
-        UpgradeSdf(carriers=carriers, mixed=mixed_source),
-        GatherImuNoise(version=table("sdf").versions[-1], annotated=True),
-        FlattenForUrdf(carriers=carriers),
-        FoldPlanarJoints(carriers=carriers),
-        ComputeInertias(carriers=carriers),
-        FillInertials(carriers=carriers),
-        RestoreLinks(carriers=carriers),
-        ResolveJointEnds(carriers=carriers),
-        ExpressAxes(carriers=carriers),
-        TurnFramesIntoLinks(carriers=carriers),
-        BuildTree(carriers=carriers),
-        RelateGearboxes(carriers=carriers),
-        UnfoldJoints(carriers=carriers),
-        MapJoints(carriers=carriers, urdf_version=urdf_version),
-        RebaseLinks(carriers=carriers),
-        MapGeometry(carriers=carriers, urdf_version=shapes),  # what it carries is where it will be
-        ShareVisuals(carriers=carriers),
-        MapMaterials(carriers=carriers),
-        MapSurfaces(carriers=carriers),
-        ExtendGazebo(carriers=carriers),
-        CarryTheRest(carriers=carriers, urdf_version=urdf_version),
-        RestoreMaterials(),
-        RestoreShapes(),
-        RestoreNames(to=Format.URDF),
-        RestoreLumpedNames(),
-        UnpackUrdf(),
-        DropStale(to=Format.URDF),
+        SelectModel.unchecked(model=model),
+        UpgradeSdf.unchecked(carriers=carriers, mixed=mixed_source),
+        GatherImuNoise.unchecked(version=versions_of("sdf")[-1], annotated=True),
+        FlattenForUrdf.unchecked(carriers=carriers),
+        FoldPlanarJoints.unchecked(carriers=carriers),
+        ComputeInertias.unchecked(carriers=carriers),
+        FillInertials.unchecked(carriers=carriers),
+        RestoreLinks.unchecked(carriers=carriers),
+        ResolveJointEnds.unchecked(carriers=carriers),
+        ExpressAxes.unchecked(carriers=carriers),
+        TurnFramesIntoLinks.unchecked(carriers=carriers),
+        BuildTree.unchecked(carriers=carriers),
+        RelateGearboxes.unchecked(carriers=carriers),
+        UnfoldJoints.unchecked(carriers=carriers),
+        MapJoints.unchecked(carriers=carriers, urdf_version=urdf_version),
+        RebaseLinks.unchecked(carriers=carriers),
+        MapGeometry.unchecked(carriers=carriers, urdf_version=shapes),  # what it carries is where it will be
+        ShareVisuals.unchecked(carriers=carriers),
+        MapMaterials.unchecked(carriers=carriers),
+        MapSurfaces.unchecked(carriers=carriers),
+        ExtendGazebo.unchecked(carriers=carriers),
+        CarryTheRest.unchecked(carriers=carriers, urdf_version=urdf_version),
+        RestoreMaterials.unchecked(),
+        RestoreShapes.unchecked(),
+        RestoreNames.unchecked(to=Format.URDF),
+        RestoreLumpedNames.unchecked(),
+        UnpackUrdf.unchecked(),
+        DropStale.unchecked(to=Format.URDF),
     )

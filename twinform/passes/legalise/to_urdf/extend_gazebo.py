@@ -115,13 +115,13 @@ def _truths(link: Link) -> Iterator[Element]:
     for field, (tag, same) in _TRUTHS.items():
         value = getattr(link, field)
         if value is not None:
-            yield Element(name=tag, text="true" if value is same else "false")
+            yield Element.unchecked(name=tag, text="true" if value is same else "false")
 
 
 def _joint_content(joint: Joint, links: set[str], with_mass: set[str], keeper: Keeper) -> tuple[list[Element], Joint]:
     content: list[Element] = []
     if joint.type == "fixed" and joint.parent != WORLD and joint.child in with_mass and not is_synthesized(joint):
-        content.append(Element(name="preserveFixedJoint", text="true"))
+        content.append(Element.unchecked(name="preserveFixedJoint", text="true"))
     springs, joint = _springs(joint)
     physics, joint = _physics(joint, keeper)
     content += [*springs, *physics]
@@ -139,7 +139,7 @@ def _springs(joint: Joint) -> tuple[list[Element], Joint]:
         return [], joint
     values = {field: getattr(axis.dynamics, field) for field in _SPRING_TAGS}
     content = [
-        Element(name=_SPRING_TAGS[field], text=format_value(value))
+        Element.unchecked(name=_SPRING_TAGS[field], text=format_value(value))
         for field, value in values.items()
         if value is not None
     ]
@@ -176,7 +176,7 @@ def _take_tags(element: Element, path: str, tags: list[Element]) -> Element | No
     for child in element.children:
         inner = f"{path}/{child.name}" if path else child.name
         if inner in _PHYSICS_TAGS and not child.attributes and not child.children and child.text:
-            tags.append(Element(name=_PHYSICS_TAGS[inner], text=child.text))
+            tags.append(Element.unchecked(name=_PHYSICS_TAGS[inner], text=child.text))
             continue
         left = _take_tags(child, inner, tags)
         if left is not None:
@@ -188,7 +188,7 @@ def _take_tags(element: Element, path: str, tags: list[Element]) -> Element | No
 
 def _model_extensions(model: Model) -> Iterator[GazeboExtension]:
     written = {field: getattr(model, field) for field in _MODEL_FIELDS}
-    flags = to_element(Model(name=model.name, spelling=model.spelling, **written), "model", "sdf").children
+    flags = to_element(Model.unchecked(name=model.name, spelling=model.spelling, **written), "model", "sdf").children
     if flags:
         yield GazeboExtension(content=flags)
     for plugin in model.plugins:

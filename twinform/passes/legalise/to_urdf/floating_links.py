@@ -23,7 +23,7 @@ def with_floating_joints(model: Model, keeper: Keeper) -> Model:
             keeper.sink.report(STALE_CARRIER, message, link.location, found=name)
             continue
         joint = Joint(name=name, type="floating", parent=parent, child=link.name, pose=Pose(relative_to=link.name))
-        rest = [Opaque(element=child) for child in annotation.children]
+        rest = [Opaque.unchecked(element=child) for child in annotation.children]
         joints.append(carry(joint.model_copy(update={"source": link.source}), rest, "urdf"))
     links = tuple(without_annotation(link, FLOATING) for link in model.links)
     return model.model_copy(update={"links": links, "joints": tuple(joints)})

@@ -7,7 +7,7 @@ from twinform.ir import Axis, Dynamics, Format, Joint, JointType, Limit, Mimic
 from twinform.ir.defaults import AXIS, UNLIMITED
 from twinform.passes.carriers.joint_chains import BALL_AXES, metres_per_radian
 
-_Z = Axis(xyz=AXIS[Format.SDF])
+_Z = Axis.unchecked(xyz=AXIS[Format.SDF])
 
 
 class Step(NamedTuple):

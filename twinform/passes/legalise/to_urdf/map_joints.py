@@ -61,8 +61,8 @@ def _map(joint: Joint, strength: float | None, keeper: Keeper) -> Joint:
     if joint.axis is None or joint.type in {"fixed", "floating", "planar"}:
         return joint
     joint = _map_mimic(joint, joint.axis, keeper)
-    axis = joint.axis or Axis()
-    limit = axis.limit or Limit()
+    axis = joint.axis or Axis.unchecked()
+    limit = axis.limit or Limit.unchecked()
     endless = limit.lower is None and limit.upper is None if keeper.back else _is_endless(limit)
     if joint.type == "continuous" or (joint.type == "revolute" and endless):
         joint, limit = _continuous(joint.model_copy(update={"type": "continuous"}), limit, strength, keeper)
@@ -70,7 +70,7 @@ def _map(joint: Joint, strength: float | None, keeper: Keeper) -> Joint:
         limit = _fill(
             joint, limit, {"lower": -UNLIMITED, "upper": UNLIMITED, **dict.fromkeys(_FORCES, strength)}, keeper
         )
-    made = None if limit == Limit() else limit
+    made = None if limit == Limit.unchecked() else limit
     return joint.model_copy(update={"axis": axis.model_copy(update={"limit": made})})
 
 

@@ -85,7 +85,9 @@ def _script_tag(link: Link, keeper: Keeper) -> GazeboExtension | None:
     name = scripts.pop() if len(scripts) == 1 else None
     if name is None or not (name.startswith("Gazebo/") or keeper.back):
         return None
-    return GazeboExtension(reference=link.name, content=(Element(name="material", text=name),), source=link.source)
+    return GazeboExtension(
+        reference=link.name, content=(Element.unchecked(name="material", text=name),), source=link.source
+    )
 
 
 def _set_by_tag(link: Link, keeper: Keeper) -> Link:

@@ -55,15 +55,15 @@ def _shared(collisions: tuple[Collision, ...]) -> tuple[list[Element], list[str]
             content.extend(_surface(value))
         else:
             tag = "maxContacts" if field == "max_contacts" else "laserRetro"
-            content.append(Element(name=tag, text=format_value(value)))
+            content.append(Element.unchecked(name=tag, text=format_value(value)))
     return content, fields
 
 
 def _surface(surface: Surface) -> list[Element]:
     written = {name: value for name, value in surface.__dict__.items() if value is not None and name not in _NOT_FIELDS}
     if surface.opaque or not written.keys() <= _TAGS.keys():
-        return [Element(name="collision", children=(to_element(surface, "surface", "sdf"),))]
-    return [Element(name=_TAGS[name], text=format_value(value)) for name, value in written.items()]
+        return [Element.unchecked(name="collision", children=(to_element(surface, "surface", "sdf"),))]
+    return [Element.unchecked(name=_TAGS[name], text=format_value(value)) for name, value in written.items()]
 
 
 def _without(link: Link, fields: list[str]) -> Link:

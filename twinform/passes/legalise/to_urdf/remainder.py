@@ -242,12 +242,12 @@ def _pieces(
     """What an element holds but for the attributes of its identity, which both halves of the node have."""
     for name, value in element.attributes:
         if name not in identity:
-            yield Opaque(at=at, attribute=(name, value))
+            yield Opaque.unchecked(at=at, attribute=(name, value))
     if element.text:
-        yield Opaque(at=at, text=element.text)
+        yield Opaque.unchecked(at=at, text=element.text)
     for child in element.children:
         below = f"{at}/{child.name}" if at else child.name
         if below in paths:
             yield from _pieces(child, below, paths)
         else:
-            yield Opaque(at=at, element=child)
+            yield Opaque.unchecked(at=at, element=child)

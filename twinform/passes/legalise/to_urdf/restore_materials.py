@@ -78,7 +78,7 @@ def _shared(model: Model, visuals: list[_Annotated]) -> dict[str, Material]:
             name = part.element.text or ""
             color, texture = counts[name].most_common(1)[0][0]
             if color or texture:
-                found[name] = Material(name=name, color=color, texture=texture)
+                found[name] = Material.unchecked(name=name, color=color, texture=texture)
     return found
 
 

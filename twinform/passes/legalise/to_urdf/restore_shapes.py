@@ -14,7 +14,7 @@ from twinform.passes.legalise.to_sdf.name_shapes import UNNAMED
 
 Shape = TypeVar("Shape", Visual, Collision)
 
-_NOTHING = Inertial(mass=0.0, inertia=Inertia().model_copy(update=dict.fromkeys(MOMENTS, 0.0)))
+_NOTHING = Inertial.unchecked(mass=0.0, inertia=Inertia.unchecked().model_copy(update=dict.fromkeys(MOMENTS, 0.0)))
 
 
 class RestoreShapes(ModelPass):

@@ -39,7 +39,7 @@ class ShareVisuals(ToUrdfPass):
             kept, content = _shared(link)
             links.append(kept)
             if content:
-                blob = Element(name="visual", children=tuple(content))
+                blob = Element.unchecked(name="visual", children=tuple(content))
                 extensions.append(GazeboExtension(reference=link.name, content=(blob,), source=link.source))
         return replace_fields(model, links=tuple(links), extensions=tuple(extensions))
 

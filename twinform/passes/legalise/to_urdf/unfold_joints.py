@@ -134,7 +134,7 @@ def _keep_axis(joint: Joint, keeper: Keeper) -> Joint:
         if axis is not None:
             message = f"ball joint {joint.name!r} has an {field}; its damping acts on each of the three joints"
             bare = to_element(Joint(name="", type=joint.type).model_copy(update={field: axis}), "joint", "sdf")
-            pieces = [Opaque(element=child) for child in bare.children]
+            pieces = [Opaque.unchecked(element=child) for child in bare.children]
             joint = keeper.keep(joint, pieces, rules.UNFOLDED_JOINT, message, axis.location, count_parts(axis))
     return joint
 

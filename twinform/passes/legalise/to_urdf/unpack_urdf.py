@@ -93,9 +93,9 @@ def _with_world(model: Model) -> Model:
     if index is None or not bodies:
         return model
     part, body = next(iter(bodies.items()))
-    children = tuple(Opaque(element=child) for child in body.element.children) if body.element else ()
+    children = tuple(Opaque.unchecked(element=child) for child in body.element.children) if body.element else ()
     attributes = body.element.attributes if body.element else ()
-    children += tuple(Opaque(attribute=pair) for pair in attributes if pair[0] != "name")
+    children += tuple(Opaque.unchecked(attribute=pair) for pair in attributes if pair[0] != "name")
     world: Link = model.links[index].model_copy(update={"opaque": (*model.links[index].opaque, *children)})
     links = (*model.links[:index], world, *model.links[index + 1 :])
     kept = tuple(each for each in model.opaque if each is not part)
