@@ -6,7 +6,7 @@ from lxml import etree
 
 from tests.tree_changes import PARSER, changed
 from twinform.schemas import XmlElement
-from twinform.text import SourceText, patch, spans
+from twinform.text import SourceText, merge, patch, spans
 from twinform.text.alignment import Contents, elements
 
 
@@ -18,6 +18,9 @@ def assert_patched(data: bytes, chance: random.Random, times: int) -> None:
     made = patch(source, before, after)
     contents = Contents()
     assert contents.number(etree.fromstring(made.data, PARSER)) == contents.number(after)
+    merged = merge(before, after, before)
+    assert not merged.conflicts
+    assert contents.number(merged.tree) == contents.number(after)
     if contents.number(before) == contents.number(after):
         assert made.data == data
     _assert_rest_is_same(source, made, _around(before, after, contents), before)

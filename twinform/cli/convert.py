@@ -24,7 +24,7 @@ from twinform.compiler import LoadOptions
 @click.command("convert")
 @click.argument("words", metavar="IN... [NAME:=VALUE...]", nargs=-1, required=True)
 @click.option("-o", "--output", "out", metavar="OUT", help="The file to write, or the directory for several inputs.")
-@click.option("--in-place", is_flag=True, help="Write each result over its input, in the format that it has.")
+@click.option("--in-place", is_flag=True, help="Change each input itself, and in it only what the passes change.")
 @click.option("--to", "target", type=click.Choice(TARGETS), help="The format; else OUT's suffix or the other format.")
 @ordering_options
 @click.option(

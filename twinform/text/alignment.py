@@ -1,7 +1,7 @@
 """Which children of an element are which children of another state of it: the alignment of two lists of elements."""
 
 from collections import Counter, defaultdict
-from collections.abc import Hashable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterator, Sequence
 from difflib import SequenceMatcher
 
 from twinform.schemas import XmlElement
@@ -22,10 +22,31 @@ def elements(parent: XmlElement) -> list[XmlElement]:
     return [child for child in parent if isinstance(child.tag, str)]
 
 
-class Contents:
-    """The contents of elements by number, so that equal ones have the same."""
+def spelled_alike(value: str) -> Hashable:
+    """What is equal for two spellings of one value: numbers for a text of nothing else, else the text's pieces."""
+    pieces = tuple(value.split())
+    try:
+        return tuple(map(float, pieces)) if "_" not in value else pieces
+    except ValueError:
+        return pieces
 
-    def __init__(self) -> None:
+
+def same_value(one: str | None, other: str | None) -> bool:
+    """Whether two values, or texts, are the same but for their spelling."""
+    if one is None or other is None:
+        return one == other
+    return one == other or spelled_alike(one) == spelled_alike(other)
+
+
+def _as_written(value: str) -> Hashable:
+    return value
+
+
+class Contents:
+    """The contents of elements by number, so that equal ones have the same; `value` tells which values are equal."""
+
+    def __init__(self, value: Callable[[str], Hashable] = _as_written) -> None:
+        self._value = value
         self._numbers: dict[Hashable, int] = {}
         self._of: dict[XmlElement, int] = {}
 
@@ -38,8 +59,8 @@ class Contents:
         for each in reversed([one for one in element.iter() if isinstance(one.tag, str)]):
             key = (
                 each.tag,
-                frozenset(each.attrib.items()),
-                texts(each),
+                frozenset([(name, self._value(str(value))) for name, value in each.attrib.items()]),
+                tuple(map(self._value, texts(each))),
                 tuple(self._of[child] for child in elements(each)),
             )
             self._of[each] = self._numbers.setdefault(key, len(self._numbers))
