@@ -93,6 +93,19 @@ def aligned(before: Sequence[XmlElement], after: Sequence[XmlElement], contents:
     return pairs
 
 
+def matched(before: Sequence[XmlElement], after: Sequence[XmlElement], contents: Contents) -> list[Pair]:
+    """The same for lists in different orders: what is left is matched with what is equal, or has its tag and name."""
+    pairs = aligned(before, after, contents)
+    for key in (contents.number, _key):
+        taken = [{pair[0] for pair in pairs}, {pair[1] for pair in pairs}]
+        waiting: dict[Hashable, list[int]] = defaultdict(list)
+        for j in reversed([j for j in range(len(after)) if j not in taken[1]]):
+            waiting[key(after[j])].append(j)
+        left = [i for i in range(len(before)) if i not in taken[0]]
+        pairs += [(i, waiting[key(before[i])].pop()) for i in left if waiting[key(before[i])]]
+    return pairs
+
+
 def _by_name(before: Sequence[XmlElement], after: Sequence[XmlElement], old: range, new: range) -> Iterator[Pair]:
     keys = [_key(before[i]) for i in old], [_key(after[i]) for i in new]
     for inner_old, inner_new, equal in _blocks(*keys):

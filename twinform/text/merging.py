@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from twinform.schemas import XmlElement
-from twinform.text.alignment import Contents, aligned, elements, same_value, spelled_alike, stripped
+from twinform.text.alignment import Contents, aligned, elements, matched, same_value, spelled_alike, stripped
 
 
 class Conflict(NamedTuple):
@@ -89,7 +89,7 @@ class _Merging:
         """Delete and insert children, and give those that are in all three."""
         old, new, mine = elements(before), elements(after), elements(own)
         kept = {j: i for i, j in aligned(old, new, self.exact)}
-        here = {i: mine[k] for i, k in aligned(old, mine, self.alike)}
+        here = {i: mine[k] for i, k in matched(old, mine, self.alike)}
         gone = [i for i in range(len(old)) if i not in set(kept.values())]
         known = {id(each) for each in here.values()}
         added = {self.alike.number(each) for each in mine if id(each) not in known}
