@@ -15,7 +15,7 @@ from twinform.cli.targets import Job
 from twinform.compiler import CompileError, Conversion, ConversionRequest, LoadOptions, read, run_conversion
 from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
 from twinform.diagnostics.reporters import Findings
-from twinform.passes import PassError, SideFilePass
+from twinform.passes import PassError, PassInstrumentation, SideFilePass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,16 +64,9 @@ class Options:
 
 def run_job(job: Job, options: Options, label: str, outputs: Outputs) -> int:
     """Run one conversion, and add what it makes to what is written; gives its exit code."""
-    source, instrumented = job.source, options.watching.begin(job.source.name)
+    instrumented = options.watching.begin(job.source.name)
     try:
-        request = options.request_for(job)
-        conversion = run_conversion(
-            request,
-            source.content,
-            options.load_options,
-            name=source.name,
-            instrumentation=instrumented.instrumentation,
-        )
+        conversion, patched = _converted(job, options, instrumented.instrumentation)
     except CompileError as error:
         instrumented.report()
         options.show(job.source.name, error.diagnostics)
@@ -84,7 +77,7 @@ def run_job(job: Job, options: Options, label: str, outputs: Outputs) -> int:
     instrumented.end()
     if not options.show(job.source.name, conversion.diagnostics):
         return FINDINGS
-    _add(conversion, job.path, options.ledger, outputs)
+    _add(conversion, patched, job.path, options.ledger, outputs)
     if not options.gazebo_files.make(conversion, job.source.name, outputs, notes=options.notes):
         return FINDINGS
     outputs.news.append(f"{label}{': ' if label else ''}{summary(conversion.ledger)}")
@@ -111,11 +104,31 @@ def _audit(conversion: Conversion, name: str, outputs: Outputs) -> int:
     return FINDINGS
 
 
-def _add(conversion: Conversion, path: Path | None, ledger: Path | None, outputs: Outputs) -> None:
+def _converted(
+    job: Job, options: Options, instrumentation: PassInstrumentation | None
+) -> tuple[Conversion, bytes | None]:
+    """The conversion and, where it is one in place, the bytes of the file with what it changes.
+
+    Raises:
+        CompileError: it failed.
+        PassError: a pass is at fault.
+    """
+    request, name, load_options = options.request_for(job), job.source.name, options.load_options
+    if job.in_place and job.target != "json":
+        from twinform.compiler.in_place import convert_in_place  # noqa: PLC0415 - most results are new files
+
+        return convert_in_place(request, Path(name), load_options, instrumentation=instrumentation)
+    made = run_conversion(request, job.source.content, load_options, name=name, instrumentation=instrumentation)
+    return made, None
+
+
+def _add(
+    conversion: Conversion, patched: bytes | None, path: Path | None, ledger: Path | None, outputs: Outputs
+) -> None:
     if path is None:
         outputs.stdout = conversion.text
     else:
-        outputs.add(outputs.by, path, conversion.text)
+        outputs.add(outputs.by, path, conversion.text if patched is None else patched)
     if ledger is not None:
         outputs.add("--ledger", ledger, conversion.ledger.to_json())
     outputs.add_beside(path, conversion.side_files)

@@ -24,7 +24,16 @@ from twinform.compiler import LoadOptions
 @click.command("convert")
 @click.argument("words", metavar="IN... [NAME:=VALUE...]", nargs=-1, required=True)
 @click.option("-o", "--output", "out", metavar="OUT", help="The file to write, or the directory for several inputs.")
-@click.option("--in-place", is_flag=True, help="Write each result over its input, in the format that it has.")
+@click.option("--in-place", is_flag=True, help="Change each input itself, and in it only what the passes change.")
+@click.option(
+    "--into",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Change this file of the other format, and in it only what has changed in IN since it was made of it.",
+)
+@click.option(
+    "--base", type=click.Path(path_type=Path), metavar="FILE", help="With --into: IN as it was before it was changed."
+)
 @click.option("--to", "target", type=click.Choice(TARGETS), help="The format; else OUT's suffix or the other format.")
 @ordering_options
 @click.option(
@@ -65,6 +74,8 @@ def command(
     statistics: bool,
     reproducers: Path | None,
     in_place: bool,
+    into: Path | None,
+    base: Path | None,
     notes: bool,
     allow: tuple[str, ...],
     deny: tuple[str, ...],
@@ -107,6 +118,14 @@ def command(
         folder = _folder(out, target, model, in_place=in_place)
         code = run_split(_only(sources), target or "urdf", options, folder, whole)
         ctx.exit(_end(whole, [code], load_options))
+    if into or base:
+        from twinform.cli.into import run_into  # noqa: PLC0415 - most results are new files
+
+        if out or in_place or target or asked["passes"]:
+            raise click.UsageError("--into says what is written: leave -o, --in-place, --to and --passes out")
+        updated = Outputs(read, [into] if into else ())
+        code = run_into(_only(sources, "--into"), into, base, options, updated)
+        ctx.exit(_end(updated, [code], load_options))
     todo = jobs_in_place(sources, out, target) if in_place else jobs(sources, out, target)
     versioned = ctx.get_parameter_source("sdf_version") is ParameterSource.COMMANDLINE
     if versioned and all(job.target != "sdf" for job in todo):
@@ -133,9 +152,9 @@ def _end(outputs: Outputs, codes: Sequence[int], load_options: LoadOptions) -> i
     return max(codes)
 
 
-def _only(sources: list[Source]) -> Source:
+def _only(sources: list[Source], option: str = "--split") -> Source:
     if len(sources) > 1:
-        raise click.UsageError("--split takes one input")
+        raise click.UsageError(f"{option} takes one input")
     return sources[0]
 
 

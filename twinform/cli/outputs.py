@@ -49,7 +49,7 @@ class Outputs:
 
     inputs: Sequence[Path] = ()
     spared: Sequence[Path] = ()
-    texts: list[tuple[Output, str]] = field(default_factory=list[tuple[Output, str]])
+    texts: list[tuple[Output, str | bytes]] = field(default_factory=list[tuple[Output, str | bytes]])
     stdout: str | None = None
     news: list[str] = field(default_factory=list[str])
 
@@ -79,7 +79,7 @@ class Outputs:
                 if other is not output:
                     raise click.UsageError(f"{other.by} and {output.by} name the same file: {output.path}")
 
-    def add(self, by: str, path: Path, text: str) -> None:
+    def add(self, by: str, path: Path, text: str | bytes) -> None:
         """A file that an option names."""
         self.texts.append((Output(by, path), text))
 

@@ -19,11 +19,12 @@ _ENDINGS = frozenset({".urdf", ".sdf", ".world", ".xml", ".json", ".xacro"})
 
 
 class Job(NamedTuple):
-    """One conversion; `path` is None for standard output."""
+    """One conversion; `path` is None for standard output. `in_place` keeps what the conversion leaves as it was."""
 
     source: Source
     target: Target
     path: Path | None
+    in_place: bool = False
 
 
 def jobs(sources: Sequence[Source], out: str | None, target: Target | None) -> list[Job]:
@@ -65,7 +66,7 @@ def _in_place(source: Source, target: Target | None) -> Job:
     found = _target(source.format)
     if found is None or target not in {None, found}:
         raise click.UsageError(f"{source.name} stays {found or 'what it is'} in its place; leave --to out")
-    return Job(source, found, Path(source.content))
+    return Job(source, found, Path(source.content), in_place=True)
 
 
 def _is_folder(out: str, count: int) -> bool:

@@ -34,6 +34,7 @@ BUILT_IN: Mapping[str, str] = {
     "doctype": "reading",
     "dropped-reference": "appearance",
     "duplicate-name": "model",
+    "edit-conflict": "edits",
     "empty-dynamics": "joints",
     "empty-model": "model",
     "empty-name": "model",

@@ -15,7 +15,7 @@ _PREFIX = 64
 """So much of its name has a file that is being written, which must not be longer than the name that it will have."""
 
 
-def write_atomically(path: Path, text: str) -> None:
+def write_atomically(path: Path, text: str | bytes) -> None:
     """Put the text where `path` is, all of it or nothing: it is written beside it and then moved over it.
 
     Folders that are missing are made. The permissions of a file that is replaced stay. A symbolic link is followed. A
@@ -28,7 +28,7 @@ def write_atomically(path: Path, text: str) -> None:
 
 
 def write_all_atomically(
-    texts: Mapping[Path, str], then: Callable[[], None] | None = None, *, durably: bool = True
+    texts: Mapping[Path, str | bytes], then: Callable[[], None] | None = None, *, durably: bool = True
 ) -> None:
     """Put every text in its place once all of them are written beside it; folders that are missing are made.
 
@@ -77,7 +77,7 @@ class _Staged:
     files: list[_File] = field(default_factory=list[_File])
     folders: list[Path] = field(default_factory=list[Path])
 
-    def add(self, path: Path, text: str, *, durably: bool) -> None:
+    def add(self, path: Path, text: str | bytes, *, durably: bool) -> None:
         target = Path(os.path.realpath(path))
         with _named_after(path):
             if target.is_symlink():
@@ -133,9 +133,14 @@ def _missing(folder: Path) -> Iterator[Path]:
         folder = folder.parent
 
 
-def _write_into(path: Path, text: str) -> None:
-    with _named_after(path), path.open("w", encoding="utf-8", newline="\n") as stream:
-        stream.write(text)
+def _write_into(path: Path, text: str | bytes) -> None:
+    with _named_after(path), path.open("wb") as stream:
+        stream.write(_bytes(text))
+
+
+def _bytes(text: str | bytes) -> bytes:
+    """What is written: a text in UTF-8."""
+    return text if isinstance(text, bytes) else text.encode()
 
 
 @contextmanager
@@ -148,13 +153,13 @@ def _named_after(path: Path) -> Generator[None]:
         raise
 
 
-def _written_beside(path: Path, text: str, *, durably: bool) -> Path:
+def _written_beside(path: Path, text: str | bytes, *, durably: bool) -> Path:
     """The text in a file beside the one that it is for."""
     mode = path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~_umask()
     temporary, descriptor = _new_beside(path)
     try:
-        with _named_after(path), os.fdopen(descriptor, "w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
+        with _named_after(path), os.fdopen(descriptor, "wb") as file:
+            file.write(_bytes(text))
             file.flush()
             if durably:
                 os.fsync(file.fileno())

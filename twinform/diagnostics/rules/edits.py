@@ -7,7 +7,7 @@ NAME_CLASH = Rule(
     severity=Severity.ERROR,
     finds="Two things that a pass would give one name.",
     matters="Links, joints and frames are found by their names; with two of one name a reference is ambiguous.",
-    example="`rename{names='left_arm=arm'}` on a robot that has another link called `arm`.",
+    example="`rename{names=[left_arm:arm]}` on a robot that has another link called `arm`.",
     better="Choose another name, or a prefix that nothing has yet.",
     references="SDF specification, names of siblings; URDF: links and joints are unique by name.",
 )
@@ -105,4 +105,13 @@ RAISED_VERSION = Rule(
     matters="Since 1.8, frames can be placed between any two parts of a model; the result has that version.",
     example="`lump-fixed-joints` on a file of SDF 1.4.",
     better="Nothing has to be done; `--sdf-version` writes an older one again.",
+)
+EDIT_CONFLICT = Rule(
+    name="edit-conflict",
+    severity=Severity.ERROR,
+    finds="A part of a file that is to be changed in its place, and that says something else than what the change "
+    "begins with.",
+    matters="The change and what is written contradict each other; nothing is written, so that nobody's edit is lost.",
+    example="Two `<mass>` in an `<inertial>`: the first counts, and a pass changes it; which of them is to change?",
+    better="Mend that part of the file first, or write the result to another file with `-o`.",
 )

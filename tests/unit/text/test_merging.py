@@ -1,0 +1,74 @@
+"""Three-way merges: what changed between two trees, the tree as a person wrote it, and what it becomes."""
+
+import pytest
+from lxml import etree
+
+from twinform.text import merge
+
+CASES = {
+    "a value": ('<a x="1" y="2"/>', '<a x="1" y="3"/>', '<a y="2.0" x="1.0"/>', '<a y="3" x="1.0"/>'),
+    "the same change on both sides": ('<a x="1"/>', '<a x="2"/>', '<a x="2.0"/>', '<a x="2.0"/>'),
+    "an attribute that goes": ('<a x="1"/>', "<a/>", '<a x="1.0" z="1"/>', '<a z="1"/>'),
+    "a text": ("<a><b>1 0</b></a>", "<a><b>2 0</b></a>", "<a><b> 1.0  0 </b></a>", "<a><b>2 0</b></a>"),
+    "a child that comes": (
+        '<a><b name="x"/><b name="y"/></a>',
+        '<a><b name="x"/><c/><b name="y"/></a>',
+        '<a><z/><b name="x" v="1"/><b name="y"/></a>',
+        '<a><z/><b name="x" v="1"/><c/><b name="y"/></a>',
+    ),
+    "a child that goes": ('<a><b v="1"/><c/></a>', "<a><c/></a>", '<a><b v="1.0"/><z/><c/></a>', "<a><z/><c/></a>"),
+    "a child that goes on both sides": ("<a><b/><c/></a>", "<a><c/></a>", "<a><c/></a>", "<a><c/></a>"),
+    "a child that came on both sides": ("<a/>", '<a><b v="1"/></a>', '<a><b v="1.0"/></a>', '<a><b v="1.0"/></a>'),
+    "a child that moves keeps its spelling": (
+        '<a><b v="1"/><c/><d/></a>',
+        '<a><c/><d/><b v="1"/></a>',
+        '<a><b v="1.0"/><c/><d/></a>',
+        '<a><c/><d/><b v="1.0"/></a>',
+    ),
+    "a new name": (
+        '<a><b name="x" v="1"/></a>',
+        '<a><b name="y" v="1"/></a>',
+        '<a><b name="x" v="1.0"/></a>',
+        '<a><b name="y" v="1.0"/></a>',
+    ),
+}
+
+CONFLICTS = {
+    "a value": ('<a x="1"/>', '<a x="2"/>', '<a x="3"/>', "x is '3' here and was '1', and becomes '2'"),
+    "a value that is gone": ('<a x="1"/>', '<a x="2"/>', "<a/>", "x is None here and was '1', and becomes '2'"),
+    "a text": ("<a>1</a>", "<a>2</a>", "<a>3</a>", "the text is '3' here and was '1', and becomes '2'"),
+    "deleted, and changed here": (
+        '<a><b name="x"><c/></b></a>',
+        "<a/>",
+        '<a><b name="x"><d/></b></a>',
+        "<b> 'x' is deleted, and has been changed here",
+    ),
+    "changed, and deleted here": (
+        '<a><b name="x"><c/></b></a>',
+        '<a><b name="x"><d/></b></a>',
+        "<a/>",
+        "<b> 'x' has changed, and is not there",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_changes_are_made_in_what_a_person_wrote(name: str) -> None:
+    before, after, own, expected = map(etree.fromstring, CASES[name])
+    merged = merge(before, after, own)
+    assert merged.conflicts == ()
+    assert etree.tostring(merged.tree) == etree.tostring(expected)
+
+
+@pytest.mark.parametrize("name", CONFLICTS)
+def test_what_both_have_changed_is_a_conflict(name: str) -> None:
+    *trees, message = CONFLICTS[name]
+    merged = merge(*map(etree.fromstring, trees))
+    assert [conflict.message for conflict in merged.conflicts] == [message]
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_nothing_changed_and_nothing_touched(name: str) -> None:
+    before, _, own, _ = map(etree.fromstring, CASES[name])
+    merged = merge(before, before, own)
+    assert (etree.tostring(merged.tree), merged.conflicts) == (etree.tostring(own), ())

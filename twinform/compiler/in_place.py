@@ -1,0 +1,103 @@
+"""Conversions into a file that is there: only what has changed is changed in it, and every other byte stays."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from twinform.compiler.driver import Conversion, run_conversion
+from twinform.compiler.errors import CompileError
+from twinform.compiler.input.loading import LoadOptions, read, read_tree
+from twinform.compiler.input.parsing import UnreadableError, read_bytes
+from twinform.compiler.output.emitting import document_tree
+from twinform.compiler.request import ConversionRequest
+from twinform.diagnostics import DiagnosticSink, Location
+from twinform.diagnostics.rules.edits import EDIT_CONFLICT
+from twinform.ir import Document, Format
+from twinform.passes import PassInstrumentation
+from twinform.schemas import XmlElement
+from twinform.text import SourceText, UndecodableError, UnplacedError, merge, patch
+
+
+def convert_in_place(
+    request: ConversionRequest,
+    path: Path,
+    load_options: LoadOptions,
+    *,
+    instrumentation: PassInstrumentation | None = None,
+) -> tuple[Conversion, bytes]:
+    """What a file is converted to, in its own format, and the bytes of the file with only these changes.
+
+    Raises:
+        CompileError: it cannot be converted, or cannot be changed in its place.
+    """
+    conversion = run_conversion(request, str(path), load_options, name=str(path), instrumentation=instrumentation)
+    loaded = read(str(path), load_options, name=str(path))
+    sink = DiagnosticSink(str(path), load_options.strict)
+    patched = b""
+    if loaded.document is None:
+        sink.extend(loaded.diagnostics)
+    else:
+        patched = _patched(_bytes(path, sink, load_options), loaded.document, conversion, sink)
+    if sink.has_errors:
+        raise CompileError((*conversion.diagnostics, *sink.diagnostics))
+    return conversion, patched
+
+
+def convert_into(
+    request: ConversionRequest, edited: Path, into: Path, load_options: LoadOptions, *, base: Path | None = None
+) -> tuple[Conversion, bytes]:
+    """What an edited file is converted to, and the bytes of the file `into` with what the edits change.
+
+    The edits are what differs from `base`: the file as it was before them, or else what `into` is converted to.
+
+    Raises:
+        CompileError: one of the files cannot be converted, or both sides have changed the same.
+    """
+    conversion = run_conversion(request, str(edited), load_options, name=str(edited))
+    old = str(base) if base else _built(request, edited, into, load_options)
+    before = run_conversion(request, old, load_options, name=str(base or into))
+    sink = DiagnosticSink(str(into), load_options.strict)
+    patched = _patched(_bytes(into, sink, load_options), before.document, conversion, sink)
+    if sink.has_errors:
+        raise CompileError((*conversion.diagnostics, *sink.diagnostics))
+    return conversion, patched
+
+
+def _built(request: ConversionRequest, edited: Path, into: Path, load_options: LoadOptions) -> bytes:
+    """What a file is converted to, in the format and the version of the edited one."""
+    document = read(str(edited), load_options, name=str(edited)).document
+    if document is None:  # it could be converted a moment ago
+        raise CompileError(())
+    back = replace(request, to=document.format.value, sdf_version=None, urdf_version=None, model=None)
+    if document.format is Format.SDF:
+        back = replace(back, sdf_version=document.version)
+    return run_conversion(back, str(into), load_options, name=str(into)).text.encode()
+
+
+def _bytes(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> bytes:
+    try:
+        return read_bytes(path, sink, load_options.limits)
+    except UnreadableError as error:
+        raise CompileError(tuple(sink.diagnostics), unreadable=True) from error
+
+
+def _patched(source: bytes, before: Document, conversion: Conversion, sink: DiagnosticSink) -> bytes:
+    """The bytes of a file with what a conversion has changed in its document; findings where that fails."""
+    try:
+        own, _ = read_tree(source, DiagnosticSink(sink.file))
+    except UnreadableError as error:
+        raise CompileError(read(source, LoadOptions(), name=sink.file).diagnostics, unreadable=True) from error
+    merged = merge(document_tree(before), document_tree(conversion.document), own)
+    for element, message in merged.conflicts:
+        where = Location(line=element.sourceline or 0, path=_path(element))
+        sink.report(EDIT_CONFLICT, f"cannot be changed in place: {message}", where)
+    if merged.conflicts:
+        return source
+    try:
+        return patch(SourceText.of(source), own, merged.tree).data
+    except (UnplacedError, UndecodableError, UnicodeEncodeError) as error:
+        sink.report(EDIT_CONFLICT, f"cannot be changed in place: {error}", Location(line=1, path="/"))
+        return source
+
+
+def _path(element: XmlElement) -> str:
+    return element.getroottree().getpath(element)

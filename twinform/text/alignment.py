@@ -1,0 +1,163 @@
+"""Which children of an element are which children of another state of it: the alignment of two lists of elements."""
+
+from collections import Counter, defaultdict
+from collections.abc import Callable, Hashable, Iterator, Sequence
+from difflib import SequenceMatcher
+
+from twinform.schemas import XmlElement
+
+Pair = tuple[int, int]
+"""The places of a child in the lists before and after."""
+_MANY = 2000
+"""Lists of more elements that are alike are aligned from both ends only: difflib takes the square of their number."""
+
+
+def stripped(text: str | None) -> str:
+    """A text without the blanks of XML around it."""
+    return (text or "").strip(" \t\r\n")
+
+
+def elements(parent: XmlElement) -> list[XmlElement]:
+    """The child elements, without comments and processing instructions."""
+    return [child for child in parent if isinstance(child.tag, str)]
+
+
+def spelled_alike(value: str) -> Hashable:
+    """What is equal for two spellings of one value: numbers for a text of nothing else, else the text's pieces."""
+    pieces = tuple(value.split())
+    try:
+        return tuple(map(float, pieces)) if "_" not in value else pieces
+    except ValueError:
+        return pieces
+
+
+def same_value(one: str | None, other: str | None) -> bool:
+    """Whether two values, or texts, are the same but for their spelling."""
+    if one is None or other is None:
+        return one == other
+    return one == other or spelled_alike(one) == spelled_alike(other)
+
+
+def _as_written(value: str) -> Hashable:
+    return value
+
+
+class Contents:
+    """The contents of elements by number, so that equal ones have the same; `value` tells which values are equal."""
+
+    def __init__(self, value: Callable[[str], Hashable] = _as_written) -> None:
+        self._value = value
+        self._numbers: dict[Hashable, int] = {}
+        self._of: dict[XmlElement, int] = {}
+
+    def number(self, element: XmlElement) -> int:
+        """The number of an element's content."""
+        known = self._of.get(element)
+        return known if known is not None else self._numbered(element)
+
+    def _numbered(self, element: XmlElement) -> int:
+        for each in reversed([one for one in element.iter() if isinstance(one.tag, str)]):
+            key = (
+                each.tag,
+                frozenset([(name, self._value(str(value))) for name, value in each.attrib.items()]),
+                tuple(map(self._value, texts(each))),
+                tuple(self._of[child] for child in elements(each)),
+            )
+            self._of[each] = self._numbers.setdefault(key, len(self._numbers))
+        return self._of[element]
+
+
+def texts(element: XmlElement) -> tuple[str, ...]:
+    """The texts directly in an element, stripped: before the first child element, and after each."""
+    found = [element.text or ""]
+    for child in element:
+        if isinstance(child.tag, str):
+            found.append(child.tail or "")
+        else:
+            found[-1] += child.tail or ""
+    return tuple(map(stripped, found))
+
+
+def aligned(before: Sequence[XmlElement], after: Sequence[XmlElement], contents: Contents) -> list[Pair]:
+    """Which elements of two lists belong together, in order.
+
+    First those that are equal, then between these those with the same tag and name, then those with the same tag.
+    """
+    numbers = [contents.number(each) for each in before], [contents.number(each) for each in after]
+    pairs: list[Pair] = []
+    for old, new, equal in _blocks(*numbers):
+        if equal:
+            pairs.extend(zip(old, new, strict=True))
+        else:
+            pairs.extend(_by_name(before, after, old, new))
+    return pairs
+
+
+def matched(before: Sequence[XmlElement], after: Sequence[XmlElement], contents: Contents) -> list[Pair]:
+    """The same for lists in different orders: what is left is matched with what is equal, or has its tag and name."""
+    pairs = aligned(before, after, contents)
+    for key in (contents.number, _key):
+        taken = [{pair[0] for pair in pairs}, {pair[1] for pair in pairs}]
+        waiting: dict[Hashable, list[int]] = defaultdict(list)
+        for j in reversed([j for j in range(len(after)) if j not in taken[1]]):
+            waiting[key(after[j])].append(j)
+        left = [i for i in range(len(before)) if i not in taken[0]]
+        pairs += [(i, waiting[key(before[i])].pop()) for i in left if waiting[key(before[i])]]
+    return pairs
+
+
+def _by_name(before: Sequence[XmlElement], after: Sequence[XmlElement], old: range, new: range) -> Iterator[Pair]:
+    keys = [_key(before[i]) for i in old], [_key(after[i]) for i in new]
+    for inner_old, inner_new, equal in _blocks(*keys):
+        here, there = [old[i] for i in inner_old], [new[i] for i in inner_new]
+        if equal:
+            yield from zip(here, there, strict=True)
+        else:
+            yield from _by_tag(before, after, here, there)
+
+
+def _by_tag(
+    before: Sequence[XmlElement], after: Sequence[XmlElement], old: list[int], new: list[int]
+) -> Iterator[Pair]:
+    """Elements that have changed their names, where there are as many of their tag before and after."""
+    tags = [str(before[i].tag) for i in old], [str(after[j].tag) for j in new]
+    counts = Counter(tags[0]), Counter(tags[1])
+    kept = [i for i, tag in zip(old, tags[0], strict=True) if counts[0][tag] == counts[1][tag]]
+    waiting: dict[str, list[int]] = defaultdict(list)
+    for j, tag in zip(reversed(new), reversed(tags[1]), strict=True):
+        waiting[tag].append(j)
+    last = -1
+    for i in kept:
+        j = waiting[str(before[i].tag)].pop()
+        if j > last:
+            yield i, j
+            last = j
+
+
+def _key(element: XmlElement) -> tuple[str, str | None]:
+    return str(element.tag), element.get("name")
+
+
+def _blocks(before: Sequence[Hashable], after: Sequence[Hashable]) -> Iterator[tuple[range, range, bool]]:
+    """Ranges of both lists in order, and whether they are equal there."""
+    begin, end = _common(before, after)
+    if begin:
+        yield range(begin), range(begin), True
+    old, new = range(begin, len(before) - end), range(begin, len(after) - end)
+    if len(old) * len(new) > _MANY**2:
+        yield old, new, False
+    elif old or new:
+        matcher = SequenceMatcher(None, [before[i] for i in old], [after[j] for j in new], autojunk=False)
+        for kind, i, i_end, j, j_end in matcher.get_opcodes():
+            yield old[i:i_end], new[j:j_end], kind == "equal"
+    if end:
+        yield range(old.stop, len(before)), range(new.stop, len(after)), True
+
+
+def _common(before: Sequence[Hashable], after: Sequence[Hashable]) -> tuple[int, int]:
+    """How many at the beginning are equal, and how many of the others at the end."""
+    most = min(len(before), len(after))
+    begin = next((i for i in range(most) if before[i] != after[i]), most)
+    left = most - begin
+    end = next((i for i in range(left) if before[-1 - i] != after[-1 - i]), left)
+    return begin, end

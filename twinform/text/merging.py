@@ -1,0 +1,144 @@
+"""Three-way merges of trees: what changed between two states of a document is changed in a third one too.
+
+The third tree is how a person wrote the document. It may spell numbers otherwise and say more than the first; where it
+says something else about a part that changed, that is a conflict, and nothing is decided.
+"""
+
+from collections.abc import Iterator, Sequence
+from copy import deepcopy
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from twinform.schemas import XmlElement
+from twinform.text.alignment import Contents, aligned, elements, matched, same_value, spelled_alike, stripped
+
+
+class Conflict(NamedTuple):
+    """What both sides have changed, or one has changed and the other deleted: where in the person's tree, and what."""
+
+    element: XmlElement
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class Merge:
+    """What came of it; `tree` means nothing where there are conflicts."""
+
+    tree: XmlElement
+    conflicts: tuple[Conflict, ...]
+
+
+def merge(before: XmlElement, after: XmlElement, own: XmlElement) -> Merge:
+    """A copy of the tree `own` with all that has changed from `before` to `after`."""
+    made = deepcopy(own)
+    originals = dict(zip(made.iter("*"), own.iter("*"), strict=True))
+    merging = _Merging(originals)
+    merging.element(before, after, made)
+    return Merge(made, tuple(merging.conflicts))
+
+
+@dataclass(slots=True)
+class _Merging:
+    """One merge; `originals` are the elements of the person's tree, by those of its copy."""
+
+    originals: dict[XmlElement, XmlElement]
+    exact: Contents = field(default_factory=Contents)
+    alike: Contents = field(default_factory=lambda: Contents(spelled_alike))
+    conflicts: list[Conflict] = field(default_factory=list[Conflict])
+
+    def element(self, before: XmlElement, after: XmlElement, own: XmlElement) -> None:
+        """Change one element, and all in it, which is changed in place."""
+        if self.exact.number(before) == self.exact.number(after):
+            return
+        if before.tag != after.tag:
+            self._conflict(own, f"<{before.tag}> becomes <{after.tag}>")
+            return
+        pairs = [*self._children(before, after, own)]
+        self._attributes(before, after, own)
+        self._text(before, after, own)
+        for triple in pairs:
+            self.element(*triple)
+
+    def _conflict(self, own: XmlElement, message: str) -> None:
+        self.conflicts.append(Conflict(self.originals.get(own, own), message))
+
+    def _attributes(self, before: XmlElement, after: XmlElement, own: XmlElement) -> None:
+        for name in dict.fromkeys(map(str, [*before.attrib, *after.attrib])):
+            old, new, here = before.get(name), after.get(name), own.get(name)
+            if old == new or same_value(new, here):
+                continue
+            if not same_value(old, here):
+                self._conflict(own, f"{name} is {here!r} here and was {old!r}, and becomes {new!r}")
+            elif new is None:
+                del own.attrib[name]
+            else:
+                own.set(name, new)
+
+    def _text(self, before: XmlElement, after: XmlElement, own: XmlElement) -> None:
+        old, new, here = stripped(before.text), stripped(after.text), stripped(own.text)
+        if old == new or same_value(new, here):
+            return
+        if same_value(old, here):
+            own.text = new
+        else:
+            self._conflict(own, f"the text is {here!r} here and was {old!r}, and becomes {new!r}")
+
+    def _children(
+        self, before: XmlElement, after: XmlElement, own: XmlElement
+    ) -> Iterator[tuple[XmlElement, XmlElement, XmlElement]]:
+        """Delete and insert children, and give those that are in all three."""
+        old, new, mine = elements(before), elements(after), elements(own)
+        kept = {j: i for i, j in aligned(old, new, self.exact)}
+        here = {i: mine[k] for i, k in matched(old, mine, self.alike)}
+        gone = [i for i in range(len(old)) if i not in set(kept.values())]
+        known = {id(each) for each in here.values()}
+        added = {self.alike.number(each) for each in mine if id(each) not in known}
+        moved = {self.exact.number(old[i]): here[i] for i in gone if i in here}
+        self._delete(old, [i for i in gone if i in here], here)
+        behind: XmlElement | None = None
+        for j, each in enumerate(new):
+            if j in kept and kept[j] in here:
+                behind = here[kept[j]]
+                yield old[kept[j]], each, behind
+            elif j in kept:
+                if self.exact.number(old[kept[j]]) != self.exact.number(each):
+                    self._conflict(own, f"{_shown(each)} has changed, and is not there")
+            elif self.alike.number(each) not in added:
+                behind = self._insert(own, deepcopy(moved.get(self.exact.number(each), each)), behind)
+
+    def _delete(self, old: Sequence[XmlElement], gone: list[int], here: dict[int, XmlElement]) -> None:
+        for i in gone:
+            if self.alike.number(old[i]) != self.alike.number(here[i]):
+                self._conflict(here[i], f"{_shown(old[i])} is deleted, and has been changed here")
+                continue
+            parent = here[i].getparent()
+            if parent is not None:
+                _keep_tail(parent, here[i])
+                parent.remove(here[i])
+
+    @staticmethod
+    def _insert(own: XmlElement, made: XmlElement, behind: XmlElement | None) -> XmlElement:
+        made.tail = None
+        if behind is None:
+            own.insert(0, made)
+        else:
+            own.insert(own.index(behind) + 1, made)
+            made.tail, behind.tail = behind.tail, None
+        return made
+
+
+def _keep_tail(parent: XmlElement, child: XmlElement) -> None:
+    """Let the text behind a child stay when the child goes."""
+    tail = stripped(child.tail)
+    previous = child.getprevious()
+    if not tail:
+        return
+    if previous is None:
+        parent.text = (parent.text or "") + tail
+    else:
+        previous.tail = (previous.tail or "") + tail
+
+
+def _shown(element: XmlElement) -> str:
+    name = element.get("name")
+    return f"<{element.tag}> {name!r}" if name else f"<{element.tag}>"

@@ -1,0 +1,203 @@
+"""Where each element, tag, attribute and text stands in the text of a file.
+
+Offsets count characters of the text, from 0; lines and columns count from 1. Positions are made when something asks
+for them, by expat, which knows where each tag begins.
+"""
+
+import re
+from bisect import bisect_right
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import NamedTuple
+from xml.parsers import expat
+
+_ATTRIBUTE = re.compile(r"""\s+([^\s=<>/"']+)\s*=\s*("[^"]*"|'[^']*')""")
+_NAME = re.compile(r"</?([^\s<>/]+)")
+_END_OF_TAG = re.compile(r"\s*/?>")
+
+
+class Span(NamedTuple):
+    """A piece of text, from `start` up to but not including `end`."""
+
+    start: int
+    end: int
+
+    def of(self, text: str) -> str:
+        """The piece itself."""
+        return text[self.start : self.end]
+
+
+class Place(NamedTuple):
+    """A line and a column, both from 1."""
+
+    line: int
+    column: int
+
+
+class AttributeSpan(NamedTuple):
+    """Where an attribute stands; `value` is what is between the quotes."""
+
+    whole: Span
+    name: Span
+    value: Span
+
+
+@dataclass(slots=True)
+class ElementSpan:
+    """Where an element stands.
+
+    `end_tag` is None for `<element/>`. `asides` are the comments and processing instructions directly in it.
+    """
+
+    start_tag: Span
+    name: Span
+    attributes: dict[str, AttributeSpan]
+    end_tag: Span | None = None
+    children: list["ElementSpan"] = field(default_factory=list["ElementSpan"])
+    asides: list[Span] = field(default_factory=list[Span])
+
+    @property
+    def whole(self) -> Span:
+        """From `<` to the last `>`."""
+        return Span(self.start_tag.start, (self.end_tag or self.start_tag).end)
+
+    @property
+    def content(self) -> Span | None:
+        """What is between the tags; None for `<element/>`."""
+        return Span(self.start_tag.end, self.end_tag.start) if self.end_tag else None
+
+    @property
+    def own_attributes(self) -> list[AttributeSpan]:
+        """The attributes in their order, without declarations of namespaces."""
+        return [each for name, each in self.attributes.items() if name != "xmlns" and not name.startswith("xmlns:")]
+
+    def texts(self) -> Iterator[Span]:
+        """The runs of text directly in it, between children and asides: blank ones too, and CDATA sections."""
+        content = self.content
+        if content is None:
+            return
+        here = content.start
+        for other in sorted([*(child.whole for child in self.children), *self.asides]):
+            if other.start > here:
+                yield Span(here, other.start)
+            here = other.end
+        if content.end > here:
+            yield Span(here, content.end)
+
+    def walk(self) -> Iterator["ElementSpan"]:
+        """This element and all in it, in the order of their start tags, as `iter` of lxml gives the elements."""
+        pending: list[ElementSpan] = [self]
+        while pending:
+            here = pending.pop()
+            yield here
+            pending.extend(reversed(here.children))
+
+
+class UnplacedError(ValueError):
+    """The text is not well-formed, or has a document type declaration: nothing is known of its places."""
+
+
+class Lines:
+    """The lines of a text."""
+
+    def __init__(self, text: str) -> None:
+        self._starts = [0, *(found.end() for found in re.finditer(r"\r\n|\n|\r", text))]
+
+    def place(self, offset: int) -> Place:
+        """The line and column of an offset."""
+        line = bisect_right(self._starts, offset)
+        return Place(line, offset - self._starts[line - 1] + 1)
+
+    def start(self, line: int) -> int:
+        """Where a line begins."""
+        return self._starts[line - 1]
+
+    def __len__(self) -> int:
+        return len(self._starts)
+
+
+def spans(text: str) -> ElementSpan:
+    """Where the root element stands, with all in it.
+
+    Raises:
+        UnplacedError: the text is not well-formed, or has a document type declaration.
+    """
+    return _Placing(text).run()
+
+
+class _Placing:
+    """One run of expat over a text, which is given as UTF-8 whatever the file was encoded in."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.data = text.encode("utf-8", "surrogatepass")
+        self.ascii = len(self.data) == len(text)
+        self.seen = (0, 0)
+        self.root: ElementSpan | None = None
+        self.open: list[ElementSpan] = []
+        self.parser = parser = expat.ParserCreate("utf-8")
+        parser.StartElementHandler = self._start
+        parser.EndElementHandler = self._end
+        parser.CommentHandler = self._comment
+        parser.ProcessingInstructionHandler = self._instruction
+        parser.StartDoctypeDeclHandler = self._doctype
+
+    def run(self) -> ElementSpan:
+        """Parse it all."""
+        try:
+            self.parser.Parse(self.data, True)
+        except expat.ExpatError as error:
+            raise UnplacedError(str(error)) from error
+        assert self.root is not None  # noqa: S101 - a well-formed text has a root
+        return self.root
+
+    def _here(self) -> int:
+        """The offset in characters of the byte at which expat is; each byte is looked at once."""
+        byte = self.parser.CurrentByteIndex
+        if self.ascii:
+            return byte
+        seen_bytes, seen = self.seen
+        seen += len(self.data[seen_bytes:byte].decode("utf-8", "surrogatepass"))
+        self.seen = (byte, seen)
+        return seen
+
+    def _start(self, _: str, __: dict[str, str]) -> None:
+        element = _start_tag(self.text, self._here())
+        if self.open:
+            self.open[-1].children.append(element)
+        else:
+            self.root = element
+        self.open.append(element)
+
+    def _end(self, _: str) -> None:
+        element = self.open.pop()
+        start = self._here()
+        if not element.start_tag.of(self.text).endswith("/>"):
+            element.end_tag = Span(start, self.text.index(">", start) + 1)
+
+    def _comment(self, _: str) -> None:
+        self._aside("<!--", "-->")
+
+    def _instruction(self, _: str, __: str) -> None:
+        self._aside("<?", "?>")
+
+    def _aside(self, begin: str, end: str) -> None:
+        start = self._here()
+        if self.open:
+            self.open[-1].asides.append(Span(start, self.text.index(end, start + len(begin)) + len(end)))
+
+    def _doctype(self, *_: object) -> None:
+        raise UnplacedError("the document has a DOCTYPE")
+
+
+def _start_tag(text: str, start: int) -> ElementSpan:
+    found = _NAME.match(text, start)
+    assert found is not None  # noqa: S101 - expat has found a tag there
+    name, here = Span(*found.span(1)), found.end()
+    attributes: dict[str, AttributeSpan] = {}
+    while found := _ATTRIBUTE.match(text, here):
+        (begin, end), here = found.span(2), found.end()
+        attributes[found[1]] = AttributeSpan(Span(found.start(1), end), Span(*found.span(1)), Span(begin + 1, end - 1))
+    end = _END_OF_TAG.match(text, here)
+    assert end is not None  # noqa: S101 - as above
+    return ElementSpan(Span(start, end.end()), name, attributes)

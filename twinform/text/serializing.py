@@ -1,0 +1,109 @@
+"""Writes elements as text that stands between others: indented like them, with the prefixes that are declared there."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from twinform.schemas import XmlElement
+from twinform.text.alignment import elements, texts
+
+_IN_TEXT = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", "\r": "&#13;"})
+_IN_VALUE = {"&": "&amp;", "<": "&lt;", "\t": "&#9;", "\n": "&#10;", "\r": "&#13;"}
+_QUOTES = {'"': "&quot;", "'": "&apos;"}
+_XML = "http://www.w3.org/XML/1998/namespace"
+
+
+def text_of(value: str) -> str:
+    """A string as it is written between tags."""
+    return value.translate(_IN_TEXT)
+
+
+def value_of(value: str, quote: str = '"') -> str:
+    """A string as it is written between these quotes."""
+    return value.translate(str.maketrans({**_IN_VALUE, quote: _QUOTES[quote]}))
+
+
+@dataclass(frozen=True, slots=True)
+class Prefixes:
+    """The prefixes that are declared at some place, by their namespaces; "" is that of no prefix."""
+
+    known: Mapping[str, str]
+
+    @classmethod
+    def at(cls, element: XmlElement) -> "Prefixes":
+        """Those that an element may use."""
+        return cls({_XML: "xml", **{uri: prefix or "" for prefix, uri in element.nsmap.items()}})
+
+    def of_tag(self, name: str) -> str | None:
+        """The name with its prefix; None where the namespace is not declared."""
+        uri, _, local = name[1:].rpartition("}") if name.startswith("{") else ("", "", name)
+        if not uri:
+            return local
+        prefix = self.known.get(uri)
+        return None if prefix is None else f"{prefix}:{local}" if prefix else local
+
+    def of_attribute(self, name: str) -> str | None:
+        """The same of an attribute, which is in no namespace without a prefix."""
+        shown = self.of_tag(name)
+        return None if name.startswith("{") and shown is not None and ":" not in shown else shown
+
+    def missing(self, element: XmlElement) -> dict[str, str]:
+        """The declarations that an element itself needs, by their prefixes."""
+        needed = [name for name in map(str, element.attrib) if self.of_attribute(name) is None]
+        needed += [str(element.tag)] * (self.of_tag(str(element.tag)) is None)
+        uris = dict.fromkeys(name[1:].partition("}")[0] for name in needed)
+        own = {uri: prefix for prefix, uri in element.nsmap.items() if prefix}
+        made: dict[str, str] = {}
+        for uri in uris:
+            prefix, count = own.get(uri, "ns"), 0
+            taken = {*made, *self.known.values()}
+            while (name := f"{prefix}{count or ''}") in taken:
+                count += 1
+            made[name] = uri
+        return made
+
+    def with_(self, declarations: Mapping[str, str]) -> "Prefixes":
+        """These and more."""
+        return Prefixes({**self.known, **{uri: prefix for prefix, uri in declarations.items()}})
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """How new elements are laid out: what one stands behind, and by how much more those in it are indented.
+
+    `indent` begins with a line end, or is what separates elements that share a line.
+    """
+
+    indent: str
+    step: str
+
+    @property
+    def inner(self) -> "Layout":
+        """That of the elements in it."""
+        return Layout(self.indent + self.step, self.step) if self.step else self
+
+
+def serialized(element: XmlElement, layout: Layout, prefixes: Prefixes) -> str:
+    """The text of an element, without what stands before it."""
+    declarations = prefixes.missing(element)
+    prefixes = prefixes.with_(declarations)
+    tag = prefixes.of_tag(str(element.tag))
+    written = [f'xmlns:{prefix}="{value_of(uri)}"' for prefix, uri in declarations.items()]
+    written += [
+        f'{prefixes.of_attribute(str(name))}="{value_of(str(value))}"' for name, value in element.attrib.items()
+    ]
+    start = " ".join((f"<{tag}", *written))
+    inside = contents(element, layout, prefixes)
+    return f"{start}>{inside}</{tag}>" if inside else f"{start}/>"
+
+
+def contents(element: XmlElement, layout: Layout, prefixes: Prefixes) -> str:
+    """What is between the tags of an element; blanks between elements are ours unless there is text beside them."""
+    children, (first, *others) = elements(element), texts(element)
+    if not children:
+        return text_of(first)
+    mixed = bool(first or any(others))
+    inner = layout.inner
+    pieces = [text_of(first)]
+    for child, tail in zip(children, others, strict=True):
+        pieces += ("" if mixed else inner.indent, serialized(child, inner, prefixes), text_of(tail))
+    return "".join((*pieces, "" if mixed else layout.indent))
