@@ -17,6 +17,7 @@ _PARTS = _CASES / "includes/parts"
 
 WITHOUT_CASE = {
     "automatic-inertia": "unit/passes/legalise/to_urdf/test_refusals.py",
+    "edit-conflict": "unit/cli/test_into.py",
     "kept-as-sdf": "unit/compiler/splitting/test_worlds.py",
     "joint-type-unsupported": "unit/passes/legalise/to_urdf/test_refusals.py",
     "measured-wheels": "unit/passes/plugins/test_add_plugin.py",

@@ -1,6 +1,6 @@
 """Frames in a version of SDF in which they mean nothing."""
 
-from twinform.ir import Document, Format, Frame, bits_of, census_of
+from twinform.ir import Document, Format, Frame, bits_of, census_of, walk
 from twinform.passes.sdf_versions.base import known_version
 from twinform.schemas import Version, parse_version
 
@@ -11,4 +11,6 @@ NAMED_FRAMES: Version = (1, 7)
 def has_early_frames(document: Document) -> bool:
     """Whether a document of a version before 1.7 has frames, which may stand in 1.5 and 1.6 and mean nothing there."""
     early = document.format is Format.SDF and parse_version(known_version(document.version)) < NAMED_FRAMES
-    return early and census_of(document) & bits_of(Frame) != 0
+    if not early or not census_of(document) & bits_of(Frame):
+        return False
+    return any(isinstance(node, Frame) for node in walk(document))
