@@ -36,7 +36,7 @@ def convert_in_place(
     if loaded.document is None:
         sink.extend(loaded.diagnostics)
     else:
-        patched = _patched(_bytes(path, sink, load_options), loaded.document, conversion, sink)
+        patched = _patched(_bytes(path, sink, load_options), loaded.document, conversion, sink, same=True)
     if sink.has_errors:
         raise CompileError((*conversion.diagnostics, *sink.diagnostics))
     return conversion, patched
@@ -56,7 +56,7 @@ def convert_into(
     old = str(base) if base else _built(request, edited, into, load_options)
     before = run_conversion(request, old, load_options, name=str(base or into))
     sink = DiagnosticSink(str(into), load_options.strict)
-    patched = _patched(_bytes(into, sink, load_options), before.document, conversion, sink)
+    patched = _patched(_bytes(into, sink, load_options), before.document, conversion, sink, same=base is None)
     if sink.has_errors:
         raise CompileError((*conversion.diagnostics, *sink.diagnostics))
     return conversion, patched
@@ -80,13 +80,16 @@ def _bytes(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> bytes
         raise CompileError(tuple(sink.diagnostics), unreadable=True) from error
 
 
-def _patched(source: bytes, before: Document, conversion: Conversion, sink: DiagnosticSink) -> bytes:
-    """The bytes of a file with what a conversion has changed in its document; findings where that fails."""
+def _patched(source: bytes, before: Document, conversion: Conversion, sink: DiagnosticSink, *, same: bool) -> bytes:
+    """The bytes of a file with what a conversion has changed in a document; findings where that fails.
+
+    `same` means that this is the document of the file.
+    """
     try:
         own, _ = read_tree(source, DiagnosticSink(sink.file))
     except UnreadableError as error:
         raise CompileError(read(source, LoadOptions(), name=sink.file).diagnostics, unreadable=True) from error
-    merged = merge(document_tree(before), document_tree(conversion.document), own)
+    merged = merge(document_tree(before), document_tree(conversion.document), own, same=same)
     for element, message in merged.conflicts:
         where = Location(line=element.sourceline or 0, path=_path(element))
         sink.report(EDIT_CONFLICT, f"cannot be changed in place: {message}", where)

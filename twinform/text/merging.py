@@ -1,7 +1,7 @@
 """Three-way merges of trees: what changed between two states of a document is changed in a third one too.
 
-The third tree is how a person wrote the document. It may spell numbers otherwise and say more than the first; where it
-says something else about a part that changed, that is a conflict, and nothing is decided.
+The third tree is how a person wrote the document. It may spell numbers otherwise and say more than the first. Where it
+was changed too and says something else about a part that changed, that is a conflict, and nothing is decided.
 """
 
 from collections.abc import Iterator, Sequence
@@ -28,11 +28,15 @@ class Merge:
     conflicts: tuple[Conflict, ...]
 
 
-def merge(before: XmlElement, after: XmlElement, own: XmlElement) -> Merge:
-    """A copy of the tree `own` with all that has changed from `before` to `after`."""
+def merge(before: XmlElement, after: XmlElement, own: XmlElement, *, same: bool = False) -> Merge:
+    """A copy of the tree `own` with all that has changed from `before` to `after`.
+
+    `same` means that `before` was made of `own` and says the same, so that nothing can be a conflict: what differs
+    between them is how they say it.
+    """
     made = deepcopy(own)
     originals = dict(zip(made.iter("*"), own.iter("*"), strict=True))
-    merging = _Merging(originals)
+    merging = _Merging(originals, same)
     merging.element(before, after, made)
     return Merge(made, tuple(merging.conflicts))
 
@@ -42,6 +46,7 @@ class _Merging:
     """One merge; `originals` are the elements of the person's tree, by those of its copy."""
 
     originals: dict[XmlElement, XmlElement]
+    same: bool
     exact: Contents = field(default_factory=Contents)
     alike: Contents = field(default_factory=lambda: Contents(spelled_alike))
     conflicts: list[Conflict] = field(default_factory=list[Conflict])
@@ -62,15 +67,19 @@ class _Merging:
     def _conflict(self, own: XmlElement, message: str) -> None:
         self.conflicts.append(Conflict(self.originals.get(own, own), message))
 
+    def _is(self, old: str | None, here: str | None) -> bool:
+        """Whether a value is still what it was."""
+        return self.same or same_value(old, here)
+
     def _attributes(self, before: XmlElement, after: XmlElement, own: XmlElement) -> None:
         for name in dict.fromkeys(map(str, [*before.attrib, *after.attrib])):
             old, new, here = before.get(name), after.get(name), own.get(name)
             if old == new or same_value(new, here):
                 continue
-            if not same_value(old, here):
+            if not self._is(old, here):
                 self._conflict(own, f"{name} is {here!r} here and was {old!r}, and becomes {new!r}")
             elif new is None:
-                del own.attrib[name]
+                own.attrib.pop(name, None)
             else:
                 own.set(name, new)
 
@@ -78,7 +87,7 @@ class _Merging:
         old, new, here = stripped(before.text), stripped(after.text), stripped(own.text)
         if old == new or same_value(new, here):
             return
-        if same_value(old, here):
+        if self._is(old, here):
             own.text = new
         else:
             self._conflict(own, f"the text is {here!r} here and was {old!r}, and becomes {new!r}")
@@ -101,14 +110,18 @@ class _Merging:
                 behind = here[kept[j]]
                 yield old[kept[j]], each, behind
             elif j in kept:
-                if self.exact.number(old[kept[j]]) != self.exact.number(each):
+                if self.exact.number(old[kept[j]]) == self.exact.number(each):
+                    continue
+                if self.same:
+                    behind = self._insert(own, deepcopy(each), behind)
+                else:
                     self._conflict(own, f"{_shown(each)} has changed, and is not there")
             elif self.alike.number(each) not in added:
                 behind = self._insert(own, deepcopy(moved.get(self.exact.number(each), each)), behind)
 
     def _delete(self, old: Sequence[XmlElement], gone: list[int], here: dict[int, XmlElement]) -> None:
         for i in gone:
-            if self.alike.number(old[i]) != self.alike.number(here[i]):
+            if not self.same and self.alike.number(old[i]) != self.alike.number(here[i]):
                 self._conflict(here[i], f"{_shown(old[i])} is deleted, and has been changed here")
                 continue
             parent = here[i].getparent()

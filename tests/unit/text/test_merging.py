@@ -67,6 +67,24 @@ def test_what_both_have_changed_is_a_conflict(name: str) -> None:
     assert [conflict.message for conflict in merged.conflicts] == [message]
 
 
+SAME = {
+    "a value": ('<a x="1"/>', '<a x="2"/>', "<a/>", '<a x="2"/>'),
+    "another value": ('<a x="-3.14"/>', '<a x="2"/>', '<a x="3.14"/>', '<a x="2"/>'),
+    "an attribute that is not there": ('<a x="1"/>', "<a/>", "<a/>", "<a/>"),
+    "a text": ("<a>1</a>", "<a>2</a>", "<a>one</a>", "<a>2</a>"),
+    "a child that only one has": ("<a><b/><c>1</c></a>", "<a><b/><c>2</c></a>", "<a><b/></a>", "<a><b/><c>2</c></a>"),
+    "a child that goes": ("<a><b/><c>1</c></a>", "<a><b/></a>", "<a><b/><c>one</c></a>", "<a><b/></a>"),
+}
+
+
+@pytest.mark.parametrize("name", SAME)
+def test_there_are_no_conflicts_with_what_says_the_same(name: str) -> None:
+    before, after, own, expected = map(etree.fromstring, SAME[name])
+    merged = merge(before, after, own, same=True)
+    assert merged.conflicts == ()
+    assert etree.tostring(merged.tree) == etree.tostring(expected)
+
+
 @pytest.mark.parametrize("name", CASES)
 def test_nothing_changed_and_nothing_touched(name: str) -> None:
     before, _, own, _ = map(etree.fromstring, CASES[name])
