@@ -39,12 +39,24 @@ class _Children:
         return found.get((tag, name), [])
 
 
+class PartFinder:
+    """Finds the parts of one tree that locations lead to."""
+
+    def __init__(self, root: XmlElement) -> None:
+        self.root = root
+        self.children = _Children()
+
+    def find(self, where: Location) -> XmlElement | None:
+        """The part at a location; None where the path is not ours, or leads to several parts or beside the line."""
+        return _found(self.root, where, self.children)
+
+
 def with_exact_lines(diagnostics: Iterable[Diagnostic], root: XmlElement, file: str) -> Iterator[Diagnostic]:
     """The findings, each at the line of the smallest part that its path leads to without a doubt."""
-    children = _Children()
+    parts = PartFinder(root)
     for each in diagnostics:
         where = each.location
-        found = _found(root, where, children) if where.file == file and where.line else None
+        found = parts.find(where) if where.file == file and where.line else None
         line = found.sourceline if found is not None else None
         yield replace(each, location=where._replace(line=line)) if line and line != where.line else each
 
