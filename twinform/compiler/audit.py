@@ -172,7 +172,9 @@ def _words_of(result: XmlElement) -> tuple[frozenset[str], frozenset[str]]:
     while stack:
         element, words = stack.pop()
         words = inside if str(element.tag).startswith(_OURS) else words
-        words.update(_words(element.text or ""))
+        written = frozenset(_words(element.text or ""))
+        opposites = _OPPOSITES.get(_local(str(element.tag)), {})
+        words.update(written, (opposites[word] for word in written if word in opposites))
         if (implied := _IMPLIED_BY.get(str(element.tag))) is not None:
             words.add(implied)
         for name, value in element.items():

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from twinform.schemas import XmlElement
-from twinform.text.alignment import Contents, aligned, elements, matched, same_value, spelled_alike, stripped
+from twinform.text.alignment import Contents, aligned, elements, matched, same_value, spelled_alike, stripped, texts
 
 
 class Conflict(NamedTuple):
@@ -58,8 +58,11 @@ class _Merging:
         if before.tag != after.tag:
             self._conflict(own, f"<{before.tag}> becomes <{after.tag}>")
             return
-        pairs = [*self._children(before, after, own)]
         self._attributes(before, after, own)
+        if any(texts(before)[1:]) or any(texts(after)[1:]):
+            self._mixed(before, after, own)
+            return
+        pairs = [*self._children(before, after, own)]
         self._text(before, after, own)
         for triple in pairs:
             self.element(*triple)
@@ -91,6 +94,17 @@ class _Merging:
             own.text = new
         else:
             self._conflict(own, f"the text is {here!r} here and was {old!r}, and becomes {new!r}")
+
+    def _mixed(self, before: XmlElement, after: XmlElement, own: XmlElement) -> None:
+        """Text between elements: the content is replaced as a whole."""
+        inside = [[texts(each), *map(self.alike.number, elements(each))] for each in (before, after, own)]
+        if inside[0] == inside[1] or inside[1] == inside[2]:
+            return
+        if not self.same and inside[0] != inside[2]:
+            self._conflict(own, "what is in it has changed here too")
+            return
+        own.text = after.text
+        own[:] = [deepcopy(each) for each in elements(after)]
 
     def _children(
         self, before: XmlElement, after: XmlElement, own: XmlElement

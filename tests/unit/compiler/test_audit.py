@@ -76,3 +76,15 @@ def test_names_that_were_made_up_and_are_gone_are_accounted_for(name: str) -> No
     back = twinform.convert(there.encode(), to="urdf")
     assert back.source is not None
     assert audit(back.source, back.text, back.ledger).unaccounted == ()
+
+
+@pytest.mark.parametrize("to", ["urdf", "sdf"])
+@pytest.mark.parametrize("gravity", ["true", "false"])
+def test_a_boolean_is_accounted_for_by_its_opposite(gravity: str, to: Language) -> None:
+    source = f"""<sdf version="1.11"><model name="m"><link name="a"><gravity>{gravity}</gravity>
+      <inertial><mass>2</mass><inertia><ixx>3</ixx><iyy>3</iyy><izz>3</izz></inertia></inertial></link></model></sdf>"""
+    made = twinform.convert(source.encode(), to="urdf")
+    again = twinform.convert(made.text.encode(), to=to)
+    for each in (made, again):
+        assert each.source is not None
+        assert audit(each.source, each.text, each.ledger).unaccounted == ()

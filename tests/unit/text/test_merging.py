@@ -25,6 +25,8 @@ CASES = {
         '<a><b v="1.0"/><c/><d/></a>',
         '<a><c/><d/><b v="1.0"/></a>',
     ),
+    "text between elements": ("<a>1<b/>2</a>", "<a>1<c/>3</a>", '<a z="1">1<b/>2</a>', '<a z="1">1<c/>3</a>'),
+    "text between elements that comes": ("<a><b/></a>", "<a>1<b/>3</a>", "<a><b/></a>", "<a>1<b/>3</a>"),
     "a new name": (
         '<a><b name="x" v="1"/></a>',
         '<a><b name="y" v="1"/></a>',
@@ -37,6 +39,7 @@ CONFLICTS = {
     "a value": ('<a x="1"/>', '<a x="2"/>', '<a x="3"/>', "x is '3' here and was '1', and becomes '2'"),
     "a value that is gone": ('<a x="1"/>', '<a x="2"/>', "<a/>", "x is None here and was '1', and becomes '2'"),
     "a text": ("<a>1</a>", "<a>2</a>", "<a>3</a>", "the text is '3' here and was '1', and becomes '2'"),
+    "text between elements": ("<a>1<b/>2</a>", "<a>1<b/>3</a>", "<a>1<b/>4</a>", "what is in it has changed here too"),
     "deleted, and changed here": (
         '<a><b name="x"><c/></b></a>',
         "<a/>",
