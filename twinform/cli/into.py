@@ -5,12 +5,16 @@ from pathlib import Path
 
 import click
 
-from twinform.cli.conversion import Options, summary
+from twinform.cli.conversion import Options
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.outputs import Outputs
 from twinform.cli.source import Source
 from twinform.compiler import CompileError
-from twinform.compiler.in_place import convert_into
+from twinform.compiler.in_place import Change, convert_into
+from twinform.diagnostics.reporters.text import printable
+
+_LONGEST = 60
+"""The longest piece of a file that is shown, in characters."""
 
 
 def run_into(source: Source, into: Path | None, base: Path | None, options: Options, outputs: Outputs) -> int:
@@ -31,13 +35,28 @@ def run_into(source: Source, into: Path | None, base: Path | None, options: Opti
         raise click.UsageError(f"--into takes a file of the other format, URDF or SDF, which {into} is not")
     request = replace(options.request, to=target, sdf_version=options.request.sdf_version if target == "sdf" else None)
     try:
-        conversion, patched = convert_into(request, Path(source.name), into, options.load_options, base=base)
+        updated = convert_into(request, Path(source.name), into, options.load_options, base=base)
     except CompileError as error:
         options.show(source.name, error.diagnostics)
         return UNUSABLE if error.unreadable else FINDINGS
-    if not options.show(source.name, conversion.diagnostics):
+    if not options.show(source.name, updated.conversion.diagnostics):
         return FINDINGS
-    outputs.add("--into", into, patched)
-    same = patched == into.read_bytes()
-    outputs.news.append(f"{into} stays as it is" if same else f"{into}: {summary(conversion.ledger)}")
+    outputs.add("--into", into, updated.data)
+    outputs.news.extend(_line(into, change) for change in updated.changes)
+    count = len(updated.changes)
+    outputs.news.append(f"{into}: {count} change{'s' if count > 1 else ''}" if count else f"{into} stays as it is")
     return 0
+
+
+def _line(path: Path, change: Change) -> str:
+    """Where a change was made, and what: nobody's edit is to go without a word."""
+    line, column = change.place
+    old, new = _short(change.old), _short(change.new)
+    what = f"{old} becomes {new}" if old and new else f"{old} is deleted" if old else f"{new} is inserted"
+    return f"{path}:{line}:{column}: {what}"
+
+
+def _short(piece: str) -> str:
+    """A piece of a file on one line."""
+    words = printable(" ".join(piece.split()))
+    return words if len(words) <= _LONGEST else f"{words[: _LONGEST - 3]}..."

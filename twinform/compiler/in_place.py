@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
+from typing import NamedTuple
 
 from twinform.compiler.driver import Conversion, run_conversion
 from twinform.compiler.errors import CompileError
@@ -14,7 +15,23 @@ from twinform.diagnostics.rules.edits import EDIT_CONFLICT
 from twinform.ir import Document, Format
 from twinform.passes import PassInstrumentation
 from twinform.schemas import XmlElement
-from twinform.text import SourceText, UndecodableError, UnplacedError, merge, patch
+from twinform.text import Lines, Place, SourceText, UndecodableError, UnplacedError, apply, edits, merge
+
+
+class Change(NamedTuple):
+    """A piece of a file that becomes another one; one of both may be empty."""
+
+    place: Place
+    old: str
+    new: str
+
+
+class Updated(NamedTuple):
+    """What a file is converted to, its bytes with only what this changes, and these changes in their order."""
+
+    conversion: Conversion
+    data: bytes
+    changes: tuple[Change, ...]
 
 
 def convert_in_place(
@@ -23,8 +40,8 @@ def convert_in_place(
     load_options: LoadOptions,
     *,
     instrumentation: PassInstrumentation | None = None,
-) -> tuple[Conversion, bytes]:
-    """What a file is converted to, in its own format, and the bytes of the file with only these changes.
+) -> Updated:
+    """Convert a file to its own format, and change in it only what the conversion changes.
 
     Raises:
         CompileError: it cannot be converted, or cannot be changed in its place.
@@ -32,20 +49,15 @@ def convert_in_place(
     conversion = run_conversion(request, str(path), load_options, name=str(path), instrumentation=instrumentation)
     loaded = read(str(path), load_options, name=str(path))
     sink = DiagnosticSink(str(path), load_options.strict)
-    patched = b""
-    if loaded.document is None:
-        sink.extend(loaded.diagnostics)
-    else:
-        patched = _patched(_bytes(path, sink, load_options), loaded.document, conversion, sink, same=True)
-    if sink.has_errors:
-        raise CompileError((*conversion.diagnostics, *sink.diagnostics))
-    return conversion, patched
+    if loaded.document is None:  # it could be converted a moment ago
+        raise CompileError(loaded.diagnostics)
+    return _updated(_bytes(path, sink, load_options), loaded.document, conversion, sink, same=True)
 
 
 def convert_into(
     request: ConversionRequest, edited: Path, into: Path, load_options: LoadOptions, *, base: Path | None = None
-) -> tuple[Conversion, bytes]:
-    """What an edited file is converted to, and the bytes of the file `into` with what the edits change.
+) -> Updated:
+    """Convert an edited file, and change in the file `into` only what the edits change.
 
     The edits are what differs from `base`: the file as it was before them, or else what `into` is converted to.
 
@@ -56,10 +68,7 @@ def convert_into(
     old = str(base) if base else _built(request, edited, into, load_options)
     before = run_conversion(request, old, load_options, name=str(base or into))
     sink = DiagnosticSink(str(into), load_options.strict)
-    patched = _patched(_bytes(into, sink, load_options), before.document, conversion, sink, same=base is None)
-    if sink.has_errors:
-        raise CompileError((*conversion.diagnostics, *sink.diagnostics))
-    return conversion, patched
+    return _updated(_bytes(into, sink, load_options), before.document, conversion, sink, same=base is None)
 
 
 def _built(request: ConversionRequest, edited: Path, into: Path, load_options: LoadOptions) -> bytes:
@@ -80,10 +89,11 @@ def _bytes(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> bytes
         raise CompileError(tuple(sink.diagnostics), unreadable=True) from error
 
 
-def _patched(source: bytes, before: Document, conversion: Conversion, sink: DiagnosticSink, *, same: bool) -> bytes:
-    """The bytes of a file with what a conversion has changed in a document; findings where that fails.
+def _updated(source: bytes, before: Document, conversion: Conversion, sink: DiagnosticSink, *, same: bool) -> Updated:
+    """A file with what a conversion has changed in a document; `same` means that this is the document of the file.
 
-    `same` means that this is the document of the file.
+    Raises:
+        CompileError: the file has changed too, or its text cannot be followed.
     """
     try:
         own, _ = read_tree(source, DiagnosticSink(sink.file))
@@ -93,13 +103,16 @@ def _patched(source: bytes, before: Document, conversion: Conversion, sink: Diag
     for element, message in merged.conflicts:
         where = Location(line=element.sourceline or 0, path=_path(element))
         sink.report(EDIT_CONFLICT, f"cannot be changed in place: {message}", where)
-    if merged.conflicts:
-        return source
-    try:
-        return patch(SourceText.of(source), own, merged.tree).data
-    except (UnplacedError, UndecodableError, UnicodeEncodeError) as error:
-        sink.report(EDIT_CONFLICT, f"cannot be changed in place: {error}", Location(line=1, path="/"))
-        return source
+    if not merged.conflicts:
+        try:
+            text = SourceText.of(source)
+            made = sorted(edits(text, own, merged.tree), key=lambda edit: edit.span)
+            lines = Lines(text.text)
+            changes = [Change(lines.place(span.start), span.of(text.text), new) for span, new in made]
+            return Updated(conversion, text.with_text(apply(text.text, made)).data, tuple(changes))
+        except (UnplacedError, UndecodableError, UnicodeEncodeError) as error:
+            sink.report(EDIT_CONFLICT, f"cannot be changed in place: {error}", Location(line=1, path="/"))
+    raise CompileError((*conversion.diagnostics, *sink.diagnostics))
 
 
 def _path(element: XmlElement) -> str:

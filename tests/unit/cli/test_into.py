@@ -42,8 +42,9 @@ def test_nothing_changed_and_nothing_touched(run: Run, twins: Path) -> None:
 
 def test_an_edit_is_made_in_the_other_file(run: Run, twins: Path) -> None:
     _edit("r.sdf", "<mass>1.5</mass>", "<mass>2.5</mass>")
-    assert run("convert", "r.sdf", "--into", "r.urdf").exit_code == 0
-    assert Path("r.urdf").read_text() == HAND_WRITTEN.replace("1.50", "2.5")
+    done = run("convert", "r.sdf", "--into", "r.urdf")
+    assert (done.exit_code, Path("r.urdf").read_text()) == (0, HAND_WRITTEN.replace("1.50", "2.5"))
+    assert done.stderr.splitlines() == ["r.urdf:8:45: 1.50 becomes 2.5", "r.urdf: 1 change"]
 
 
 def test_the_other_way_too(run: Run, twins: Path) -> None:

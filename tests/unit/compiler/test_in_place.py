@@ -29,7 +29,7 @@ def _after(folder: Path, text: str | bytes, passes: str) -> bytes:
     path = folder / "r.urdf"
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
     request = ConversionRequest(to="urdf", passes=parse_pipeline(passes))
-    return convert_in_place(request, path, LoadOptions())[1]
+    return convert_in_place(request, path, LoadOptions()).data
 
 
 def _lines(text: str, made: bytes) -> list[str]:
