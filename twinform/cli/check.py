@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Unpack
 
 import click
-import pydantic  # noqa: F401 - here, not at the depth of twinform.ir: see "Libraries are imported near the top"
+import pydantic  # noqa: F401 # pyright: ignore[reportUnusedImport] - decisions: near the top of the stack
 
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.findings import notes_option, show
