@@ -46,7 +46,6 @@ generate: $(SYNCED) ## write the files that are made from tables: schemas and re
 	$(BIN)/python -m twinform.compiler.input.readers.generate
 	$(BIN)/python -m twinform.diagnostics.built_in_table twinform/diagnostics/built_in.py
 	$(BIN)/python -m twinform.passes.framework.built_in_table twinform/passes/framework/built_in.py
-	$(BIN)/python -m twinform.compiler.input.readers.generate
 	$(BIN)/python -m twinform.diagnostics.pages docs/reference/rules.md
 	$(BIN)/python -m twinform.passes.framework.pages docs/reference/passes.md
 	$(BIN)/python -m twinform.passes.legalise.page docs/explanation/pipeline.md
@@ -63,7 +62,6 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/python -m twinform.compiler.input.readers.generate --check
 	$(BIN)/python -m twinform.diagnostics.built_in_table twinform/diagnostics/built_in.py --check
 	$(BIN)/python -m twinform.passes.framework.built_in_table twinform/passes/framework/built_in.py --check
-	$(BIN)/python -m twinform.compiler.input.readers.generate --check
 	$(BIN)/python -m twinform.diagnostics.pages docs/reference/rules.md --check
 	$(BIN)/python -m twinform.passes.framework.pages docs/reference/passes.md --check
 	$(BIN)/python -m twinform.passes.legalise.page docs/explanation/pipeline.md --check

@@ -1,6 +1,5 @@
 """`twinform convert --into`: one file follows the edits of the other."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import click
@@ -9,6 +8,7 @@ from twinform.cli.conversion import Options
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.outputs import Outputs
 from twinform.cli.source import Source
+from twinform.cli.targets import Job, known_target
 from twinform.compiler import CompileError
 from twinform.compiler.in_place import Change, convert_into
 from twinform.diagnostics.reporters.text import printable
@@ -30,10 +30,10 @@ def run_into(source: Source, into: Path | None, base: Path | None, options: Opti
             raise click.UsageError(f"{path} is no file")
     if isinstance(source.content, bytes):
         raise click.UsageError(f"{source.name} is no file that could have been made of {into}")
-    target = Source(str(into), str(into)).format
-    if target not in {"urdf", "sdf"} or target == source.format or into.suffix.lower() == ".xacro":
+    target = known_target(Source(str(into), str(into)).format)
+    if target is None or target in {"json", source.format} or into.suffix.lower() == ".xacro":
         raise click.UsageError(f"--into takes a file of the other format, URDF or SDF, which {into} is not")
-    request = replace(options.request, to=target, sdf_version=options.request.sdf_version if target == "sdf" else None)
+    request = options.request_for(Job(source, target, into))
     try:
         updated = convert_into(request, Path(source.name), into, options.load_options, base=base)
     except CompileError as error:

@@ -63,7 +63,7 @@ def _in_place(source: Source, target: Target | None) -> Job:
         raise click.UsageError(f"{source.name} is no file that could be written in place")
     if source.name.lower().endswith(".xacro"):
         raise click.UsageError(f"{source.name} would be replaced by what it expands to; name another file with -o")
-    found = _target(source.format)
+    found = known_target(source.format)
     if found is None or target not in {None, found}:
         raise click.UsageError(f"{source.name} stays {found or 'what it is'} in its place; leave --to out")
     return Job(source, found, Path(source.content), in_place=True)
@@ -74,10 +74,11 @@ def _is_folder(out: str, count: int) -> bool:
 
 
 def _of_suffix(path: Path) -> Target | None:
-    return _target(format_of_suffix(path.name))
+    return known_target(format_of_suffix(path.name))
 
 
-def _target(word: str | None) -> Target | None:
+def known_target(word: str | None) -> Target | None:
+    """The target of this name, if there is one."""
     return next((target for target in TARGETS if target == word), None)
 
 

@@ -14,7 +14,7 @@ from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules.edits import EDIT_CONFLICT
 from twinform.ir import Document, Format
 from twinform.passes import PassInstrumentation
-from twinform.schemas import XmlElement
+from twinform.schemas import path_of
 from twinform.text import Lines, Place, SourceText, UndecodableError, UnplacedError, apply, edits, merge
 
 
@@ -101,7 +101,7 @@ def _updated(source: bytes, before: Document, conversion: Conversion, sink: Diag
         raise CompileError(read(source, LoadOptions(), name=sink.file).diagnostics, unreadable=True) from error
     merged = merge(document_tree(before), document_tree(conversion.document), own, same=same)
     for element, message in merged.conflicts:
-        where = Location(line=element.sourceline or 0, path=_path(element))
+        where = Location(line=element.sourceline or 0, path=path_of(element))
         sink.report(EDIT_CONFLICT, f"cannot be changed in place: {message}", where)
     if not merged.conflicts:
         try:
@@ -113,7 +113,3 @@ def _updated(source: bytes, before: Document, conversion: Conversion, sink: Diag
         except (UnplacedError, UndecodableError, UnicodeEncodeError) as error:
             sink.report(EDIT_CONFLICT, f"cannot be changed in place: {error}", Location(line=1, path="/"))
     raise CompileError((*conversion.diagnostics, *sink.diagnostics))
-
-
-def _path(element: XmlElement) -> str:
-    return element.getroottree().getpath(element)

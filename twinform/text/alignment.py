@@ -6,6 +6,8 @@ from difflib import SequenceMatcher
 
 from twinform.schemas import XmlElement
 
+BLANKS = " \t\r\n"
+"""The white space of XML."""
 Pair = tuple[int, int]
 """The places of a child in the lists before and after."""
 _MANY = 2000
@@ -14,7 +16,7 @@ _MANY = 2000
 
 def stripped(text: str | None) -> str:
     """A text without the blanks of XML around it."""
-    return (text or "").strip(" \t\r\n")
+    return (text or "").strip(BLANKS)
 
 
 def elements(parent: XmlElement) -> list[XmlElement]:

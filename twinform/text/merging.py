@@ -113,7 +113,8 @@ class _Merging:
         old, new, mine = elements(before), elements(after), elements(own)
         kept = {j: i for i, j in aligned(old, new, self.exact)}
         here = {i: mine[k] for i, k in matched(old, mine, self.alike)}
-        gone = [i for i in range(len(old)) if i not in set(kept.values())]
+        stay = set(kept.values())
+        gone = [i for i in range(len(old)) if i not in stay]
         known = {id(each) for each in here.values()}
         added = {self.alike.number(each) for each in mine if id(each) not in known}
         moved = {self.exact.number(old[i]): here[i] for i in gone if i in here}
