@@ -3,11 +3,13 @@
 from twinform.diagnostics.catalog import catalog
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.did_you_mean import did_you_mean, nearest_name
+from twinform.diagnostics.fix import Fix, Safety
 from twinform.diagnostics.ledger import Entry, Fate, Ledger
 from twinform.diagnostics.location import NOWHERE, Location, Origins, Source
 from twinform.diagnostics.policy import Policy
 from twinform.diagnostics.rule import Rule, Severity
 from twinform.diagnostics.sink import DiagnosticSink, SideFile
+from twinform.diagnostics.text_edit import Span, TextEdit
 
 __all__ = [
     "NOWHERE",
@@ -15,14 +17,18 @@ __all__ = [
     "DiagnosticSink",
     "Entry",
     "Fate",
+    "Fix",
     "Ledger",
     "Location",
     "Origins",
     "Policy",
     "Rule",
+    "Safety",
     "Severity",
     "SideFile",
     "Source",
+    "Span",
+    "TextEdit",
     "catalog",
     "did_you_mean",
     "nearest_name",

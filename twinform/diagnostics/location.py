@@ -10,12 +10,16 @@ class Location(NamedTuple):
     """A place in a source file; every part may be unknown.
 
     `line` counts from 1, and 0 means unknown. `path` is an XPath that finds the element or attribute again, such as
-    `/robot/joint[@name='hip']/limit/@lower`.
+    `/robot/joint[@name='hip']/limit/@lower`. The columns, and the end of the piece of text, which does not belong to it
+    any more, are known only where somebody has asked for them (`compiler/input/finding_spans.py`).
     """
 
     file: str = ""
     line: int = 0
     path: str = ""
+    column: int = 0
+    end_line: int = 0
+    end_column: int = 0
 
     def at(self, step: str) -> "Location":
         """The same line, one step further down the path."""

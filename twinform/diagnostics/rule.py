@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from enum import IntEnum
 
+from twinform.diagnostics.fix import Safety
+
 
 class Severity(IntEnum):
     """How bad a finding is; only an error stops a conversion."""
@@ -19,7 +21,8 @@ class Severity(IntEnum):
 class Rule:
     """A kind of finding. Its name describes the thing found, reads well after "allow", and is never used again.
 
-    `strict` is the severity under `--strict`; it is the plain one where it is not given.
+    `strict` is the severity under `--strict`; it is the plain one where it is not given. `fix` says how safe
+    its fixes are at best, if there are any.
     The other fields are the rule's page, as `twinform explain` prints it.
     """
 
@@ -31,6 +34,7 @@ class Rule:
     better: str
     references: str = ""
     strict: Severity | None = None
+    fix: Safety | None = None
 
     def severity_in(self, *, strict: bool) -> Severity:
         """The severity of a finding in this mode."""

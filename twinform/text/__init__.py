@@ -1,9 +1,9 @@
 """The text of model files: where each part stands in it, and the smallest edits that change it."""
 
-from twinform.text.edits import OverlapError, TextEdit, apply
+from twinform.text.edits import OverlapError, apply
 from twinform.text.merging import Conflict, Merge, merge
 from twinform.text.patching import edits, patch
-from twinform.text.positions import AttributeSpan, ElementSpan, Lines, Place, Span, UnplacedError, spans
+from twinform.text.positions import AttributeSpan, ElementSpan, Lines, Place, UnplacedError, spans
 from twinform.text.source_text import SourceText, UndecodableError
 
 __all__ = [
@@ -15,8 +15,6 @@ __all__ = [
     "OverlapError",
     "Place",
     "SourceText",
-    "Span",
-    "TextEdit",
     "UndecodableError",
     "UnplacedError",
     "apply",

@@ -1,16 +1,8 @@
 """Edits of a text: pieces that are replaced by others."""
 
 from collections.abc import Iterable
-from typing import NamedTuple
 
-from twinform.text.positions import Span
-
-
-class TextEdit(NamedTuple):
-    """The piece of the text at `span` becomes `new`; an empty span is where it is inserted."""
-
-    span: Span
-    new: str
+from twinform.diagnostics import TextEdit
 
 
 class OverlapError(ValueError):

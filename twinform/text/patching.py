@@ -8,14 +8,14 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from twinform.diagnostics import Span, TextEdit
 from twinform.schemas import XmlElement
-from twinform.text.alignment import Contents, aligned, elements, texts
-from twinform.text.edits import TextEdit, apply
-from twinform.text.positions import ElementSpan, Span, spans
+from twinform.text.alignment import BLANKS, Contents, aligned, elements, texts
+from twinform.text.edits import apply
+from twinform.text.positions import ElementSpan, spans
 from twinform.text.serializing import Layout, Prefixes, contents, serialized, text_of, value_of
 from twinform.text.source_text import SourceText
 
-_BLANKS = " \t\r\n"
 _REST_OF_LINE = re.compile(r"(?:[ \t]*<!--(?:(?!-->)[^\n])*-->)+(?=[ \t]*\r?\n)")
 """Comments behind an element on its line, which are about it."""
 _STEP = "  "
@@ -98,7 +98,7 @@ class _Patching:
         return Span(end, end), "".join(f"{gap}{each}" for each in shown)
 
     def _before_blanks(self, offset: int) -> int:
-        while offset and self.text[offset - 1] in _BLANKS:
+        while offset and self.text[offset - 1] in BLANKS:
             offset -= 1
         return offset
 
@@ -125,12 +125,12 @@ class _Patching:
 
     def _text(self, place: ElementSpan, text: str) -> None:
         """Put another text into an element without children, into the place of the first one."""
-        runs = [run for run in place.texts() if run.of(self.text).strip(_BLANKS)]
+        runs = [run for run in place.texts() if run.of(self.text).strip(BLANKS)]
         shown = text_of(text)
         for run in runs:
             piece = run.of(self.text)
-            start = run.start + len(piece) - len(piece.lstrip(_BLANKS))
-            end = run.end - (len(piece) - len(piece.rstrip(_BLANKS)))
+            start = run.start + len(piece) - len(piece.lstrip(BLANKS))
+            end = run.end - (len(piece) - len(piece.rstrip(BLANKS)))
             self._replace(Span(start, end), shown)
             shown = ""
         if not runs and place.content:
@@ -227,9 +227,8 @@ class _Patching:
 
     def _indent(self, offset: int) -> str | None:
         """The line end and the blanks before what begins its line; None for what does not."""
-        start = self.text.rfind("\n", 0, offset) + 1
-        blanks = self.text[start:offset]
-        return self.line_end + blanks if not blanks.strip(" \t") else None
+        blanks = _column(self.text, offset)
+        return None if blanks is None else self.line_end + blanks
 
 
 def _usual_step(text: str, root: ElementSpan) -> str:
@@ -244,6 +243,7 @@ def _usual_step(text: str, root: ElementSpan) -> str:
 
 
 def _column(text: str, offset: int) -> str | None:
+    """The blanks before what begins its line; None for what does not."""
     blanks = text[text.rfind("\n", 0, offset) + 1 : offset]
     return blanks if not blanks.strip(" \t") else None
 

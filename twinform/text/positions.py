@@ -11,20 +11,11 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 from xml.parsers import expat
 
+from twinform.diagnostics import Span
+
 _ATTRIBUTE = re.compile(r"""\s+([^\s=<>/"']+)\s*=\s*("[^"]*"|'[^']*')""")
 _NAME = re.compile(r"</?([^\s<>/]+)")
 _END_OF_TAG = re.compile(r"\s*/?>")
-
-
-class Span(NamedTuple):
-    """A piece of text, from `start` up to but not including `end`."""
-
-    start: int
-    end: int
-
-    def of(self, text: str) -> str:
-        """The piece itself."""
-        return text[self.start : self.end]
 
 
 class Place(NamedTuple):

@@ -5,9 +5,9 @@ from dataclasses import dataclass, field
 from twinform.compiler.input.finding_lines import PartFinder
 from twinform.compiler.input.loading import read_tree_again
 from twinform.compiler.input.parsing import UnreadableError
-from twinform.diagnostics import Location
+from twinform.diagnostics import Location, Span
 from twinform.schemas import XmlElement
-from twinform.text import ElementSpan, Lines, SourceText, Span, UndecodableError, UnplacedError, spans
+from twinform.text import ElementSpan, Lines, SourceText, UndecodableError, UnplacedError, spans
 
 
 @dataclass(frozen=True, slots=True)
