@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Unpack
 import click
 import pydantic  # noqa: F401 # pyright: ignore[reportUnusedImport] - decisions: near the top of the stack
 
+from twinform.cli.command import Command
+from twinform.cli.completion import files, pipelines
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.findings import notes_option, show
 from twinform.cli.inputs import InputOptions, inputs, load_options_of, reading_options
@@ -23,8 +25,16 @@ if TYPE_CHECKING:
 _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 
 
-@click.command("check")
-@click.argument("words", metavar="IN... [NAME:=VALUE...]", nargs=-1, required=True)
+EXAMPLES = {
+    "Find mistakes": "twinform check robot.urdf",
+    "Also what is legal and yet worth knowing, for a program": "twinform check robot.sdf --notes --format json",
+    "Expand a xacro file with an argument of its own": "twinform check arm.urdf.xacro prefix:=left_",
+    "One rule is an error, another is left out": "twinform check robot.urdf --deny massless-link --allow missing-limit",
+}
+
+
+@click.command("check", cls=Command, examples=EXAMPLES)
+@click.argument("words", metavar="IN... [NAME:=VALUE...]", nargs=-1, required=True, shell_complete=files)
 @click.option("--format", "style", type=click.Choice(list(REPORTERS)), default="text", help="How to print findings.")
 @notes_option
 @policy_options
@@ -33,6 +43,7 @@ _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "
     "check_passes",
     metavar="PIPELINE",
     callback=pipeline_option("check-passes"),
+    shell_complete=pipelines,
     help="Read-only passes, such as 'check-inertia,check-limits', or @NAME for one that the configuration names.",
 )
 @reading_options

@@ -7,6 +7,8 @@ from typing import Unpack
 import click
 from click.core import ParameterSource
 
+from twinform.cli.command import Command
+from twinform.cli.completion import files
 from twinform.cli.config import settings_of
 from twinform.cli.conversion import Options, print_plan, run_job
 from twinform.cli.findings import notes_option
@@ -20,10 +22,26 @@ from twinform.cli.source import Source
 from twinform.cli.targets import TARGETS, Job, Target, jobs, jobs_in_place
 from twinform.compiler import LoadOptions
 
+EXAMPLES = {
+    "Make SDF for Gazebo": "twinform convert robot.urdf -o robot.sdf",
+    "Write an older version": "twinform convert robot.urdf -o robot.sdf --sdf-version 1.9",
+    "List what was not expressed": "twinform convert robot.sdf -o robot.urdf --ledger ledger.json",
+    "Run passes on the way": "twinform convert robot.urdf -o robot.sdf --passes 'fill-limits{effort=100}'",
+    "Change a file itself, where a pass does": "twinform convert robot.urdf --in-place --passes fill-inertia",
+    "Let a URDF follow what was edited in its SDF": "twinform convert robot.sdf --into robot.urdf",
+}
 
-@click.command("convert")
-@click.argument("words", metavar="IN... [NAME:=VALUE...]", nargs=-1, required=True)
-@click.option("-o", "--output", "out", metavar="OUT", help="The file to write, or the directory for several inputs.")
+
+@click.command("convert", cls=Command, examples=EXAMPLES)
+@click.argument("words", metavar="IN... [NAME:=VALUE...]", nargs=-1, required=True, shell_complete=files)
+@click.option(
+    "-o",
+    "--output",
+    "out",
+    metavar="OUT",
+    shell_complete=files,
+    help="The file to write, or the directory for several inputs.",
+)
 @click.option("--in-place", is_flag=True, help="Change each input itself, and in it only what the passes change.")
 @click.option(
     "--into",

@@ -5,6 +5,7 @@ from typing import Any, TypeVar
 
 import click
 
+from twinform.cli.completion import rule_names
 from twinform.cli.config import ConfigError, settings_of
 from twinform.cli.failure import Unusable
 from twinform.diagnostics import Policy
@@ -18,7 +19,12 @@ def policy_options(command: Command) -> Command:
     for name, text in (("deny", "Make findings of a rule errors"), ("allow", "Leave out findings of a rule")):
         more = "" if name == "deny" else ", if they are no errors"
         command = click.option(
-            f"--{name}", metavar="RULE", multiple=True, help=f"{text}{more}; repeatable.", callback=_known
+            f"--{name}",
+            metavar="RULE",
+            multiple=True,
+            help=f"{text}{more}; repeatable.",
+            callback=_known,
+            shell_complete=rule_names,
         )(command)
     return command
 

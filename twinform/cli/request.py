@@ -5,6 +5,7 @@ from typing import Any, TypeVar
 
 import click
 
+from twinform.cli.completion import pipelines, sdf_versions
 from twinform.cli.inputs import InputOptions
 from twinform.cli.pipeline_option import pipeline_option
 from twinform.compiler import URDF_VERSIONS, ConversionRequest, Language, UrdfVersion
@@ -22,12 +23,19 @@ def _known_version(_ctx: click.Context, _option: click.Parameter, value: str | N
 
 
 _OPTIONS = (
-    click.option("--sdf-version", metavar="V", callback=_known_version, help="The version of SDF to write."),
+    click.option(
+        "--sdf-version",
+        metavar="V",
+        callback=_known_version,
+        shell_complete=sdf_versions,
+        help="The version of SDF to write.",
+    ),
     click.option("--urdf-version", type=click.Choice(URDF_VERSIONS), help="The version of URDF to write."),
     click.option(
         "--passes",
         metavar="PIPELINE",
         callback=pipeline_option("passes"),
+        shell_complete=pipelines,
         help="Passes to run, such as 'check-inertia', or @NAME for one that the configuration names.",
     ),
     click.option(
