@@ -34,7 +34,7 @@ complete -C "@LINE@" | cut -f1
 """
 SHELLS = {"bash": _BASH, "zsh": _ZSH, "fish": _FISH}
 
-CASES = {
+CASES: dict[tuple[str, ...], set[str]] = {
     ("ch",): {"check"},
     ("explain", "dangling-l"): {"dangling-link"},
     ("check", "--allow", "dangling-l"): {"dangling-link"},
