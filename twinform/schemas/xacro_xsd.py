@@ -48,7 +48,9 @@ def unambiguous(facts: Table, version: Version) -> Iterator[tuple[str, str]]:
 
     A macro of URDF may be the inside of a `<gazebo>`, which holds SDF: only links are no less likely to be URDF's.
     """
-    foreign = {path[-1] for path, _ in rows_with_paths(table("sdf"))} - {"link"} if facts.format == "urdf" else set[str]()
+    foreign = (
+        {path[-1] for path, _ in rows_with_paths(table("sdf"))} - {"link"} if facts.format == "urdf" else set[str]()
+    )
     references = defaultdict[str, set[str | None]](set)
     for path, row in rows_with_paths(facts):
         if len(path) > 1 and not row.is_attribute and row.name not in foreign and row.exists_in(version):
