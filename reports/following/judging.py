@@ -154,7 +154,8 @@ def _differences(job: Job, states: _States) -> list[str]:
 
 def _robot(made: bytes) -> str | None:
     root = _tree(made)
-    return root.get("name") if root.tag == "robot" else root.findtext(".//model/@name")
+    robot = root if root.tag == "robot" else root.find(".//model")
+    return None if robot is None else robot.get("name")
 
 
 def _changed(before: bytes, after: bytes) -> int:

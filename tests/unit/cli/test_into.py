@@ -121,7 +121,8 @@ def test_a_file_that_would_be_another_robot_is_not_written(
 ) -> None:
     def wrong(_before: XmlElement, _after: XmlElement, own: XmlElement, **_: object) -> Merge:
         made = deepcopy(own)
-        made.find(".//mass").set("value", "7")
+        for mass in made.iter("mass"):
+            mass.set("value", "7")
         return Merge(made, ())
 
     monkeypatch.setattr(in_place, "merge", wrong)
