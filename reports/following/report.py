@@ -48,7 +48,6 @@ def _sections(done: list[Followed], failures: list[str], reasons: dict[Followed,
     )
     kinds = frequent((one.kind, one.name) for one in followed)
     wrong = [(one.name, one.kind, "; ".join(one.faults)[:200], why or UNEXPLAINED) for one, why in reasons.items()]
-    lost = [(each, "", "", UNEXPLAINED) for each in failures]
     return [
         section(
             "What became of the edits",
