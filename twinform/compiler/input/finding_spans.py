@@ -12,7 +12,7 @@ from twinform.compiler.input.finding_lines import PartFinder
 from twinform.compiler.input.finding_pieces import piece, quoted, values
 from twinform.compiler.input.limits import LIFTED_LIMITS
 from twinform.compiler.input.loading import read_tree_again
-from twinform.compiler.input.options import LoadResult
+from twinform.compiler.input.options import LoadResult, expanded_name
 from twinform.compiler.input.parsing import UnreadableError, parse
 from twinform.compiler.input.source_files import SourceFiles
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Span
@@ -45,8 +45,13 @@ def _with_column(one: Diagnostic, files: SourceFiles, texts: dict[str, "FindingS
         data = files.data(where.file)
         texts[where.file] = FindingSpans.of(data) if data else None
     place = texts[where.file]
-    span = place and place.piece(one, expanded=files.is_expanded(one))
+    span = place and place.piece(one, expanded=_is_expanded(one))
     return replace(one, location=place.location(where, span)) if place and span else one
+
+
+def _is_expanded(one: Diagnostic) -> bool:
+    """Whether a finding is about a part of what xacro made of a file: its place in that comes second."""
+    return bool(one.related) and one.related[0].file.endswith(expanded_name(""))
 
 
 @dataclass(frozen=True)  # no slots: the lines are kept in the dictionary

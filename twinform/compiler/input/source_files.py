@@ -7,7 +7,6 @@ from pathlib import Path
 from twinform.compiler.input.limits import LARGEST
 from twinform.compiler.input.options import LoadResult
 from twinform.compiler.input.regular_files import read_regular
-from twinform.diagnostics import Diagnostic
 from twinform.text import Lines, SourceText
 
 
@@ -15,12 +14,10 @@ from twinform.text import Lines, SourceText
 class SourceFiles:
     """The bytes and lines of files by their names in locations; each is read once, when something asks for it.
 
-    `contents` are those that are at hand. `expanded` are the names of texts that were made from files: a finding that
-    is about a part of one has its place in the file first, and that in the text second.
+    `contents` are those that are at hand.
     """
 
     contents: Mapping[str, bytes] = field(default_factory=dict[str, bytes], repr=False)
-    expanded: frozenset[str] = frozenset()
     _read: dict[str, bytes | None] = field(default_factory=dict[str, bytes | None], repr=False)
     _lines: dict[str, tuple[str, Lines] | None] = field(default_factory=dict[str, tuple[str, Lines] | None], repr=False)
 
@@ -29,7 +26,7 @@ class SourceFiles:
         """Those of a file that was read."""
         was_made = any(name.startswith(f"{loaded.path} (") for name in loaded.origins)
         contents = {} if was_made or loaded.content is None else {loaded.path: loaded.content}
-        return cls(contents, frozenset(loaded.origins))
+        return cls(contents)
 
     def data(self, file: str) -> bytes | None:
         """The bytes of a file; None where there is none, or it is too large."""
@@ -42,18 +39,22 @@ class SourceFiles:
 
     def line(self, file: str, number: int) -> str | None:
         """A line of a file, from 1, without its end; None where it has none."""
-        if file not in self._lines:
-            self._lines[file] = self._text(file)
-        found = self._lines[file]
+        found = self._lines_of(file)
         if found is None or not 0 < number <= len(found[1]):
             return None
         text, lines = found
         end = lines.start(number + 1) if number < len(lines) else len(text)
         return text[lines.start(number) : end].rstrip("\r\n")
 
-    def is_expanded(self, finding: Diagnostic) -> bool:
-        """Whether a finding is about a part of a text that was made from the file in which it is."""
-        return bool(finding.related) and finding.related[0].file in self.expanded
+    def place(self, file: str, offset: int) -> tuple[int, int] | None:
+        """The line and column of an offset in a file; None where it has no such place."""
+        found = self._lines_of(file)
+        return found[1].place(offset) if found is not None and 0 <= offset <= len(found[0]) else None
+
+    def _lines_of(self, file: str) -> tuple[str, Lines] | None:
+        if file not in self._lines:
+            self._lines[file] = self._text(file)
+        return self._lines[file]
 
     def _text(self, file: str) -> tuple[str, Lines] | None:
         data = self.data(file)
