@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from twinform.compiler.input.source_files import SourceFiles
     from twinform.passes import Pipeline
 
+_FOR_PEOPLE = frozenset({"text", "concise"})
 _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 
 
@@ -67,12 +68,13 @@ def command(
     loaded = [_inspected(each, load_options, check_passes) for each in loaded]
     loaded, seen = [replace(each, diagnostics=policy.apply(each.diagnostics)) for each in loaded], loaded
     allowed = sum(len(each.diagnostics) for each in seen) - sum(len(each.diagnostics) for each in loaded)
-    if style == "text":
+    if style in _FOR_PEOPLE:
         for each in loaded:
-            show(Findings(each.path, each.diagnostics), notes=notes, on_stderr=False, every=every, files=_files(each))
+            found, short = Findings(each.path, each.diagnostics), style == "concise"
+            show(found, notes=notes, on_stderr=False, every=every, short=short, files=_files(each))
     else:
-        found = [placed(Findings(each.path, each.diagnostics), _files(each)) for each in loaded]
-        click.echo(REPORTERS[style](found), nl=False)
+        files = [placed(Findings(each.path, each.diagnostics), _files(each)) for each in loaded]
+        click.echo(REPORTERS[style](files), nl=False)
     click.echo(_summary(loaded) + (f"; {allowed} allowed" if allowed else ""), err=True)
     ctx.exit(_exit_code(loaded))
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from twinform.diagnostics import Severity
-from twinform.diagnostics.reporters import Findings, text
+from twinform.diagnostics.reporters import Findings, concise, text
 
 if TYPE_CHECKING:
     from twinform.compiler.input.source_files import SourceFiles
@@ -38,17 +38,21 @@ def show(
     notes: bool,
     on_stderr: bool,
     every: bool = False,
+    short: bool = False,
     files: "SourceFiles | None" = None,
 ) -> None:
     """Print the findings of one file for people, with the pieces of the files that they are about.
 
-    Notes are printed only where they are asked for, and each finding of one cause only where `every` one is.
+    Notes are printed only where they are asked for, and each finding of one cause only where `every` one is. What is
+    `short` has a line for each.
     """
     if not notes:
         worse = tuple(each for each in findings.diagnostics if each.severity > Severity.INFO)
         findings = findings._replace(diagnostics=worse)
     if findings.diagnostics:
-        click.echo(text([placed(findings, files)], paint, every=every), nl=False, err=on_stderr)
+        found = [placed(findings, files)]
+        report = concise(found, paint) if short else text(found, paint, every=every)
+        click.echo(report, nl=False, err=on_stderr)
 
 
 def placed(findings: Findings, files: "SourceFiles | None" = None) -> Findings:

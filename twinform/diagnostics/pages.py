@@ -7,10 +7,6 @@ from twinform.diagnostics.catalog import catalog
 from twinform.diagnostics.generated_files import main
 from twinform.diagnostics.rule import Rule
 
-HOME = "https://github.com/twinform/twinform"
-"""Where the project is to be found; the only place that says so."""
-RULES = f"{HOME}/blob/main/docs/reference/rules.md"
-"""Where the pages of the rules are; a rule's name is the anchor."""
 _INTRODUCTION = """\
 # Rules
 

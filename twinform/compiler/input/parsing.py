@@ -21,7 +21,6 @@ from twinform.compiler.input.limits import (
     read_up_to,
     uncountable_encoding,
 )
-from twinform.compiler.input.syntax_places import SyntaxPlaces
 from twinform.compiler.input.xml_recovery import (
     LIMITS,
     LOST_BRACKET,
@@ -83,6 +82,8 @@ def parse(text: bytes, sink: DiagnosticSink, limits: Limits = USUAL_LIMITS) -> X
         root, repaired = _recover(text, sink, error), True
     refuse_excess(excess_of_namespaces(root, text, repaired=repaired), sink)
     if root.getroottree().docinfo.doctype:
+        from twinform.compiler.input.syntax_places import SyntaxPlaces  # noqa: PLC0415 - few files are refused
+
         sink.report(reading.DOCTYPE, "the document has a DOCTYPE; none is allowed", SyntaxPlaces(text).doctype())
         raise UnreadableError
     if b"\0" in text[:4] or text[:2] in _UTF_16:
@@ -116,6 +117,8 @@ def _parser(*, recover: bool) -> etree.XMLParser:
 
 
 def _recover(text: bytes, sink: DiagnosticSink, error: etree.XMLSyntaxError) -> XmlElement:
+    from twinform.compiler.input.syntax_places import SyntaxPlaces  # noqa: PLC0415 - few files are not well-formed
+
     source, whole = text, with_bracket(text)
     if whole is not None:
         line = text[: text.index(b"?xml")].count(b"\n") + 1

@@ -16,4 +16,4 @@ REPORTERS: Mapping[str, Reporter] = MappingProxyType(
 )
 """Every output format by its name on the command line."""
 
-__all__ = ["NO_TEXTS", "REPORTERS", "Findings", "Paint", "Reporter", "Texts", "printable", "text"]
+__all__ = ["NO_TEXTS", "REPORTERS", "Findings", "Paint", "Reporter", "Texts", "concise", "printable", "text"]

@@ -28,11 +28,12 @@ def excerpt(where: Location, line: str | None) -> Iterator[tuple[str, str]]:
     start, stop = _window(line, begin)
     cut = _CUT if start else ""
     shown = "".join(_shown(each) for each in line[start:stop]).rstrip()
-    yield f"{where.line:>{_GUTTER}} | {cut}{shown}{_CUT if stop < len(line) else ''}", ""
+    gutter = max(_GUTTER, len(str(where.line)))
+    yield f"{where.line:>{gutter}} | {cut}{shown}{_CUT if stop < len(line) else ''}", ""
     if where.column and begin <= len(line):
         indent = len(cut) + _width(line[start:begin])
         marks = "^" * max(1, _width(line[begin : min(end, stop)]))
-        yield f"{'':{_GUTTER}} | {' ' * indent}", marks
+        yield f"{'':{gutter}} | {' ' * indent}", marks
 
 
 def _window(line: str, begin: int) -> tuple[int, int]:

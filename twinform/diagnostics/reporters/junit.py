@@ -1,12 +1,13 @@
 """The report for CI systems that show tests: JUnit XML, as Jenkins, GitLab and others read it."""
 
 from collections.abc import Sequence
-from xml.sax.saxutils import quoteattr
 
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.reporters.findings import Findings
 from twinform.diagnostics.reporters.printable import printable
 from twinform.diagnostics.rule import Severity
+
+_ENTITIES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"})
 
 
 def junit(files: Sequence[Findings]) -> str:
@@ -70,9 +71,9 @@ def _outcome(diagnostic: Diagnostic, body: str) -> str:
 
 
 def _attributes(**values: str) -> str:
-    return "".join(f" {name}={quoteattr(printable(value))}" for name, value in values.items())
+    return "".join(f' {name}="{_escaped(printable(value))}"' for name, value in values.items())
 
 
 def _escaped(text: str) -> str:
-    lines = (printable(line) for line in text.splitlines())
-    return "\n".join(lines).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+    """Text or a value; what XML has no character for is escaped as the other reports do it."""
+    return "\n".join(map(printable, text.split("\n"))).translate(_ENTITIES)

@@ -5,10 +5,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from urllib.parse import quote
 
+from twinform.diagnostics.addresses import HOME, RULES
 from twinform.diagnostics.built_in import BUILT_IN
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.location import Location
-from twinform.diagnostics.pages import HOME, RULES, sections
 from twinform.diagnostics.reporters.findings import Findings, placed_edits
 from twinform.diagnostics.rule import Rule, Severity
 
@@ -37,6 +37,8 @@ def sarif(files: Sequence[Findings]) -> str:
 
 
 def _rule(rule: Rule) -> dict[str, object]:
+    from twinform.diagnostics.pages import sections  # noqa: PLC0415 - few runs write it
+
     page = list(sections(rule))
     text = "\n".join(f"{heading}: {body}" for heading, body in page)
     markdown = "\n\n".join(f"**{heading}.** {body}" for heading, body in page)

@@ -33,9 +33,9 @@ def text(files: Sequence[Findings], paint: Paint = _plain, *, every: bool = Fals
     )
 
 
-def concise(files: Sequence[Findings]) -> str:
+def concise(files: Sequence[Findings], paint: Paint = _plain) -> str:
     """One line for each finding: `file:line:column: severity: headline [rule]`."""
-    return "".join(f"{_headline(each, file.path, _plain)}\n" for file in files for each in file.diagnostics)
+    return "".join(f"{_headline(each, file.path, paint)}\n" for file in files for each in file.diagnostics)
 
 
 def _of(group: Group, file: Findings, paint: Paint) -> Iterator[str]:
