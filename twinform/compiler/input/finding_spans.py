@@ -4,6 +4,7 @@ Positions are made when somebody asks for them, and for files with findings only
 meant, a finding stays as it is: with a line and without a column.
 """
 
+import re
 from collections import defaultdict
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -21,6 +22,7 @@ from twinform.schemas import XmlElement
 from twinform.text import ElementSpan, Lines, SourceText, UnplacedError, spans
 from twinform.text.masking import masked
 
+_WORD = re.compile(r"[\w:.-]+")
 _OF_ROOT = frozenset({reading.UNKNOWN_ROOT, reading.OLD_ROOT})
 """Findings about the root element whatever it is called."""
 
@@ -39,6 +41,8 @@ def with_columns(diagnostics: tuple[Diagnostic, ...], files: SourceFiles) -> tup
 
 def _with_column(one: Diagnostic, files: SourceFiles, texts: dict[str, "FindingSpans | None"]) -> Diagnostic:
     where = one.location
+    if where.column and not where.end_line:
+        return replace(one, location=_with_end(where, files))
     if not where.line or where.column:
         return one
     if where.file not in texts:
@@ -47,6 +51,12 @@ def _with_column(one: Diagnostic, files: SourceFiles, texts: dict[str, "FindingS
     place = texts[where.file]
     span = place and place.piece(one, expanded=_is_expanded(one))
     return replace(one, location=place.location(where, span)) if place and span else one
+
+
+def _with_end(where: Location, files: SourceFiles) -> Location:
+    """A place that another program gave, up to the end of the word there."""
+    word = _WORD.match(files.line(where.file, where.line) or "", where.column - 1)
+    return where._replace(end_line=where.line, end_column=word.end() + 1) if word else where
 
 
 def _is_expanded(one: Diagnostic) -> bool:
