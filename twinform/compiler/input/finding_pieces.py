@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator
 from twinform.diagnostics import Diagnostic, Rule, Span, nearest_name
 from twinform.diagnostics.rules import (
     bodies,
+    classic,
     edits,
     frames,
     inertia,
@@ -32,6 +33,7 @@ _NAMES: frozenset[Rule] = frozenset(
         structure.MISSING_PART,
         sdf_versions.GONE_FROM_SDF,
         edits.NOT_FOR_FORMAT,
+        classic.PARAMETER_WITHOUT_COUNTERPART,
         to_sdf.GAZEBO_TAG_WITHOUT_TARGET,
         to_sdf.GAZEBO_CONFLICT,
     }

@@ -35,11 +35,12 @@ def located(loaded: LoadResult) -> tuple[Diagnostic, ...]:
 
 
 def with_columns(diagnostics: tuple[Diagnostic, ...], files: SourceFiles) -> tuple[Diagnostic, ...]:
-    """The findings with columns, in the order of their lines; the files are those that they are about."""
+    """The findings with columns, file after file, in the order of their lines; `files` are those they are about."""
     texts: dict[str, FindingSpans | None] = {}
     with garbage_collection_paused():
         found = [_with_column(each, files, texts) for each in diagnostics]
-    return tuple(sorted(found, key=lambda each: (each.location.line, each.location.column)))
+    order = {file: number for number, file in enumerate(dict.fromkeys(each.location.file for each in found))}
+    return tuple(sorted(found, key=lambda each: (order[each.location.file], each.location.line, each.location.column)))
 
 
 def _with_column(one: Diagnostic, files: SourceFiles, texts: dict[str, "FindingSpans | None"]) -> Diagnostic:
