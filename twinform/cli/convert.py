@@ -11,7 +11,7 @@ from twinform.cli.command import Command
 from twinform.cli.completion import files
 from twinform.cli.config import settings_of
 from twinform.cli.conversion import Options, print_plan, run_job
-from twinform.cli.findings import notes_option
+from twinform.cli.findings import all_option, notes_option
 from twinform.cli.gazebo_files import GazeboFiles, companion_options, version_for
 from twinform.cli.inputs import inputs, load_options_of, reading_options
 from twinform.cli.instrumentation import InstrumentationOptions, watching_options
@@ -60,6 +60,7 @@ EXAMPLES = {
 @companion_options
 @click.option("--model", metavar="NAME", help="The model of the file to convert, whatever it becomes.")
 @notes_option
+@all_option
 @policy_options
 @click.option(
     "--split",
@@ -95,6 +96,7 @@ def command(
     into: Path | None,
     base: Path | None,
     notes: bool,
+    every: bool,
     allow: tuple[str, ...],
     deny: tuple[str, ...],
     **asked: Unpack[Asked],
@@ -119,6 +121,7 @@ def command(
         load_options=load_options,
         ledger=ledger,
         notes=notes,
+        every=every,
         policy=policy,
         watching=watching,
         audit=audit,
