@@ -9,8 +9,8 @@ the spelling of numbers stay as they are, also in xacro files. What it does:
    are aligned, and columns of attributes in neighboring tags.
 4. Only where it is asked for: attributes in their usual order, and numbers in their shortest spelling.
 
-Texts are content. An element with text beside elements, or with `xml:space="preserve"`, stays as it is between its tags.
-The lines of a comment, and of a text of nothing but numbers, move with the element that they belong to.
+Texts are content. An element with text beside elements, or with `xml:space="preserve"`, stays as it is between its
+tags. The lines of a comment, and of a text of nothing but numbers, move with the element that they belong to.
 """
 
 import re
@@ -20,7 +20,7 @@ from typing import Literal
 
 from twinform.text.numbers import all_numbers, shortest
 from twinform.text.source_text import SourceText
-from twinform.text.start_tags import TAB, StartTag
+from twinform.text.start_tags import TAB, StartTag, name_of
 from twinform.text.tokens import Kind, Tokens
 from twinform.text.usage import usage
 
@@ -29,6 +29,8 @@ _MOST_LINE_ENDS = 3
 """Two blank lines in a row are the most that are kept."""
 _PRESERVED = re.compile(r"""\sxml:space\s*=\s*["']preserve["']""")
 _WIDE = re.compile(r"[ \t\r\n]{2}|\t")
+_PLAIN = re.compile(r"""<([^\s/>]++)(?: [^\s=<>/"']++=(?:"[^"\r\n]*+"|'[^'\r\n]*+'))*+(?:>| ?/>)""")
+"""A start tag that is laid out already."""
 _TAGS = frozenset({Kind.START, Kind.EMPTY})
 _BETWEEN = frozenset({Kind.BLANK, Kind.COMMENT})
 
@@ -66,6 +68,8 @@ class _Formatting:
         self.fixed = _fixed_contents(tokens)
         self.out: list[str] = []
         self.asked = (0, False)
+        self.keeps_tags = options.numbers == "kept" and not options.sort_attributes
+        self.opaque = usage().opaque
         self.open: list[_Open] = [_Open("", opaque=False)]
 
     def run(self) -> str:
@@ -91,12 +95,13 @@ class _Formatting:
         return "".join(self.out)
 
     def _start(self, number: int) -> None:
-        tag = self._tag(number)
-        self.out.append(self._tag_text(number, tag))
-        around = self.open[-1]
+        text, around = self.tokens[number], self.open[-1]
+        plain = _PLAIN.fullmatch(text) if self.keeps_tags else None
+        self.out.append(text if plain else self._tag_text(number, self._tag(number)))
         around.row = number if self._is_row(number) else None
         if self.tokens.kinds[number] == Kind.START:
-            self.open.append(_Open(tag.name, opaque=around.opaque or tag.name in usage().opaque))
+            name = plain[1] if plain else name_of(text)
+            self.open.append(_Open(name, opaque=around.opaque or name in self.opaque))
 
     def _end(self, number: int) -> None:
         ended = self.open.pop()
@@ -161,7 +166,7 @@ class _Formatting:
         if "\n" not in text:
             return text
         old, new = self._old_indent(number), self._indent
-        return text if old in {None, new} else re.sub(rf"\n{old}(?=[^\r\n])", lambda _: f"\n{new}", text)
+        return text if old in {None, new} else re.sub(rf"\n{old}(?![\r\n])", lambda _: f"\n{new}", text)
 
     def _old_indent(self, number: int) -> str | None:
         """The blanks before a token, where it is the first of its line."""
@@ -243,8 +248,9 @@ def _has_blanks_only(tokens: Tokens, start: int, end: int) -> bool:
 
 @dataclass(slots=True)
 class _Open:
-    """An element that is not ended yet: `row` is its last child if that has no elements, `on_one_line` that nothing in
-    it has begun a line.
+    """An element that is not ended yet.
+
+    `row` is its last child if that has no elements in it; `on_one_line` that nothing in it has begun a line.
     """
 
     name: str

@@ -1,6 +1,7 @@
-"""The shortest spelling of numbers, which is that of the same double."""
+"""The shortest spelling of numbers: that with which Python writes the same double, where it is shorter."""
 
 import re
+from math import isfinite
 
 _NUMBER = re.compile(r"[-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?", re.ASCII)
 _EXPONENT = re.compile(r"e([-+])0*(\d+)")
@@ -19,5 +20,7 @@ def shortest(text: str) -> str:
 
 def _shortest(number: str) -> str:
     value = float(number)
+    if not isfinite(value):
+        return number
     spelled = _EXPONENT.sub(r"e\1\2", repr(value)).replace("e+", "e").removesuffix(".0")
     return spelled if len(spelled) < len(number) and float(spelled) == value else number

@@ -42,15 +42,14 @@ class StartTag:
     @classmethod
     def of(cls, text: str) -> "StartTag":
         """The parts of a tag that is well-formed."""
-        name = _NAME.match(text)
-        assert name is not None  # noqa: S101 - the tokens of a text are well-formed
-        here, found = name.end(), list[Attribute]()
+        name, found = name_of(text), list[Attribute]()
+        here = len(name) + 1
         while attribute := _ATTRIBUTE.match(text, here):
             found.append(Attribute(*attribute.groups()))
             here = attribute.end()
         end = _END.match(text, here)
-        assert end is not None  # noqa: S101 - as above
-        return cls(name[1], tuple(found), end[1], end[2])
+        assert end is not None  # noqa: S101 - the tokens of a text are well-formed
+        return cls(name, tuple(found), end[1], end[2])
 
     @property
     def is_broken(self) -> bool:
@@ -59,7 +58,9 @@ class StartTag:
 
     def with_values(self, spelled: Callable[[str, str], str]) -> "StartTag":
         """The tag with other spellings of values, which are made of the name of an attribute and what it has."""
-        changed = (each._replace(value=_quoted(each.value, spelled(each.name, each.value[1:-1]))) for each in self.attributes)
+        changed = (
+            each._replace(value=_quoted(each.value, spelled(each.name, each.value[1:-1]))) for each in self.attributes
+        )
         return replace(self, attributes=tuple(changed))
 
     def sorted_by(self, ranks: Sequence[int]) -> "StartTag":
@@ -112,6 +113,13 @@ class StartTag:
         blank = " " if self.gap and self.end == "/>" else ""
         ending = f"{line}{self.end}" if _LINE_END.search(self.gap) else blank + self.end
         return "".join((*pieces, ending))
+
+
+def name_of(tag: str) -> str:
+    """The name in a start tag."""
+    name = _NAME.match(tag)
+    assert name is not None  # noqa: S101 - as above
+    return name[1]
 
 
 def _quoted(old: str, value: str) -> str:

@@ -9,7 +9,7 @@ from array import array
 from enum import IntEnum
 from xml.parsers import expat
 
-from twinform.text.positions import Lines, UnplacedError
+from twinform.text.positions import UnplacedError
 
 _TOKEN = re.compile(
     r"""<!--.*?-->|<\?.*?\?>|<!\[CDATA\[.*?\]\]>|<(?:[^"'>]++|"[^"]*+"|'[^']*+')*+>|[^<]++""",
@@ -77,13 +77,7 @@ def _require_well_formed(text: str) -> None:
     try:
         parser.Parse(text.encode("utf-8", "surrogatepass"), True)
     except expat.ExpatError as error:
-        column = len(_line(text, error.lineno).encode("utf-8", "surrogatepass")[: error.offset].decode("utf-8", "ignore"))
-        raise UnplacedError(expat.errors.messages[error.code], error.lineno, column + 1) from error
-
-
-def _line(text: str, number: int) -> str:
-    lines = Lines(text)
-    return text[lines.start(number) :].partition("\n")[0] if number <= len(lines) else ""
+        raise UnplacedError(expat.errors.messages[error.code], error.lineno, error.offset + 1) from error
 
 
 def _refuse_doctype(*_: object) -> None:
