@@ -37,12 +37,21 @@ def test_check_lists_what_would_change(run: Run, files: Path) -> None:
 def test_diff_shows_what_would_change(run: Run, files: Path) -> None:
     done = run("format", "--diff", "ugly.urdf", "nice.urdf")
     assert done.exit_code == 1
-    assert done.stdout == (
-        "--- ugly.urdf\n+++ ugly.urdf\n@@ -1,5 +1,6 @@\n"
-        '-<robot name="r"><!-- a --><link name="a"/>  <!-- the base -->\n'
-        '-\n+<robot name="r">\n+  <!-- a -->\n+  <link name="a"/>  <!-- the base -->\n \n \n'
-        "-</robot>\n\\ No newline at end of file\n+</robot>\n"
-    )
+    assert done.stdout.splitlines() == [
+        "--- ugly.urdf",
+        "+++ ugly.urdf",
+        "@@ -1,5 +1,6 @@",
+        '-<robot name="r"><!-- a --><link name="a"/>  <!-- the base -->',
+        '+<robot name="r">',
+        "+  <!-- a -->",
+        '+  <link name="a"/>  <!-- the base -->',
+        " ",
+        " ",
+        "-",
+        "-</robot>",
+        "\\ No newline at end of file",
+        "+</robot>",
+    ]
     assert Path("ugly.urdf").read_text() == UGLY
 
 
