@@ -35,23 +35,30 @@ LAST_LINE = 65535
 """libxml2 keeps no number beyond it."""
 
 
-def element_xml(element: Any, parent: XmlElement | None = None) -> XmlElement:
-    """The XML of an IR `Element`, below `parent` where one is given."""
+Written = list[tuple[Any, XmlElement]]
+"""Parts that were written, with the elements that they have become; an element may have been taken away again."""
+
+
+def element_xml(element: Any, parent: XmlElement | None = None, written: Written | None = None) -> XmlElement:
+    """The XML of an IR `Element`, below `parent` where one is given; those in it are added to what is `written`."""
     attributes = dict(element.attributes)
     made = etree.Element(element.name, attributes) if parent is None else SubElement(parent, element.name, attributes)
     made.text, made.tail = element.text, element.tail
     if element.source is not None:
         made.sourceline = min(element.source.line, LAST_LINE)  # pyright: ignore[reportAttributeAccessIssue] - it can be set
+    if written is not None:
+        written.append((element, made))
     for child in element.children:
-        element_xml(child, made)
+        element_xml(child, made, written)
     return made
 
 
 class Writer:
-    """Writes nodes in one format and version."""
+    """Writes nodes in one format and version; one with a list of what is `written` adds to it, and is used once."""
 
-    def __init__(self, facts: Table, version: Version) -> None:
+    def __init__(self, facts: Table, version: Version, written: Written | None = None) -> None:
         self.table = facts
+        self.written = written
         self.version = version
         self.writes: dict[str, Write] = {}
         """The writers of the definitions, and of the containers in them that were asked for, by their paths."""
@@ -81,9 +88,12 @@ class Writer:
         many = [(row.place or "", self._many(row)) for row in rows if makes_many(row)]
         text = _pose_text if fact.type == "pose" else None
         content = fact.place if fact.any else None
+        written = self.written
 
         def write(node: Any, element: XmlElement) -> None:
             values: dict[str, Any] = node.__dict__
+            if written is not None:
+                written.append((node, element))
             if text is not None:
                 element.text = text(node)
             for field, write_value in steps:
@@ -97,9 +107,9 @@ class Writer:
                     write_one(child, element)
             if content is not None:
                 for child in values[content]:
-                    element_xml(child, element)
+                    element_xml(child, element, written)
             if values["opaque"]:
-                _write_opaque(values["opaque"], element)
+                _write_opaque(values["opaque"], element, written)
 
         return write
 
@@ -227,6 +237,11 @@ def writer(format: str, version: Version) -> Writer:
     return Writer(table(format), version)
 
 
+def recording_writer(format: str, version: Version, written: Written | None) -> Writer:
+    """The same; where there is a list, one that adds to it what it writes."""
+    return writer(format, version) if written is None else Writer(table(format), version, written)
+
+
 def rows_to_write(rows: Iterable[Fact], version: Version) -> list[Fact]:
     """One row with a place in the node for each name; this version's where it has one."""
     placed = (row for row in rows if row.place and row.place[0] != "/")
@@ -312,11 +327,13 @@ def in_order(items: list[tuple[Any, _Each]]) -> list[tuple[Any, _Each]]:
     return [item for _, item in sorted(zip(keys, items, strict=True), key=itemgetter(0))]
 
 
-def _write_opaque(parts: Iterable[Any], element: XmlElement) -> None:
+def _write_opaque(parts: Iterable[Any], element: XmlElement, written: Written | None) -> None:
     for part in parts:
         holder = _holder(element, part.at)
         if part.element is not None:
-            element_xml(part.element, holder)
+            made = element_xml(part.element, holder, written)
+            if written is not None:
+                written.append((part, made))
         elif part.attribute is not None:
             holder.set(*part.attribute)
         else:

@@ -8,15 +8,18 @@ from dataclasses import replace
 from lxml import etree
 
 from twinform.compiler.output import sdf, urdf
+from twinform.compiler.output.comments import Comments, place_comments
 from twinform.compiler.output.default_namespaces import has_made_up_prefixes, restore_defaults
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Fate, Location
 from twinform.diagnostics.rules import to_sdf
+from twinform.diagnostics.rules.comments import LEFT_COMMENT
 from twinform.ir import Document, Format, walk
 from twinform.ir.verify import verify_again
 from twinform.passes import PassInstrumentation, Pipeline
 from twinform.schemas import (
     Context,
     Version,
+    Written,
     XmlElement,
     is_valid_text,
     libxml2_errors,
@@ -29,7 +32,7 @@ from twinform.schemas import (
 )
 
 _NAMED = re.compile(r"\[@name='([^']*)'\]")
-_BACK_ENDS: dict[Format, Callable[[Document, Version, dict[str | None, str]], XmlElement]] = {
+_BACK_ENDS: dict[Format, Callable[[Document, Version, dict[str | None, str], Written | None], XmlElement]] = {
     Format.URDF: urdf.emit,
     Format.SDF: sdf.emit,
 }
@@ -39,12 +42,22 @@ _TEXT_BACK_ENDS: dict[Format, Callable[[Document, Version, dict[str | None, str]
 }
 
 
-def emit(document: Document, sink: DiagnosticSink, *, fit: bool = False, kept: AbstractSet[str] = frozenset()) -> str:
+def emit(
+    document: Document,
+    sink: DiagnosticSink,
+    *,
+    fit: bool = False,
+    kept: AbstractSet[str] = frozenset(),
+    comments: Comments | None = None,
+) -> str:
     """The text of a document in its own format and version, and errors in the notes where its schema refuses it.
 
     Where the document was not read in this version, `fit` leaves out what other versions have and this one has not, and
-    accounts for it; but not the names that are `kept`, which the files that it was made of had so too.
+    accounts for it; but not the names that are `kept`, which the files that it was made of had so too. `comments` are
+    those of the file that it was made of.
     """
+    if comments is not None:
+        return _commented(document, sink, comments, fit=fit, kept=kept)
     text = text_without_tree(document)
     if text is not None and is_valid_text(text, document.format, written_version(document)):
         return text
@@ -59,10 +72,11 @@ def emit_legal(
     *,
     fit: bool = True,
     kept: AbstractSet[str] = frozenset(),
+    comments: Comments | None = None,
 ) -> tuple[Document, str]:
     """The document after the passes that its target asks for, and its text; empty where the notes have errors.
 
-    `fit` and `kept` are those of `emit`.
+    `fit`, `kept` and `comments` are those of `emit`.
     """
     if len(legalisation):
         document = legalisation.run(document, sink, instrumentation=instrumentation)
@@ -70,15 +84,31 @@ def emit_legal(
             verify_again(document, sink)
     if sink.has_errors:
         return document, ""
-    text = emit(document, sink, fit=fit, kept=kept)
+    text = emit(document, sink, fit=fit, kept=kept, comments=comments)
     return document, "" if sink.has_errors else text
 
 
+def _commented(
+    document: Document, sink: DiagnosticSink, comments: Comments, *, fit: bool, kept: AbstractSet[str]
+) -> str:
+    written: Written = []
+    root = valid_tree(document, sink, fit=fit, kept=kept, written=written)
+    placed = place_comments(comments, root, written)
+    for message, line in placed.left:
+        sink.account(Fate.DROPPED, LEFT_COMMENT, message, Location(line=line, path="/"), 0)
+    return placed.framed(serialized(root, document, placed.on_lines))
+
+
 def valid_tree(
-    document: Document, sink: DiagnosticSink, *, fit: bool = False, kept: AbstractSet[str] = frozenset()
+    document: Document,
+    sink: DiagnosticSink,
+    *,
+    fit: bool = False,
+    kept: AbstractSet[str] = frozenset(),
+    written: Written | None = None,
 ) -> XmlElement:
-    """The XML of a document, made by `emit` and validated."""
-    root = document_tree(document)
+    """The XML of a document, made by `emit` and validated; its parts are added to what is `written`."""
+    root = document_tree(document, written)
     found = DiagnosticSink(file=sink.file)
     _validate(root, document.format, written_version(document), found, kept=kept if fit else None)
     sink.entries.extend(found.entries)
@@ -95,9 +125,9 @@ def located(diagnostic: Diagnostic, document: Document) -> Diagnostic:
     return replace(diagnostic, location=diagnostic.location._replace(line=next(named, 1)))
 
 
-def document_tree(document: Document) -> XmlElement:
-    """The XML of a document, its names without a default namespace."""
-    return _BACK_ENDS[document.format](document, written_version(document), _prefixes(document))
+def document_tree(document: Document, written: Written | None = None) -> XmlElement:
+    """The XML of a document, its names without a default namespace; its parts are added to what is `written`."""
+    return _BACK_ENDS[document.format](document, written_version(document), _prefixes(document), written)
 
 
 def text_without_tree(document: Document) -> str | None:
@@ -111,12 +141,14 @@ def _prefixes(document: Document) -> dict[str | None, str]:
     return {prefix or None: uri for prefix, uri in document.namespaces if prefix}
 
 
-def serialized(root: XmlElement, document: Document) -> str:
-    """The text of a document whose XML this is."""
+def serialized(root: XmlElement, document: Document, arrange: Callable[[XmlElement], None] | None = None) -> str:
+    """The text of a document whose XML this is; `arrange` has the last word on the blanks in it."""
     default = dict(document.namespaces).get("")
     if default is not None:
         root = _in_namespace(root, default)
     etree.indent(root, "  ")
+    if arrange is not None:
+        arrange(root)
     text = etree.tostring(root, encoding="unicode")
     if has_made_up_prefixes(text):
         restore_defaults(root, dict(document.namespaces))
@@ -175,7 +207,7 @@ def _in_namespace(root: XmlElement, namespace: str) -> XmlElement:
     made = etree.Element(f"{{{namespace}}}{root.tag}", dict(root.attrib), {None: namespace, **root.nsmap})
     made.text = root.text
     made.extend(list(root))
-    for element in made.iterdescendants():
+    for element in made.iterdescendants("*"):
         if str(element.tag)[0] != "{":
             element.tag = f"{{{namespace}}}{element.tag}"
     return made

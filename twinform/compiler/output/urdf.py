@@ -3,13 +3,15 @@
 from lxml import etree
 
 from twinform.ir import Document
-from twinform.schemas import Version, XmlElement, print_version, root_text, writer
+from twinform.schemas import Version, Written, XmlElement, print_version, recording_writer, root_text
 
 
-def emit(document: Document, version: Version, namespaces: dict[str | None, str]) -> XmlElement:
+def emit(
+    document: Document, version: Version, namespaces: dict[str | None, str], written: Written | None = None
+) -> XmlElement:
     """The `<robot>` of a document in terms of URDF, which has one model."""
     root = etree.Element("robot", nsmap=namespaces)
-    writer("urdf", version).write(document.models[0], root)
+    recording_writer("urdf", version, written).write(document.models[0], root)
     if document.version is not None:
         root.set("version", print_version(version))
     return root
