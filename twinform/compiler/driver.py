@@ -96,12 +96,13 @@ def convert(
     max_size: int = LARGEST,
     max_tags: int = MOST_TAGS,
     expand_includes: bool = False,
+    comments: bool = True,
     instrumentation: PassInstrumentation | None = None,
 ) -> Conversion:
     """Compile a file, the bytes of one or a document into the target's format; `instrumentation` sees each pass.
 
     `paths`, `arguments`, `xacro`, `max_size` and `max_tags` are those of `check`. URDF has no includes: for it, those
-    in the model are always expanded.
+    in the model are always expanded. `comments` are those of the source, which go along.
 
     Raises:
         CompileError: the source, a pass or the result has an error.
@@ -117,6 +118,7 @@ def convert(
         carriers=carriers,
         model=model,
         expand_includes=expand_includes,
+        comments=comments,
     )
     load_options = LoadOptions(strict, engine, SearchPath.of(paths), arguments or {}, xacro, Limits(max_size, max_tags))
     return run_conversion(request, source, load_options, name=name, instrumentation=instrumentation)

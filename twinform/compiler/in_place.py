@@ -46,6 +46,7 @@ def convert_in_place(
     Raises:
         CompileError: it cannot be converted, or cannot be changed in its place.
     """
+    request = replace(request, comments=False)  # the text of the file has them
     conversion = run_conversion(request, str(path), load_options, name=str(path), instrumentation=instrumentation)
     loaded = read(str(path), load_options, name=str(path))
     sink = DiagnosticSink(str(path), load_options.strict)
@@ -64,6 +65,7 @@ def convert_into(
     Raises:
         CompileError: one of the files cannot be converted, or both sides have changed the same.
     """
+    request = replace(request, comments=False)
     conversion = run_conversion(request, str(edited), load_options, name=str(edited))
     old = str(base) if base else _built(request, edited, into, load_options)
     before = run_conversion(request, old, load_options, name=str(base or into))

@@ -19,7 +19,7 @@ from twinform.schemas.validator import (
 )
 from twinform.schemas.value_stores import Data
 from twinform.schemas.values import VALUE_TYPES, format_value, parse_value
-from twinform.schemas.writer import LAST_LINE, Writer, Written, element_xml, in_order, recording_writer, writer
+from twinform.schemas.writer import LAST_LINE, Writer, Written, element_xml, in_order, noted, writer
 from twinform.schemas.xml import (
     XmlElement,
     declared_namespaces,
@@ -57,12 +57,12 @@ __all__ = [
     "keep_element",
     "libxml2_errors",
     "locate",
+    "noted",
     "parse_value",
     "parse_version",
     "path_of",
     "print_version",
     "reader",
-    "recording_writer",
     "refusals",
     "root_text",
     "rows_by_name",

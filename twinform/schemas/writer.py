@@ -4,7 +4,9 @@ A writer writes the content of the node, in the order of the facts, and decides 
 names of their fields. Children that came from a file keep the order that they had in it.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Generator, Iterable
+from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import cache
 from operator import itemgetter
 from typing import Any, TypeVar
@@ -31,34 +33,51 @@ _ALWAYS = "opaque"
 """A field that is never None, for steps that look at several fields themselves."""
 
 
+Written = list[tuple[Any, XmlElement]]
+"""Parts that were written, with the elements that they have become; an element may have been taken away again."""
+
+_written: ContextVar[Written | None] = ContextVar("written", default=None)
+"""Where what is written is noted; writers are shared, so that they cannot hold it themselves."""
+
 LAST_LINE = 65535
 """libxml2 keeps no number beyond it."""
 
 
-Written = list[tuple[Any, XmlElement]]
-"""Parts that were written, with the elements that they have become; an element may have been taken away again."""
+@contextmanager
+def noted() -> Generator[Written]:
+    """Note which elements the parts become that are written in the meantime."""
+    written: Written = []
+    token = _written.set(written)
+    try:
+        yield written
+    finally:
+        _written.reset(token)
 
 
-def element_xml(element: Any, parent: XmlElement | None = None, written: Written | None = None) -> XmlElement:
-    """The XML of an IR `Element`, below `parent` where one is given; those in it are added to what is `written`."""
+def _note(part: Any, element: XmlElement) -> None:
+    written = _written.get()
+    if written is not None:
+        written.append((part, element))
+
+
+def element_xml(element: Any, parent: XmlElement | None = None) -> XmlElement:
+    """The XML of an IR `Element`, below `parent` where one is given."""
     attributes = dict(element.attributes)
     made = etree.Element(element.name, attributes) if parent is None else SubElement(parent, element.name, attributes)
     made.text, made.tail = element.text, element.tail
     if element.source is not None:
         made.sourceline = min(element.source.line, LAST_LINE)  # pyright: ignore[reportAttributeAccessIssue] - it can be set
-    if written is not None:
-        written.append((element, made))
+    _note(element, made)
     for child in element.children:
-        element_xml(child, made, written)
+        element_xml(child, made)
     return made
 
 
 class Writer:
-    """Writes nodes in one format and version; one with a list of what is `written` adds to it, and is used once."""
+    """Writes nodes in one format and version."""
 
-    def __init__(self, facts: Table, version: Version, written: Written | None = None) -> None:
+    def __init__(self, facts: Table, version: Version) -> None:
         self.table = facts
-        self.written = written
         self.version = version
         self.writes: dict[str, Write] = {}
         """The writers of the definitions, and of the containers in them that were asked for, by their paths."""
@@ -88,12 +107,10 @@ class Writer:
         many = [(row.place or "", self._many(row)) for row in rows if makes_many(row)]
         text = _pose_text if fact.type == "pose" else None
         content = fact.place if fact.any else None
-        written = self.written
 
         def write(node: Any, element: XmlElement) -> None:
             values: dict[str, Any] = node.__dict__
-            if written is not None:
-                written.append((node, element))
+            _note(node, element)
             if text is not None:
                 element.text = text(node)
             for field, write_value in steps:
@@ -107,9 +124,9 @@ class Writer:
                     write_one(child, element)
             if content is not None:
                 for child in values[content]:
-                    element_xml(child, element, written)
+                    element_xml(child, element)
             if values["opaque"]:
-                _write_opaque(values["opaque"], element, written)
+                _write_opaque(values["opaque"], element)
 
         return write
 
@@ -237,11 +254,6 @@ def writer(format: str, version: Version) -> Writer:
     return Writer(table(format), version)
 
 
-def recording_writer(format: str, version: Version, written: Written | None) -> Writer:
-    """The same; where there is a list, one that adds to it what it writes."""
-    return writer(format, version) if written is None else Writer(table(format), version, written)
-
-
 def rows_to_write(rows: Iterable[Fact], version: Version) -> list[Fact]:
     """One row with a place in the node for each name; this version's where it has one."""
     placed = (row for row in rows if row.place and row.place[0] != "/")
@@ -327,13 +339,11 @@ def in_order(items: list[tuple[Any, _Each]]) -> list[tuple[Any, _Each]]:
     return [item for _, item in sorted(zip(keys, items, strict=True), key=itemgetter(0))]
 
 
-def _write_opaque(parts: Iterable[Any], element: XmlElement, written: Written | None) -> None:
+def _write_opaque(parts: Iterable[Any], element: XmlElement) -> None:
     for part in parts:
         holder = _holder(element, part.at)
         if part.element is not None:
-            made = element_xml(part.element, holder, written)
-            if written is not None:
-                written.append((part, made))
+            _note(part, element_xml(part.element, holder))
         elif part.attribute is not None:
             holder.set(*part.attribute)
         else:

@@ -115,9 +115,7 @@ def _parser(*, recover: bool, keep_comments: bool) -> etree.XMLParser:
     )
 
 
-def _recover(
-    text: bytes, sink: DiagnosticSink, error: etree.XMLSyntaxError, *, keep_comments: bool
-) -> XmlElement:
+def _recover(text: bytes, sink: DiagnosticSink, error: etree.XMLSyntaxError, *, keep_comments: bool) -> XmlElement:
     whole = with_bracket(text)
     if whole is not None:
         line = text[: text.index(b"?xml")].count(b"\n") + 1

@@ -101,7 +101,6 @@ class _Placing:
         self.last_beside: dict[XmlElement, XmlElement] = {}
         self.first_in: dict[XmlElement, XmlElement] = {}
         self.named: dict[tuple[str, str], XmlElement] = {}
-        self.ways = (self._own, self._inside, self._of_child, self._of_name)
 
     def run(self) -> None:
         """Place them all, in their order."""
@@ -210,7 +209,8 @@ class _Placing:
     def _target(self, element: XmlElement) -> XmlElement | None:
         """What an element has become."""
         if element not in self.known:
-            self.known[element] = next((found for way in self.ways if (found := way(element)) is not None), None)
+            ways = (self._own, self._inside, self._of_child, self._of_name)
+            self.known[element] = next((found for way in ways if (found := way(element)) is not None), None)
         return self.known[element]
 
     def _own(self, element: XmlElement) -> XmlElement | None:
@@ -235,14 +235,13 @@ class _Placing:
         for tag in (str(element.tag), _OTHER_NAMES.get(str(element.tag), "")):
             found = around.findall(tag) if tag else []
             if found:
-                place = sum(1 for _ in element.itersiblings(element.tag, preceding=True))
+                place = sum(1 for _ in element.itersiblings(str(element.tag), preceding=True))
                 return found[min(place, len(found) - 1)]
             if tag and around.tag not in _LARGE:
                 deeper = next(around.iterdescendants(tag), None)
                 if deeper is not None:
                     return deeper
         return None
-
 
     def _of_name(self, element: XmlElement) -> XmlElement | None:
         """What has the name of an element, and its tag but for the namespace: a carrier; or what it refers to."""

@@ -19,10 +19,10 @@ from twinform.passes import PassInstrumentation, Pipeline
 from twinform.schemas import (
     Context,
     Version,
-    Written,
     XmlElement,
     is_valid_text,
     libxml2_errors,
+    noted,
     parse_version,
     path_of,
     print_version,
@@ -32,7 +32,7 @@ from twinform.schemas import (
 )
 
 _NAMED = re.compile(r"\[@name='([^']*)'\]")
-_BACK_ENDS: dict[Format, Callable[[Document, Version, dict[str | None, str], Written | None], XmlElement]] = {
+_BACK_ENDS: dict[Format, Callable[[Document, Version, dict[str | None, str]], XmlElement]] = {
     Format.URDF: urdf.emit,
     Format.SDF: sdf.emit,
 }
@@ -91,8 +91,8 @@ def emit_legal(
 def _commented(
     document: Document, sink: DiagnosticSink, comments: Comments, *, fit: bool, kept: AbstractSet[str]
 ) -> str:
-    written: Written = []
-    root = valid_tree(document, sink, fit=fit, kept=kept, written=written)
+    with noted() as written:
+        root = valid_tree(document, sink, fit=fit, kept=kept)
     placed = place_comments(comments, root, written)
     for message, line in placed.left:
         sink.account(Fate.DROPPED, LEFT_COMMENT, message, Location(line=line, path="/"), 0)
@@ -100,15 +100,10 @@ def _commented(
 
 
 def valid_tree(
-    document: Document,
-    sink: DiagnosticSink,
-    *,
-    fit: bool = False,
-    kept: AbstractSet[str] = frozenset(),
-    written: Written | None = None,
+    document: Document, sink: DiagnosticSink, *, fit: bool = False, kept: AbstractSet[str] = frozenset()
 ) -> XmlElement:
-    """The XML of a document, made by `emit` and validated; its parts are added to what is `written`."""
-    root = document_tree(document, written)
+    """The XML of a document, made by `emit` and validated."""
+    root = document_tree(document)
     found = DiagnosticSink(file=sink.file)
     _validate(root, document.format, written_version(document), found, kept=kept if fit else None)
     sink.entries.extend(found.entries)
@@ -125,9 +120,9 @@ def located(diagnostic: Diagnostic, document: Document) -> Diagnostic:
     return replace(diagnostic, location=diagnostic.location._replace(line=next(named, 1)))
 
 
-def document_tree(document: Document, written: Written | None = None) -> XmlElement:
-    """The XML of a document, its names without a default namespace; its parts are added to what is `written`."""
-    return _BACK_ENDS[document.format](document, written_version(document), _prefixes(document), written)
+def document_tree(document: Document) -> XmlElement:
+    """The XML of a document, its names without a default namespace."""
+    return _BACK_ENDS[document.format](document, written_version(document), _prefixes(document))
 
 
 def text_without_tree(document: Document) -> str | None:

@@ -5,18 +5,16 @@ from lxml import etree
 from twinform.compiler.output.bases_first import has_untyped_names, parts_with_bases_first, put_bases_first
 from twinform.diagnostics import Source
 from twinform.ir import Document
-from twinform.schemas import Version, Written, XmlElement, recording_writer, root_text
+from twinform.schemas import Version, XmlElement, root_text, writer
 
 _MODEL = frozenset({"model"})
 """Elements in which frames have an order. Untyped ones, such as a model in a population, are put in order as trees."""
 
 
-def emit(
-    document: Document, version: Version, namespaces: dict[str | None, str], written: Written | None = None
-) -> XmlElement:
+def emit(document: Document, version: Version, namespaces: dict[str | None, str]) -> XmlElement:
     """The `<sdf>` of a document in terms of SDF. What was read from SDF keeps its order."""
     root = etree.Element("sdf", nsmap=namespaces)
-    recording_writer("sdf", version, written).write(document, root)
+    writer("sdf", version).write(document, root)
     if _has_robots(document):
         for model in root.iter("model"):
             put_bases_first(model)

@@ -3,15 +3,13 @@
 from lxml import etree
 
 from twinform.ir import Document
-from twinform.schemas import Version, Written, XmlElement, print_version, recording_writer, root_text
+from twinform.schemas import Version, XmlElement, print_version, root_text, writer
 
 
-def emit(
-    document: Document, version: Version, namespaces: dict[str | None, str], written: Written | None = None
-) -> XmlElement:
+def emit(document: Document, version: Version, namespaces: dict[str | None, str]) -> XmlElement:
     """The `<robot>` of a document in terms of URDF, which has one model."""
     root = etree.Element("robot", nsmap=namespaces)
-    recording_writer("urdf", version, written).write(document.models[0], root)
+    writer("urdf", version).write(document.models[0], root)
     if document.version is not None:
         root.set("version", print_version(version))
     return root
