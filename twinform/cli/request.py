@@ -43,6 +43,7 @@ _OPTIONS = (
         default=True,
         help="Whether to keep what the target lacks in elements of tf:.",
     ),
+    click.option("--comments/--no-comments", default=True, help="Whether comments of the source go along."),
 )
 
 
@@ -60,6 +61,7 @@ class Asked(InputOptions):
     urdf_version: UrdfVersion | None
     passes: Pipeline | None
     carriers: bool
+    comments: bool
     expand_includes: bool
 
 
@@ -71,6 +73,7 @@ def request_of(asked: Asked, to: Language, model: str | None = None) -> Conversi
         urdf_version=asked["urdf_version"],
         passes=asked["passes"] or Pipeline(),
         carriers=asked["carriers"],
+        comments=asked["comments"],
         model=model,
         expand_includes=asked["expand_includes"],
     )

@@ -6,6 +6,7 @@ from functools import cached_property
 from pathlib import Path
 
 from twinform.compiler.errors import CompileError
+from twinform.compiler.input.comments import comments_of
 from twinform.compiler.input.limits import LARGEST, MOST_TAGS, Limits
 from twinform.compiler.input.loading import (
     Input,
@@ -15,6 +16,7 @@ from twinform.compiler.input.loading import (
     read,
     read_tree_again,
 )
+from twinform.compiler.output.comments import Comments
 from twinform.compiler.output.emitting import emit, emit_legal
 from twinform.compiler.request import ConversionRequest, Language, UrdfVersion
 from twinform.compiler.search.uris import LocalAssets, SearchPath
@@ -94,12 +96,13 @@ def convert(
     max_size: int = LARGEST,
     max_tags: int = MOST_TAGS,
     expand_includes: bool = False,
+    comments: bool = True,
     instrumentation: PassInstrumentation | None = None,
 ) -> Conversion:
     """Compile a file, the bytes of one or a document into the target's format; `instrumentation` sees each pass.
 
     `paths`, `arguments`, `xacro`, `max_size` and `max_tags` are those of `check`. URDF has no includes: for it, those
-    in the model are always expanded.
+    in the model are always expanded. `comments` are those of the source, which go along.
 
     Raises:
         CompileError: the source, a pass or the result has an error.
@@ -115,6 +118,7 @@ def convert(
         carriers=carriers,
         model=model,
         expand_includes=expand_includes,
+        comments=comments,
     )
     load_options = LoadOptions(strict, engine, SearchPath.of(paths), arguments or {}, xacro, Limits(max_size, max_tags))
     return run_conversion(request, source, load_options, name=name, instrumentation=instrumentation)
@@ -210,15 +214,22 @@ def _run(
         verify(changed, sink)
     text = ""
     if not sink.has_errors:
-        document, text = written(
-            changed, request, sink, instrumentation, kept=mixed_words(loaded) if loaded.mixed else None
-        )
+        kept_words = mixed_words(loaded) if loaded.mixed else None
+        comments = _comments(loaded, document, request)
+        document, text = written(changed, request, sink, instrumentation, kept=kept_words, comments=comments)
     if sink.has_errors:
         raise CompileError(tuple(sink.diagnostics))
     lost = sum(entry.weight for entry in sink.entries)
     ledger = Ledger(max(0, loaded.size - lost), sink.traced_entries())
     origin = loaded.tree if loaded.content is None else loaded.content
     return Conversion(text, document, tuple(sink.diagnostics), ledger, origin, tuple(sink.side_files))
+
+
+def _comments(loaded: LoadResult, document: Document, request: ConversionRequest) -> Comments | None:
+    """The comments that go along; JSON has no place for any."""
+    if not request.comments or request.to == "json":
+        return None
+    return comments_of(loaded, document, Format(request.to), request.model)
 
 
 def _with_files(request: ConversionRequest, load_options: LoadOptions, file: str) -> Pipeline:
@@ -237,8 +248,9 @@ def written(
     instrumentation: PassInstrumentation | None,
     *,
     kept: frozenset[str] | None,
+    comments: Comments | None = None,
 ) -> tuple[Document, str]:
-    """What a document becomes, and its text.
+    """What a document becomes, and its text, with the comments of its file.
 
     One that was put together from several files has elements that are `kept` although its version does not have
     them: the files had them too. It is None where there was one file.
@@ -254,7 +266,7 @@ def written(
     legal = request.legalisation(document)
     fit = (kept is not None or bool(len(legal))) and not request.target(document, Format(request.to)).mixed
     kept = frozenset() if len(legal) or kept is None else kept
-    return emit_legal(document, legal, sink, instrumentation, fit=fit, kept=kept)
+    return emit_legal(document, legal, sink, instrumentation, fit=fit, kept=kept, comments=comments)
 
 
 def _may_be_mended(loaded: LoadResult) -> bool:

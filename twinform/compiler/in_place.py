@@ -1,5 +1,6 @@
 """Conversions into a file that is there: only what has changed is changed in it, and every other byte stays."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -48,6 +49,7 @@ def convert_in_place(
     Raises:
         CompileError: it cannot be converted, or cannot be changed in its place.
     """
+    request = replace(request, comments=False)  # the text of the file has them
     conversion = run_conversion(request, str(path), load_options, name=str(path), instrumentation=instrumentation)
     loaded = read(str(path), load_options, name=str(path))
     sink = DiagnosticSink(str(path), load_options.strict)

@@ -30,6 +30,7 @@ def convert_into(
     Raises:
         CompileError: one of the files cannot be converted, or both sides have changed the same.
     """
+    request = replace(request, comments=False)
     forth = request if request.to == "urdf" else replace(request, model=None)
     conversion = run_conversion(forth, str(edited), load_options, name=str(edited))
     if base:

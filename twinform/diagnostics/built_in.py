@@ -72,6 +72,7 @@ BUILT_IN: Mapping[str, str] = {
     "joint-type-unsupported": "to_sdf",
     "kept-as-sdf": "splitting",
     "kinematic-loop": "model",
+    "left-comment": "comments",
     "link-not-lumped": "edits",
     "lower-above-upper": "model",
     "lumped-away": "edits",

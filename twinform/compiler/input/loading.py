@@ -239,13 +239,15 @@ def _built(
     return document
 
 
-def read_tree(text: bytes, sink: DiagnosticSink, limits: Limits = USUAL_LIMITS) -> tuple[XmlElement, str | None]:
+def read_tree(
+    text: bytes, sink: DiagnosticSink, limits: Limits = USUAL_LIMITS, *, keep_comments: bool = False
+) -> tuple[XmlElement, str | None]:
     """The XML tree of a text in one of our formats, its names plain, and the default namespace that it had.
 
     Raises:
         UnreadableError: it is not XML, or of another format.
     """
-    root = parse(text, sink, limits)
+    root = parse(text, sink, limits, keep_comments=keep_comments)
     namespace = strip_default_namespace(root)
     if root.tag == _OLD_ROOT and root.get("version") in _OLD_ROOT_VERSIONS:
         message = f"the root of SDF {root.get('version')} is <{_OLD_ROOT}>; read, and written, as <sdf>"
@@ -259,9 +261,9 @@ def read_tree(text: bytes, sink: DiagnosticSink, limits: Limits = USUAL_LIMITS) 
     return root, namespace
 
 
-def read_tree_again(text: bytes) -> XmlElement:
-    """The tree of a text that `read_tree` took before, whatever its size."""
-    return read_tree(text, DiagnosticSink(), LIFTED_LIMITS)[0]
+def read_tree_again(text: bytes, *, keep_comments: bool = False) -> XmlElement:
+    """The tree of a text that `read_tree` took before, whatever its size; with its comments where they are kept."""
+    return read_tree(text, DiagnosticSink(), LIFTED_LIMITS, keep_comments=keep_comments)[0]
 
 
 def lower_tree(root: XmlElement, sink: DiagnosticSink, *, valid: bool = False) -> Document | None:
