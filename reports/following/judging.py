@@ -19,7 +19,7 @@ from twinform.compiler import ConversionRequest, Language, LoadOptions, SearchPa
 from twinform.compiler.compare import compare_files
 from twinform.compiler.in_place import Updated
 from twinform.compiler.into import convert_into
-from twinform.schemas import XmlElement
+from twinform.schemas import XmlElement, versions_of
 from twinform.testing.edits import Edit, draw_edits
 from twinform.testing.edits.mistakes import KIND as MISTAKE
 
@@ -72,7 +72,7 @@ def work(job: Job) -> list[Followed]:
 
 def _version(path: Path, format: str) -> str | None:
     document = twinform.check(path).document if format == "sdf" else None
-    return document.version if document is not None else None
+    return document.version if document is not None and document.version in versions_of("sdf") else None
 
 
 def _tried(job: Job, made: bytes, back: str, edits: tuple[Edit, ...], edited: bytes) -> Followed:
@@ -86,7 +86,7 @@ def _tried(job: Job, made: bytes, back: str, edits: tuple[Edit, ...], edited: by
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"edited.{'sdf' if job.is_urdf else 'urdf'}"
         path.write_bytes(edited)
-        request = ConversionRequest(to=own, sdf_version=_version(job.path, own))
+        request = ConversionRequest(to=own)
         try:
             updated = convert_into(request, path, job.path, LoadOptions(search=SearchPath.of(job.paths)))
         except twinform.CompileError as error:

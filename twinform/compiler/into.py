@@ -14,6 +14,7 @@ from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules.edits import EDIT_CONFLICT
 from twinform.ir import Format
 from twinform.passes import Pipeline
+from twinform.schemas import versions_of
 
 Key = tuple[str, str, str]
 """What differs: its group, name and aspect."""
@@ -30,7 +31,7 @@ def convert_into(
     Raises:
         CompileError: one of the files cannot be converted, or both sides have changed the same.
     """
-    request = replace(request, comments=False)
+    request = replace(request, comments=False, sdf_version=_version(request, into, load_options))
     forth = request if request.to == "urdf" else replace(request, model=None)
     conversion = run_conversion(forth, str(edited), load_options, name=str(edited))
     if base:
@@ -42,6 +43,14 @@ def convert_into(
     made = updated(file_bytes(into, sink, load_options), before.document, conversion, sink, same=base is None)
     _require_the_robot(made, before, into, load_options)
     return made
+
+
+def _version(request: ConversionRequest, into: Path, load_options: LoadOptions) -> str | None:
+    """The version of SDF that parts are written in: that of the file that they go into, if no other is asked for."""
+    if request.to != "sdf" or request.sdf_version:
+        return request.sdf_version
+    document = read(str(into), load_options, name=str(into)).document
+    return document.version if document and document.version in versions_of("sdf") else None
 
 
 def _built(request: ConversionRequest, edited: Path, into: Path, load_options: LoadOptions) -> bytes:

@@ -101,7 +101,17 @@ def test_a_robot_in_a_world_follows_in_its_place(run: Run, tmp_path: Path, monke
     assert (done.exit_code, done.stderr.splitlines()[-2:]) == (0, ["r.urdf:5:20: 3 becomes 4", "r.urdf: 1 change"])
 
 
-def test_a_new_name_is_not_followed_into_a_world(
+def test_new_parts_are_of_the_version_of_the_file(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("r.urdf").write_text(HAND_WRITTEN)
+    assert run("convert", "r.urdf", "-o", "r.sdf", "--sdf-version", "1.6").exit_code == 0
+    _edit("r.urdf", 'xyz="0.0 0 1"/>', 'xyz="0.0 0 1"/><origin xyz="0 0 0.5"/>')
+    assert run("convert", "r.urdf", "--into", "r.sdf").exit_code == 0
+    assert "relative_to" not in Path("r.sdf").read_text()
+    assert run("diff", "r.urdf", "r.sdf").exit_code == 0
+
+
+def test_a_new_name_is_followed_into_a_world(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
