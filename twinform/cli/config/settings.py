@@ -16,12 +16,27 @@ from twinform.schemas import versions_of
 UrdfVersion = Literal["1.0", "1.1", "1.2"]
 
 
-class Settings(BaseModel):
-    """The settings of a project; `None` where nothing is set. `paths` are relative to the folder of the file."""
+_CONFIG = ConfigDict(frozen=True, extra="forbid", strict=True, alias_generator=lambda name: name.replace("_", "-"))
 
-    model_config = ConfigDict(
-        frozen=True, extra="forbid", strict=True, alias_generator=lambda name: name.replace("_", "-")
-    )
+
+class FileSettings(BaseModel):
+    """The settings of some files: those that a pattern of `match` fits, in the notation of `.gitignore`."""
+
+    model_config = _CONFIG
+
+    match: list[str] = Field(min_length=1)
+    arguments: Mapping[str, str | int | float | bool] = Field(default_factory=dict[str, str | int | float | bool])
+    strict: bool | None = None
+    passes: str | None = None
+    check_passes: str | None = None
+    allow: list[str] = Field(default_factory=list[str])
+    deny: list[str] = Field(default_factory=list[str])
+
+
+class Settings(BaseModel):
+    """The settings of a project; `None` where nothing is set. Paths are relative to the folder of the file."""
+
+    model_config = _CONFIG
 
     sdf_version: str | None = None
     urdf_version: UrdfVersion | None = None
@@ -35,6 +50,10 @@ class Settings(BaseModel):
     allow: list[str] = Field(default_factory=list[str])
     deny: list[str] = Field(default_factory=list[str])
     pipelines: Mapping[str, object] = Field(default_factory=dict[str, object])
+    exclude: list[str] | None = None
+    extend_exclude: list[str] = Field(default_factory=list[str])
+    baseline: str | None = None
+    files: list[FileSettings] = Field(default_factory=list[FileSettings])
 
     @field_validator("sdf_version")
     @classmethod
@@ -70,10 +89,11 @@ def parse_settings(path: Path, found: Table) -> Settings:
 def _readable(path: Path, error: ValidationError) -> ConfigError:
     """Pydantic's first complaint."""
     problem = error.errors(include_url=False)[0]
-    key = ".".join(map(str, problem["loc"]))
+    key = "".join(f"[{each}]" if isinstance(each, int) else f".{each}" for each in problem["loc"]).removeprefix(".")
     if problem["type"] == "extra_forbidden":
-        known = sorted(field.alias or name for name, field in Settings.model_fields.items())
-        return ConfigError(path, f"there is no such key{nearest(key, known)}", key=key)
+        table = FileSettings if problem["loc"][0] == "files" else Settings
+        known = sorted(field.alias or name for name, field in table.model_fields.items())
+        return ConfigError(path, f"there is no such key{nearest(str(problem['loc'][-1]), known)}", key=key)
     return ConfigError(
         path,
         problem["msg"].removeprefix("Value error, ").removeprefix("Input ").replace("dictionary", "table"),
