@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     help="Read-only passes, such as 'check-inertia,check-limits', or @NAME for one that the configuration names.",
 )
 @exclude_options
+@click.option("--watch", is_flag=True, help="Stay, and check what changes again, until Ctrl-C.")
 @reading_options
 @click.pass_context
 def command(
@@ -53,6 +54,7 @@ def command(
     check_passes: "Pipeline | None",
     exclude: tuple[str, ...],
     force_exclude: bool,
+    watch: bool,
     expand_includes: bool,
     **input_options: Unpack[InputOptions],
 ) -> None:
@@ -61,13 +63,26 @@ def command(
     IN are URDF, SDF, xacro or JSON files, folders of them, or globs in quotes; - is standard input. Arguments of xacro
     are written NAME:=VALUE. Exit code: 0 without errors, 1 with errors, 2 where a file could not be read.
     """
-    sources, arguments = model_inputs(words, exclusion_of(ctx, exclude, force=force_exclude))
+    exclusion = exclusion_of(ctx, exclude, force=force_exclude)
+    sources, arguments = model_inputs(words, exclusion)
     options = OptionsByFile(ctx, arguments, input_options, allow, deny, check_passes, "check_passes")
-    report = CheckReport(style, notes=notes, baseline=baseline_of(ctx, baseline, update=update_baseline))
-    for source in sources:
+
+    def new_report() -> CheckReport:
+        return CheckReport(style, notes=notes, baseline=baseline_of(ctx, baseline, update=update_baseline))
+
+    def check(source: Source, report: CheckReport) -> None:
         load_options, policy, passes = options.of(source.name)
-        loaded = _checked(source, load_options, passes, expand_includes=expand_includes)
-        report.add(loaded, policy)
+        report.add(_checked(source, load_options, passes, expand_includes=expand_includes), policy)
+
+    if watch:
+        if style != "text" or update_baseline or "-" in words:
+            raise click.UsageError("--watch prints text, of files: leave --format, --update-baseline and - out")
+        from twinform.cli.watching import watch_models  # noqa: PLC0415 - it seldom happens
+
+        ctx.exit(watch_models(lambda: model_inputs(words, exclusion)[0], new_report, check))
+    report = new_report()
+    for source in sources:
+        check(source, report)
     ctx.exit(report.end())
 
 

@@ -39,8 +39,16 @@ def _meant(word: str, exclusion: Exclusion) -> Iterator[str]:
             yield from _below(word, exclusion)
     elif _MAGIC & set(word) and not os.path.lexists(word):
         yield from _fitting(word, exclusion)
-    elif not (exclusion.force and word != "-" and _is_excluded(word, exclusion)):
+    elif word == "-" or not (exclusion.force and _is_unwanted(word, exclusion)):
         yield word
+
+
+def _is_unwanted(word: str, exclusion: Exclusion) -> bool:
+    """Whether a file that is named is excluded, or has macros for others and no model."""
+    from twinform.cli.files.model_files import XACRO, is_model  # noqa: PLC0415 - most runs take what is named
+
+    is_part = word.lower().endswith(XACRO) and not is_model(Path(word))
+    return is_part or _is_excluded(word, exclusion)
 
 
 def _is_excluded(word: str, exclusion: Exclusion, *, is_folder: bool = False) -> bool:

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+XACRO = ".xacro"
 _MODELS = (".urdf", ".sdf", ".world")
 _JSON_MARK = b"urn:twinform:document:"
 _ENOUGH = 2**12
@@ -20,7 +21,7 @@ def is_model(path: Path, *, named: bool = False) -> bool:
     Not to be read is no reason to leave it out: whoever reads it says so.
     """
     name = path.name.lower()
-    if name.endswith(".xacro"):
+    if name.endswith(XACRO):
         return _is_xacro_model(path)
     if name.endswith(".json"):
         return _JSON_MARK in _start(path, _ENOUGH)

@@ -41,8 +41,12 @@ def test_hidden_files_and_what_tools_make_are_left_out_and_named_files_are_not(h
 
 def test_an_exclusion_can_be_enforced(here: Path) -> None:
     _write("third/a.urdf", "k/a.urdf", "k/generated_a.urdf")
+    _write("m.xacro", text="<robot/>")
     exclusion = Exclusion(("third/", "generated_*"), force=True)
-    assert discover(["third/a.urdf", "k/generated_a.urdf", "k/a.urdf", "third", "-"], exclusion) == ["k/a.urdf", "-"]
+    named = ["third/a.urdf", "k/generated_a.urdf", "k/a.urdf", "third", "m.xacro", "-"]
+    assert discover(named, exclusion) == ["k/a.urdf", "-"]
+    assert discover(named[:1], exclusion) == []
+    assert discover(["m.xacro"], Exclusion()) == ["m.xacro"]
 
 
 def test_an_exclusion_is_relative_to_its_folder(here: Path) -> None:
