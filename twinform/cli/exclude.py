@@ -15,7 +15,9 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 def exclude_options(command: Command) -> Command:
     """Give a command `--exclude PATTERN` and `--force-exclude`."""
     command = click.option(
-        "--force-exclude", is_flag=True, help="Leave excluded files, and those that only have macros, out even where they are named, as hooks do."
+        "--force-exclude",
+        is_flag=True,
+        help="Leave excluded files, and those that only have macros, out even where they are named, as hooks do.",
     )(command)
     return click.option(
         "--exclude",

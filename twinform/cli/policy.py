@@ -1,15 +1,16 @@
 """`--allow` and `--deny`."""
 
 from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, TypeVar
 
 import click
 
 from twinform.cli.config import ConfigError, Project, settings_of
-from twinform.cli.config.per_file import NO_OWN_SETTINGS, OwnSettings
+from twinform.cli.config.per_file import NO_OWN_SETTINGS, OwnSettings, RuleSettings
 from twinform.cli.failure import Unusable
 from twinform.diagnostics import Policy
-from twinform.diagnostics.registry import RuleRegistryError, find_rule, rules
+from twinform.diagnostics.registry import RuleRegistryError, find_rule
+from twinform.diagnostics.registry import rules as known_rules
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -32,34 +33,23 @@ def policy_of(
         ConfigError: the configuration names a rule that there is not, or allows a fatal one.
     """
     project = settings_of(ctx)
-    configured = _Layer([(each, "allow") for each in project.allow], [(each, "deny") for each in project.deny])
     policy = Policy()
-    for layer in (configured, _Layer(own.allow, own.deny)):
-        layer.require_known(project)
-        policy = _over(policy, layer.names)
-    return _over(policy, (frozenset(allow), frozenset(deny)))
+    for rules in (RuleSettings(project.allow, project.deny), *own.rules):
+        _require_known(project, rules)
+        policy = _over(policy, rules.allow, rules.deny)
+    return _over(policy, allow, deny)
 
 
-class _Layer(NamedTuple):
-    """Rules of a configuration that are allowed and denied, each with its key."""
-
-    allow: Sequence[tuple[str, str]]
-    deny: Sequence[tuple[str, str]]
-
-    @property
-    def names(self) -> tuple[frozenset[str], frozenset[str]]:
-        return frozenset(name for name, _ in self.allow), frozenset(name for name, _ in self.deny)
-
-    def require_known(self, project: Project) -> None:
-        for option, names in (("allow", self.allow), ("deny", self.deny)):
-            for name, key in names:
-                if project.path and (problem := _problem(name, option)):
-                    raise ConfigError(project.path, problem, key=key)
+def _require_known(project: Project, rules: RuleSettings) -> None:
+    for option, names in (("allow", rules.allow), ("deny", rules.deny)):
+        for name in names:
+            if project.path and (problem := _problem(name, option)):
+                raise ConfigError(project.path, problem, key=f"{rules.key}.{option}".removeprefix("."))
 
 
-def _over(before: Policy, names: tuple[frozenset[str], frozenset[str]]) -> Policy:
+def _over(before: Policy, allowed: Sequence[str], denied: Sequence[str]) -> Policy:
     """The policy with more rules, which go before those that it has."""
-    allow, deny = names
+    allow, deny = frozenset(allowed), frozenset(denied)
     both = sorted(allow & deny)
     if both:
         raise click.UsageError(f"{both[0]} is allowed and denied")
@@ -80,7 +70,7 @@ def _problem(name: str, option: str) -> str:
     try:
         found = find_rule(name)
         if found is None:
-            return f"no rule is called {name}{nearest(name, list(rules()))}"
+            return f"no rule is called {name}{nearest(name, list(known_rules()))}"
     except RuleRegistryError as error:
         raise Unusable(str(error)) from error
     return f"{name} is fatal, and cannot be allowed" if option == "allow" and found.rule.fatal else ""

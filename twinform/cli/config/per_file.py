@@ -4,7 +4,7 @@ import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from twinform.cli.config.errors import ConfigError
 
@@ -14,26 +14,33 @@ if TYPE_CHECKING:
     from twinform.cli.config.settings import FileSettings
 
 
+class RuleSettings(NamedTuple):
+    """The rules that a table allows and denies, and their keys without the last word."""
+
+    allow: Sequence[str]
+    deny: Sequence[str]
+    key: str = ""
+
+
 @dataclass(frozen=True, slots=True)
 class OwnSettings:
     """The settings of one file beyond those of the project; `None` and nothing where there are none.
 
-    The keys are those of the tables that pipelines, allowed and denied rules come from.
+    Pipelines have the key that they come from, and rules come table by table.
     """
 
     arguments: Mapping[str, str] = field(default_factory=dict[str, str])
     strict: bool | None = None
     passes: tuple[str, str] | None = None
     check_passes: tuple[str, str] | None = None
-    allow: Sequence[tuple[str, str]] = ()
-    deny: Sequence[tuple[str, str]] = ()
+    rules: Sequence[RuleSettings] = ()
 
 
 NO_OWN_SETTINGS = OwnSettings()
 
 
 class PerFile:
-    """The tables of a configuration, in their order: of two that fit a file the later one counts, and rules add up."""
+    """The tables of a configuration, in their order: of those that fit a file the later ones go before the others."""
 
     def __init__(self, path: Path, tables: Sequence["FileSettings"]) -> None:
         """From the tables of the file at a path.
@@ -64,8 +71,7 @@ class PerFile:
             check_passes=_last(
                 (table.check_passes, f"{key}.check-passes") for key, table in fitting if table.check_passes is not None
             ),
-            allow=[(each, f"{key}.allow") for key, table in fitting for each in table.allow],
-            deny=[(each, f"{key}.deny") for key, table in fitting for each in table.deny],
+            rules=[RuleSettings(table.allow, table.deny, key) for key, table in fitting],
         )
 
 
