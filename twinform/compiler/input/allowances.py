@@ -91,7 +91,7 @@ class Allowances:
     def _of(self, file: str) -> Suppressions:
         file = file or self.file
         if file not in self.files:
-            self.files[file] = suppressions(_content(file, self.limits))
+            self.files[file] = suppressions(content_of(Path(file), self.limits))
         return self.files[file]
 
 
@@ -116,9 +116,10 @@ def suppressions(text: bytes) -> Suppressions:
         return NO_SUPPRESSIONS  # the parser has said so, or knows better
 
 
-def _content(file: str, limits: Limits) -> bytes:
+def content_of(file: Path, limits: Limits) -> bytes:
+    """What is in a file; nothing where it cannot be read."""
     try:
-        return read_regular(Path(file), limits.size) or b""
+        return read_regular(file, limits.size)
     except (OSError, ValueError):
         return b""  # a name that stands for something that is no file
 

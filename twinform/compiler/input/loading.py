@@ -11,7 +11,7 @@ from pathlib import Path
 
 from twinform.compiler.errors import CompileError
 from twinform.compiler.input import sdf, urdf
-from twinform.compiler.input.allowances import Allowances
+from twinform.compiler.input.allowances import Allowances, content_of
 from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.gazebo_extensions import check_extensions
 from twinform.compiler.input.limits import LARGEST, LIFTED_LIMITS, MOST_TAGS, USUAL_LIMITS, Limits, excess_of_json
@@ -166,7 +166,7 @@ def _check_xacro(path: Path, sink: DiagnosticSink, load_options: LoadOptions) ->
     name = expanded_name(sink.file)
     sink.origins[name] = expansion.origins
     allowances = load_options.allowances(sink.file, sink.origins)
-    allowances.read(read_bytes(path, sink, load_options.limits), sink)
+    allowances.read(content_of(path, load_options.limits), sink)
     loaded = _check_text(expansion.text, DiagnosticSink(name, sink.strict), load_options, allowances)
     sink.extend(loaded.diagnostics)
     allowances.settle(sink)
