@@ -6,6 +6,7 @@ from functools import cached_property
 from pathlib import Path
 
 from twinform.compiler.errors import CompileError
+from twinform.compiler.input.allowances import staying
 from twinform.compiler.input.comments import comments_of
 from twinform.compiler.input.limits import LARGEST, MOST_TAGS, Limits
 from twinform.compiler.input.loading import (
@@ -25,7 +26,7 @@ from twinform.diagnostics.rules.model import MISSING_LIMIT
 from twinform.diagnostics.rules.structure import MISSING_ATTRIBUTE, OUTSIDE_VERSION
 from twinform.ir import Document, Format, Include
 from twinform.ir.verify import verify
-from twinform.passes import Pass, PassInstrumentation, Pipeline
+from twinform.passes import Pass, PassError, PassInstrumentation, Pipeline
 from twinform.passes.analyses.candidates import candidates, name_once_expanded, wanted_includes
 from twinform.passes.sdf_versions import has_early_frames
 from twinform.schemas import Engine, XmlElement, versions_of
@@ -97,12 +98,13 @@ def convert(
     max_tags: int = MOST_TAGS,
     expand_includes: bool = False,
     comments: bool = True,
+    allow: Iterable[str] = (),
     instrumentation: PassInstrumentation | None = None,
 ) -> Conversion:
     """Compile a file, the bytes of one or a document into the target's format; `instrumentation` sees each pass.
 
-    `paths`, `arguments`, `xacro`, `max_size` and `max_tags` are those of `check`. URDF has no includes: for it, those
-    in the model are always expanded. `comments` are those of the source, which go along.
+    `paths`, `arguments`, `xacro`, `max_size`, `max_tags` and `allow` are those of `check`. URDF has no includes: for
+    it, those in the model are always expanded. `comments` are those of the source, which go along.
 
     Raises:
         CompileError: the source, a pass or the result has an error.
@@ -120,7 +122,10 @@ def convert(
         expand_includes=expand_includes,
         comments=comments,
     )
-    load_options = LoadOptions(strict, engine, SearchPath.of(paths), arguments or {}, xacro, Limits(max_size, max_tags))
+    limits, rules = Limits(max_size, max_tags), frozenset(allow)
+    load_options = LoadOptions(
+        strict, engine, SearchPath.of(paths), arguments or {}, xacro, limits, allow=rules, tolerant=True
+    )
     return run_conversion(request, source, load_options, name=name, instrumentation=instrumentation)
 
 
@@ -151,7 +156,14 @@ def run_conversion(
         request = replace(request, mixed=has_mixed_words(loaded))
         if loaded.document is None or not (loaded.accepted or (request.passes and _may_be_mended(loaded))):
             raise CompileError(loaded.diagnostics, unreadable=loaded.unreadable)
-        return _run(loaded, loaded.document, request, load_options, instrumentation=instrumentation)
+        try:
+            return _run(loaded, loaded.document, request, load_options, instrumentation=instrumentation)
+        except (PassError, LookupError, ValueError, RecursionError) as error:
+            allowed = [each for each in loaded.allowed if each.is_error]
+            if not allowed:
+                raise
+            stays = staying(allowed, f"the model cannot be converted with it ({error})")
+            raise CompileError((*loaded.diagnostics, *stays)) from error
 
 
 def _wanted(document: Document | None, request: ConversionRequest) -> Callable[[Include], bool]:
@@ -171,7 +183,8 @@ def has_mixed_words(loaded: LoadResult) -> bool:
 
 def mixed_words(loaded: LoadResult) -> frozenset[str]:
     """Elements and attributes in files that the versions of these do not have."""
-    return frozenset(each.found for each in loaded.diagnostics if _is_outside_version(each) and each.found)
+    found = (*loaded.diagnostics, *loaded.allowed)
+    return frozenset(each.found for each in found if _is_outside_version(each) and each.found)
 
 
 def _is_outside_version(found: Diagnostic) -> bool:
@@ -207,7 +220,15 @@ def _run(
 ) -> Conversion:
     """The rest of the way of a document that was read."""
     kept = [each for each in loaded.diagnostics if not each.is_error]
-    sink = DiagnosticSink(loaded.path, load_options.strict, kept, list(loaded.entries), origins=dict(loaded.origins))
+    sink = DiagnosticSink(
+        loaded.path,
+        load_options.strict,
+        kept,
+        list(loaded.entries),
+        origins=dict(loaded.origins),
+        allows=loaded.allowances and loaded.allowances.in_conversion,
+        allowed=list(loaded.allowed),
+    )
     passes = _with_files(request, load_options, loaded.path)
     changed = passes.run(document, sink, instrumentation=instrumentation, verify=verify if loaded.accepted else None)
     if not loaded.accepted:

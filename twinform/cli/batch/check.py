@@ -51,13 +51,14 @@ def command(
     --report has all findings. Exit code: 0 without errors, 1 with errors, 2 where a file could not be read.
     """
     options = cast("RunOptions", rest)
-    job = Check(policy=policy_of(ctx, allow, deny), passes=check_passes, expand_includes=expand_includes)
+    policy = policy_of(ctx, allow, deny)
+    job = Check(policy=policy, passes=check_passes, expand_includes=expand_includes)
     with models(source, cast("ModelOptions", rest)) as found:
         whole = Batch(
             source=found.folder,
             entries=found.entries,
             job=job,
-            load_options=load_options_of({}, cast("InputOptions", rest)),
+            load_options=load_options_of({}, cast("InputOptions", rest), policy),
             shard=rest["shard"],
             seconds=options["timeout"],
             shown=found.shown,

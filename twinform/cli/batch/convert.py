@@ -63,7 +63,7 @@ def command(
             source=found.folder,
             entries=found.entries,
             job=job,
-            load_options=load_options_of({}, asked),
+            load_options=load_options_of({}, asked, policy),
             dest=dest,
             shard=rest["shard"],
             seconds=options["timeout"],
