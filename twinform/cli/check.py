@@ -35,6 +35,10 @@ _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "
     callback=pipeline_option("check-passes"),
     help="Read-only passes, such as 'check-inertia,check-limits', or @NAME for one that the configuration names.",
 )
+@click.option("--fix", is_flag=True, help="Mend what can be mended without another robot coming of it, in the files.")
+@click.option("--unsafe-fixes", is_flag=True, help="Mend what is a guess too, or may make another robot of a file.")
+@click.option("--diff", is_flag=True, help="Print what --fix would change, and write nothing; exit code 1 if anything.")
+@click.option("--fix-only", is_flag=True, help="Mend, and report nothing of what is left.")
 @reading_options
 @click.pass_context
 def command(
@@ -46,6 +50,10 @@ def command(
     allow: tuple[str, ...],
     deny: tuple[str, ...],
     check_passes: "Pipeline | None",
+    fix: bool,
+    unsafe_fixes: bool,
+    diff: bool,
+    fix_only: bool,
     expand_includes: bool,
     **input_options: Unpack[InputOptions],
 ) -> None:
@@ -56,21 +64,38 @@ def command(
     """
     sources, arguments = inputs(words)
     policy, load_options = policy_of(ctx, allow, deny), load_options_of(arguments, input_options)
-    loaded = [read(each.content, load_options, name=each.name) for each in sources]
-    if expand_includes:
-        from twinform.compiler import expand  # noqa: PLC0415 - few runs read other files
 
-        loaded = [expand(each, load_options) for each in loaded]
-    loaded = [_inspected(each, load_options, check_passes) for each in loaded]
+    def look(content: str | bytes, name: str) -> LoadResult:
+        found = read(content, load_options, name=name)
+        if expand_includes:
+            from twinform.compiler import expand  # noqa: PLC0415 - few runs read other files
+
+            found = expand(found, load_options)
+        return _inspected(found, load_options, check_passes)
+
+    if fix or diff or fix_only:
+        from twinform.cli.fixing import Fixing, run_fixes  # noqa: PLC0415 - most runs only look
+
+        on_stderr = not diff and any(isinstance(each.content, bytes) for each in sources)
+        if on_stderr and style != "text" and not fix_only:
+            raise click.UsageError("the mended text of standard input is printed: leave --format out, or give --diff")
+        fixing = Fixing(look, load_options, policy, unsafe=unsafe_fixes, diff=diff)
+        loaded, mended = run_fixes(sources, fixing)
+        if diff or fix_only:
+            ctx.exit(UNUSABLE if any(each.unreadable for each in loaded) else FINDINGS if diff and mended else 0)
+    else:
+        on_stderr, mended = False, 0
+        loaded = [look(each.content, each.name) for each in sources]
     loaded, seen = [replace(each, diagnostics=policy.apply(each.diagnostics)) for each in loaded], loaded
     allowed = sum(len(each.diagnostics) for each in seen) - sum(len(each.diagnostics) for each in loaded)
     findings = [Findings(each.path, each.diagnostics) for each in loaded]
     if style == "text":
         for each in findings:
-            show(each, notes=notes, on_stderr=False)
+            show(each, notes=notes, on_stderr=on_stderr)
     else:
         click.echo(REPORTERS[style](findings), nl=False)
-    click.echo(_summary(loaded) + (f"; {allowed} allowed" if allowed else ""), err=True)
+    fixed = f"; {mended} mended" if mended else ""
+    click.echo(_summary(loaded) + (f"; {allowed} allowed" if allowed else "") + (fixed or _fixable(loaded)), err=True)
     ctx.exit(_exit_code(loaded))
 
 
@@ -81,6 +106,14 @@ def _inspected(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline 
         raise click.UsageError(str(error)) from error
     except PassError as error:
         raise Unusable(str(error)) from error
+
+
+def _fixable(loaded: list[LoadResult]) -> str:
+    if not any(each.rule.fix for result in loaded for each in result.diagnostics):
+        return ""
+    from twinform.cli.fixing import fixable  # noqa: PLC0415 - clean files have no findings
+
+    return fixable(loaded)
 
 
 def _exit_code(loaded: list[LoadResult]) -> int:
