@@ -79,7 +79,7 @@ def command(
         on_stderr = not diff and any(isinstance(each.content, bytes) for each in sources)
         if on_stderr and style != "text" and not fix_only:
             raise click.UsageError("the mended text of standard input is printed: leave --format out, or give --diff")
-        fixing = Fixing(look, load_options, policy, unsafe=unsafe_fixes, diff=diff)
+        fixing = Fixing(look, load_options, policy, unsafe=unsafe_fixes, diff=diff, notes=notes)
         loaded, mended = run_fixes(sources, fixing)
         if diff or fix_only:
             ctx.exit(UNUSABLE if any(each.unreadable for each in loaded) else FINDINGS if diff and mended else 0)
@@ -95,7 +95,10 @@ def command(
     else:
         click.echo(REPORTERS[style](findings), nl=False)
     fixed = f"; {mended} mended" if mended else ""
-    click.echo(_summary(loaded) + (f"; {allowed} allowed" if allowed else "") + (fixed or _fixable(loaded)), err=True)
+    click.echo(
+        _summary(loaded) + (f"; {allowed} allowed" if allowed else "") + (fixed or _fixable(loaded, notes=notes)),
+        err=True,
+    )
     ctx.exit(_exit_code(loaded))
 
 
@@ -108,12 +111,13 @@ def _inspected(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline 
         raise Unusable(str(error)) from error
 
 
-def _fixable(loaded: list[LoadResult]) -> str:
-    if not any(each.rule.fix for result in loaded for each in result.diagnostics):
+def _fixable(loaded: list[LoadResult], *, notes: bool) -> str:
+    least = Severity.INFO if notes else Severity.WARNING
+    if not any(each.rule.fix and each.severity >= least for result in loaded for each in result.diagnostics):
         return ""
     from twinform.cli.fixing import fixable  # noqa: PLC0415 - clean files have no findings
 
-    return fixable(loaded)
+    return fixable(loaded, least)
 
 
 def _exit_code(loaded: list[LoadResult]) -> int:

@@ -14,7 +14,7 @@ from twinform.compiler import LoadOptions, LoadResult
 from twinform.compiler.fixing import Mended, mend_by, with_fixes
 from twinform.compiler.input.loading import XACRO
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
-from twinform.diagnostics import Diagnostic, DiagnosticSink, Policy, Safety
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Policy, Safety, Severity
 
 Look = Callable[[str | bytes, str], LoadResult]
 """Reads a file, or the bytes of one under its name, and says what is wrong with it."""
@@ -22,17 +22,18 @@ Look = Callable[[str | bytes, str], LoadResult]
 
 @dataclass(frozen=True, slots=True)
 class Fixing:
-    """How files are mended; with `diff` nothing is written."""
+    """How files are mended; with `diff` nothing is written. Notes are mended where they are shown."""
 
     look: Look
     load_options: LoadOptions
     policy: Policy
     unsafe: bool = False
     diff: bool = False
+    notes: bool = False
 
     def wants(self, finding: Diagnostic) -> bool:
-        """Whether the project wants to see a finding."""
-        return bool(self.policy.apply([finding]))
+        """Whether a finding is shown."""
+        return bool(self.policy.apply([finding])) and (self.notes or finding.severity > Severity.INFO)
 
 
 class MendedSource(NamedTuple):
@@ -95,9 +96,10 @@ def _news(name: str, found: Mended) -> list[str]:
     return lines
 
 
-def fixable(loaded: Iterable[LoadResult]) -> str:
-    """How many findings `--fix` would mend, for the summary; empty where it is none."""
-    offered = [each.fix.safety for result in loaded for each in with_fixes(result) if each.fix]
+def fixable(loaded: Iterable[LoadResult], least: Severity) -> str:
+    """How many findings, at least so severe, `--fix` would mend, for the summary; empty where it is none."""
+    found = (each for result in loaded for each in with_fixes(result, lambda each: each.severity >= least))
+    offered = [each.fix.safety for each in found if each.fix]
     safe, unsafe = offered.count(Safety.SAFE), offered.count(Safety.UNSAFE)
     if safe and unsafe:
         return f"; {safe} fixable with --fix, {unsafe} more with --unsafe-fixes"

@@ -9,14 +9,16 @@ from dataclasses import dataclass, field
 from twinform.compiler.fixing.offering import with_fixes
 from twinform.compiler.input.loading import LoadOptions, LoadResult, read
 from twinform.compiler.inspection import inspect
-from twinform.diagnostics import Diagnostic, Fix, Safety, Span
+from twinform.diagnostics import Diagnostic, Fix, Safety, Span, TextEdit
 from twinform.text import SourceText, apply
 
 MOST_ROUNDS = 20
 _MOST_CHECKS = 200
-"""So often a file is read to find the fixes that make new findings; the others are left then."""
+"""So often a file is read to find the fixes that make new findings; those that are not tried then are left."""
 _PREDICATE = re.compile(r"\[(?:@name='.*?'|\d+)\](?=[/\[]|$)")
 
+Group = list[Diagnostic]
+"""Findings that one fix mends."""
 Look = Callable[[bytes], LoadResult]
 """Reads a file and says what is wrong with it."""
 
@@ -63,7 +65,7 @@ def mend_by(
     state = _State(data, look(data))
     mending = _Mending(look, Safety.UNSAFE if unsafe else Safety.SAFE, wanted)
     while mending.rounds < MOST_ROUNDS:
-        offered = mending.offered(state.loaded)
+        offered = _most_severe(mending.offered(state.loaded))
         if not offered:
             break
         mending.rounds += 1
@@ -108,25 +110,24 @@ class _Mending:
 
     def applied_to(self, state: _State, offered: Sequence[Diagnostic]) -> _State:
         """The text with all of these fixes that do not overlap and make nothing worse."""
-        groups = [[*group] for group in _apart(offered)]
-        good: list[list[Diagnostic]] = []
-        pending, best = [groups], state
+        good: list[Group] = []
+        pending, best = [[*_apart(offered)]], state
         while pending:
-            group = pending.pop()
-            after = self._after(state, [*good, *group])
-            new = _worse(state.loaded, after.loaded)
+            groups = pending.pop()
+            after = self._after(state, [*good, *groups])
+            new = ("too-many-tries",) if self.checks > _MOST_CHECKS else _worse(best.loaded, after.loaded, groups)
             if not new:
-                good, best = [*good, *group], after
-            elif len(group) > 1:
-                half = len(group) // 2
-                pending += (group[half:], group[:half])
+                good, best = [*good, *groups], after
+            elif len(groups) > 1:
+                half = len(groups) // 2
+                pending += (groups[half:], groups[:half])
             else:
-                self.refused.append(Refused(group[0][0], new))
-                self.tried.update(map(_key, group[0]))
+                self.refused.append(Refused(groups[0][0], new))
+                self.tried.update(map(_key, groups[0]))
         self.applied += [each for group in good for each in group]
         return best
 
-    def _after(self, state: _State, groups: Iterable[Sequence[Diagnostic]]) -> _State:
+    def _after(self, state: _State, groups: Iterable[Group]) -> _State:
         source = SourceText.of(state.data)
         edits = [edit for first, *_ in groups if first.fix for edit in first.fix.edits]
         data = source.with_text(apply(source.text, edits)).data
@@ -134,9 +135,9 @@ class _Mending:
         return _State(data, self.look(data))
 
 
-def _apart(offered: Iterable[Diagnostic]) -> Iterator[list[Diagnostic]]:
+def _apart(offered: Iterable[Diagnostic]) -> Iterator[Group]:
     """Findings with one fix together, and of fixes that overlap only the first."""
-    groups: dict[tuple[object, ...], list[Diagnostic]] = {}
+    groups: dict[tuple[TextEdit, ...], Group] = {}
     for each in offered:
         if each.fix:
             groups.setdefault(each.fix.edits, []).append(each)
@@ -159,20 +160,32 @@ def _meet(one: Span, other: Span) -> bool:
     return one.start < other.end and other.start < one.end
 
 
-def _worse(before: LoadResult, after: LoadResult) -> tuple[str, ...]:
-    """The rules of the findings that were not there before.
+def _most_severe(offered: Sequence[Diagnostic]) -> list[Diagnostic]:
+    """The errors, or all where there is none: an error may hide what else is wrong."""
+    return [each for each in offered if each.is_error] or [*offered]
 
-    Where there are fewer errors than before, more of the file is looked at: then warnings may be new, and no errors.
+
+def _worse(before: LoadResult, after: LoadResult, groups: Sequence[Group]) -> tuple[str, ...]:
+    """The rules of the findings that fixes have made; none where all is well.
+
+    Where an error is mended, more of the file is looked at, and what was hidden is found: of several fixes all errors
+    have to be gone, and of one, there must not be more of them than before.
     """
-    if after.unreadable and not before.unreadable:
-        return tuple(each.rule.name for each in after.diagnostics if each.is_error)
-    if before.unreadable:
-        return () if not after.unreadable or _place(after) > _place(before) else ("not-well-formed",)
-    errors = [sum(each.is_error for each in loaded.diagnostics) for loaded in (before, after)]
-    fewer = errors[1] < errors[0]
-    known = Counter(map(_kind, before.diagnostics))
-    new = Counter(_kind(each) for each in after.diagnostics if each.is_error or not fewer) - known
+    if before.unreadable or after.unreadable:
+        return () if not after.unreadable or (before.unreadable and _place(after) > _place(before)) else _rules(after)
+    new = Counter(map(_kind, after.diagnostics)) - Counter(map(_kind, before.diagnostics))
+    if not new:
+        return ()
+    if groups[0][0].is_error:
+        errors = [sum(each.is_error for each in loaded.diagnostics) for loaded in (before, after)]
+        gone = sum(map(len, groups)) if len(groups) > 1 else 0
+        if errors[1] <= errors[0] - gone:
+            return ()
     return tuple(sorted({rule for rule, _ in new}))
+
+
+def _rules(loaded: LoadResult) -> tuple[str, ...]:
+    return tuple(each.rule.name for each in loaded.diagnostics if each.is_error)
 
 
 def _place(loaded: LoadResult) -> int:

@@ -10,6 +10,7 @@ from twinform.diagnostics import Fix, TextEdit
 from twinform.diagnostics.rules import joints, limits, model
 from twinform.schemas import XmlElement
 
+_RANGE = ("lower", "upper")
 _DEFAULT_AXIS = {"urdf": "1 0 0", "sdf": "0 0 1"}
 
 
@@ -72,11 +73,11 @@ def _unused_limit(site: Site) -> Fix | None:
     """Lower and upper limits of a continuous joint."""
     if site.element.tag != "limit":
         return None
-    names = ("lower", "upper")
     if site.file.format == "urdf":
-        edits = [site.edit.remove_attribute(site.element, name) for name in names if name in site.element.attrib]
+        written = [name for name in _RANGE if name in site.element.attrib]
+        edits = [site.edit.remove_attribute(site.element, name) for name in written]
     else:
-        edits = [site.edit.remove(each) for each in site.element if each.tag in names]
+        edits = _without_range(site, site.element)
     return safe("Delete the limits of the angle, which nobody reads", *edits) if edits else None
 
 
@@ -84,9 +85,16 @@ def _continuous(site: Site) -> Fix | None:
     """A joint of SDF that Gazebo can turn."""
     if site.element.get("type") != "continuous":
         return None
-    ends = [each for limit in site.element.iterfind("axis/limit") for each in limit if each.tag in {"lower", "upper"}]
-    edits = [site.edit.remove(each) for each in ends]
+    edits = [edit for limit in site.element.iterfind("axis/limit") for edit in _without_range(site, limit)]
     return unsafe("Make it revolute, without limits", site.edit.set_attribute(site.element, "type", "revolute"), *edits)
+
+
+def _without_range(site: Site, limit: XmlElement) -> list[TextEdit]:
+    """A limit of SDF without those of the angle; there is none where it has no others."""
+    gone = [each for each in limit if each.tag in _RANGE]
+    if len(gone) == len(limit):
+        return [site.edit.remove(limit)]
+    return [site.edit.remove(each) for each in gone]
 
 
 def _make_continuous(site: Site) -> Fix | None:

@@ -40,7 +40,7 @@ def _upside_down(site: Site) -> Fix | None:
 
 def _in_degrees(site: Site) -> Fix | None:
     found = {name: _number(site, site.element, name) for name in ("lower", "upper")}
-    values = {name: text_of_number(math.radians(value)) for name, value in found.items() if value}
+    values = {name: text_of_number(round(math.radians(value), 9)) for name, value in found.items() if value}
     return unsafe("Write the limits in radians", *write(site, site.element, values)) if values else None
 
 

@@ -38,7 +38,8 @@ _SCALES = {
 }
 _WITH_UNIT = re.compile(rf"(?P<number>{_NUMBER})\s*(?P<unit>[A-Za-z\u00b0][A-Za-z/*.^\d]*)")
 _WORDS = {"yes": "true", "on": "true", "no": "false", "off": "false"}
-_TWO_TURNS = 4 * math.pi
+_NEVER_NEGATIVE = frozenset({"capsule", "cylinder", "dynamics", "length", "mass", "radius", "size", "sphere"})
+"""What a negative number says nothing of, neither that there is no limit nor a direction."""
 _POSE = 6
 
 
@@ -122,6 +123,8 @@ def _out_of_range(site: Site) -> Fix | None:
         value = text_of_numbers(round(each, 4) for each in (*(each / _WHITE for each in numbers[:3]), *alpha))
         if max(numbers) > _MOST_BRIGHT:
             return unsafe(f"Divide by 255: {value}", *site.set_value(value))
+    if site.element.tag in _NEVER_NEGATIVE and len(numbers) == 1 and numbers[0] < 0:
+        return unsafe("Write it without its minus", *site.set_value(site.value.strip().removeprefix("-")))
     return None
 
 

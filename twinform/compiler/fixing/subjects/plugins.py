@@ -8,9 +8,10 @@ from lxml import etree
 from twinform.compiler.fixing.site import Fixers, Site, unsafe
 from twinform.diagnostics import Fix, TextEdit, meant_name
 from twinform.diagnostics.rules import plugins
+from twinform.passes.plugins.catalog import systems_of_file
 from twinform.schemas import XmlElement
 
-_WRITTEN = re.compile(r"<plugin filename='(?P<file>[^']+)' name='(?P<name>[^']+)'")
+_WRITTEN = re.compile(r'<plugin filename="(?P<file>[^"]+)" name="(?P<name>[^"]+)"')
 
 
 def _ignition(site: Site) -> Fix | None:
@@ -43,7 +44,10 @@ def _not_in_release(site: Site) -> Fix | None:
     meant = meant_name(site.finding.help)
     if not meant or site.element.get("filename") != site.finding.found:
         return None
-    return unsafe(f"Write filename={meant!r}", site.edit.set_attribute(site.element, "filename", meant))
+    kinds = systems_of_file(meant)
+    own = site.element.get("name", "")
+    name = kinds[0].class_name if len(kinds) == 1 else own
+    return unsafe(f"Write filename={meant!r} name={name!r}", *_called(site, meant, name))
 
 
 def _lacking(site: Site) -> Fix | None:

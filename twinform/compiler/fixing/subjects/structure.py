@@ -45,7 +45,7 @@ def _text_as_attribute(site: Site, name: str) -> Fix | None:
     row = site.file.row_of(site.element)
     fact = next((each for each in row.attributes if each.name == f"@{name}"), None) if row else None
     place = site.edit.places[site.element]
-    if fact is None or len(site.element) or place.asides or place.end_tag is None:
+    if row is None or row.type or fact is None or len(site.element) or place.asides or place.end_tag is None:
         return None
     written = (site.element.text or "").strip()
     expected = VALUE_TYPES[site.file.format][fact.type or "string"].expected

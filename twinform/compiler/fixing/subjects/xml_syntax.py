@@ -31,6 +31,7 @@ _MISMATCH = re.compile(r"Opening and ending tag mismatch: (?P<open>\S+) line \d+
 _NO_BLANK = re.compile(r"""(?<==)\s*(?P<value>"[^"<]*"|'[^'<]*')(?=[A-Za-z_])""")
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
 _DOCTYPE = re.compile(r"<!DOCTYPE\s+\w+\s*>\s*", re.IGNORECASE)
+_THREE_HYPHENS = re.compile(r"<!--(?:(?!-->).)*-(?=-->)", re.DOTALL)
 _SURE = 0.7
 
 
@@ -47,7 +48,7 @@ def _repaired(finding: Diagnostic, file: FixableFile) -> Fix | None:
     text, way = file.text, finding.help or ""
     for type_name, help_ in REPAIRS.items():
         if help_ == way and type_name in _OF_REPAIRS:
-            return _OF_REPAIRS[type_name](finding, text)
+            return _OF_REPAIRS[type_name](finding, file)
     lost = _LOST.match(text)
     if lost and "'<'" in finding.message:
         return safe("Write the '<' of <?xml", TextEdit(Span(lost.end(), lost.end()), "<"))
@@ -56,7 +57,8 @@ def _repaired(finding: Diagnostic, file: FixableFile) -> Fix | None:
     return None
 
 
-def _version(_: Diagnostic, text: str) -> Fix | None:
+def _version(_: Diagnostic, file: FixableFile) -> Fix | None:
+    text = file.text
     declaration = _DECLARATION.search(text)
     if declaration is None:
         return None
@@ -68,8 +70,9 @@ def _version(_: Diagnostic, text: str) -> Fix | None:
     return safe('Write version="1.0"', TextEdit(span, 'version="1.0"'))
 
 
-def _late_declaration(_: Diagnostic, text: str) -> Fix | None:
+def _late_declaration(_: Diagnostic, file: FixableFile) -> Fix | None:
     """Move it to the beginning, or delete it where one stands there already."""
+    text = file.text
     found = [*_in_markup_of_instructions(text)]
     late = [each for each in found if each.start()]
     if not late:
@@ -93,8 +96,9 @@ def _in_markup_of_instructions(text: str) -> Iterator[re.Match[str]]:
             yield found
 
 
-def _hyphens(finding: Diagnostic, text: str) -> Fix | None:
+def _hyphens(finding: Diagnostic, file: FixableFile) -> Fix | None:
     """Blanks between the hyphens of the comment that ends on the line of the finding, or is around it."""
+    text = file.text
     lines = Lines(text)
     for comment in _COMMENT.finditer(text):
         first, last = (lines.place(offset).line for offset in (comment.start(), comment.end() - 1))
@@ -111,15 +115,17 @@ def _hyphens(finding: Diagnostic, text: str) -> Fix | None:
     return None
 
 
-def _prefix(finding: Diagnostic, text: str) -> Fix | None:
+def _prefix(finding: Diagnostic, file: FixableFile) -> Fix | None:
     """Declare the prefix on the root element."""
-    found, root = _PREFIX.search(finding.message), next(_in_markup(_ROOT, text), None)
+    found, root = _PREFIX.search(finding.message), next(_in_markup(_ROOT, file.text), None)
     if found is None or root is None:
         return None
     prefix = found["prefix"]
-    uri = usual_namespace(prefix)
-    at = TextEdit(Span(root.end(), root.end()), f' xmlns:{prefix}="{uri}"')
-    return safe(f"Declare the prefix {prefix} on the root element", at)
+    name, uri = f"xmlns:{prefix}", usual_namespace(prefix)
+    title = f"Declare the prefix {prefix} on the root element"
+    if file.parts is not None:
+        return safe(title, file.edit.set_attribute(file.root, name, uri))
+    return safe(title, TextEdit(Span(root.end(), root.end()), f' {name}="{uri}"'))
 
 
 def _single_colons(text: str) -> Fix | None:
@@ -127,7 +133,7 @@ def _single_colons(text: str) -> Fix | None:
     return safe("Write one colon behind the prefix", *edits) if edits else None
 
 
-_OF_REPAIRS: Mapping[str, Callable[[Diagnostic, str], Fix | None]] = {
+_OF_REPAIRS: TextFixers = {
     "ERR_UNKNOWN_VERSION": _version,
     "ERR_VERSION_MISSING": _version,
     "ERR_HYPHEN_IN_COMMENT": _hyphens,
@@ -232,9 +238,16 @@ def _tag_line(broken: _Broken) -> Span:
     return broken.line._replace(start=opened) if opened > closed else broken.line
 
 
+def _open_hyphens(broken: _Broken) -> Fix | None:
+    """`--->` does not end a comment."""
+    edits = [TextEdit(Span(found.end(), found.end()), " ") for found in _THREE_HYPHENS.finditer(broken.text)]
+    return safe("Put a blank before the end of the comment", *edits) if edits else None
+
+
 _OF_BREAKS: Mapping[str, Callable[[_Broken], Fix | None]] = {
     "ERR_ATTRIBUTE_NOT_STARTED": _quotes,
     "ERR_ATTRIBUTE_REDEFINED": _attribute_twice,
+    "ERR_COMMENT_NOT_FINISHED": _open_hyphens,
     "ERR_ENTITYREF_SEMICOL_MISSING": _ampersands,
     "ERR_INVALID_CHAR": _control,
     "ERR_NAME_REQUIRED": _ampersands,
