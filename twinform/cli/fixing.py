@@ -51,25 +51,27 @@ def run_fixes(sources: Sequence[Source], fixing: Fixing) -> tuple[list[LoadResul
     Raises:
         Unusable: a file cannot be written.
     """
-    done = [_mended(each, fixing) for each in sources]
+    done = [mended_source(each, fixing) for each in sources]
     rewrites = [each.rewrite for each in done if each.rewrite]
     if fixing.diff:
         show_differences(rewrites)
     else:
         write_back(rewrites)
     for line in (line for each in done for line in each.news):
-        click.echo(line.replace(": mended", ": would mend", 1) if fixing.diff else line, err=True)
+        click.echo(line, err=True)
     return [each.loaded for each in done], sum(each.number for each in done)
 
 
-def _mended(source: Source, fixing: Fixing) -> MendedSource:
+def mended_source(source: Source, fixing: Fixing) -> MendedSource:
     """A file once it is mended; nothing is written. One that cannot be is only looked at."""
     data = _data(source, fixing.load_options)
     if data is None:
         return MendedSource(fixing.look(source.content, source.name), None, [], 0)
     found = mend_by(lambda text: fixing.look(text, source.name), data, unsafe=fixing.unsafe, wanted=fixing.wants)
     rewrite = Rewrite(source, data, found.data)
-    return MendedSource(found.left, rewrite, _news(source.name, found), len(found.applied))
+    return MendedSource(
+        found.left, rewrite, _news(source.name, found, "would mend" if fixing.diff else "mended"), len(found.applied)
+    )
 
 
 def _data(source: Source, load_options: LoadOptions) -> bytes | None:
@@ -84,11 +86,11 @@ def _data(source: Source, load_options: LoadOptions) -> bytes | None:
         return None
 
 
-def _news(name: str, found: Mended) -> list[str]:
+def _news(name: str, found: Mended, verb: str) -> list[str]:
     """What was mended in a file, by rule, and how much was taken back."""
     counts = Counter(each.rule.name for each in found.applied)
     shown = ", ".join(f"{count} x {rule}" for rule, count in counts.most_common())
-    lines = [f"{name}: mended {shown}"] if counts else []
+    lines = [f"{name}: {verb} {shown}"] if counts else []
     if found.refused:
         words = "fix was" if len(found.refused) == 1 else "fixes were"
         rules = ", ".join(dict.fromkeys(each.finding.rule.name for each in found.refused))

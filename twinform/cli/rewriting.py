@@ -9,6 +9,7 @@ from pathlib import Path
 import click
 
 from twinform.cli.failure import Unusable
+from twinform.cli.outputs import require_as_read
 from twinform.cli.source import Source
 from twinform.compiler import write_all_atomically
 from twinform.text import SourceText, UndecodableError
@@ -68,7 +69,7 @@ def write_back(rewrites: Sequence[Rewrite]) -> None:
     files = {Path(each.source.name): each for each in rewrites if each.is_change and not each.is_stream}
     for path, each in files.items():
         _require_writable(path)
-        _require_as_read(path, each.before)
+        require_as_read(path, each.before)
     try:
         write_all_atomically({path: each.after for path, each in files.items()})
     except OSError as error:
@@ -81,12 +82,3 @@ def write_back(rewrites: Sequence[Rewrite]) -> None:
 def _require_writable(path: Path) -> None:
     if not path.stat().st_mode & 0o222 or not os.access(path, os.W_OK):
         raise Unusable(f"{path} is read-only; nothing is written")
-
-
-def _require_as_read(path: Path, before: bytes) -> None:
-    try:
-        now = path.read_bytes()
-    except OSError as error:
-        raise Unusable(f"cannot read {path} again: {error.strerror}; nothing is written") from error
-    if now != before:
-        raise Unusable(f"{path} has changed since it was read; nothing is written. Run the command again")

@@ -27,11 +27,15 @@ class Change(NamedTuple):
 
 
 class Updated(NamedTuple):
-    """What a file is converted to, its bytes with only what this changes, and these changes in their order."""
+    """What a file is converted to, its bytes with only what this changes, and these changes in their order.
+
+    `source` are the bytes that were read: who writes the file looks whether they still stand there.
+    """
 
     conversion: Conversion
     data: bytes
     changes: tuple[Change, ...]
+    source: bytes
 
 
 def convert_in_place(
@@ -46,12 +50,29 @@ def convert_in_place(
     Raises:
         CompileError: it cannot be converted, or cannot be changed in its place.
     """
-    conversion = run_conversion(request, str(path), load_options, name=str(path), instrumentation=instrumentation)
-    loaded = read(str(path), load_options, name=str(path))
-    sink = DiagnosticSink(str(path), load_options.strict)
+    data = _bytes(path, DiagnosticSink(str(path), load_options.strict), load_options)
+    return convert_bytes_in_place(request, data, str(path), load_options, instrumentation=instrumentation)
+
+
+def convert_bytes_in_place(
+    request: ConversionRequest,
+    data: bytes,
+    name: str,
+    load_options: LoadOptions,
+    *,
+    instrumentation: PassInstrumentation | None = None,
+) -> Updated:
+    """The same of the bytes of a file, whose path is `name`.
+
+    Raises:
+        CompileError: they cannot be converted, or cannot be changed in their place.
+    """
+    conversion = run_conversion(request, data, load_options, name=name, instrumentation=instrumentation)
+    loaded = read(data, load_options, name=name)
     if loaded.document is None:  # it could be converted a moment ago
         raise CompileError(loaded.diagnostics)
-    return _updated(_bytes(path, sink, load_options), loaded.document, conversion, sink, same=True)
+    sink = DiagnosticSink(name, load_options.strict)
+    return _updated(data, loaded.document, conversion, sink, same=True)
 
 
 def convert_into(
@@ -109,7 +130,7 @@ def _updated(source: bytes, before: Document, conversion: Conversion, sink: Diag
             made = sorted(edits(text, own, merged.tree), key=lambda edit: edit.span)
             lines = Lines(text.text)
             changes = [Change(lines.place(span.start), span.of(text.text), new) for span, new in made]
-            return Updated(conversion, text.with_text(apply(text.text, made)).data, tuple(changes))
+            return Updated(conversion, text.with_text(apply(text.text, made)).data, tuple(changes), source)
         except (UnplacedError, UndecodableError, UnicodeEncodeError) as error:
             sink.report(EDIT_CONFLICT, f"cannot be changed in place: {error}", Location(line=1, path="/"))
     raise CompileError((*conversion.diagnostics, *sink.diagnostics))

@@ -1,5 +1,6 @@
 """Offers fixes: the findings of a file that was read, each with the fix that its rule has for it."""
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -7,6 +8,11 @@ from twinform.compiler.fixing.registry import fixer_of, text_fixer_of
 from twinform.compiler.fixing.site import FixableFile, Site, touches_expressions
 from twinform.compiler.input.loading import LoadResult
 from twinform.diagnostics import Diagnostic, Fix
+from twinform.diagnostics.rules import joints
+
+_ABOUT_WHAT_IS_NOT_THERE = frozenset({joints.UNUSED_AXIS.name})
+"""Rules whose paths may lead to an element that URDF has no need of, as its `<limit>` says the same."""
+_ATTRIBUTE = re.compile(r"/@[^/\]']+$")
 
 
 def with_fixes(loaded: LoadResult, wanted: Callable[[Diagnostic], bool] = lambda _: True) -> tuple[Diagnostic, ...]:
@@ -38,10 +44,14 @@ def _made(finding: Diagnostic, file: FixableFile) -> Fix | None:
         return by_text(finding, file)
     if file.parts is None:
         return None
-    element = file.parts.find(finding.location)
     fixer = fixer_of(finding.rule.name)
+    where = finding.location
+    element = file.parts.find(where)
+    missing = None
+    if element is None and finding.rule.name in _ABOUT_WHAT_IS_NOT_THERE:
+        path, _, missing = where.path.rpartition("/")
+        element = file.parts.find(where._replace(path=path))
     if element is None or fixer is None:
         return None
-    path = finding.location.path
-    name = path.rpartition("/@")[2] if "/@" in path and "'" not in path.rpartition("/@")[2] else None
-    return fixer(Site(finding, file, element, name))
+    name = where.path.rpartition("/@")[2] if _ATTRIBUTE.search(where.path) else None
+    return fixer(Site(finding, file, element, name, missing))

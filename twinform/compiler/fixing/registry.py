@@ -12,7 +12,6 @@ from twinform.diagnostics.built_in import BUILT_IN
 
 GROUP = "twinform.fixes"
 SUBJECTS = (
-    "files",
     "joints",
     "limits",
     "materials",
@@ -22,7 +21,7 @@ SUBJECTS = (
     "structure",
 )
 """The modules of `subjects`; each has a table `FIXERS`."""
-TEXT_SUBJECTS = ("xml_syntax",)
+TEXT_SUBJECTS = ("files", "xml_syntax")
 """Those whose table `TEXT_FIXERS` has fixers of text."""
 
 

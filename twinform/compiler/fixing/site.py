@@ -82,12 +82,16 @@ class FixableFile:
 
 @dataclass(frozen=True)
 class Site:
-    """A finding, and the element that it is about; `attribute` is the one that its path names, written or not."""
+    """A finding, and the element that it is about; `attribute` is the one that its path names, written or not.
+
+    Where the path leads to an element that is not written, `missing` is the last step, and `element` the one around it.
+    """
 
     finding: Diagnostic
     file: FixableFile
     element: XmlElement
     attribute: str | None = None
+    missing: str | None = None
 
     @property
     def edit(self) -> Editor:

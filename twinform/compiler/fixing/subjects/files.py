@@ -1,23 +1,23 @@
 """Fixes of the paths and URIs of files: backslashes, slips in names and schemes."""
 
-from twinform.compiler.fixing.site import Fixers, Site, unsafe
-from twinform.diagnostics import Fix, TextEdit, meant_name
+from twinform.compiler.fixing.site import FixableFile, TextFixers, unsafe
+from twinform.diagnostics import Diagnostic, Fix, TextEdit, meant_name
 from twinform.diagnostics.rules import files
 from twinform.schemas import XmlElement
 
 
-def _backslashes(site: Site) -> Fix | None:
-    found = site.finding.found or ""
+def _backslashes(finding: Diagnostic, file: FixableFile) -> Fix | None:
+    found = finding.found or ""
     new = found.replace("\\", "/")
-    edits = _written(site, found, new)
+    edits = _written(file, found, new)
     return unsafe(f"Write {new!r}", *edits) if edits else None
 
 
-def _missing_file(site: Site) -> Fix | None:
+def _missing_file(finding: Diagnostic, file: FixableFile) -> Fix | None:
     """Another scheme, or the part of the path that is called nearly so."""
-    found, meant = site.finding.found or "", meant_name(site.finding.help)
+    found, meant = finding.found or "", meant_name(finding.help)
     new = _with(found, meant) if meant else None
-    edits = _written(site, found, new) if new else ()
+    edits = _written(file, found, new) if new else ()
     return unsafe(f"Write {new!r}", *edits) if edits else None
 
 
@@ -35,23 +35,22 @@ def _with(uri: str, meant: str) -> str | None:
     return f"{scheme}{separator}{'/'.join(parts)}" if separator else "/".join(parts)
 
 
-def _written(site: Site, found: str, new: str) -> tuple[TextEdit, ...]:
-    """Every place below the element where the URI stands alone."""
-    edits: list[TextEdit] = []
-    for each in site.element.iter("*"):
-        edits += _inside(site, each, found, new)
-    return tuple(edits)
+def _written(file: FixableFile, found: str, new: str) -> tuple[TextEdit, ...]:
+    """Every place where the URI stands alone: it is reported where it stands first."""
+    if file.parts is None:
+        return ()
+    return tuple(edit for each in file.root.iter("*") for edit in _inside(file, each, found, new))
 
 
-def _inside(site: Site, element: XmlElement, found: str, new: str) -> list[TextEdit]:
+def _inside(file: FixableFile, element: XmlElement, found: str, new: str) -> list[TextEdit]:
     edits = [
-        site.edit.set_attribute(element, str(name), new)
+        file.edit.set_attribute(element, str(name), new)
         for name, value in element.attrib.items()
         if str(value).strip() == found and not str(name).startswith("{")
     ]
     if (element.text or "").strip() == found and not len(element):
-        edits += site.edit.set_text(element, new)
+        edits += file.edit.set_text(element, new)
     return edits
 
 
-FIXERS: Fixers = {files.BACKSLASH_IN_PATH.name: _backslashes, files.MISSING_FILE.name: _missing_file}
+TEXT_FIXERS: TextFixers = {files.BACKSLASH_IN_PATH.name: _backslashes, files.MISSING_FILE.name: _missing_file}

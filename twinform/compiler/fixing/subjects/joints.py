@@ -10,6 +10,8 @@ from twinform.diagnostics import Fix, TextEdit
 from twinform.diagnostics.rules import joints, limits, model
 from twinform.schemas import XmlElement
 
+_OF_AN_AXIS = frozenset({"limit", "dynamics"})
+"""What URDF writes beside an axis, and only joints that move have a use for."""
 _RANGE = ("lower", "upper")
 _DEFAULT_AXIS = {"urdf": "1 0 0", "sdf": "0 0 1"}
 
@@ -35,10 +37,16 @@ def _last_end(site: Site) -> XmlElement | None:
 
 
 def _unused_axis(site: Site) -> Fix | None:
-    if site.element.tag not in {"axis", "axis2"}:
+    """What belongs to an axis goes with it; a second axis may tell that the type of the joint is wrong."""
+    if site.element.tag == "axis2":
+        return unsafe("Delete the <axis2>, which nobody reads", site.edit.remove(site.element))
+    joint = site.element if site.missing else site.element.getparent()
+    if joint is None or (site.missing or str(site.element.tag)) != "axis":
         return None
-    make = safe if site.element.tag == "axis" else unsafe  # a second axis may tell that the type is wrong
-    return make(f"Delete the <{site.element.tag}>, which nobody reads", site.edit.remove(site.element))
+    idle = [each for each in joint if each.tag in _OF_AN_AXIS and site.file.format == "urdf"]
+    gone = idle if site.missing else [site.element, *idle]
+    names = " and ".join(f"<{each.tag}>" for each in gone)
+    return safe(f"Delete {names}, which nobody reads", *map(site.edit.remove, gone)) if gone else None
 
 
 def _unnormalized_axis(site: Site) -> Fix | None:

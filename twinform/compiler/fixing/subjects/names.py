@@ -1,5 +1,7 @@
 """Fixes of names: unknown words with one near miss, references to what is called nearly so, names that SDF refuses."""
 
+import re
+
 from twinform.compiler.fixing.site import Fixers, Site, unsafe
 from twinform.diagnostics import Fix, TextEdit, meant_name, nearest_name
 from twinform.diagnostics.rules import bodies, control, frames, model, plugins, structure
@@ -7,6 +9,7 @@ from twinform.schemas import XmlElement
 
 _SURE = 0.72
 """How much of two words is the same where a tag is taken for the other one: what is less is only asked."""
+_BETWEEN_NAMES = re.compile(r"\s+|::|,")
 _ENDS = frozenset({"parent", "child"})
 """What names a link where a joint has its name too."""
 
@@ -72,13 +75,17 @@ def _shared_name(site: Site) -> Fix | None:
 
 
 def _is_said_elsewhere(site: Site, name: str, but: frozenset[str] = frozenset()) -> bool:
-    """Whether a name stands, perhaps with more around it, in other attributes than `name` or the texts of elements."""
+    """Whether a name stands in the texts of elements, or in other attributes than `name`."""
     for each in site.file.root.iter("*"):
-        if name in (each.text or "") and each.tag not in but:
+        if each.tag not in but and _says(each.text or "", name):
             return True
-        if any(name in str(value) for key, value in each.attrib.items() if key != "name"):
+        if any(_says(str(value), name) for key, value in each.attrib.items() if key != "name"):
             return True
     return False
+
+
+def _says(text: str, name: str) -> bool:
+    return name in text and name in _BETWEEN_NAMES.split(text)
 
 
 def free_name(element: XmlElement, wanted: str) -> str:

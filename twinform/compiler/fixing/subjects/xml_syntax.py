@@ -19,6 +19,7 @@ _COMMENT = re.compile(r"<!--(?P<inside>.*?)-->", re.DOTALL)
 _ASIDE = re.compile(r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>", re.DOTALL)
 _DECLARATION = re.compile(r"<\?xml\s[^>]*?\?>", re.IGNORECASE)
 _VERSION = re.compile(r"""(?<=\s)version\s*=\s*(?:"[^"]*"|'[^']*')""")
+_VERSION_SLIP = re.compile(r"(?<=\s)ver[a-z]*(?=\s*=)")
 _LOST = re.compile(r"\s*(?=\?xml\s)")
 _PREFIX = re.compile(r"Namespace prefix (?P<prefix>[\w.-]+) ")
 _TAG = re.compile(r"</?[A-Za-z_][\w.-]*::[A-Za-z_]")
@@ -63,6 +64,10 @@ def _version(_: Diagnostic, file: FixableFile) -> Fix | None:
     if declaration is None:
         return None
     inside = _VERSION.search(declaration[0])
+    slip = _VERSION_SLIP.search(declaration[0])
+    if inside is None and slip:
+        span = Span(declaration.start() + slip.start(), declaration.start() + slip.end())
+        return safe("Write version", TextEdit(span, "version"))
     if inside is None:
         at = declaration.start() + len("<?xml")
         return safe('Write version="1.0"', TextEdit(Span(at, at), ' version="1.0"'))
