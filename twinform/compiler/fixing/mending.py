@@ -173,7 +173,7 @@ def _worse(before: LoadResult, after: LoadResult, groups: Sequence[Group]) -> tu
     """
     if before.unreadable or after.unreadable:
         return () if not after.unreadable or (before.unreadable and _place(after) > _place(before)) else _rules(after)
-    new = Counter(map(_kind, after.diagnostics)) - Counter(map(_kind, before.diagnostics))
+    new = Counter(map(kind_of, after.diagnostics)) - Counter(map(kind_of, before.diagnostics))
     if not new:
         return ()
     if groups[0][0].is_error:
@@ -193,7 +193,7 @@ def _place(loaded: LoadResult) -> int:
     return max((each.location.line for each in loaded.diagnostics if each.is_error), default=0)
 
 
-def _kind(finding: Diagnostic) -> tuple[str, str]:
+def kind_of(finding: Diagnostic) -> tuple[str, str]:
     """What a finding is known by: its rule and its path, without what a fix of another part may change in it."""
     return finding.rule.name, _PREDICATE.sub("", finding.location.path)
 
