@@ -57,10 +57,5 @@ def test_fixes_keep_their_promises(path: Path) -> None:
 
 def test_every_rule_with_fixes_has_a_case() -> None:
     mended = {each.rule.name for path in _FIXES for each in _mended(path).applied}
-    offered = {
-        each.rule.name
-        for path in _CHECKS
-        for each in with_fixes(_look(path, path.read_bytes()))
-        if each.fix
-    }
+    offered = {each.rule.name for path in _CHECKS for each in with_fixes(_look(path, path.read_bytes())) if each.fix}
     assert {name for name, rule in catalog().items() if rule.fix} - mended - offered == set()

@@ -55,7 +55,7 @@ def fixer_of(rule: str) -> Fixer | None:
     Raises:
         FixRegistryError: what is registered for it is none.
     """
-    return fixers().get(rule) if rule in BUILT_IN else _strangers().get(rule)
+    return fixers().get(rule) if rule in BUILT_IN else strangers().get(rule)
 
 
 def text_fixer_of(rule: str) -> TextFixer | None:
@@ -64,7 +64,8 @@ def text_fixer_of(rule: str) -> TextFixer | None:
 
 
 @cache
-def _strangers() -> Fixers:
+def strangers() -> Fixers:
+    """The fixers that other packages bring."""
     from importlib.metadata import entry_points  # noqa: PLC0415 - few rules are those of other packages
 
     found: dict[str, Fixer] = {}
