@@ -101,7 +101,7 @@ def _against_text(data: bytes, mended: Mended) -> Iterator[str]:
     except UndecodableError:
         yield "no text any more"
         return
-    if (old.mark, old.encoding) != (new.mark, new.encoding):
+    if (old.mark, old.encoding.lower()) != (new.mark, new.encoding.lower()):
         yield "another encoding"
     kept = Counter(map(_words, _COMMENT.findall(new.text)))
     lost = Counter(map(_words, _COMMENT.findall(old.text))) - kept

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from twinform.schemas import XmlElement
 from twinform.text.alignment import Contents, aligned, elements, matched, same_value, spelled_alike, stripped, texts
+from twinform.text.renaming import with_renamed
 
 
 class Conflict(NamedTuple):
@@ -55,9 +56,10 @@ class _Merging:
         """Change one element, and all in it, which is changed in place."""
         if self.exact.number(before) == self.exact.number(after):
             return
-        if before.tag != after.tag:
+        if before.tag != after.tag and own.tag != before.tag:
             self._conflict(own, f"<{before.tag}> becomes <{after.tag}>")
             return
+        own.tag = own.tag if before.tag == after.tag else after.tag
         self._attributes(before, after, own)
         if any(texts(before)[1:]) or any(texts(after)[1:]):
             self._mixed(before, after, own)
@@ -111,7 +113,7 @@ class _Merging:
     ) -> Iterator[tuple[XmlElement, XmlElement, XmlElement]]:
         """Delete and insert children, and give those that are in all three."""
         old, new, mine = elements(before), elements(after), elements(own)
-        kept = {j: i for i, j in aligned(old, new, self.exact)}
+        kept = {j: i for i, j in with_renamed(aligned(old, new, self.exact), old, new, self.exact)}
         here = {i: mine[k] for i, k in matched(old, mine, self.alike)}
         stay = set(kept.values())
         gone = [i for i in range(len(old)) if i not in stay]

@@ -12,6 +12,7 @@ from twinform.schemas import XmlElement
 from twinform.text.alignment import BLANKS, Contents, aligned, elements, texts
 from twinform.text.edits import apply
 from twinform.text.positions import ElementSpan, spans
+from twinform.text.renaming import renamed, with_renamed
 from twinform.text.serializing import Prefixes, contents, serialized, text_of, value_of
 from twinform.text.source_text import SourceText
 from twinform.text.surroundings import Surroundings
@@ -56,16 +57,24 @@ class _Patching:
             old, new = pending.pop()
             if self.contents.number(old) == self.contents.number(new):
                 continue
-            if old.tag != new.tag:
-                self._replace(
-                    self.places[old].whole, serialized(new, self.around.layout(self.places[old]), Prefixes.at(old))
-                )
+            if old.tag != new.tag and not renamed(old, new, self.contents):
+                layout = self.around.layout(self.places[old])
+                self._replace(self.places[old].whole, serialized(new, layout, Prefixes.at(old)))
                 continue
+            if old.tag != new.tag:
+                self._rename(old, str(new.tag))
             self._attributes(old, new)
             pending.extend(self._content(old, new))
 
     def _replace(self, span: Span, new: str) -> None:
         self.edits.append(TextEdit(span, new))
+
+    def _rename(self, old: XmlElement, tag: str) -> None:
+        place = self.places[old]
+        self._replace(place.name, tag)
+        if place.end_tag:
+            start = place.end_tag.start + len("</")
+            self._replace(Span(start, start + len(place.name.of(self.text))), tag)
 
     def _attributes(self, old: XmlElement, new: XmlElement) -> None:
         place, prefixes = self.places[old], Prefixes.at(old)
@@ -112,7 +121,8 @@ class _Patching:
         end = place.start_tag.end
         slash = self.text.rindex("/", place.start_tag.start, end)
         inside = contents(new, self.around.layout(self.places[old]), Prefixes.at(old))
-        self._replace(Span(self.around.before_blanks(slash), end), f">{inside}</{place.name.of(self.text)}>")
+        name = place.name.of(self.text) if old.tag == new.tag else new.tag
+        self._replace(Span(self.around.before_blanks(slash), end), f">{inside}</{name}>")
 
     def _text(self, place: ElementSpan, text: str) -> None:
         """Put another text into an element without children, into the place of the first one."""
@@ -144,7 +154,7 @@ class _Patching:
         if not after:
             self._empty(old)
             return
-        pairs = aligned(before, after, self.contents)
+        pairs = with_renamed(aligned(before, after, self.contents), before, after, self.contents)
         kept = {j: before[i] for i, j in pairs}
         stay = {i for i, _ in pairs}
         gone = [each for i, each in enumerate(before) if i not in stay]

@@ -37,6 +37,12 @@ def test_encoding_mark_and_line_ends_stay(encoding: str) -> None:
     assert mend(mark + LATE.encode(encoding), LoadOptions()).data == mark + MENDED.encode(encoding)
 
 
+def test_a_late_declaration_of_another_encoding_never_counts() -> None:
+    text = "\n<?xml version='1.0' encoding='ISO-8859-1'?>\n<robot name='\u00f6'><link name='a'/></robot>"
+    made = mend(text.encode(), LoadOptions()).data.decode()
+    assert made == "\n<robot name='\u00f6'><link name='a'/></robot>"
+
+
 def test_only_these_rules_are_mended() -> None:
     mended = mend(LATE.encode(), LoadOptions(), rules={"invalid-value"})
     assert {each.rule.name for each in mended.applied} == {"invalid-value"}

@@ -20,6 +20,7 @@ _ASIDE = re.compile(r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>", re.DOTALL)
 _DECLARATION = re.compile(r"<\?xml\s[^>]*?\?>", re.IGNORECASE)
 _VERSION = re.compile(r"""(?<=\s)version\s*=\s*(?:"[^"]*"|'[^']*')""")
 _VERSION_SLIP = re.compile(r"(?<=\s)ver[a-z]*(?=\s*=)")
+_ENCODING = re.compile(r"""encoding\s*=\s*["']([^"']*)["']""")
 _LOST = re.compile(r"\s*(?=\?xml\s)")
 _PREFIX = re.compile(r"Namespace prefix (?P<prefix>[\w.-]+) ")
 _TAG = re.compile(r"</?[A-Za-z_][\w.-]*::[A-Za-z_]")
@@ -88,6 +89,9 @@ def _late_declaration(_: Diagnostic, file: FixableFile) -> Fix | None:
     whole = Span(late[0].start(), end + 1 if text[end : end + 1] == "\n" else late[0].end())
     if len(found) > len(late) or len(late) > 1:
         return safe("Delete the second <?xml ...?>", TextEdit(whole, ""))
+    encoding = _ENCODING.search(late[0][0])
+    if encoding and encoding[1].lower() != "utf-8":  # nobody has minded it; at the beginning it would count
+        return safe("Delete the late <?xml ...?>", TextEdit(whole, ""))
     if not text[: late[0].start()].strip():
         return safe("Move <?xml ...?> to the beginning", TextEdit(Span(0, late[0].start()), ""))
     begin = TextEdit(Span(0, 0), late[0][0] + ("\r\n" if "\r\n" in text else "\n"))
