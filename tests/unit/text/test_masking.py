@@ -8,7 +8,7 @@ from twinform.text import masked
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        ("<a><!-- b -- c --></a>", "<a><!--          --></a>"),
+        ("<a><!-- b -- c --></a>", "<a><!--        --></a>"),
         ("<!--\r\n--\n-->", "<!--\r\n  \n-->"),
         ("\n<?xml version='0.0'?>\n<a/>", f"\n{' ' * 21}\n<a/>"),
         ("<a><![CDATA[<!-- -- -->]]></a>", "<a><![CDATA[<!-- -- -->]]></a>"),
