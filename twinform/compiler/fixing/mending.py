@@ -10,6 +10,7 @@ from twinform.compiler.fixing.offering import with_fixes
 from twinform.compiler.input.loading import LoadOptions, LoadResult, read
 from twinform.compiler.inspection import inspect
 from twinform.diagnostics import Diagnostic, Fix, Safety, Span, TextEdit
+from twinform.diagnostics.sink import MOST
 from twinform.text import SourceText, apply
 
 MOST_ROUNDS = 20
@@ -173,7 +174,9 @@ def _worse(before: LoadResult, after: LoadResult, groups: Sequence[Group]) -> tu
     """
     if before.unreadable or after.unreadable:
         return () if not after.unreadable or (before.unreadable and _place(after) > _place(before)) else _rules(after)
-    new = Counter(map(kind_of, after.diagnostics)) - Counter(map(kind_of, before.diagnostics))
+    is_cut_off = len(before.diagnostics) >= MOST  # what is found now may have been there beyond the limit
+    seen = (each for each in after.diagnostics if each.is_error or not is_cut_off)
+    new = Counter(map(kind_of, seen)) - Counter(map(kind_of, before.diagnostics))
     if not new:
         return ()
     if groups[0][0].is_error:

@@ -1,18 +1,21 @@
 """`Site`: what a finding is about, as those who offer fixes see it, and the edits that they make of it."""
 
 import re
+from collections import defaultdict
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 from twinform.compiler.input.finding_lines import PartFinder
 from twinform.compiler.input.loading import LoadResult, read_tree_again
 from twinform.compiler.input.parsing import UnreadableError
 from twinform.diagnostics import Diagnostic, Fix, Location, Safety, TextEdit
 from twinform.schemas import Fact, Version, XmlElement, rows_by_name, table
-from twinform.text import Editor, SourceText, Surroundings, UndecodableError, UnplacedError, masked, spans
+from twinform.text import Editor, Lines, SourceText, Surroundings, UndecodableError, UnplacedError, masked, spans
 
 _EXPRESSION = re.compile(r"\$[{(]")
+_BETWEEN_WORDS = re.compile(r"\s+|::|,")
 _FORMATS = {"robot": "urdf", "sdf": "sdf"}
 
 
@@ -52,6 +55,42 @@ class FixableFile:
     def text(self) -> str:
         """The text."""
         return self.source.text
+
+    @cached_property
+    def lines(self) -> Lines:
+        """The lines of the text."""
+        return Lines(self.text)
+
+    @cached_property
+    def names(self) -> frozenset[str]:
+        """Every name that an element has."""
+        return frozenset(each.get("name", "") for each in self.root.iter("*"))
+
+    @cached_property
+    def values(self) -> dict[str, list[tuple[XmlElement, str | None]]]:
+        """Where each value stands alone: in an attribute, or as the text of an element without children."""
+        found: defaultdict[str, list[tuple[XmlElement, str | None]]] = defaultdict(list)
+        for each in self.root.iter("*"):
+            for name, value in each.attrib.items():
+                found[str(value).strip()].append((each, str(name)))
+            if not len(each):
+                found[(each.text or "").strip()].append((each, None))
+        return found
+
+    @cached_property
+    def words(self) -> dict[str, set[str]]:
+        """The words of texts and of attributes but `name`, with the elements that say them."""
+        found: defaultdict[str, set[str]] = defaultdict(set)
+        for each in self.root.iter("*"):
+            said = [str(value) for key, value in each.attrib.items() if key != "name"]
+            for word in _BETWEEN_WORDS.split(" ".join((each.text or "", *said))):
+                found[word].add(str(each.tag))
+        return found
+
+    @cached_property
+    def memo(self) -> dict[str, Any]:
+        """What fixers have found out about the whole file, so that each asks once however many findings there are."""
+        return {}
 
     @cached_property
     def format(self) -> str:

@@ -3,7 +3,6 @@
 from twinform.compiler.fixing.site import FixableFile, TextFixers, unsafe
 from twinform.diagnostics import Diagnostic, Fix, TextEdit, meant_name
 from twinform.diagnostics.rules import files
-from twinform.schemas import XmlElement
 
 
 def _backslashes(finding: Diagnostic, file: FixableFile) -> Fix | None:
@@ -39,18 +38,13 @@ def _written(file: FixableFile, found: str, new: str) -> tuple[TextEdit, ...]:
     """Every place where the URI stands alone: it is reported where it stands first."""
     if file.parts is None:
         return ()
-    return tuple(edit for each in file.root.iter("*") for edit in _inside(file, each, found, new))
-
-
-def _inside(file: FixableFile, element: XmlElement, found: str, new: str) -> list[TextEdit]:
-    edits = [
-        file.edit.set_attribute(element, str(name), new)
-        for name, value in element.attrib.items()
-        if str(value).strip() == found and not str(name).startswith("{")
-    ]
-    if (element.text or "").strip() == found and not len(element):
-        edits += file.edit.set_text(element, new)
-    return edits
+    edits: list[TextEdit] = []
+    for element, name in file.values.get(found, ()):
+        if name is None:
+            edits += file.edit.set_text(element, new)
+        elif not name.startswith("{"):
+            edits.append(file.edit.set_attribute(element, name, new))
+    return tuple(edits)
 
 
 TEXT_FIXERS: TextFixers = {files.BACKSLASH_IN_PATH.name: _backslashes, files.MISSING_FILE.name: _missing_file}

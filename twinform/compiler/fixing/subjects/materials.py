@@ -36,7 +36,7 @@ def _conflict(site: Site) -> Fix | None:
     name = site.element.get("name")
     if site.element.tag != "material" or not name or _is_at_top(site.element):
         return None
-    new = free_name(site.element, f"{name}_2")
+    new = free_name(site.file, f"{name}_2")
     return unsafe(f"Call this one {new!r}", site.edit.set_attribute(site.element, "name", new))
 
 

@@ -1,15 +1,11 @@
 """Fixes of names: unknown words with one near miss, references to what is called nearly so, names that SDF refuses."""
 
-import re
-
-from twinform.compiler.fixing.site import Fixers, Site, unsafe
+from twinform.compiler.fixing.site import FixableFile, Fixers, Site, unsafe
 from twinform.diagnostics import Fix, TextEdit, meant_name, nearest_name
 from twinform.diagnostics.rules import bodies, control, frames, model, plugins, structure
-from twinform.schemas import XmlElement
 
 _SURE = 0.72
 """How much of two words is the same where a tag is taken for the other one: what is less is only asked."""
-_BETWEEN_NAMES = re.compile(r"\s+|::|,")
 _ENDS = frozenset({"parent", "child"})
 """What names a link where a joint has its name too."""
 
@@ -61,7 +57,7 @@ def _reserved_name(site: Site) -> Fix | None:
     name = site.element.get("name")
     if not name or "::" not in name or not name.replace("::", "") or _is_said_elsewhere(site, name):
         return None
-    new = free_name(site.element, "_".join(filter(None, name.split("::"))))
+    new = free_name(site.file, "_".join(filter(None, name.split("::"))))
     return unsafe(f"Call it {new!r}", site.edit.set_attribute(site.element, "name", new))
 
 
@@ -70,29 +66,19 @@ def _shared_name(site: Site) -> Fix | None:
     name, tag = site.element.get("name"), str(site.element.tag)
     if not name or _is_said_elsewhere(site, name, _ENDS):
         return None
-    new = free_name(site.element, f"{name}_{tag}")
+    new = free_name(site.file, f"{name}_{tag}")
     return unsafe(f"Call this <{tag}> {new!r}", site.edit.set_attribute(site.element, "name", new))
 
 
 def _is_said_elsewhere(site: Site, name: str, but: frozenset[str] = frozenset()) -> bool:
     """Whether a name stands in the texts of elements, or in other attributes than `name`."""
-    for each in site.file.root.iter("*"):
-        if each.tag not in but and _says(each.text or "", name):
-            return True
-        if any(_says(str(value), name) for key, value in each.attrib.items() if key != "name"):
-            return True
-    return False
+    return any(not site.file.words.get(word, set()) <= but for word in {name, *name.split("::")[-1:]})
 
 
-def _says(text: str, name: str) -> bool:
-    return name in text and name in _BETWEEN_NAMES.split(text)
-
-
-def free_name(element: XmlElement, wanted: str) -> str:
-    """A name that none of the siblings of an element has, nor of those around it."""
-    taken = {each.get("name") for each in element.getroottree().getroot().iter("*")}
+def free_name(file: FixableFile, wanted: str) -> str:
+    """A name that nothing in the file has; two findings may be given the same one, and then the second waits."""
     name, count = wanted, 1
-    while name in taken:
+    while name in file.names:
         count += 1
         name = f"{wanted}_{count}"
     return name

@@ -35,7 +35,7 @@ def _missing_attribute(site: Site) -> Fix | None:
         newest = versions_of(site.file.format)[-1]
         return unsafe(f'Write version="{newest}"', site.edit.set_attribute(site.element, name, newest))
     if name == "name":
-        called = free_name(site.element, str(site.element.tag))
+        called = free_name(site.file, str(site.element.tag))
         return unsafe(f'Write name="{called}"', site.edit.set_attribute(site.element, name, called))
     return None
 
@@ -115,10 +115,7 @@ def _blank(site: Site) -> Fix | None:
 
 def _stray_text(site: Site) -> Fix | None:
     """Text that every reader passes over; not what an attribute that is missing there may be meant to be."""
-    if any(
-        each.rule is structure.MISSING_ATTRIBUTE and each.location.path == site.finding.location.path
-        for each in site.file.loaded.diagnostics
-    ):
+    if site.finding.location.path in _without_attributes(site):
         return None
     place = site.edit.places[site.element]
     runs = [run for run in place.texts() if " ".join(run.of(site.edit.text).split())[:_SHOWN] == site.finding.found]
@@ -127,6 +124,14 @@ def _stray_text(site: Site) -> Fix | None:
     if any(_says_something(run.of(site.edit.text)) for run in runs):
         return safe("Make the text a comment", *(site.edit.comment_out(run) for run in runs))
     return safe("Delete the characters that belong to nothing", *(_without_text(site.edit.text, run) for run in runs))
+
+
+def _without_attributes(site: Site) -> frozenset[str]:
+    """The paths of elements that lack an attribute."""
+    if "without attributes" not in site.file.memo:
+        lacking = (each for each in site.file.loaded.diagnostics if each.rule is structure.MISSING_ATTRIBUTE)
+        site.file.memo["without attributes"] = frozenset(each.location.path for each in lacking)
+    return site.file.memo["without attributes"]
 
 
 def _says_something(text: str) -> bool:
@@ -141,20 +146,24 @@ def _without_text(text: str, run: Span) -> TextEdit:
 
 def _outside_version(site: Site) -> Fix | None:
     """The first version that has all that the file has from other versions."""
-    rule = structure.OUTSIDE_VERSION
-    outside = [each for each in site.file.loaded.diagnostics if each.rule is rule]
+    if "version" not in site.file.memo:
+        site.file.memo["version"] = _fitting(site)
+    version = site.file.memo["version"]
+    if version is None:
+        return None
+    return unsafe(f"Declare version {version}", site.edit.set_attribute(site.file.root, "version", version))
+
+
+def _fitting(site: Site) -> str | None:
+    outside = [each for each in site.file.loaded.diagnostics if each.rule is structure.OUTSIDE_VERSION]
     rows = [[*_rows(site, each)] for each in _sites(site, outside)]
     if len(rows) != len(outside) or site.file.root.get("version") is None:
         return None
-    fitting = [
-        version
-        for version in map(parse_version, table(site.file.format).versions)
-        if version > site.file.version and all(any(row.exists_in(version) for row in each) for each in rows)
-    ]
-    if not fitting:
-        return None
-    shown = print_version(fitting[0])
-    return unsafe(f"Declare version {shown}", site.edit.set_attribute(site.file.root, "version", shown))
+    versions = map(parse_version, table(site.file.format).versions)
+    newer = (version for version in versions if version > site.file.version)
+    fitting = (each for each in newer if all(any(row.exists_in(each) for row in some) for some in rows))
+    found = next(fitting, None)
+    return print_version(found) if found else None
 
 
 def _sites(site: Site, findings: Iterable[Diagnostic]) -> Iterator[Site]:

@@ -2,6 +2,7 @@
 
 import html
 import re
+from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from typing import NamedTuple
@@ -13,7 +14,6 @@ from twinform.compiler.input.xml_recovery import REPAIRS
 from twinform.diagnostics import Diagnostic, Fix, Span, TextEdit, nearest_name
 from twinform.diagnostics.rules import reading, structure
 from twinform.schemas import usual_namespace
-from twinform.text import Lines
 
 _COMMENT = re.compile(r"<!--(?P<inside>.*?)-->", re.DOTALL)
 _ASIDE = re.compile(r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>", re.DOTALL)
@@ -21,6 +21,9 @@ _DECLARATION = re.compile(r"<\?xml\s[^>]*?\?>", re.IGNORECASE)
 _VERSION = re.compile(r"""(?<=\s)version\s*=\s*(?:"[^"]*"|'[^']*')""")
 _VERSION_SLIP = re.compile(r"(?<=\s)ver[a-z]*(?=\s*=)")
 _ENCODING = re.compile(r"""encoding\s*=\s*["']([^"']*)["']""")
+_BREAK = re.compile(r"[\t\r\n]")
+_NUMBERS = re.compile(r"[-+.\deE\s]+")
+_HYPHENS = re.compile(r"-{2,}")
 _LOST = re.compile(r"\s*(?=\?xml\s)")
 _PREFIX = re.compile(r"Namespace prefix (?P<prefix>[\w.-]+) ")
 _TAG = re.compile(r"</?[A-Za-z_][\w.-]*::[A-Za-z_]")
@@ -107,34 +110,41 @@ def _in_markup_of_instructions(text: str) -> Iterator[re.Match[str]]:
 
 def _hyphens(finding: Diagnostic, file: FixableFile) -> Fix | None:
     """Blanks between the hyphens of the comment that ends on the line of the finding, or is around it."""
-    text = file.text
-    lines = Lines(text)
-    for comment in _COMMENT.finditer(text):
-        first, last = (lines.place(offset).line for offset in (comment.start(), comment.end() - 1))
-        inside = comment["inside"]
-        if first <= finding.location.line <= last and ("--" in inside or inside.endswith("-")):
-            start = comment.start("inside")
-            edits = [
-                TextEdit(Span(start + run.start(), start + run.end()), " ".join(run[0]))
-                for run in re.finditer("-{2,}", inside)
-            ]
-            if inside.endswith("-"):
-                edits.append(TextEdit(Span(start + len(inside), start + len(inside)), " "))
+    if "comments" not in file.memo:
+        file.memo["comments"] = [*_comments_by_line(file)]
+    for first, last, edits in file.memo["comments"]:
+        if first <= finding.location.line <= last:
             return safe("Put blanks between the hyphens of the comment", *edits)
     return None
 
 
+def _comments_by_line(file: FixableFile) -> Iterator[tuple[int, int, list[TextEdit]]]:
+    """Comments with hyphens in them: their first and last line, and what mends them."""
+    for comment in _COMMENT.finditer(file.text):
+        inside, start = comment["inside"], comment.start("inside")
+        edits = [
+            TextEdit(Span(start + run.start(), start + run.end()), " ".join(run[0]))
+            for run in _HYPHENS.finditer(inside)
+        ]
+        if inside.endswith("-"):
+            edits.append(TextEdit(Span(start + len(inside), start + len(inside)), " "))
+        if edits:
+            first, last = (file.lines.place(offset).line for offset in (comment.start(), comment.end() - 1))
+            yield first, last, edits
+
+
 def _prefix(finding: Diagnostic, file: FixableFile) -> Fix | None:
     """Declare the prefix on the root element."""
-    found, root = _PREFIX.search(finding.message), next(_in_markup(_ROOT, file.text), None)
-    if found is None or root is None:
+    found = _PREFIX.search(finding.message)
+    if found is None:
         return None
     prefix = found["prefix"]
     name, uri = f"xmlns:{prefix}", usual_namespace(prefix)
     title = f"Declare the prefix {prefix} on the root element"
     if file.parts is not None:
         return safe(title, file.edit.set_attribute(file.root, name, uri))
-    return safe(title, TextEdit(Span(root.end(), root.end()), f' {name}="{uri}"'))
+    root = next(_in_markup(_ROOT, file.text), None)
+    return safe(title, TextEdit(Span(root.end(), root.end()), f' {name}="{uri}"')) if root else None
 
 
 def _single_colons(text: str) -> Fix | None:
@@ -161,7 +171,7 @@ class _Broken(NamedTuple):
 
 def _not_well_formed(finding: Diagnostic, file: FixableFile) -> Fix | None:
     text = file.text
-    lines = Lines(text)
+    lines = file.lines
     number = finding.location.line
     if not 1 <= number <= len(lines):
         return None
@@ -274,16 +284,21 @@ def _doctype(_: Diagnostic, file: FixableFile) -> Fix | None:
 
 def _tabbed(finding: Diagnostic, file: FixableFile) -> Fix | None:
     """Blanks for the tabs and new lines in the attributes that begin on the line."""
-    lines = Lines(file.text)
-    edits = [
-        TextEdit(attribute.value, " ".join(attribute.value.of(file.text).split()))
-        for place in file.edit.places.values()
-        for attribute in place.attributes.values()
-        if lines.place(attribute.name.start).line == finding.location.line
-        and re.search(r"[\t\r\n]", attribute.value.of(file.text))
-        and re.fullmatch(r"[-+.\deE\s]+", attribute.value.of(file.text))
-    ]
+    if "tabbed" not in file.memo:
+        file.memo["tabbed"] = _tabbed_values(file)
+    edits = file.memo["tabbed"].get(finding.location.line, ())
     return safe("Put blanks between the numbers", *edits) if edits else None
+
+
+def _tabbed_values(file: FixableFile) -> dict[int, list[TextEdit]]:
+    """What becomes of such attributes, by the lines that they begin on."""
+    found: defaultdict[int, list[TextEdit]] = defaultdict(list)
+    for attribute in (each for place in file.edit.places.values() for each in place.attributes.values()):
+        value = attribute.value.of(file.text)
+        if _BREAK.search(value) and _NUMBERS.fullmatch(value):
+            line = file.lines.place(attribute.name.start).line
+            found[line].append(TextEdit(attribute.value, " ".join(value.split())))
+    return found
 
 
 def _old_root(_: Diagnostic, file: FixableFile) -> Fix | None:
