@@ -13,7 +13,7 @@ from twinform.diagnostics import Diagnostic, Fix, Safety, Span, TextEdit
 from twinform.diagnostics.sink import MOST
 from twinform.text import SourceText, apply
 
-MOST_ROUNDS = 20
+MOST_ROUNDS = 100
 _MOST_CHECKS = 200
 """So often a file is read to find the fixes that make new findings; those that are not tried then are left."""
 _PREDICATE = re.compile(r"\[(?:@name='.*?'|\d+)\](?=[/\[]|$)")

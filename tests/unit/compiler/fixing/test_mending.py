@@ -7,6 +7,7 @@ import pytest
 
 from twinform.compiler import LoadOptions, LoadResult, inspect, read
 from twinform.compiler.fixing import mend, mend_by
+from twinform.compiler.fixing.mending import MOST_ROUNDS
 from twinform.diagnostics import Diagnostic, Fix, Location, Rule, Safety, Severity, Span, TextEdit
 
 LATE = """<!-- a\u00f6 -- b -->\r
@@ -131,7 +132,7 @@ def test_of_two_that_overlap_the_second_waits(monkeypatch: pytest.MonkeyPatch) -
 
 def test_fixes_that_never_end_are_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("twinform.compiler.fixing.mending.with_fixes", _offering({0: _edit(0, "b ")}))
-    assert mend_by(_look, b"b").rounds == 20
+    assert mend_by(_look, b"b").rounds == MOST_ROUNDS
 
 
 def test_one_for_display_is_never_made(monkeypatch: pytest.MonkeyPatch) -> None:
