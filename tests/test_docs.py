@@ -17,7 +17,7 @@ _PAGES = [
     *sorted((_ROOT / "docs").glob("tutorial/*.md")),
 ]
 _ERROR = re.compile(r"(^Error| error): ")
-"""What a command prints that is meant to fail; `diff` ends with 1 to tell files apart."""
+"""What a command prints that is meant to fail; `diff` and `--diff` end with 1 where there is a difference."""
 _BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
@@ -56,7 +56,7 @@ def test_commands_print_what_is_shown(page: Path, tmp_path: Path, monkeypatch: p
                 printed = [line for line in printed if line in shown]
             if shown:
                 assert printed == shown, command
-            fails = arguments[0] == "diff" or any(_ERROR.search(line) for line in shown)
+            fails = "diff" in arguments[0] or "--diff" in arguments or any(_ERROR.search(line) for line in shown)
             assert done.exit_code == 0 or fails, command
 
 

@@ -55,6 +55,14 @@ def test_the_pass_runs_in_a_pipeline_and_reports_by_its_rule(site: Path) -> None
     assert denied.returncode == 1
 
 
+def test_its_fix_is_offered_and_applied(site: Path) -> None:
+    robot = '<robot name="r"><link name="Base Link"/><gazebo reference="Base Link"/></robot>'
+    arguments = ("check", "--fix", "--unsafe-fixes", "--passes", "check-names", "-")
+    done = twinform(site, *arguments, text=robot)
+    assert (done.returncode, done.stdout) == (0, robot.replace("Base Link", "base_link"))
+    assert "mended 1 x unusual-name" in done.stderr
+
+
 def test_the_rule_has_a_page_and_names_who_brings_it(site: Path) -> None:
     page = twinform(site, "explain", "unusual-name").stdout
     assert page.startswith("unusual-name (warning) (from twinform-house-style)\n")

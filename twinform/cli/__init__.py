@@ -14,6 +14,7 @@ from twinform.cli.streams import end_unread, end_unwritable, hold_standard_strea
 COMMANDS: Mapping[str, str] = {
     "convert": "Compile robot models from one format into the other.",
     "check": "Find everything that is wrong with robot models.",
+    "fix": "Mend robot models in their files, and run passes on them.",
     "diff": "Say whether two files describe the same robot.",
     "format": "Lay out the text of models, and change nothing else.",
     "stats": "Print in numbers what models are made of.",

@@ -11,7 +11,7 @@ from twinform.cli.check_report import CheckReport
 from twinform.cli.command import Command
 from twinform.cli.completion import files, pipelines
 from twinform.cli.exclude import exclude_options, exclusion_of
-from twinform.cli.failure import Unusable
+from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.findings import all_option, notes_option
 from twinform.cli.inputs import InputOptions, model_inputs, reading_options
 from twinform.cli.own_options import OptionsByFile
@@ -23,6 +23,9 @@ from twinform.diagnostics.reporters import REPORTERS
 from twinform.passes import PassError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from twinform.cli.fixing import Fixing
     from twinform.passes import Pipeline
 
 
@@ -51,6 +54,10 @@ EXAMPLES = {
 )
 @exclude_options
 @click.option("--watch", is_flag=True, help="Stay, and check what changes again, until Ctrl-C.")
+@click.option("--fix", is_flag=True, help="Mend what can be mended without another robot coming of it, in the files.")
+@click.option("--unsafe-fixes", is_flag=True, help="Mend what is a guess too, or may make another robot of a file.")
+@click.option("--diff", is_flag=True, help="Print what --fix would change, and write nothing; exit code 1 if anything.")
+@click.option("--fix-only", is_flag=True, help="Mend, and report nothing of what is left.")
 @reading_options
 @click.pass_context
 def command(
@@ -68,6 +75,10 @@ def command(
     exclude: tuple[str, ...],
     force_exclude: bool,
     watch: bool,
+    fix: bool,
+    unsafe_fixes: bool,
+    diff: bool,
+    fix_only: bool,
     expand_includes: bool,
     **input_options: Unpack[InputOptions],
 ) -> None:
@@ -79,24 +90,53 @@ def command(
     exclusion = exclusion_of(ctx, exclude, force=force_exclude)
     sources, arguments = model_inputs(words, exclusion)
     options = OptionsByFile(ctx, arguments, input_options, allow, deny, check_passes, "check_passes")
+    mends = fix or diff or fix_only
 
     def new_report() -> CheckReport:
         return CheckReport(style, notes=notes, every=every, baseline=baseline_of(ctx, baseline, update=update_baseline))
 
+    def look(content: str | bytes, name: str) -> LoadResult:
+        load_options, _, passes = options.of(name)
+        return _checked(Source(content, name), load_options, passes, expand_includes=expand_includes)
+
     def check(source: Source, report: CheckReport) -> None:
-        load_options, policy, passes = options.of(source.name)
-        report.add(_checked(source, load_options, passes, expand_includes=expand_includes), policy)
+        report.add(look(*source), options.of(source.name).policy)
+
+    def fixing(source: Source) -> "Fixing":
+        from twinform.cli.fixing import Fixing  # noqa: PLC0415 - see above
+
+        load_options, policy, _ = options.of(source.name)
+        return Fixing(look, load_options, policy, unsafe=unsafe_fixes, diff=diff, notes=notes)
 
     if watch:
-        if style != "text" or update_baseline or "-" in words:
-            raise click.UsageError("--watch prints text, of files: leave --format, --update-baseline and - out")
+        if style != "text" or update_baseline or mends or "-" in words:
+            raise click.UsageError("--watch prints text, of files: leave --format, --update-baseline, --fix and - out")
         from twinform.cli.watching import watch_models  # noqa: PLC0415 - it seldom happens
 
         ctx.exit(watch_models(lambda: model_inputs(words, exclusion)[0], new_report, check))
     report = new_report()
+    if mends:
+        ctx.exit(_mend(sources, fixing, report, diff=diff, silent=diff or fix_only))
     for source in sources:
         check(source, report)
     ctx.exit(report.end())
+
+
+def _mend(
+    sources: "Sequence[Source]", fixing: "Callable[[Source], Fixing]", report: CheckReport, *, diff: bool, silent: bool
+) -> int:
+    """Mend files, or print what would change; gives the exit code. What is left is reported, unless `silent`."""
+    from twinform.cli.fixing import run_fixes  # noqa: PLC0415 - most runs only look
+
+    report.on_stderr = not diff and any(isinstance(each.content, bytes) for each in sources)
+    if report.on_stderr and report.style != "text" and not silent:
+        raise click.UsageError("the mended text of standard input is printed: leave --format out, or give --diff")
+    loaded, report.mended = run_fixes(sources, fixing)
+    if silent:
+        return UNUSABLE if any(each.unreadable for each in loaded) else FINDINGS if diff and report.mended else 0
+    for source, each in zip(sources, loaded, strict=True):
+        report.add(each, fixing(source).policy)
+    return report.end()
 
 
 def _checked(

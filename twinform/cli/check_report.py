@@ -1,6 +1,7 @@
 """What `twinform check` prints, file by file, and the exit code that follows."""
 
 from collections import Counter
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import click
@@ -9,7 +10,7 @@ from twinform.cli.baseline import BaselineFile
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import placed, show
 from twinform.compiler import LoadResult
-from twinform.diagnostics import Policy, Severity
+from twinform.diagnostics import Policy, Safety, Severity
 from twinform.diagnostics.reporters import REPORTERS, Findings
 
 if TYPE_CHECKING:
@@ -26,6 +27,8 @@ class CheckReport:
 
     def __init__(self, style: str, *, notes: bool, every: bool = False, baseline: BaselineFile | None = None) -> None:
         self.style, self.notes, self.every, self.baseline = style, notes, every, baseline
+        self.on_stderr, self.mended = False, 0
+        self.fixes: Counter[Safety] = Counter()
         self.kept: list[Findings] = []
         self.counts: Counter[Severity] = Counter()
         self.files = self.unreadable = self.allowed = self.known = 0
@@ -41,12 +44,18 @@ class CheckReport:
         self.files += 1
         self.unreadable += loaded.unreadable
         self.counts.update(each.severity for each in new)
+        least = Severity.INFO if self.notes else Severity.WARNING
+        if any(each.rule.fix and each.severity >= least for each in new):
+            from twinform.compiler.fixing import with_fixes  # noqa: PLC0415 - clean files need none
+
+            new = with_fixes(replace(loaded, diagnostics=new), lambda each: each.severity >= least)
+            self.fixes.update(each.fix.safety for each in new if each.fix)
         self._print(Findings(loaded.path, new), _files(loaded) if new else None)
 
     def _print(self, findings: Findings, files: "SourceFiles | None") -> None:
         if self.style in _FOR_PEOPLE:
             short = self.style == "concise"
-            show(findings, notes=self.notes, on_stderr=False, every=self.every, short=short, files=files)
+            show(findings, notes=self.notes, on_stderr=self.on_stderr, every=self.every, short=short, files=files)
         elif self.style in _STREAMED:
             click.echo(REPORTERS[self.style]([placed(findings, files)]), nl=False)
         else:
@@ -70,8 +79,19 @@ class CheckReport:
             (self.unreadable, "could not be read"),
             (self.allowed, "allowed"),
             (self.known, "in the baseline"),
+            (self.mended, "mended"),
         )
-        return f"{_count(self.files, 'file')}: {found}{''.join(f'; {count} {what}' for count, what in more if count)}"
+        counts = "".join(f"; {count} {what}" for count, what in more if count)
+        return f"{_count(self.files, 'file')}: {found}{counts}{self._fixable() if not self.mended else ''}"
+
+    def _fixable(self) -> str:
+        """How many findings `--fix` would mend at most."""
+        safe, unsafe = self.fixes[Safety.SAFE], self.fixes[Safety.UNSAFE]
+        if safe and unsafe:
+            return f"; {safe} fixable with --fix, {unsafe} more with --unsafe-fixes"
+        if safe:
+            return f"; {safe} fixable with --fix"
+        return f"; {unsafe} fixable with --fix --unsafe-fixes" if unsafe else ""
 
 
 def _files(loaded: LoadResult) -> "SourceFiles":

@@ -23,6 +23,9 @@ from twinform.passes import PassError, PassInstrumentation, Pipeline, SideFilePa
 if TYPE_CHECKING:
     from twinform.compiler.input.source_files import SourceFiles
 
+if TYPE_CHECKING:
+    from twinform.compiler.in_place import Updated
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Options:
@@ -85,7 +88,7 @@ def run_job(job: Job, options: Options, label: str, outputs: Outputs) -> int:
     """Run one conversion, and add what it makes to what is written; gives its exit code."""
     instrumented = options.watching.begin(job.source.name)
     try:
-        conversion, patched = _converted(job, options, instrumented.instrumentation)
+        conversion, updated = _converted(job, options, instrumented.instrumentation)
     except CompileError as error:
         instrumented.report()
         options.show(job.source, error.diagnostics)
@@ -96,7 +99,7 @@ def run_job(job: Job, options: Options, label: str, outputs: Outputs) -> int:
     instrumented.end()
     if not options.show(job.source, conversion.diagnostics):
         return FINDINGS
-    _add(conversion, patched, job.path, options.ledger, outputs)
+    _add(conversion, updated, job.path, options.ledger, outputs)
     if not options.gazebo_files.make(conversion, job.source.name, outputs, notes=options.notes):
         return FINDINGS
     outputs.news.append(f"{label}{': ' if label else ''}{summary(conversion.ledger)}")
@@ -125,8 +128,8 @@ def _audit(conversion: Conversion, name: str, outputs: Outputs) -> int:
 
 def _converted(
     job: Job, options: Options, instrumentation: PassInstrumentation | None
-) -> tuple[Conversion, bytes | None]:
-    """The conversion and, where it is one in place, the bytes of the file with what it changes.
+) -> tuple[Conversion, "Updated | None"]:
+    """The conversion and, where it is one in place, the file with what it changes.
 
     Raises:
         CompileError: it failed.
@@ -137,18 +140,20 @@ def _converted(
         from twinform.compiler.in_place import convert_in_place  # noqa: PLC0415 - most results are new files
 
         updated = convert_in_place(request, Path(name), load_options, instrumentation=instrumentation)
-        return updated.conversion, updated.data
+        return updated.conversion, updated
     made = run_conversion(request, job.source.content, load_options, name=name, instrumentation=instrumentation)
     return made, None
 
 
 def _add(
-    conversion: Conversion, patched: bytes | None, path: Path | None, ledger: Path | None, outputs: Outputs
+    conversion: Conversion, updated: "Updated | None", path: Path | None, ledger: Path | None, outputs: Outputs
 ) -> None:
     if path is None:
         outputs.stdout = conversion.text
     else:
-        outputs.add(outputs.by, path, conversion.text if patched is None else patched)
+        if updated is not None:
+            outputs.as_read[path] = updated.source
+        outputs.add(outputs.by, path, conversion.text if updated is None else updated.data)
     if ledger is not None:
         outputs.add("--ledger", ledger, conversion.ledger.to_json())
     outputs.add_beside(path, conversion.side_files)

@@ -44,14 +44,16 @@ def beside(result: Path | None, side_files: Iterable[str]) -> list[Output]:
 class Outputs:
     """The files of a call while they are made, the text for standard output, and what is printed once all is there.
 
-    `inputs` are the files that the call reads, of which those `spared` may be written over. Where it is to `check`,
-    nothing is written, and the files that are there are compared with what would be.
+    `inputs` are the files that the call reads, of which those `spared` may be written over; `as_read` are the bytes
+    that have to stand there still. Where it is to `check`, nothing is written, and the files that are there are
+    compared with what would be.
     """
 
     inputs: Sequence[Path] = ()
     spared: Sequence[Path] = ()
     check: bool = False
     texts: list[tuple[Output, str | bytes]] = field(default_factory=list[tuple[Output, str | bytes]])
+    as_read: dict[Path, bytes] = field(default_factory=dict[Path, bytes])
     stdout: str | None = None
     news: list[str] = field(default_factory=list[str])
 
@@ -101,13 +103,15 @@ class Outputs:
 
         Raises:
             click.UsageError: one would be written over another, or over one that was read.
-            Unusable: one cannot be written; then none is.
+            Unusable: one cannot be written, or has changed since it was read; then none is.
         """
         self.require_apart([output for output, _ in self.texts], read)
         if self.check:
             from twinform.cli.outdated import report_outdated  # noqa: PLC0415 - most runs write
 
             return report_outdated(self.texts, to_stdout=self.stdout is not None)
+        for path, before in self.as_read.items():
+            require_as_read(path, before)
         try:
             write_all_atomically({output.path: text for output, text in self.texts}, self._print)
         except OSError as error:
@@ -121,6 +125,20 @@ class Outputs:
     def _print(self) -> None:
         if self.stdout is not None:
             click.echo(self.stdout.encode(), nl=False)  # the XML declaration has UTF-8, whatever the terminal's is
+
+
+def require_as_read(path: Path, before: bytes) -> None:
+    """Raise where a file that is to be changed is not as it was when it was read.
+
+    Raises:
+        Unusable: somebody else has changed it.
+    """
+    try:
+        now = path.read_bytes()
+    except OSError as error:
+        raise Unusable(f"cannot read {path} again: {error.strerror}; nothing is written") from error
+    if now != before:
+        raise Unusable(f"{path} has changed since it was read; nothing is written. Run the command again")
 
 
 def _require_ours(path: Path, side_file: SideFile) -> None:

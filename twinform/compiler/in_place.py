@@ -30,11 +30,15 @@ class Change(NamedTuple):
 
 
 class Updated(NamedTuple):
-    """What a file is converted to, its bytes with only what this changes, and these changes in their order."""
+    """What a file is converted to, its bytes with only what this changes, and these changes in their order.
+
+    `source` are the bytes that were read: who writes the file looks whether they still stand there.
+    """
 
     conversion: Conversion
     data: bytes
     changes: tuple[Change, ...]
+    source: bytes
 
 
 def convert_in_place(
@@ -49,13 +53,30 @@ def convert_in_place(
     Raises:
         CompileError: it cannot be converted, or cannot be changed in its place.
     """
+    data = file_bytes(path, DiagnosticSink(str(path), load_options.strict), load_options)
+    return convert_bytes_in_place(request, data, str(path), load_options, instrumentation=instrumentation)
+
+
+def convert_bytes_in_place(
+    request: ConversionRequest,
+    data: bytes,
+    name: str,
+    load_options: LoadOptions,
+    *,
+    instrumentation: PassInstrumentation | None = None,
+) -> Updated:
+    """The same of the bytes of a file, whose path is `name`.
+
+    Raises:
+        CompileError: they cannot be converted, or cannot be changed in their place.
+    """
     request = replace(request, comments=False)  # the text of the file has them
-    conversion = run_conversion(request, str(path), load_options, name=str(path), instrumentation=instrumentation)
-    loaded = read(str(path), load_options, name=str(path))
-    sink = DiagnosticSink(str(path), load_options.strict)
+    conversion = run_conversion(request, data, load_options, name=name, instrumentation=instrumentation)
+    loaded = read(data, load_options, name=name)
     if loaded.document is None:  # it could be converted a moment ago
         raise CompileError(loaded.diagnostics)
-    return updated(file_bytes(path, sink, load_options), loaded.document, conversion, sink, same=True)
+    sink = DiagnosticSink(name, load_options.strict)
+    return updated(data, loaded.document, conversion, sink, same=True)
 
 
 def file_bytes(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> bytes:
@@ -83,7 +104,7 @@ def updated(source: bytes, before: Document, conversion: Conversion, sink: Diagn
     try:
         merged = _merged(document_tree(before), document_tree(conversion.document), own, same=same)
         if not merged.conflicts:
-            return _patched(SourceText.of(source), own, merged.tree, conversion)
+            return _patched(SourceText.of(source), own, merged.tree, conversion)._replace(source=source)
     except (UnplacedError, UndecodableError, UnicodeEncodeError) as error:
         sink.report(EDIT_CONFLICT, f"cannot be changed in place: {error}", Location(line=1, path="/"))
     else:
@@ -104,7 +125,7 @@ def _patched(text: SourceText, own: XmlElement, tree: XmlElement, conversion: Co
     made = sorted(edits(text, own, tree), key=lambda edit: edit.span)
     lines = Lines(text.text)
     changes = [Change(lines.place(span.start), span.of(text.text), new) for span, new in made]
-    return Updated(conversion, text.with_text(apply(text.text, made)).data, tuple(changes))
+    return Updated(conversion, text.with_text(apply(text.text, made)).data, tuple(changes), b"")
 
 
 def _model_in_world(before: XmlElement, own: XmlElement) -> XmlElement | None:

@@ -2,7 +2,7 @@
 
 from twinform.diagnostics.catalog import catalog
 from twinform.diagnostics.diagnostic import Diagnostic
-from twinform.diagnostics.did_you_mean import did_you_mean, nearest_name
+from twinform.diagnostics.did_you_mean import did_you_mean, meant_name, nearest_name
 from twinform.diagnostics.fix import Fix, Safety
 from twinform.diagnostics.ledger import Entry, Fate, Ledger
 from twinform.diagnostics.location import NOWHERE, Location, Origins, Source
@@ -31,5 +31,6 @@ __all__ = [
     "TextEdit",
     "catalog",
     "did_you_mean",
+    "meant_name",
     "nearest_name",
 ]

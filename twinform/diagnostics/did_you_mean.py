@@ -1,5 +1,6 @@
 """Did you mean: suggests the known name that is nearest to one that is not known, as the help of a finding."""
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from itertools import islice
@@ -12,12 +13,19 @@ _MOST_COMPARED = 200
 """The most names that are compared letter by letter."""
 _ALIKE = 0.6
 """How much of two names is the same where one may be meant for the other, as `difflib` measures it."""
+_ASKS = re.compile(r"did you mean (?P<quote>['\"]?)(?P<name>.+)(?P=quote)\?", re.DOTALL)
 
 
 def did_you_mean(name: str, known: Iterable[str | None]) -> str | None:
     """The sentence that asks; None where nothing is near."""
     near = nearest_name(name, known)
     return f"did you mean {near!r}?" if near else None
+
+
+def meant_name(sentence: str | None) -> str | None:
+    """The name that such a sentence asks for; None for every other help."""
+    found = _ASKS.fullmatch(sentence or "")
+    return found["name"] if found else None
 
 
 def nearest_name(name: str, known: Iterable[str | None], alike: float = _ALIKE) -> str | None:

@@ -4,6 +4,7 @@ import sys
 from collections.abc import Iterator
 
 from twinform.diagnostics.catalog import catalog
+from twinform.diagnostics.fix import Safety
 from twinform.diagnostics.generated_files import main
 from twinform.diagnostics.rule import Rule
 
@@ -13,6 +14,13 @@ _INTRODUCTION = """\
 Every kind of finding, sorted by name. `twinform explain RULE` prints one page.
 This file is made by `python -m twinform.diagnostics.pages docs/reference/rules.md`; do not edit it.
 """
+
+FIXES = {
+    Safety.SAFE: "`twinform check --fix` mends what has one meaning only; what is a guess needs `--unsafe-fixes` too.",
+    Safety.UNSAFE: "`twinform check --fix --unsafe-fixes` mends it where it can; another robot may come of it.",
+    Safety.DISPLAY: "Editors propose one; something in it has to be filled in.",
+}
+"""What the page of a rule says of its fixes, by how safe they are at best."""
 
 
 def severity_words(rule: Rule) -> str:
@@ -30,6 +38,8 @@ def sections(rule: Rule) -> Iterator[tuple[str, str]]:
     yield "Why it matters", rule.matters
     yield "Example", rule.example
     yield "Better", rule.better
+    if rule.fix is not None:
+        yield "Fix", FIXES[rule.fix]
     yield "References", rule.references or "None."
 
 

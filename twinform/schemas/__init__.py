@@ -24,9 +24,11 @@ from twinform.schemas.xml import (
     XmlElement,
     declared_namespaces,
     has_prefixed_attributes,
+    in_usual_namespaces,
     path_of,
     undeclared_namespace,
     undeclared_prefix,
+    usual_namespace,
 )
 
 __all__ = [
@@ -52,6 +54,7 @@ __all__ = [
     "format_value",
     "has_prefixed_attributes",
     "in_order",
+    "in_usual_namespaces",
     "is_valid_text",
     "json_schema_text",
     "keep_element",
@@ -70,6 +73,7 @@ __all__ = [
     "table",
     "undeclared_namespace",
     "undeclared_prefix",
+    "usual_namespace",
     "validate",
     "versions_of",
     "writer",

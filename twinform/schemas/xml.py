@@ -1,5 +1,6 @@
 """The one place that names lxml's element type, which the library keeps under a private name."""
 
+import re
 from collections.abc import Iterable, Iterator
 from typing import cast
 
@@ -11,18 +12,28 @@ __all__ = [
     "children",
     "declared_namespaces",
     "has_prefixed_attributes",
+    "in_usual_namespaces",
     "is_blank",
     "path_of",
     "prefix_of",
     "step_of",
     "undeclared_namespace",
     "undeclared_prefix",
+    "usual_namespace",
 ]
 
 Places = dict[XmlElement, int]
 """The places of elements among their like."""
 _UNDECLARED = "urn:twinform:undeclared:"
 """The beginning of the namespace that an undeclared prefix is given; the prefix is the end."""
+_UNDECLARED_NAME = re.compile(rf"(?<={{){_UNDECLARED}(?P<prefix>[^}}]*)(?=}})")
+_USUAL = {
+    "drake": "http://drake.mit.edu",
+    "gz": "http://gazebosim.org/schema",
+    "ignition": "http://gazebosim.org/schema",
+    "xacro": "http://www.ros.org/wiki/xacro",
+}
+"""The namespaces that files declare for the prefixes of known readers."""
 _ATTRIBUTE = etree.XPath("name(@*[local-name() = $local and namespace-uri() = $namespace])")
 """The name of an attribute as it was written."""
 _PREFIXED = etree.XPath("boolean(/descendant::*/@*[namespace-uri()])")
@@ -77,6 +88,18 @@ def undeclared_namespace(prefix: str) -> str:
 def undeclared_prefix(namespace: str) -> str | None:
     """The prefix that a namespace was made for, if it was."""
     return namespace.removeprefix(_UNDECLARED) if namespace.startswith(_UNDECLARED) else None
+
+
+def usual_namespace(prefix: str) -> str:
+    """The namespace that a prefix is declared with; who reads the files goes by the prefix alone."""
+    return _USUAL.get(prefix, f"urn:{prefix}")
+
+
+def in_usual_namespaces(names: str) -> str:
+    """Names, such as a path of them, with the usual namespaces of undeclared prefixes."""
+    return (
+        _UNDECLARED_NAME.sub(lambda found: usual_namespace(found["prefix"]), names) if _UNDECLARED in names else names
+    )
 
 
 def prefix_of(element: XmlElement, name: str) -> str | None:

@@ -228,3 +228,9 @@ def _common(before: Sequence[Hashable], after: Sequence[Hashable]) -> tuple[int,
     left = most - begin
     end = next((i for i in range(left) if before[-1 - i] != after[-1 - i]), left)
     return begin, end
+
+
+def same_element(one: XmlElement, other: XmlElement) -> bool:
+    """Whether two elements say the same, but for the spelling of numbers."""
+    contents = Contents(spelled_alike)
+    return contents.number(one) == contents.number(other)

@@ -22,6 +22,7 @@ from twinform.text.alignment import (
     stripped,
     texts,
 )
+from twinform.text.renaming import with_renamed
 
 
 class Conflict(NamedTuple):
@@ -96,10 +97,11 @@ class _Merging:
         if self.exact.number(before) == self.exact.number(after):
             return
         own = owns[0]
-        if before.tag != after.tag:
+        if before.tag != after.tag and own.tag != before.tag:
             self._conflict(own, f"<{before.tag}> becomes <{after.tag}>")
             return
         for each in owns:
+            each.tag = each.tag if before.tag == after.tag else after.tag
             self._attributes(before, after, each)
         if any(texts(before)[1:]) or any(texts(after)[1:]):
             self._mixed(before, after, own)
@@ -153,7 +155,7 @@ class _Merging:
     ) -> Iterator[tuple[XmlElement, XmlElement, Sequence[XmlElement]]]:
         """Delete and insert children, and give those that are in all three."""
         old, new, mine = elements(before), elements(after), [each for own in owns for each in elements(own)]
-        kept = {j: i for i, j in aligned(old, new, self.exact)}
+        kept = {j: i for i, j in with_renamed(aligned(old, new, self.exact), old, new, self.exact)}
         here = {i: [mine[k], *self._like(mine, k)] for i, k in matched(old, mine, self.alike)}
         stay = set(kept.values())
         gone = [i for i in range(len(old)) if i not in stay]

@@ -12,7 +12,7 @@ from twinform.passes.carriers.carriers import NAMESPACE, from_xml
 from twinform.passes.sdf_versions.name_the_nameless import plugin_stem
 from twinform.passes.transforms.element_poses import read_pose
 from twinform.passes.transforms.gazebo_tags import SCRIPT_URI
-from twinform.schemas import Fact, XmlElement, table
+from twinform.schemas import Fact, XmlElement, in_usual_namespaces, table
 
 CARRIED = f"{{{NAMESPACE}}}carried"
 """The attribute of elements that came out of a carrier."""
@@ -99,7 +99,7 @@ class Walk:
         fact = table("sdf").resolve(row)
         inner = [one for one in child if isinstance(one.tag, str) and not one.tag.startswith(_OURS)]
         if row.name == "geometry":
-            self._put(path, Text(str(inner[0].tag) if inner else "empty"), None, carried=carried)
+            self._put(path, Text(in_usual_namespaces(str(inner[0].tag)) if inner else "empty"), None, carried=carried)
         elif row.repeats or (row.name in _MEANINGFUL_WHEN_EMPTY and (inner or _own_keys(child))):
             self._put(path, THERE, None, carried=carried)
         if fact.any:
@@ -110,7 +110,7 @@ class Walk:
 
     def _put(self, path: str, value: Value, default: Value | None, *, carried: bool) -> None:
         """Of what is written twice, the first counts."""
-        self.found.setdefault(path, Leaf(value, default, self.where(path), carried=carried))
+        self.found.setdefault(in_usual_namespaces(path), Leaf(value, default, self.where(path), carried=carried))
 
 
 def _own_keys(element: XmlElement) -> list[str]:

@@ -1,5 +1,6 @@
 """Rules about what is on a link: shapes, materials and sensors."""
 
+from twinform.diagnostics.fix import Safety
 from twinform.diagnostics.rule import Rule, Severity
 
 MISSING_SHAPE = Rule(
@@ -23,6 +24,7 @@ BARE_MATERIAL = Rule(
     name="bare-material",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
+    fix=Safety.SAFE,
     finds="A shared `<material>` of URDF with neither a color nor a texture.",
     matters="It defines nothing, and urdfdom refuses the whole file for it.",
     example="`<robot ...><material name='blue'/>`",
@@ -32,6 +34,7 @@ UNNAMED_MATERIAL = Rule(
     name="unnamed-material",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
+    fix=Safety.SAFE,
     finds="A material of URDF without a name.",
     matters="urdfdom refuses the visual and drops the rest of the link with it, or the whole file where the material "
     "is a shared one.",
@@ -41,6 +44,7 @@ UNNAMED_MATERIAL = Rule(
 CONFLICTING_MATERIAL = Rule(
     name="conflicting-material",
     severity=Severity.WARNING,
+    fix=Safety.UNSAFE,
     finds="A material of URDF that is defined again with another color or texture.",
     matters="Materials are shared by name: urdfdom and libsdformat show the first definition everywhere. Here each "
     "visual keeps the color that stands in it.",
@@ -66,6 +70,7 @@ MISPLACED_SENSOR = Rule(
 UNKNOWN_COLLISION = Rule(
     name="unknown-collision",
     severity=Severity.WARNING,
+    fix=Safety.UNSAFE,
     finds="A contact sensor that names a collision which does not exist.",
     matters="It never reports a contact, and no reader reports why.",
     example="`<contact><collision>foot</collision></contact>` where the collision is called `foot_collision`.",
@@ -74,6 +79,7 @@ UNKNOWN_COLLISION = Rule(
 UNKNOWN_GRIPPER_LINK = Rule(
     name="unknown-gripper-link",
     severity=Severity.WARNING,
+    fix=Safety.UNSAFE,
     finds="A gripper whose palm or finger is no link of the model.",
     matters="Gazebo Classic ignores the gripper; nothing is ever grasped.",
     example="`<palm_link>palm</palm_link>` where the link is called `hand_palm`.",

@@ -1,5 +1,6 @@
 """Rules about transmissions of ROS 1 and ros2_control; the passes between them report these."""
 
+from twinform.diagnostics.fix import Safety
 from twinform.diagnostics.rule import Rule, Severity
 
 CONVERTED_TRANSMISSION = Rule(
@@ -61,6 +62,7 @@ UNSAYABLE_IN_TRANSMISSIONS = Rule(
 UNKNOWN_DRIVEN_JOINT = Rule(
     name="unknown-driven-joint",
     severity=Severity.WARNING,
+    fix=Safety.UNSAFE,
     finds="A transmission or `<ros2_control>` that names a joint which the robot does not have.",
     matters="The controller manager refuses to start, or leaves the joint without a drive.",
     example="`<transmission name='hip_drive'><joint name='hipp'>...` in a robot whose joint is called `hip`.",

@@ -1,5 +1,6 @@
 """Rules about the other files that a model names: included models, packages, meshes."""
 
+from twinform.diagnostics.fix import Safety
 from twinform.diagnostics.rule import Rule, Severity
 
 UNRESOLVED_URI = Rule(
@@ -42,6 +43,7 @@ MISSING_MODEL_CONFIG = Rule(
 MISSING_FILE = Rule(
     name="missing-file",
     severity=Severity.WARNING,
+    fix=Safety.UNSAFE,
     finds="A mesh, texture or included model whose file is not found. Nothing is reported about packages and models "
     "that are "
     "not on this machine at all: they may be installed where the robot is.",
@@ -52,6 +54,7 @@ MISSING_FILE = Rule(
 BACKSLASH_IN_PATH = Rule(
     name="backslash-in-path",
     severity=Severity.WARNING,
+    fix=Safety.UNSAFE,
     finds="A backslash in the path or URI of a file.",
     matters="Only Windows reads it as a separator; everywhere else it is a part of the name, and no file is found.",
     example="`<mesh filename='meshes\\elbow.stl'/>`",

@@ -1,10 +1,12 @@
 """Rules about frames and what they are relative to. The frame graph finds them."""
 
+from twinform.diagnostics.fix import Safety
 from twinform.diagnostics.rule import Rule, Severity
 
 DANGLING_FRAME = Rule(
     name="dangling-frame",
     severity=Severity.ERROR,
+    fix=Safety.UNSAFE,
     finds="A name of a frame (`relative_to`, `attached_to`, `expressed_in`, `placement_frame`) that nothing has.",
     matters="The pose cannot be computed, so every reader refuses the model.",
     example="`<pose relative_to='elbow'>` in a model without a link, joint, frame or nested model called `elbow`.",
@@ -33,6 +35,7 @@ AMBIGUOUS_FRAME = Rule(
 UNKNOWN_CANONICAL_LINK = Rule(
     name="unknown-canonical-link",
     severity=Severity.ERROR,
+    fix=Safety.UNSAFE,
     finds="A `canonical_link` that names no link of the model.",
     matters="The model's own frame moves with that link; without it the model cannot be placed.",
     example="`<model name='m' canonical_link='base'>` where the link is called `base_link`.",
@@ -42,6 +45,7 @@ UNKNOWN_CANONICAL_LINK = Rule(
 ANGLE_IN_DEGREES = Rule(
     name="angle-in-degrees",
     severity=Severity.WARNING,
+    fix=Safety.UNSAFE,
     finds="A roll, pitch or yaw of more than two turns, where radians are read.",
     matters="The part gets a quite different angle: 90 radians are 14 turns and 117 degrees.",
     example="`<origin xyz='0 0 0' rpy='0 0 90'/>`, `<pose>0 0 0 0 0 90</pose>`",
@@ -50,6 +54,7 @@ ANGLE_IN_DEGREES = Rule(
 UNNORMALIZED_QUATERNION = Rule(
     name="unnormalised-quaternion",
     severity=Severity.WARNING,
+    fix=Safety.UNSAFE,
     finds="A quaternion whose length is not 1.",
     matters="Only those of length 1 are rotations. We and some readers divide by the length; others take the numbers "
     "as they are, and the part is somewhere else or of another size.",

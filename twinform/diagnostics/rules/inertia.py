@@ -1,5 +1,6 @@
 """Rules about masses and inertias. `check` reports the first ones; the pass `check-inertia` asks more."""
 
+from twinform.diagnostics.fix import Safety
 from twinform.diagnostics.rule import Rule, Severity
 
 MISSING_INERTIAL = Rule(
@@ -14,6 +15,7 @@ MISSING_INERTIAL = Rule(
 NON_POSITIVE_MASS = Rule(
     name="non-positive-mass",
     severity=Severity.WARNING,
+    fix=Safety.UNSAFE,
     finds="A mass of zero or less, or one that is not finite. A mass of zero is an info until the "
     "pass `check-inertia` finds that the link moves.",
     matters="The equations of motion have no solution: simulators refuse the link, drop it, or fling the robot away.",

@@ -1,10 +1,12 @@
 """Rules about axes, limits and mimics that say little, nothing, or something that cannot be."""
 
+from twinform.diagnostics.fix import Safety
 from twinform.diagnostics.rule import Rule, Severity
 
 MISSING_AXIS = Rule(
     name="missing-axis",
     severity=Severity.INFO,
+    fix=Safety.SAFE,
     finds="A joint that moves and has no axis.",
     matters="The default of URDF is x and that of SDF is z, so the same omission means two different robots.",
     example="A revolute joint without `<axis>`.",
@@ -14,6 +16,7 @@ MISSING_AXIS = Rule(
 UNUSED_AXIS = Rule(
     name="unused-axis",
     severity=Severity.INFO,
+    fix=Safety.SAFE,
     finds="An axis, or something that belongs to one such as a limit, on a joint that has no use for it.",
     matters="Every reader ignores it. If the joint was meant to move, its type is wrong.",
     example="`<joint type='fixed'>` with `<axis xyz='0 0 1'/>`; `<axis2>` of a revolute joint.",
@@ -22,6 +25,7 @@ UNUSED_AXIS = Rule(
 UNNORMALIZED_AXIS = Rule(
     name="unnormalised-axis",
     severity=Severity.INFO,
+    fix=Safety.SAFE,
     finds="A joint axis that is not of length one.",
     matters="It is only a direction: readers normalize it, so its length has no effect.",
     example="`<axis xyz='0 0 10'/>`",
@@ -31,6 +35,7 @@ UNNORMALIZED_AXIS = Rule(
 UNUSED_LIMIT = Rule(
     name="unused-limit",
     severity=Severity.INFO,
+    fix=Safety.SAFE,
     finds="A `continuous` joint with a lower or upper limit.",
     matters="Every reader ignores the limits: the joint turns as far as it likes.",
     example="`<joint type='continuous'>` with `<limit lower='-1' upper='1' .../>`",
@@ -39,6 +44,7 @@ UNUSED_LIMIT = Rule(
 CONTINUOUS_IN_SDF = Rule(
     name="continuous-in-sdf",
     severity=Severity.WARNING,
+    fix=Safety.UNSAFE,
     finds="A `continuous` joint in SDF.",
     matters="SDF has the type, but no physics engine of Gazebo supports it: DART and Bullet Featherstone hold the "
     "joint still, "
@@ -77,6 +83,7 @@ EMPTY_DYNAMICS = Rule(
     name="empty-dynamics",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
+    fix=Safety.SAFE,
     finds="A `<dynamics>` of URDF with neither damping nor friction.",
     matters="It has no effect, and urdfdom refuses the whole file for it.",
     example="`<dynamics/>`",

@@ -1,5 +1,6 @@
 """Rules about joint limits. The passes `fill-limits`, `check-limits` and `tighten-limits` report them."""
 
+from twinform.diagnostics.fix import Safety
 from twinform.diagnostics.rule import Rule, Severity
 
 FILLED_LIMIT = Rule(
@@ -23,6 +24,7 @@ UNFILLED_LIMIT = Rule(
 EMPTY_RANGE = Rule(
     name="empty-range",
     severity=Severity.WARNING,
+    fix=Safety.UNSAFE,
     finds="A revolute or prismatic joint whose lower limit is its upper one; in URDF both are 0 where they are not "
     "written.",
     matters="The joint cannot move. MuJoCo takes it for one without limits, others for a fixed one that still costs a "
@@ -34,6 +36,7 @@ EMPTY_RANGE = Rule(
 RANGE_IN_DEGREES = Rule(
     name="range-in-degrees",
     severity=Severity.WARNING,
+    fix=Safety.UNSAFE,
     finds="A limit of a turning joint of more than two turns (the option `turns` of `check-limits` changes that).",
     matters="Angles are in radians: 90 is more than 14 turns, and planners will use them.",
     example="`<limit lower='-90' upper='90' .../>`",
@@ -59,6 +62,7 @@ IMPLAUSIBLE_LIMIT = Rule(
 SOFT_LIMIT_OUTSIDE = Rule(
     name="soft-limit-outside",
     severity=Severity.WARNING,
+    fix=Safety.UNSAFE,
     finds="Soft limits of a `<safety_controller>` that are outside of the hard ones, or whose lower one is above "
     "the upper one.",
     matters="The controller brakes too late, or never lets the joint move.",
@@ -69,6 +73,7 @@ SOFT_LIMIT_OUTSIDE = Rule(
 NEGATIVE_DYNAMICS = Rule(
     name="negative-dynamics",
     severity=Severity.WARNING,
+    fix=Safety.UNSAFE,
     finds="A damping or friction of a joint below zero.",
     matters="The joint gains energy from moving: the simulation explodes, or the engine refuses the file.",
     example="`<dynamics damping='-0.1'/>`",

@@ -1,10 +1,12 @@
 """Rules about names, references and the tree, which a schema cannot see whole. `twinform.ir.verify` reports them."""
 
+from twinform.diagnostics.fix import Safety
 from twinform.diagnostics.rule import Rule, Severity
 
 DUPLICATE_NAME = Rule(
     name="duplicate-name",
     severity=Severity.ERROR,
+    fix=Safety.SAFE,
     finds="Two things of one kind in one scope with one name.",
     matters="A reference to the name means either of them; readers refuse the file.",
     example="Two `<link name='arm'>` in one robot.",
@@ -13,6 +15,7 @@ DUPLICATE_NAME = Rule(
 SHARED_NAME = Rule(
     name="shared-name",
     severity=Severity.ERROR,
+    fix=Safety.UNSAFE,
     finds="Two things of different kinds in one SDF model, such as a link and a joint, with one name. For a visual and "
     "a collision of one link this is an info: only `gz sdf --check` minds.",
     matters="From SDF 1.7 on every one of them is a frame, and a reference to the name means either.",
@@ -23,6 +26,7 @@ SHARED_NAME = Rule(
 RESERVED_NAME = Rule(
     name="reserved-name",
     severity=Severity.ERROR,
+    fix=Safety.UNSAFE,
     finds="A name that SDF keeps for itself: `world`, one that begins and ends with two underscores, or from 1.8 on "
     "one with `::` in it. Before that, one with nothing on one side of the `::`.",
     matters="References to it mean the world, the model, or something inside of a model, never the thing that has the "
@@ -54,6 +58,7 @@ UNPRINTABLE_NAME = Rule(
 DANGLING_LINK = Rule(
     name="dangling-link",
     severity=Severity.ERROR,
+    fix=Safety.UNSAFE,
     finds="A joint whose parent or child does not exist.",
     matters="The robot cannot be put together; readers refuse the file.",
     example="`<parent link='bse_link'/>` where the link is called `base_link`.",
@@ -71,6 +76,7 @@ SELF_JOINT = Rule(
 WORLD_CHILD = Rule(
     name="world-child",
     severity=Severity.ERROR,
+    fix=Safety.UNSAFE,
     finds="An SDF joint whose child is the world.",
     matters="The world does not move; it can only be a parent.",
     example="`<child>world</child>`",
@@ -115,6 +121,7 @@ TWO_PARENTS = Rule(
 MISSING_LIMIT = Rule(
     name="missing-limit",
     severity=Severity.ERROR,
+    fix=Safety.UNSAFE,
     finds="A revolute or prismatic joint of URDF without `<limit>`.",
     matters="urdfdom refuses the file; a controller would not know how far the joint may go.",
     example="`<joint name='elbow' type='revolute'>` with parent, child and axis only.",
@@ -131,6 +138,7 @@ PARTIAL_LIMIT = Rule(
 LOWER_ABOVE_UPPER = Rule(
     name="lower-above-upper",
     severity=Severity.WARNING,
+    fix=Safety.UNSAFE,
     finds="A joint whose lower limit is above its upper one.",
     matters="No position is allowed; libsdformat exchanges the two, other readers lock the joint or fail.",
     example="`<limit lower='1' upper='-1' .../>`",
@@ -139,6 +147,7 @@ LOWER_ABOVE_UPPER = Rule(
 ZERO_AXIS = Rule(
     name="zero-axis",
     severity=Severity.ERROR,
+    fix=Safety.UNSAFE,
     finds="A joint that moves along or about an axis of length zero.",
     matters="The direction is not defined; simulators divide by its length.",
     example="`<axis xyz='0 0 0'/>`",
@@ -147,6 +156,7 @@ ZERO_AXIS = Rule(
 UNKNOWN_LEADER = Rule(
     name="unknown-leader",
     severity=Severity.WARNING,
+    fix=Safety.UNSAFE,
     finds="A mimic joint whose leader does not exist, has no axis, or is the joint itself.",
     matters="The joint follows nothing: libsdformat refuses the model, other readers leave the joint free.",
     example="`<mimic joint='left_finger'/>` where no joint is called so.",
@@ -156,6 +166,7 @@ UNKNOWN_REFERENCE = Rule(
     name="unknown-reference",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
+    fix=Safety.UNSAFE,
     finds="A `<gazebo reference='...'>` that names neither a link nor a joint.",
     matters="libsdformat drops its content silently: the sensor, friction or color is simply not there.",
     example="`<gazebo reference='bse_link'>` where the link is called `base_link`.",
@@ -165,6 +176,7 @@ UNKNOWN_REFERENCE = Rule(
 UNKNOWN_MATERIAL = Rule(
     name="unknown-material",
     severity=Severity.WARNING,
+    fix=Safety.UNSAFE,
     finds="A visual that names a material which is defined nowhere and has no color or texture itself.",
     matters="The visual is drawn in a default color.",
     example="`<material name='blu'/>` where the material is called `blue`.",

@@ -1,5 +1,6 @@
 """Rules about plugins and sensors of Gazebo, which the pass `check-plugins` reports."""
 
+from twinform.diagnostics.fix import Safety
 from twinform.diagnostics.rule import Rule, Severity
 
 _SOURCES = "gz-sim, src/systems; docs/reference/plugins.md has what each release reads."
@@ -8,6 +9,7 @@ UNKNOWN_PLUGIN_PARAMETER = Rule(
     name="unknown-plugin-parameter",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
+    fix=Safety.UNSAFE,
     finds="A parameter that the plugin does not read, or not in the chosen release.",
     matters="It is ignored silently, and the plugin goes on with its default.",
     example="`<odom_publisher_frequency>30</odom_publisher_frequency>` for DiffDrive, as the official ROS 2 migration "
@@ -40,6 +42,7 @@ PLUGIN_REFERENCE = Rule(
     name="plugin-reference",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
+    fix=Safety.UNSAFE,
     finds="A plugin that names a joint or link which its model does not have.",
     matters="The plugin gives up, or waits for ever, when the simulation starts.",
     example="`<left_joint>left_wheel</left_joint>` where that is the link and the joint is `left_wheel_joint`.",
@@ -50,6 +53,7 @@ WRONG_PLUGIN_CLASS = Rule(
     name="wrong-plugin-class",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
+    fix=Safety.UNSAFE,
     finds="A plugin whose `name` is no class of its `filename`, or whose `filename` is not the one of its class.",
     matters="In gz-sim the name chooses the class: with a free name, as Gazebo Classic has it, nothing is loaded.",
     example="`<plugin filename='gz-sim-imu-system' name='imu'/>`",
@@ -59,6 +63,7 @@ WRONG_PLUGIN_CLASS = Rule(
 IGNITION_PLUGIN_NAME = Rule(
     name="ignition-plugin-name",
     severity=Severity.INFO,
+    fix=Safety.UNSAFE,
     finds="A plugin with a name from before Ignition became Gazebo, for a release after Fortress.",
     matters="gz-sim still loads it, with a warning, and may stop to.",
     example="`filename='ignition-gazebo-imu-system' name='ignition::gazebo::systems::Imu'`",
@@ -81,6 +86,7 @@ PLUGIN_NOT_IN_RELEASE = Rule(
     name="plugin-not-in-release",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
+    fix=Safety.UNSAFE,
     finds="A plugin that the chosen release of Gazebo does not have: of another release, of Gazebo Classic, or with a "
     "file name that is nearly right.",
     matters="Nothing is loaded. A library of Gazebo Classic that is found all the same can bring the simulator down.",
@@ -102,6 +108,7 @@ MISSING_WORLD_SYSTEM = Rule(
     name="missing-world-system",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
+    fix=Safety.UNSAFE,
     finds="A sensor in a world that lacks the system, or the `<spherical_coordinates>`, which such sensors need.",
     matters="The sensor never publishes anything, without an error message.",
     example="An `imu` in a world without `gz-sim-imu-system`.",
@@ -120,6 +127,7 @@ WORLD_SYSTEM_NEEDED = Rule(
 DEFAULT_SYSTEMS_OFF = Rule(
     name="default-systems-off",
     severity=Severity.WARNING,
+    fix=Safety.UNSAFE,
     finds="A world that has plugins but not those which gz-sim adds to a world without any.",
     matters="One explicit plugin switches off all default systems: without physics nothing moves, without the scene "
     "broadcaster the GUI shows nothing, without user commands nothing can be spawned or moved.",

@@ -1,5 +1,6 @@
 """Rules about files as files and as XML."""
 
+from twinform.diagnostics.fix import Safety
 from twinform.diagnostics.rule import Rule, Severity
 
 UNREADABLE_FILE = Rule(
@@ -28,6 +29,7 @@ NOT_WELL_FORMED = Rule(
     name="not-well-formed",
     severity=Severity.ERROR,
     fatal=True,
+    fix=Safety.SAFE,
     finds="Text that is not XML, in a way that cannot be repaired with certainty.",
     matters="The parser cannot tell what was meant, and a guess may be another robot.",
     example="An end tag that does not match, an attribute without quotes, a file cut off in the middle.",
@@ -38,6 +40,7 @@ REPAIRED_XML = Rule(
     name="repaired-xml",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
+    fix=Safety.SAFE,
     finds="A breach of the rules of XML that has one meaning only, and that the parsers of ROS and Gazebo let pass.",
     matters="Those two read the file, every other XML tool refuses it.",
     example="`--` inside a comment, `<?xml version='0.0'?>`, `<?xml` after a blank line or without its `<`, "
@@ -49,6 +52,7 @@ DOCTYPE = Rule(
     name="doctype",
     severity=Severity.ERROR,
     fatal=True,
+    fix=Safety.SAFE,
     finds="A document type declaration.",
     matters="Entities and default attributes change a document's content, can read other files and fill the memory. "
     "No robot needs one.",
@@ -67,6 +71,7 @@ UNKNOWN_ROOT = Rule(
 OLD_ROOT = Rule(
     name="old-root",
     severity=Severity.WARNING,
+    fix=Safety.SAFE,
     finds="A file of SDF 1.2, whose root element was still called `gazebo`.",
     matters="Most readers look for `sdf` and refuse the file.",
     example="`<gazebo version='1.2'>`",

@@ -1,11 +1,13 @@
 """Rules about the structure of a file, which its schema decides. The schema reader reports them."""
 
+from twinform.diagnostics.fix import Safety
 from twinform.diagnostics.rule import Rule, Severity
 
 UNKNOWN_ELEMENT = Rule(
     name="unknown-element",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
+    fix=Safety.UNSAFE,
     finds="An element that no version of the format has at this place, nor any dialect that is known here.",
     matters="Every reader ignores it silently, so a misspelt tag seems to work.",
     example="`<joint ...><limits lower='0' upper='1'/></joint>`: the tag is `<limit>`.",
@@ -16,6 +18,7 @@ UNKNOWN_ATTRIBUTE = Rule(
     name="unknown-attribute",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
+    fix=Safety.UNSAFE,
     finds="An attribute that no version of the format has on this element.",
     matters="Every reader ignores it silently, so a misspelt attribute leaves its default in place.",
     example="`<limit min='0' max='1'/>`: the attributes are `lower` and `upper`.",
@@ -51,6 +54,7 @@ MISSING_PART = Rule(
 MISSING_ATTRIBUTE = Rule(
     name="missing-attribute",
     severity=Severity.ERROR,
+    fix=Safety.SAFE,
     finds="An attribute that the format requires is not there.",
     matters="Readers refuse the file, or drop the element and all that follows it in the link.",
     example="`<limit lower='0' upper='1'/>` in URDF 1.0 has neither effort nor velocity.",
@@ -60,6 +64,7 @@ DEFAULTED_ATTRIBUTE = Rule(
     name="defaulted-attribute",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
+    fix=Safety.SAFE,
     finds="An attribute that the format requires is not there; it has a default, or its element has no effect without "
     "it, so it is clear what is meant.",
     matters="Some readers refuse the file all the same, as libsdformat does with SDF.",
@@ -70,6 +75,7 @@ DEFAULTED_ATTRIBUTE = Rule(
 DEPRECATED_ELEMENT = Rule(
     name="deprecated-element",
     severity=Severity.INFO,
+    fix=Safety.SAFE,
     finds="An element that this version of the format has, and one of the next will not.",
     matters="libsdformat warns of it; readers of a later version ignore it.",
     example="`<thread_pitch>` from SDF 1.10 on; `<screw_thread_pitch>` has taken its place.",
@@ -80,6 +86,7 @@ REPEATED_ELEMENT = Rule(
     name="repeated-element",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
+    fix=Safety.SAFE,
     finds="An element that may stand once stands again.",
     matters="Readers take the first one, or the last one, and ignore the others silently.",
     example="A joint with two `<limit>` elements.",
@@ -88,6 +95,7 @@ REPEATED_ELEMENT = Rule(
 INVALID_VALUE = Rule(
     name="invalid-value",
     severity=Severity.ERROR,
+    fix=Safety.SAFE,
     finds="Text that is not of the type that the format asks for.",
     matters="Readers refuse the file, or read the beginning of the text and ignore the rest.",
     example="`<origin xyz='0 0'/>`, `<mass>1.0kg</mass>`, `<limit effort='inf' .../>` in URDF, `1e400`.",
@@ -97,6 +105,7 @@ BLANK_VALUE = Rule(
     name="blank-value",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
+    fix=Safety.SAFE,
     finds="An element that is there to hold a value and holds none. A `<pose/>` is none of them: it may only name its "
     "frame.",
     matters="libsdformat refuses the file where the format asks for the element, and takes the default where it does "
@@ -108,6 +117,7 @@ SPLIT_VALUE = Rule(
     name="split-value",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
+    fix=Safety.UNSAFE,
     finds="A value with a comment in the middle.",
     matters="To XML, and here, the pieces are one text. libsdformat reads the first piece alone: a number that is cut "
     "in two is another number there, without a word.",
@@ -118,6 +128,7 @@ TABBED_NUMBERS = Rule(
     name="tabbed-numbers",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
+    fix=Safety.SAFE,
     finds="Numbers in an attribute of URDF that have a tab or a new line before, between or behind them.",
     matters="To XML, and here, they are blanks. urdfdom does not read a number with a tab as a number, "
     "and drops the rest of the link; of a joint, the whole file.",
@@ -128,6 +139,7 @@ OUT_OF_RANGE = Rule(
     name="out-of-range",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
+    fix=Safety.UNSAFE,
     finds="A number below the least or above the greatest value that the format allows.",
     matters="libsdformat refuses some of them (colors above 1, negative friction); simulators replace others by a "
     "default or become unstable.",
@@ -138,6 +150,7 @@ STRAY_TEXT = Rule(
     name="stray-text",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
+    fix=Safety.SAFE,
     finds="Text between elements, where the format has none.",
     matters="It is ignored; most often it is a comment or a tag that lost its brackets.",
     example="`<link name='a'> the base <visual>...`",
@@ -147,6 +160,7 @@ OUTSIDE_VERSION = Rule(
     name="outside-version",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
+    fix=Safety.UNSAFE,
     finds="An element, attribute or value that the format has, but not in the version that the file declares.",
     matters="Readers of that version ignore it; newer ones may read it in another way than it was meant.",
     example="`<capsule>` in an SDF 1.6 file: it came with 1.8. A joint of type `fixed` in SDF 1.4: it came with 1.5.",
@@ -156,6 +170,7 @@ UNKNOWN_VERSION = Rule(
     name="unknown-version",
     severity=Severity.WARNING,
     strict=Severity.ERROR,
+    fix=Safety.SAFE,
     finds="A version that the format does not have, or none where one is required.",
     matters="Readers guess: most take their newest version, some refuse the file.",
     example="`<sdf version='9.9'>`",

@@ -1,0 +1,1 @@
+"""Are files the same robots after `check --fix`, and how much does it mend?"""

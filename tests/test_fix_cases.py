@@ -1,0 +1,61 @@
+"""The case files of fixes: what `check --fix` makes of them.
+
+A comment with `fixes: safe` or `fixes: unsafe` says which fixes are applied, and `passes: PIPELINE` which passes look
+for findings too. Beside `NAME.urdf` lies `NAME.expected.urdf`.
+"""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from tests.expected import assert_expected
+from tests.mended import mended_file
+from twinform.compiler import LoadOptions, LoadResult, inspect, read
+from twinform.compiler.fixing import Mended, mend_by, with_fixes
+from twinform.diagnostics import Safety, catalog
+from twinform.passes import parse_pipeline
+
+_CASES = Path(__file__).parent / "cases"
+_FIXES = [path for path in sorted((_CASES / "fix").glob("*.*df")) if ".expected" not in path.name]
+_CHECKS = sorted(path for path in (_CASES / "check").iterdir() if path.suffix in {".sdf", ".urdf"})
+_PASSES = re.compile(r"passes: ([\w{}=,-]+)")
+
+
+def _look(path: Path, data: bytes) -> LoadResult:
+    passes = _PASSES.search(data.decode())
+    load_options = LoadOptions()
+    found = read(data, load_options, name=str(path))
+    return inspect(found, load_options, parse_pipeline(passes[1]) if passes else None)
+
+
+def _mended(path: Path) -> Mended:
+    data = path.read_bytes()
+    return mend_by(lambda text: _look(path, text), data, unsafe=b"fixes: unsafe" in data)
+
+
+def _name(path: Path) -> str:
+    return path.name
+
+
+@pytest.mark.parametrize("path", _FIXES, ids=_name)
+def test_fixes_make_what_the_case_shows(path: Path) -> None:
+    assert_expected(_mended(path).data.decode(), path.with_suffix(f".expected{path.suffix}"))
+
+
+@pytest.mark.parametrize("path", _FIXES, ids=_name)
+def test_nothing_is_left_to_mend_and_nothing_was_taken_back(path: Path) -> None:
+    mended = _mended(path)
+    assert mended.refused == ()
+    assert [each for each in with_fixes(mended.left) if each.fix and each.fix.safety is Safety.SAFE] == []
+
+
+@pytest.mark.parametrize("path", [*_FIXES, *_CHECKS], ids=_name)
+def test_fixes_keep_their_promises(path: Path) -> None:
+    assert mended_file(str(path), path.read_bytes()).faults == ()
+
+
+def test_every_rule_with_fixes_has_a_case() -> None:
+    mended = {each.rule.name for path in _FIXES for each in _mended(path).applied}
+    offered = {each.rule.name for path in _CHECKS for each in with_fixes(_look(path, path.read_bytes())) if each.fix}
+    assert {name for name, rule in catalog().items() if rule.fix} - mended - offered == set()

@@ -1,0 +1,147 @@
+"""`twinform check --fix`: what is written, what is printed, and when nothing is."""
+
+import os
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from twinform.cli import main
+from twinform.compiler import LoadResult, read
+
+from .conftest import Run
+
+ROBOT = """<robot name="r">
+  <link name="base"/> <!-- stays -->
+  <link name="tip"/>
+  <joint name="j" type="Fixed">
+    <parent link="base"/><child link="tip"/>
+    <origin xyz="0, 0, 1"/>
+    <axis xyz="0 0 1"/>
+  </joint>
+</robot>
+"""
+MENDED = ROBOT.replace("Fixed", "fixed").replace("0, 0, 1", "0 0 1")
+UNSAFE = ROBOT.replace('child link="tip"', 'child link="tpi"')
+NOTES = MENDED.replace('    <axis xyz="0 0 1"/>\n', "")
+
+
+@pytest.fixture
+def robot(tmp_path: Path) -> Path:
+    path = tmp_path / "r.urdf"
+    path.write_text(ROBOT)
+    return path
+
+
+def test_safe_fixes_are_written_and_counted(run: Run, robot: Path) -> None:
+    done = run("check", "--fix", robot)
+    assert (done.exit_code, done.stdout, robot.read_text()) == (0, "", MENDED)
+    assert done.stderr == f"{robot}: mended 2 x invalid-value\n1 file: 0 errors, 0 warnings, 1 note; 2 mended\n"
+
+
+def test_notes_are_mended_where_they_are_shown(run: Run, robot: Path) -> None:
+    run("check", "--fix", "--notes", robot)
+    assert robot.read_text() == NOTES
+
+
+def test_guesses_are_made_only_if_asked_for(run: Run, robot: Path) -> None:
+    robot.write_text(UNSAFE)
+    assert "1 fixable with --fix --unsafe-fixes" in run("check", "--fix", robot).stderr + run("check", robot).stderr
+    assert run("check", "--fix", "--unsafe-fixes", robot).exit_code == 0
+    assert robot.read_text() == MENDED
+
+
+def test_a_plain_check_says_what_could_be_mended(run: Run, robot: Path) -> None:
+    assert run("check", robot).stderr.endswith("; 2 fixable with --fix\n")
+    assert robot.read_text() == ROBOT
+
+
+def test_the_difference_is_shown_and_nothing_written(run: Run, robot: Path) -> None:
+    done = run("check", "--diff", robot)
+    assert done.exit_code == 1
+    assert [line for line in done.stdout.splitlines() if line[:1] in "+-"] == [
+        f"--- {robot}",
+        f"+++ {robot}",
+        '-  <joint name="j" type="Fixed">',
+        '+  <joint name="j" type="fixed">',
+        '-    <origin xyz="0, 0, 1"/>',
+        '+    <origin xyz="0 0 1"/>',
+    ]
+    assert robot.read_text() == ROBOT
+    robot.write_text(MENDED)
+    assert (run("check", "--diff", robot).stdout, run("check", "--diff", robot).exit_code) == ("", 0)
+
+
+def test_a_difference_shows_a_missing_last_line_end(run: Run, robot: Path) -> None:
+    robot.write_bytes(b"<robot name='r'>\n<link name='a'/>\n<material name='m'/></robot>")
+    assert "\\ No newline at end of file\n" in run("check", "--diff", robot).stdout
+
+
+def test_fix_only_reports_nothing_else(run: Run, robot: Path) -> None:
+    robot.write_text(UNSAFE)
+    done = run("check", "--fix-only", robot)
+    assert (done.exit_code, done.stdout) == (0, "")
+    assert done.stderr == f"{robot}: mended 2 x invalid-value\n"
+
+
+def test_standard_input_goes_to_standard_output() -> None:
+    done = CliRunner().invoke(main, ["check", "--fix", "-"], input=ROBOT)
+    assert (done.exit_code, done.stdout) == (0, MENDED)
+    assert CliRunner().invoke(main, ["check", "--fix", "--format", "json", "-"], input=ROBOT).exit_code == 2
+
+
+def test_what_the_project_allows_is_left(run: Run, robot: Path) -> None:
+    text = MENDED.replace("<axis", "text\n    <axis")
+    robot.write_text(text)
+    run("check", "--fix", "--allow", "stray-text", robot)
+    assert robot.read_text() == text
+
+
+def test_the_target_of_a_link_is_written_and_keeps_its_mode(run: Run, robot: Path, tmp_path: Path) -> None:
+    robot.chmod(0o640)
+    link = tmp_path / "link.urdf"
+    link.symlink_to(robot)
+    run("check", "--fix", link)
+    assert link.is_symlink()
+    assert (robot.read_text(), robot.stat().st_mode & 0o777) == (MENDED, 0o640)
+
+
+def test_a_read_only_file_is_refused(run: Run, robot: Path) -> None:
+    robot.chmod(0o444)
+    done = run("check", "--fix", robot)
+    assert (done.exit_code, done.stderr) == (2, f"Error: {robot} is read-only; nothing is written\n")
+    assert robot.read_text() == ROBOT
+
+
+def test_a_file_that_changed_meanwhile_is_refused(run: Run, robot: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def changing(content: str | bytes, *args: object, **extra: str) -> LoadResult:
+        robot.write_text(ROBOT + "<!-- somebody else -->")
+        return read(content, *args, **extra)  # pyright: ignore[reportArgumentType] - as it was called
+
+    monkeypatch.setattr("twinform.cli.check.read", changing)
+    done = run("check", "--fix", robot)
+    assert done.exit_code == 2
+    assert "has changed since it was read; nothing is written" in done.stderr
+    assert robot.read_text() == ROBOT + "<!-- somebody else -->"
+
+
+def test_of_several_files_each_is_mended(run: Run, robot: Path, tmp_path: Path) -> None:
+    other = tmp_path / "other.urdf"
+    other.write_text("<robot")
+    done = run("check", "--fix", other, robot, tmp_path / "missing.urdf")
+    assert done.exit_code == 2
+    assert (robot.read_text(), other.read_text()) == (MENDED, "<robot")
+
+
+def test_a_xacro_file_is_looked_at_and_left(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "r.urdf.xacro"
+    path.write_text(ROBOT)
+    assert run("check", "--fix", path).exit_code == 1
+    assert path.read_text() == ROBOT
+
+
+def test_a_file_is_not_written_where_nothing_changes(run: Run, robot: Path) -> None:
+    robot.write_text(MENDED)
+    os.utime(robot, (1, 1))
+    run("check", "--fix", robot)
+    assert robot.stat().st_mtime == 1

@@ -1,0 +1,146 @@
+"""Applying fixes: rounds, overlaps, and what is taken back."""
+
+import codecs
+from dataclasses import replace
+
+import pytest
+
+from twinform.compiler import LoadOptions, LoadResult, inspect, read
+from twinform.compiler.fixing import mend, mend_by
+from twinform.compiler.fixing.mending import MOST_ROUNDS
+from twinform.diagnostics import Diagnostic, Fix, Location, Rule, Safety, Severity, Span, TextEdit
+
+LATE = """<!-- a\u00f6 -- b -->\r
+<?xml version="1.0"?>\r
+<robot name="r">\r
+\t<link name='base'/>\r
+\t<link name='tip'/>\r
+\t<joint name="j" type='Fixed'>\r
+\t\t<parent link="base"/><child link="tip"/>\r
+\t\t<origin xyz="0, 0, 1"/> <!-- up -->\r
+\t</joint>\r
+</robot>"""
+MENDED = """<?xml version="1.0"?>\r
+<!-- a\u00f6 - - b -->\r
+<robot name="r">\r
+\t<link name='base'/>\r
+\t<link name='tip'/>\r
+\t<joint name="j" type='fixed'>\r
+\t\t<parent link="base"/><child link="tip"/>\r
+\t\t<origin xyz="0 0 1"/> <!-- up -->\r
+\t</joint>\r
+</robot>"""
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16-le", "utf-16-be"])
+def test_encoding_mark_and_line_ends_stay(encoding: str) -> None:
+    mark = {"utf-16-le": codecs.BOM_UTF16_LE, "utf-16-be": codecs.BOM_UTF16_BE}.get(encoding, b"")
+    assert mend(mark + LATE.encode(encoding), LoadOptions()).data == mark + MENDED.encode(encoding)
+
+
+def test_a_late_declaration_of_another_encoding_never_counts() -> None:
+    text = "\n<?xml version='1.0' encoding='ISO-8859-1'?>\n<robot name='\u00f6'><link name='a'/></robot>"
+    made = mend(text.encode(), LoadOptions()).data.decode()
+    assert made == "\n<robot name='\u00f6'><link name='a'/></robot>"
+
+
+def test_only_these_rules_are_mended() -> None:
+    mended = mend(LATE.encode(), LoadOptions(), rules={"invalid-value"})
+    assert {each.rule.name for each in mended.applied} == {"invalid-value"}
+    assert mended.data.decode().startswith("<!-- a\u00f6 -- b -->")
+
+
+def test_a_guess_is_made_only_if_asked_for() -> None:
+    text = b"<robot name='r'><link name='base'/><link name='tip'/><joint name='j' type='fixed'>"
+    text += b"<parent link='bsae'/><child link='tip'/></joint></robot>"
+    assert mend(text, LoadOptions()).data == text
+    assert mend(text, LoadOptions(), unsafe=True).data == text.replace(b"bsae", b"base")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        b"",
+        b"   ",
+        b"<robot",
+        b"\0\0\0\0",
+        b"{}",
+        b"<robot name='r'><link name='a",
+        b"\xff\xfe",
+        "\u00f6<robot/>".encode(),
+    ],
+)
+def test_what_cannot_be_read_stays_as_it_is(text: bytes) -> None:
+    assert mend(text, LoadOptions(), unsafe=True).data == text
+
+
+def test_a_fix_of_which_there_is_more_than_a_thousand_is_made_everywhere() -> None:
+    visual = "<visual><geometry><sphere radius='1'/></geometry><material><color rgba='1 0 0 1'/></material></visual>"
+    text = f"<robot name='r'><link name='a'>{visual * 1500}</link></robot>".encode()
+    mended = mend(text, LoadOptions())
+    assert mended.data.count(b'<material name="">') == 1500
+    assert mended.rounds == 2
+
+
+BAD = Rule(name="bad", severity=Severity.WARNING, finds="", matters="", example="", better="")
+WORSE = Rule(name="worse", severity=Severity.WARNING, finds="", matters="", example="", better="")
+
+
+def _look(data: bytes) -> LoadResult:
+    """Finds each letter b, and each c, which nobody can mend."""
+    text = data.decode()
+    found = [
+        Diagnostic(BAD if letter == "b" else WORSE, letter, Location("", 1, f"/{letter}{at}"), Severity.WARNING)
+        for at, letter in enumerate(text)
+        if letter in "bc"
+    ]
+    return LoadResult("", None, tuple(found), content=data)
+
+
+def _offering(edits: dict[int, tuple[TextEdit, ...]], safety: Safety = Safety.SAFE) -> object:
+    """`with_fixes` of a rule whose fix depends on the place."""
+
+    def offer(loaded: LoadResult, _: object) -> tuple[Diagnostic, ...]:
+        return tuple(
+            replace(each, fix=Fix("mend", edits[int(each.location.path[2:])], safety))
+            if each.rule is BAD and int(each.location.path[2:]) in edits
+            else each
+            for each in loaded.diagnostics
+        )
+
+    return offer
+
+
+def _edit(at: int, new: str, end: int | None = None) -> tuple[TextEdit, ...]:
+    return (TextEdit(Span(at, at + 1 if end is None else end), new),)
+
+
+def test_the_fix_that_makes_a_new_finding_is_taken_back_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    edits = {0: _edit(0, "a"), 1: _edit(1, "c"), 2: _edit(2, "a"), 3: _edit(3, "a")}
+    monkeypatch.setattr("twinform.compiler.fixing.mending.with_fixes", _offering(edits))
+    mended = mend_by(_look, b"bbbb")
+    assert mended.data == b"abaa"
+    assert [(each.finding.location.path, each.new) for each in mended.refused] == [("/b1", ("worse",))]
+
+
+def test_of_two_that_overlap_the_second_waits(monkeypatch: pytest.MonkeyPatch) -> None:
+    edits = {0: _edit(0, "ab", 2), 1: _edit(0, "xa", 2)}
+    monkeypatch.setattr("twinform.compiler.fixing.mending.with_fixes", _offering(edits))
+    mended = mend_by(_look, b"bb")
+    assert (mended.data, mended.rounds) == (b"xa", 2)
+
+
+def test_fixes_that_never_end_are_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("twinform.compiler.fixing.mending.with_fixes", _offering({0: _edit(0, "b ")}))
+    assert mend_by(_look, b"b").rounds == MOST_ROUNDS
+
+
+def test_one_for_display_is_never_made(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("twinform.compiler.fixing.mending.with_fixes", _offering({0: _edit(0, "a")}, Safety.DISPLAY))
+    assert mend_by(_look, b"b", unsafe=True).data == b"b"
+
+
+def test_what_is_left_is_what_a_look_at_the_result_finds() -> None:
+    mended = mend(LATE.encode(), LoadOptions())
+    again = inspect(read(mended.data, LoadOptions()), LoadOptions())
+    assert mended.left.diagnostics == again.diagnostics

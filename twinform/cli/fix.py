@@ -1,0 +1,132 @@
+"""`twinform fix`."""
+
+from collections.abc import Callable
+from typing import Unpack
+
+import click
+
+from twinform.cli.command import Command
+from twinform.cli.completion import files, pipelines
+from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
+from twinform.cli.findings import notes_option, show
+from twinform.cli.fixing import Fixing, mended_source
+from twinform.cli.inputs import InputOptions, file_options, inputs, load_options_of
+from twinform.cli.pipeline_option import pipeline_option
+from twinform.cli.policy import policy_of, policy_options
+from twinform.cli.rewriting import Rewrite, show_differences, write_back
+from twinform.cli.source import Source
+from twinform.compiler import CompileError, ConversionRequest, Language, LoadResult, inspect, read
+from twinform.compiler.in_place import convert_bytes_in_place
+from twinform.diagnostics import Diagnostic
+from twinform.diagnostics.reporters import Findings
+from twinform.passes import PassError, Pipeline, SideFilePass
+
+Report = Callable[[str, tuple[Diagnostic, ...]], None]
+"""Prints the findings of a file."""
+
+
+EXAMPLES = {
+    "Mend what can be mended": "twinform fix robot.urdf",
+    "Show what a guess would change too": "twinform fix robot.urdf --unsafe-fixes --diff",
+    "Run a pass on a file": "twinform fix robot.urdf --passes 'fill-limits{effort=100}'",
+}
+
+
+@click.command("fix", cls=Command, examples=EXAMPLES)
+@click.argument("words", metavar="FILE...", nargs=-1, required=True, shell_complete=files)
+@click.option(
+    "--passes",
+    metavar="PIPELINE",
+    callback=pipeline_option("passes"),
+    shell_complete=pipelines,
+    help="Passes to run then, such as 'fill-limits{effort=100}', or @NAME for one that the configuration names.",
+)
+@click.option("--unsafe-fixes", is_flag=True, help="Mend what is a guess too, or may make another robot of a file.")
+@click.option("--diff", is_flag=True, help="Print what would change, and write nothing; exit code 1 if anything.")
+@notes_option
+@policy_options
+@file_options
+@click.pass_context
+def command(
+    ctx: click.Context,
+    words: tuple[str, ...],
+    passes: Pipeline | None,
+    *,
+    unsafe_fixes: bool,
+    diff: bool,
+    notes: bool,
+    allow: tuple[str, ...],
+    deny: tuple[str, ...],
+    **input_options: Unpack[InputOptions],
+) -> None:
+    """Mend robot models in their files, and run passes on them.
+
+    FILE are URDF or SDF files; - is standard input, which goes to standard output. Only what a fix or a pass changes is
+    changed: comments, layout and the spelling of all else stay. All is written, or, where a pass cannot run, nothing.
+    Exit code: 0 where all went well, 1 with errors, 2 where a file could not be read or written.
+    """
+    sources, arguments = inputs(words)
+    policy, load_options = policy_of(ctx, allow, deny), load_options_of(arguments, input_options)
+
+    def look(content: str | bytes, name: str) -> LoadResult:
+        return inspect(read(content, load_options, name=name), load_options)
+
+    def report(name: str, diagnostics: tuple[Diagnostic, ...]) -> None:
+        show(Findings(name, policy.apply(diagnostics)), notes=notes, on_stderr=True)
+
+    for source in sources:
+        _require_model(source, passes)
+    fixing = Fixing(look, load_options, policy, unsafe=unsafe_fixes, diff=diff, notes=notes)
+    runs = [_run(source, passes, fixing, report) for source in sources]
+    rewrites = [each for each in runs if isinstance(each, Rewrite)]
+    if len(rewrites) < len(runs):
+        if len(runs) > 1:
+            wrong = len(runs) - len(rewrites)
+            click.echo(f"nothing is written: {wrong} of {len(runs)} files could not be changed", err=True)
+        ctx.exit(max(each for each in runs if isinstance(each, int)))
+    if diff:
+        ctx.exit(FINDINGS if show_differences(rewrites) else 0)
+    write_back(rewrites)
+
+
+def _require_model(source: Source, passes: Pipeline | None) -> None:
+    """Raise for what has no text of its own that could be changed.
+
+    Raises:
+        click.UsageError: it is JSON or xacro, or a pass makes other files.
+    """
+    if source.format == "json" or source.name.lower().endswith(".xacro"):
+        raise click.UsageError(f"{source.name} is not URDF or SDF: change it by hand, or convert it first")
+    made = [step.file for step in passes or () if isinstance(step, SideFilePass)]
+    if made:
+        raise click.UsageError(f"a pass writes {made[0]} beside the result: give it to convert")
+
+
+def _run(source: Source, passes: Pipeline | None, fixing: Fixing, report: Report) -> Rewrite | int:
+    """A file as it is to be, or the exit code where it cannot be changed."""
+    mended = mended_source(source, fixing)
+    rewrite, news = mended.rewrite, mended.news
+    if rewrite is None or mended.loaded.unreadable:
+        report(source.name, mended.loaded.diagnostics)
+        return UNUSABLE
+    if passes:
+        try:
+            request = ConversionRequest(to=_format_of(rewrite), passes=passes)
+            updated = convert_bytes_in_place(request, rewrite.after, source.name, fixing.load_options)
+        except CompileError as error:
+            report(source.name, error.diagnostics)
+            return UNUSABLE if error.unreadable else FINDINGS
+        except PassError as error:
+            raise Unusable(str(error)) from error
+        report(source.name, updated.conversion.diagnostics)
+        rewrite = Rewrite(source, rewrite.before, updated.data)
+        count = len(updated.changes)
+        news = [*news, f"{source.name}: {count} change{'' if count == 1 else 's'} by passes"]
+    for line in news:
+        click.echo(line, err=True)
+    return rewrite
+
+
+def _format_of(rewrite: Rewrite) -> Language:
+    """The format of a file, which stays."""
+    return "urdf" if Source(rewrite.after, rewrite.source.name).format == "urdf" else "sdf"

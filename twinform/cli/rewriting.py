@@ -1,0 +1,84 @@
+"""Files that a command changes where they are: their differences, and writing them back."""
+
+import os
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from difflib import unified_diff
+from pathlib import Path
+
+import click
+
+from twinform.cli.failure import Unusable
+from twinform.cli.outputs import require_as_read
+from twinform.cli.source import Source
+from twinform.compiler import write_all_atomically
+from twinform.text import SourceText, UndecodableError
+
+_NO_NEW_LINE = "\\ No newline at end of file\n"
+
+
+@dataclass(frozen=True, slots=True)
+class Rewrite:
+    """A file, or standard input, as it was read and as it is to be."""
+
+    source: Source
+    before: bytes
+    after: bytes
+
+    @property
+    def is_change(self) -> bool:
+        """Whether there is anything to write."""
+        return self.before != self.after
+
+    @property
+    def is_stream(self) -> bool:
+        """Whether it has no place to be written to but standard output."""
+        return isinstance(self.source.content, bytes)
+
+
+def show_differences(rewrites: Iterable[Rewrite]) -> bool:
+    """Print what would change as a unified diff; gives whether there is anything."""
+    changed = [each for each in rewrites if each.is_change]
+    for each in changed:
+        click.echo(_difference(each), nl=False)
+    return bool(changed)
+
+
+def _difference(rewrite: Rewrite) -> str:
+    name = rewrite.source.name
+    before, after = (_lines(data) for data in (rewrite.before, rewrite.after))
+    lines = unified_diff(before, after, name, name)
+    return "".join(line if line.endswith("\n") else f"{line}\n{_NO_NEW_LINE}" for line in lines)
+
+
+def _lines(data: bytes) -> list[str]:
+    """The lines, which only a line feed ends: a diff has to show what becomes of the others."""
+    try:
+        text = SourceText.of(data).text
+    except UndecodableError:
+        text = data.decode(errors="replace")
+    return [line + "\n" for line in text.split("\n")[:-1]] + [text.split("\n")[-1]] * (not text.endswith("\n"))
+
+
+def write_back(rewrites: Sequence[Rewrite]) -> None:
+    """Write what has changed, all of it or nothing; what came from standard input goes to standard output.
+
+    Raises:
+        Unusable: one of the files cannot be written, is read-only, or has changed since it was read.
+    """
+    files = {Path(each.source.name): each for each in rewrites if each.is_change and not each.is_stream}
+    for path, each in files.items():
+        _require_writable(path)
+        require_as_read(path, each.before)
+    try:
+        write_all_atomically({path: each.after for path, each in files.items()})
+    except OSError as error:
+        raise Unusable(f"cannot write {error.filename}: {error.strerror}") from error
+    for each in rewrites:
+        if each.is_stream:
+            click.echo(each.after, nl=False)
+
+
+def _require_writable(path: Path) -> None:
+    if not path.stat().st_mode & 0o222 or not os.access(path, os.W_OK):
+        raise Unusable(f"{path} is read-only; nothing is written")

@@ -1,0 +1,205 @@
+"""Applies fixes until nothing changes. One that makes a new finding, or breaks the file, is taken back."""
+
+import re
+from bisect import bisect_left, insort
+from collections import Counter
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+
+from twinform.compiler.fixing.offering import with_fixes
+from twinform.compiler.input.loading import LoadOptions, LoadResult, read
+from twinform.compiler.inspection import inspect
+from twinform.diagnostics import Diagnostic, Fix, Safety, Span, TextEdit
+from twinform.diagnostics.sink import MOST
+from twinform.text import SourceText, apply
+
+MOST_ROUNDS = 100
+_MOST_CHECKS = 200
+"""So often a file is read to find the fixes that make new findings; those that are not tried then are left."""
+_PREDICATE = re.compile(r"\[(?:@name='.*?'|\d+)\](?=[/\[]|$)")
+
+Group = list[Diagnostic]
+"""Findings that one fix mends."""
+Look = Callable[[bytes], LoadResult]
+"""Reads a file and says what is wrong with it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Refused:
+    """A fix that was taken back, and the rules of the findings that it would have made."""
+
+    finding: Diagnostic
+    new: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Mended:
+    """What came of it: the bytes, the findings that were mended, in their order, and what is found now."""
+
+    data: bytes
+    applied: tuple[Diagnostic, ...]
+    left: LoadResult
+    rounds: int
+    refused: tuple[Refused, ...] = ()
+
+
+def mend(
+    data: bytes,
+    load_options: LoadOptions,
+    *,
+    name: str = "",
+    unsafe: bool = False,
+    rules: Collection[str] | None = None,
+) -> Mended:
+    """Apply the fixes of a file, of all rules or of these; `name` is its path."""
+
+    def look(text: bytes) -> LoadResult:
+        return inspect(read(text, load_options, name=name), load_options)
+
+    return mend_by(look, data, unsafe=unsafe, wanted=lambda each: rules is None or each.rule.name in rules)
+
+
+def mend_by(
+    look: Look, data: bytes, *, unsafe: bool = False, wanted: Callable[[Diagnostic], bool] = lambda _: True
+) -> Mended:
+    """The same with any way to look at the file, and for the wanted findings."""
+    state = _State(data, look(data))
+    mending = _Mending(look, Safety.UNSAFE if unsafe else Safety.SAFE, wanted)
+    while mending.rounds < MOST_ROUNDS:
+        offered = _most_severe(mending.offered(state.loaded))
+        if not offered:
+            break
+        mending.rounds += 1
+        after = mending.applied_to(state, offered)
+        if after is state:
+            continue  # what was refused is not tried again, so that there is less each time
+        state = after
+    return Mended(state.data, tuple(mending.applied), state.loaded, mending.rounds, tuple(mending.refused))
+
+
+@dataclass(frozen=True, slots=True)
+class _State:
+    """A text, and what is found in it."""
+
+    data: bytes
+    loaded: LoadResult
+
+
+@dataclass(slots=True)
+class _Mending:
+    """One run; `tried` are the fixes that were refused."""
+
+    look: Look
+    most: Safety
+    wanted: Callable[[Diagnostic], bool]
+    rounds: int = 0
+    checks: int = 0
+    applied: list[Diagnostic] = field(default_factory=list[Diagnostic])
+    refused: list[Refused] = field(default_factory=list[Refused])
+    tried: set[tuple[str, str, str]] = field(default_factory=set[tuple[str, str, str]])
+
+    def offered(self, loaded: LoadResult) -> list[Diagnostic]:
+        """The findings with a fix that may be applied."""
+        return [
+            each
+            for each in with_fixes(loaded, self.wanted)
+            if each.fix and self._may(each.fix) and _key(each) not in self.tried
+        ]
+
+    def _may(self, fix: Fix) -> bool:
+        return fix.safety is Safety.SAFE or fix.safety is self.most
+
+    def applied_to(self, state: _State, offered: Sequence[Diagnostic]) -> _State:
+        """The text with all of these fixes that do not overlap and make nothing worse."""
+        good: list[Group] = []
+        pending, best = [[*_apart(offered)]], state
+        while pending:
+            groups = pending.pop()
+            after = self._after(state, [*good, *groups])
+            new = ("too-many-tries",) if self.checks > _MOST_CHECKS else _worse(best.loaded, after.loaded, groups)
+            if not new:
+                good, best = [*good, *groups], after
+            elif len(groups) > 1:
+                half = len(groups) // 2
+                pending += (groups[half:], groups[:half])
+            else:
+                self.refused.append(Refused(groups[0][0], new))
+                self.tried.update(map(_key, groups[0]))
+        self.applied += [each for group in good for each in group]
+        return best
+
+    def _after(self, state: _State, groups: Iterable[Group]) -> _State:
+        source = SourceText.of(state.data)
+        edits = [edit for first, *_ in groups if first.fix for edit in first.fix.edits]
+        data = source.with_text(apply(source.text, edits)).data
+        self.checks += 1
+        return _State(data, self.look(data))
+
+
+def _apart(offered: Iterable[Diagnostic]) -> Iterator[Group]:
+    """Findings with one fix together, and of fixes that overlap only the first."""
+    groups: dict[tuple[TextEdit, ...], Group] = {}
+    for each in offered:
+        if each.fix:
+            groups.setdefault(each.fix.edits, []).append(each)
+    taken: list[Span] = []
+    for edits, group in groups.items():
+        found = [edit.span for edit in group[0].fix.edits] if group[0].fix else []
+        if edits and not any(_overlaps(span, taken) for span in found):
+            for span in found:
+                insort(taken, span)
+            yield group
+
+
+def _overlaps(span: Span, taken: Sequence[Span]) -> bool:
+    at = bisect_left(taken, span)
+    return any(_meet(span, each) for each in taken[max(0, at - 1) : at + 1])
+
+
+def _meet(one: Span, other: Span) -> bool:
+    """Whether both change the same piece; what is inserted at one place is in the order of the findings."""
+    return one.start < other.end and other.start < one.end
+
+
+def _most_severe(offered: Sequence[Diagnostic]) -> list[Diagnostic]:
+    """The errors, or all where there is none: an error may hide what else is wrong."""
+    return [each for each in offered if each.is_error] or [*offered]
+
+
+def _worse(before: LoadResult, after: LoadResult, groups: Sequence[Group]) -> tuple[str, ...]:
+    """The rules of the findings that fixes have made; none where all is well.
+
+    Where an error is mended, more of the file is looked at, and what was hidden is found: of several fixes all errors
+    have to be gone, and of one, there must not be more of them than before.
+    """
+    if before.unreadable or after.unreadable:
+        return () if not after.unreadable or (before.unreadable and _place(after) > _place(before)) else _rules(after)
+    is_cut_off = len(before.diagnostics) >= MOST  # what is found now may have been there beyond the limit
+    seen = (each for each in after.diagnostics if each.is_error or not is_cut_off)
+    new = Counter(map(kind_of, seen)) - Counter(map(kind_of, before.diagnostics))
+    if not new:
+        return ()
+    if groups[0][0].is_error:
+        errors = [sum(each.is_error for each in loaded.diagnostics) for loaded in (before, after)]
+        gone = sum(map(len, groups)) if len(groups) > 1 else 0
+        if errors[1] <= errors[0] - gone:
+            return ()
+    return tuple(sorted({rule for rule, _ in new}))
+
+
+def _rules(loaded: LoadResult) -> tuple[str, ...]:
+    return tuple(each.rule.name for each in loaded.diagnostics if each.is_error)
+
+
+def _place(loaded: LoadResult) -> int:
+    """The line up to which a file could be read."""
+    return max((each.location.line for each in loaded.diagnostics if each.is_error), default=0)
+
+
+def kind_of(finding: Diagnostic) -> tuple[str, str]:
+    """What a finding is known by: its rule and its path, without what a fix of another part may change in it."""
+    return finding.rule.name, _PREDICATE.sub("", finding.location.path)
+
+
+def _key(finding: Diagnostic) -> tuple[str, str, str]:
+    return finding.rule.name, finding.location.path, finding.fix.title if finding.fix else ""

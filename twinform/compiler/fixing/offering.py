@@ -1,0 +1,57 @@
+"""Offers fixes: the findings of a file that was read, each with the fix that its rule has for it."""
+
+import re
+from collections.abc import Callable
+from dataclasses import replace
+
+from twinform.compiler.fixing.registry import fixer_of, text_fixer_of
+from twinform.compiler.fixing.site import FixableFile, Site, touches_expressions
+from twinform.compiler.input.loading import LoadResult
+from twinform.diagnostics import Diagnostic, Fix
+from twinform.diagnostics.rules import joints
+
+_ABOUT_WHAT_IS_NOT_THERE = frozenset({joints.UNUSED_AXIS.name})
+"""Rules whose paths may lead to an element that URDF has no need of, as its `<limit>` says the same."""
+_ATTRIBUTE = re.compile(r"/@[^/\]']+$")
+
+
+def with_fixes(loaded: LoadResult, wanted: Callable[[Diagnostic], bool] = lambda _: True) -> tuple[Diagnostic, ...]:
+    """The findings of a file, those that are wanted with their fix; offsets are in `SourceText.of(content).text`.
+
+    There is none for what stands in another file than the one that was read, or is made by xacro.
+    """
+    if not any(each.rule.fix and wanted(each) for each in loaded.diagnostics):
+        return loaded.diagnostics
+    file = FixableFile.of(loaded)
+    if file is None:
+        return loaded.diagnostics
+    return tuple(replace(each, fix=_fix(each, file)) if wanted(each) else each for each in loaded.diagnostics)
+
+
+def _fix(finding: Diagnostic, file: FixableFile) -> Fix | None:
+    if finding.rule.fix is None or finding.location.file != file.loaded.path:
+        return None
+    fix = _made(finding, file)
+    if fix is None or touches_expressions(fix, file.text):
+        return None
+    changes = tuple(edit for edit in fix.edits if edit.span.of(file.text) != edit.new)
+    return replace(fix, edits=changes) if changes else None
+
+
+def _made(finding: Diagnostic, file: FixableFile) -> Fix | None:
+    by_text = text_fixer_of(finding.rule.name)
+    if by_text is not None:
+        return by_text(finding, file)
+    if file.parts is None:
+        return None
+    fixer = fixer_of(finding.rule.name)
+    where = finding.location
+    element = file.parts.find(where)
+    missing = None
+    if element is None and finding.rule.name in _ABOUT_WHAT_IS_NOT_THERE:
+        path, _, missing = where.path.rpartition("/")
+        element = file.parts.find(where._replace(path=path))
+    if element is None or fixer is None:
+        return None
+    name = where.path.rpartition("/@")[2] if _ATTRIBUTE.search(where.path) else None
+    return fixer(Site(finding, file, element, name, missing))

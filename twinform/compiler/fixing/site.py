@@ -1,0 +1,182 @@
+"""`Site`: what a finding is about, as those who offer fixes see it, and the edits that they make of it."""
+
+import re
+from collections import defaultdict
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+from twinform.compiler.input.finding_lines import PartFinder
+from twinform.compiler.input.loading import LoadResult, read_tree_again
+from twinform.compiler.input.parsing import UnreadableError
+from twinform.diagnostics import Diagnostic, Fix, Location, Safety, TextEdit
+from twinform.schemas import Fact, Version, XmlElement, rows_by_name, table
+from twinform.text import Editor, Lines, SourceText, Surroundings, UndecodableError, UnplacedError, masked, spans
+
+_EXPRESSION = re.compile(r"\$[{(]")
+_BETWEEN_WORDS = re.compile(r"\s+|::|,")
+_FORMATS = {"robot": "urdf", "sdf": "sdf"}
+
+
+@dataclass(frozen=True)
+class FixableFile:
+    """The text of a file that was read, its elements and their places; `parts` is None where the text is no XML."""
+
+    loaded: LoadResult
+    source: SourceText
+    parts: PartFinder | None = None
+    edit: Editor = field(default_factory=lambda: Editor(Surroundings("", "\n", ""), {}))
+
+    @classmethod
+    def of(cls, loaded: LoadResult) -> "FixableFile | None":
+        """Nothing for what has no text of its own: a document in memory, JSON, what xacro has made."""
+        if loaded.content is None or loaded.origins:
+            return None
+        try:
+            source = SourceText.of(loaded.content)
+        except UndecodableError:
+            return None
+        try:
+            root = read_tree_again(loaded.content)
+            place = spans(masked(source.text))
+            places = dict(zip(root.iter("*"), place.walk(), strict=True))
+        except (UnreadableError, UnplacedError, ValueError):
+            return cls(loaded, source)
+        return cls(loaded, source, PartFinder(root), Editor(Surroundings.of(source, place), places))
+
+    @property
+    def root(self) -> XmlElement:
+        """The root element."""
+        assert self.parts is not None  # noqa: S101 - only what has elements asks for it
+        return self.parts.root
+
+    @property
+    def text(self) -> str:
+        """The text."""
+        return self.source.text
+
+    @cached_property
+    def lines(self) -> Lines:
+        """The lines of the text."""
+        return Lines(self.text)
+
+    @cached_property
+    def names(self) -> frozenset[str]:
+        """Every name that an element has."""
+        return frozenset(each.get("name", "") for each in self.root.iter("*"))
+
+    @cached_property
+    def values(self) -> dict[str, list[tuple[XmlElement, str | None]]]:
+        """Where each value stands alone: in an attribute, or as the text of an element without children."""
+        found: defaultdict[str, list[tuple[XmlElement, str | None]]] = defaultdict(list)
+        for each in self.root.iter("*"):
+            for name, value in each.attrib.items():
+                found[str(value).strip()].append((each, str(name)))
+            if not len(each):
+                found[(each.text or "").strip()].append((each, None))
+        return found
+
+    @cached_property
+    def words(self) -> dict[str, set[str]]:
+        """The words of texts and of attributes but `name`, with the elements that say them."""
+        found: defaultdict[str, set[str]] = defaultdict(set)
+        for each in self.root.iter("*"):
+            said = [str(value) for key, value in each.attrib.items() if key != "name"]
+            for word in _BETWEEN_WORDS.split(" ".join((each.text or "", *said))):
+                found[word].add(str(each.tag))
+        return found
+
+    @cached_property
+    def memo(self) -> dict[str, Any]:
+        """What fixers have found out about the whole file, so that each asks once however many findings there are."""
+        return {}
+
+    @cached_property
+    def format(self) -> str:
+        """`urdf` or `sdf`."""
+        return _FORMATS[str(self.root.tag)]
+
+    @cached_property
+    def version(self) -> Version:
+        """The version of the format, as the document was read."""
+        found = table(self.format)
+        declared = self.root.get("version")
+        if declared in found.versions:
+            major, minor = declared.split(".")
+            return int(major), int(minor)
+        return (1, 0) if self.format == "urdf" and declared is None else found.newest
+
+    def row_of(self, element: XmlElement) -> Fact | None:
+        """The row of the facts table that an element is read by, with the rows of what may be in it."""
+        facts = table(self.format)
+        here = facts.definitions[facts.root]
+        for each in [*reversed([*element.iterancestors()]), element][1:]:
+            row = rows_by_name(here.children, self.version).get(str(each.tag))
+            if row is None:
+                return None
+            here = facts.resolve(row)
+        return here
+
+
+@dataclass(frozen=True)
+class Site:
+    """A finding, and the element that it is about; `attribute` is the one that its path names, written or not.
+
+    Where the path leads to an element that is not written, `missing` is the last step, and `element` the one around it.
+    """
+
+    finding: Diagnostic
+    file: FixableFile
+    element: XmlElement
+    attribute: str | None = None
+    missing: str | None = None
+
+    @property
+    def edit(self) -> Editor:
+        """What makes edits."""
+        return self.file.edit
+
+    @property
+    def value(self) -> str:
+        """The attribute that the finding is about or, where it names none, the text of the element."""
+        return self.element.get(self.attribute, "") if self.attribute else (self.element.text or "")
+
+    def set_value(self, value: str) -> tuple[TextEdit, ...]:
+        """Write another value there."""
+        if self.attribute:
+            return (self.edit.set_attribute(self.element, self.attribute, value),)
+        return self.edit.set_text(self.element, value)
+
+    def part(self, where: Location) -> XmlElement | None:
+        """The element that another location leads to."""
+        return self.file.parts.find(where) if self.file.parts else None
+
+
+Fixer = Callable[[Site], Fix | None]
+"""Makes the fix of a finding; None where there is none."""
+Fixers = Mapping[str, Fixer]
+"""Fixers by the names of their rules."""
+TextFixer = Callable[[Diagnostic, FixableFile], Fix | None]
+"""Makes the fix of a finding that leads to no element: the text is not well-formed, or its lines are what is wrong."""
+TextFixers = Mapping[str, TextFixer]
+
+
+def safe(title: str, *edits: TextEdit) -> Fix:
+    """A fix after which every reader takes the file for the same robot, or the only one that it can mean."""
+    return Fix(title, edits, Safety.SAFE)
+
+
+def unsafe(title: str, *edits: TextEdit) -> Fix:
+    """A fix that may make another robot of it, or is a guess."""
+    return Fix(title, edits, Safety.UNSAFE)
+
+
+def display(title: str, *edits: TextEdit) -> Fix:
+    """An idea, in which something has to be filled in."""
+    return Fix(title, edits, Safety.DISPLAY)
+
+
+def touches_expressions(fix: Fix, text: str) -> bool:
+    """Whether a fix changes what xacro, or a template, makes a value of."""
+    return any(_EXPRESSION.search(edit.span.of(text)) for edit in fix.edits)

@@ -1,0 +1,53 @@
+"""Fixes of materials: without a name, without a color, there twice, or of another color under the same name."""
+
+from twinform.compiler.fixing.site import Fixers, Site, safe, unsafe
+from twinform.compiler.fixing.subjects.names import free_name
+from twinform.diagnostics import Fix
+from twinform.diagnostics.rules import bodies, model
+from twinform.schemas import XmlElement
+from twinform.text import same_element
+
+
+def _unnamed(site: Site) -> Fix | None:
+    """A material of a visual; readers want a name, and an empty one will do."""
+    parent = site.element.getparent()
+    if site.element.tag != "material" or parent is None or parent.tag != "visual":
+        return None
+    return safe('Write name=""', site.edit.set_attribute(site.element, "name", ""))
+
+
+def _bare(site: Site) -> Fix | None:
+    if site.element.tag != "material" or not _is_at_top(site.element):
+        return None
+    return safe("Delete the material, which says nothing", site.edit.remove(site.element))
+
+
+def _twice(site: Site) -> Fix | None:
+    """What is defined again, and says the same."""
+    if site.element.tag != "material" or not site.finding.related:
+        return None
+    first = site.part(site.finding.related[0])
+    if first is None or first is site.element or not same_element(first, site.element):
+        return None
+    return safe("Delete the second definition, which says the same", site.edit.remove(site.element))
+
+
+def _conflict(site: Site) -> Fix | None:
+    name = site.element.get("name")
+    if site.element.tag != "material" or not name or _is_at_top(site.element):
+        return None
+    new = free_name(site.file, f"{name}_2")
+    return unsafe(f"Call this one {new!r}", site.edit.set_attribute(site.element, "name", new))
+
+
+def _is_at_top(element: XmlElement) -> bool:
+    parent = element.getparent()
+    return parent is not None and parent.tag == "robot"
+
+
+FIXERS: Fixers = {
+    bodies.BARE_MATERIAL.name: _bare,
+    bodies.CONFLICTING_MATERIAL.name: _conflict,
+    bodies.UNNAMED_MATERIAL.name: _unnamed,
+    model.DUPLICATE_NAME.name: _twice,
+}

@@ -1,0 +1,211 @@
+"""Fixes of structure: attributes that are missing or stand as text, elements that are there twice, versions, texts."""
+
+import math
+from collections.abc import Iterable, Iterator
+
+from twinform.compiler.fixing.numbers_text import numbers_of, text_of_number
+from twinform.compiler.fixing.site import Fixers, Site, display, safe, unsafe
+from twinform.compiler.fixing.subjects.names import free_name
+from twinform.compiler.fixing.subjects.numbers import guesses
+from twinform.diagnostics import Diagnostic, Fix, Safety, Span, TextEdit
+from twinform.diagnostics.rules import structure
+from twinform.schemas import VALUE_TYPES, Fact, parse_version, print_version, table, versions_of
+from twinform.text import same_element
+
+_ZERO = frozenset({"ixy", "ixz", "iyz"})
+"""Products of inertia: who leaves them out means none."""
+_NUMBERS_TO_FIND = frozenset({"effort", "velocity"})
+_OF_THEIR_OWN = frozenset({"actor", "joint", "light", "link", "model", "world"})
+"""What is a thing by itself: a second one is not the first one said again."""
+_SHOWN = 40
+
+
+def _missing_attribute(site: Site) -> Fix | None:
+    name = (site.finding.expected or "").removeprefix("@")
+    if not name or name in site.element.attrib:
+        return None
+    moved = _text_as_attribute(site, name)
+    if moved is not None:
+        return moved
+    if name in _ZERO and site.element.tag == "inertia":
+        return safe(f'Write {name}="0"', site.edit.set_attribute(site.element, name, "0"))
+    if name in _NUMBERS_TO_FIND:
+        return display(f"Write {name}, as the actuator has it", site.edit.set_attribute(site.element, name, ""))
+    if name == "version":
+        newest = versions_of(site.file.format)[-1]
+        return unsafe(f'Write version="{newest}"', site.edit.set_attribute(site.element, name, newest))
+    if name == "name":
+        called = free_name(site.file, str(site.element.tag))
+        return unsafe(f'Write name="{called}"', site.edit.set_attribute(site.element, name, called))
+    return None
+
+
+def _text_as_attribute(site: Site, name: str) -> Fix | None:
+    """`<mass>1</mass>` where the format has `<mass value="1"/>`."""
+    row = site.file.row_of(site.element)
+    fact = next((each for each in row.attributes if each.name == f"@{name}"), None) if row else None
+    place = site.edit.places[site.element]
+    if row is None or row.type or fact is None or len(site.element) or place.asides or place.end_tag is None:
+        return None
+    written = (site.element.text or "").strip()
+    expected = VALUE_TYPES[site.file.format][fact.type or "string"].expected
+    certain = [each.text for each in guesses(written, expected) if each.safety is Safety.SAFE]
+    text = next((each for each in (written, *certain) if each and _fits(fact, each, site.file.format)), None)
+    if text is None:
+        return None
+    slash = TextEdit(Span(place.start_tag.end - 1, place.end_tag.end), "/>")
+    return safe(f'Write {name}="{text}"', site.edit.set_attribute(site.element, name, text), slash)
+
+
+def _fits(fact: Fact, text: str, format_: str) -> bool:
+    if fact.enum:
+        return text in fact.enum
+    try:
+        VALUE_TYPES[format_][fact.type or "string"].parse(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _defaulted(site: Site) -> Fix | None:
+    """The default, written down; what has no effect without its attribute is deleted."""
+    name = site.finding.expected or ""
+    row = site.file.row_of(site.element)
+    fact = next((each for each in row.attributes if each.name == name), None) if row else None
+    if fact is None:
+        return None
+    if fact.default is None:
+        return safe(f"Delete the empty <{site.element.tag}>", site.edit.remove(site.element))
+    value = fact.default
+    return safe(f'Write {name[1:]}="{value}"', site.edit.set_attribute(site.element, name[1:], value))
+
+
+def _deprecated(site: Site) -> Fix | None:
+    """`thread_pitch` counts radians to a meter and the other way round, what has taken its place meters to a turn."""
+    parent, numbers = site.element.getparent(), numbers_of(site.element.text)
+    if site.element.tag != "thread_pitch" or parent is None or len(numbers) != 1 or not numbers[0]:
+        return None
+    if parent.find("screw_thread_pitch") is not None:
+        return safe("Delete <thread_pitch>: <screw_thread_pitch> is read", site.edit.remove(site.element))
+    value = text_of_number(-2 * math.pi / numbers[0])
+    edits = (*site.edit.rename(site.element, "screw_thread_pitch"), *site.edit.set_text(site.element, value))
+    return unsafe(f"Write <screw_thread_pitch>{value}</screw_thread_pitch>", *edits)
+
+
+def _repeated(site: Site) -> Fix | None:
+    """What stands again; readers go by the first one, or by the last one."""
+    parent = site.element.getparent()
+    if parent is None or site.element.tag in _OF_THEIR_OWN:
+        return None
+    first = parent.find(str(site.element.tag))
+    if first is None or first is site.element:
+        return None
+    edit = site.edit.remove(site.element)
+    if same_element(first, site.element):
+        return safe(f"Delete the second <{site.element.tag}>, which says the same", edit)
+    return unsafe(f"Delete the second <{site.element.tag}>", edit)
+
+
+def _blank(site: Site) -> Fix | None:
+    row = site.file.row_of(site.element)
+    if row is None or row.default is None or len(site.element):
+        return None
+    return safe(f"Write the default, {row.default}", *site.edit.set_text(site.element, row.default))
+
+
+def _stray_text(site: Site) -> Fix | None:
+    """Text that every reader passes over; not what an attribute that is missing there may be meant to be."""
+    if site.finding.location.path in _without_attributes(site):
+        return None
+    place = site.edit.places[site.element]
+    runs = [run for run in place.texts() if " ".join(run.of(site.edit.text).split())[:_SHOWN] == site.finding.found]
+    if not runs or any("--" in run.of(site.edit.text) and _says_something(run.of(site.edit.text)) for run in runs):
+        return None
+    if any(_says_something(run.of(site.edit.text)) for run in runs):
+        return safe("Make the text a comment", *(site.edit.comment_out(run) for run in runs))
+    return safe("Delete the characters that belong to nothing", *(_without_text(site.edit.text, run) for run in runs))
+
+
+def _without_attributes(site: Site) -> frozenset[str]:
+    """The paths of elements that lack an attribute."""
+    if "without attributes" not in site.file.memo:
+        lacking = (each for each in site.file.loaded.diagnostics if each.rule is structure.MISSING_ATTRIBUTE)
+        site.file.memo["without attributes"] = frozenset(each.location.path for each in lacking)
+    return site.file.memo["without attributes"]
+
+
+def _says_something(text: str) -> bool:
+    return any(map(str.isalnum, text))
+
+
+def _without_text(text: str, run: Span) -> TextEdit:
+    piece = run.of(text)
+    start = run.start + len(piece) - len(piece.lstrip())
+    return TextEdit(Span(start, start + len(piece.strip())), "")
+
+
+def _outside_version(site: Site) -> Fix | None:
+    """The first version that has all that the file has from other versions."""
+    if "version" not in site.file.memo:
+        site.file.memo["version"] = _fitting(site)
+    version = site.file.memo["version"]
+    if version is None:
+        return None
+    return unsafe(f"Declare version {version}", site.edit.set_attribute(site.file.root, "version", version))
+
+
+def _fitting(site: Site) -> str | None:
+    outside = [each for each in site.file.loaded.diagnostics if each.rule is structure.OUTSIDE_VERSION]
+    rows = [[*_rows(site, each)] for each in _sites(site, outside)]
+    if len(rows) != len(outside) or site.file.root.get("version") is None:
+        return None
+    versions = map(parse_version, table(site.file.format).versions)
+    newer = (version for version in versions if version > site.file.version)
+    fitting = (each for each in newer if all(any(row.exists_in(each) for row in some) for some in rows))
+    found = next(fitting, None)
+    return print_version(found) if found else None
+
+
+def _sites(site: Site, findings: Iterable[Diagnostic]) -> Iterator[Site]:
+    for each in findings:
+        element = site.part(each.location)
+        if element is not None:
+            path = each.location.path
+            yield Site(each, site.file, element, path.rpartition("/@")[2] if "/@" in path else None)
+
+
+def _rows(site: Site, other: Site) -> list[Fact]:
+    """The rows of what stands at a site, of all versions."""
+    found = other.finding.found or ""
+    if other.attribute is None:
+        parent = other.element.getparent()
+        holder = site.file.row_of(parent) if parent is not None else None
+        rows = [row for row in holder.children if row.name == other.element.tag] if holder else []
+        return [row for row in rows if row.name == found or found in row.enum]
+    holder = site.file.row_of(other.element)
+    rows = [row for row in holder.attributes if row.name == f"@{other.attribute}"] if holder else []
+    return [row for row in rows if row.name == found or found in row.enum]
+
+
+def _unknown_version(site: Site) -> Fix | None:
+    declared, known = site.element.get("version"), versions_of(site.file.format)
+    if declared is None:
+        return None
+    plain = declared.strip().lower().removeprefix("v").removesuffix(".0")
+    for version in (declared.strip(), declared.strip().lower().removeprefix("v"), plain):
+        if version in known:
+            return safe(f"Declare version {version}", site.edit.set_attribute(site.element, "version", version))
+    edit = site.edit.set_attribute(site.element, "version", known[-1])
+    return unsafe(f"Declare version {known[-1]}, as which it is read", edit)
+
+
+FIXERS: Fixers = {
+    structure.BLANK_VALUE.name: _blank,
+    structure.DEFAULTED_ATTRIBUTE.name: _defaulted,
+    structure.DEPRECATED_ELEMENT.name: _deprecated,
+    structure.MISSING_ATTRIBUTE.name: _missing_attribute,
+    structure.OUTSIDE_VERSION.name: _outside_version,
+    structure.REPEATED_ELEMENT.name: _repeated,
+    structure.STRAY_TEXT.name: _stray_text,
+    structure.UNKNOWN_VERSION.name: _unknown_version,
+}
