@@ -140,7 +140,8 @@ def test_source_files_know_lines_and_places() -> None:
 
 SEED = (
     b'<?xml version="1.0"?>\n<robot name="r" x="1">\r\n\t<link name="a"><!-- - --><inertial><mass value="m"/>'
-    b'</inertial></link>\n<joint name="j" type="fixd"><parent link="b"/><child link="a"/></joint><![CDATA[x]]><g:y/></robot>'
+    b'</inertial></link>\n<joint name="j" type="fixd"><parent link="b"/><child link="a"/></joint>'
+    b"<![CDATA[x]]><g:y/></robot>"
 )
 EDITS = st.tuples(
     st.integers(0, len(SEED)),
