@@ -58,24 +58,25 @@ class Mistake:
         return checked, (edited.name, text.count("\n", 0, begin) + 1, begin - line_start, end - line_start)
 
 
-def _is_at(found: Diagnostic, place: tuple[str, int, int, int]) -> bool:
+def is_at(found: Diagnostic, place: tuple[str, int, int, int]) -> bool:
+    """Whether a finding is a mistake: a warning or an error whose line and columns are those of the piece."""
     where = found.location
     return (Path(where.file).name, where.line, where.column, where.end_column) == place and (
         found.severity > Severity.INFO and where.end_line == where.line
     )
 
 
-_MISTAKES = [
+MISTAKES = [
     Mistake(row.pop("in"), **row) for row in tomllib.loads((_FOLDER / "columns.toml").read_text("utf-8"))["mistake"]
 ]
 
 
-@pytest.mark.parametrize("mistake", _MISTAKES, ids=lambda each: each.what.replace(" ", "-"))
+@pytest.mark.parametrize("mistake", MISTAKES, ids=lambda each: each.what.replace(" ", "-"))
 def test_a_mistake_is_found_at_the_piece_that_is_wrong(mistake: Mistake, tmp_path: Path) -> None:
     path, place = mistake.make(tmp_path)
     found = located(check(path, passes=mistake.passes))
     listed = "\n".join(f"{each.location}: {each.severity} {each.message}" for each in found)
-    assert any(_is_at(each, place) for each in found) != bool(mistake.missed), f"{place} is not found in\n{listed}"
+    assert any(is_at(each, place) for each in found) != bool(mistake.missed), f"{place} is not found in\n{listed}"
 
 
 @pytest.mark.parametrize("name", ["trolley/trolley.urdf.xacro"])

@@ -9,6 +9,8 @@ from typing import Any
 import pytest
 
 from twinform.compiler import check
+from twinform.compiler.input.finding_spans import with_columns
+from twinform.compiler.input.source_files import SourceFiles
 from twinform.diagnostics import Diagnostic, Severity
 
 _FOLDER = Path(__file__).parent / "mistakes"
@@ -21,6 +23,7 @@ class Mistake:
 
     file: str
     what: str
+    piece: str
     find: str
     write: str
     at: str
@@ -34,6 +37,7 @@ class Mistake:
         return cls(
             _FILES[row["in"]],
             row["what"],
+            row["piece"],
             row["find"],
             row["write"],
             row.get("at", ""),
@@ -54,6 +58,12 @@ class Mistake:
         if self.at:  # the nearest that follows, or else that precedes: `</geometry>` is there many times
             start = text.find(self.at, start) if self.at in text[start:] else text.rindex(self.at, 0, start)
         return path, text.count("\n", 0, start + len(self.at.rstrip("\n"))) + 1
+
+    def is_underlined(self, found: Diagnostic, files: SourceFiles) -> bool:
+        """Whether a finding with columns is about the piece that is wrong."""
+        where = found.location
+        line = files.line(where.file, where.line) or ""
+        return line[where.column - 1 : where.end_column - 1] == self.piece if where.column else not self.piece
 
     def is_what(self, found: Diagnostic, line: int) -> bool:
         """Whether a finding is this mistake: on its line, with all that somebody needs to know to mend it."""
@@ -76,6 +86,10 @@ def test_the_files_have_no_mistake_before_the_edit(file: str) -> None:
 @pytest.mark.parametrize("mistake", _MISTAKES, ids=lambda each: each.what.replace(" ", "-"))
 def test_a_mistake_is_found_on_its_line_with_what_mends_it(mistake: Mistake, tmp_path: Path) -> None:
     path, line = mistake.make(tmp_path)
-    found = check(path, passes=mistake.passes).diagnostics
+    loaded = check(path, passes=mistake.passes)
+    files = SourceFiles.of(loaded)
+    found = with_columns(loaded.diagnostics, files)
     listed = "\n".join(f"{each.location.line}: {each.severity} {each.message} [{each.help}]" for each in found)
-    assert any(mistake.is_what(each, line) for each in found), f"line {line} is not found in\n{listed}"
+    whole = [each for each in found if mistake.is_what(each, line)]
+    assert whole, f"line {line} is not found in\n{listed}"
+    assert any(mistake.is_underlined(each, files) for each in whole), [each.location for each in whole]

@@ -15,6 +15,8 @@ _TOKEN = re.compile(
     re.DOTALL,
 )
 _NAME = re.compile(r"<([^\s<>/]+)")
+_MOST = 4000
+"""So many tags are looked at for one element: a hostile file has hundreds of them around a million others."""
 _START, _END, _ASIDE = range(3)
 
 
@@ -44,18 +46,20 @@ class Tags:
         return start_tag_name(self.text, self.starts[place])
 
     def element(self, place: int) -> ElementSpan:
-        """An element with all in it.
+        """An element with all in it; of one that has very much in it, and is not the root, the start tag alone.
 
         Raises:
             UnplacedError: its end is not found.
         """
         if place not in self._made:
-            self._made[place] = self._element(self._starts[place])
+            self._made[place] = self._element(self._starts[place], len(self._tokens) if place == 0 else _MOST)
         return self._made[place]
 
-    def _element(self, number: int) -> ElementSpan:
+    def _element(self, number: int, most: int) -> ElementSpan:
         open_: list[ElementSpan] = []
         for here in range(number, len(self._tokens)):
+            if here - number > most:
+                return start_tag(self.text, self._tokens[number][1])
             kind, start, end = self._tokens[here]
             if kind == _ASIDE:
                 open_[-1].asides.append(Span(start, end))

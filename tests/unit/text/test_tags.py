@@ -47,6 +47,13 @@ def test_what_parsers_repair_is_no_hindrance() -> None:
     assert [Tags(text).name(place) for place in range(4 - 1)] == ["a", "d:e", "f::g"]
 
 
+def test_of_an_element_that_holds_very_much_the_start_tag_is_known() -> None:
+    text = f"<a><b c='1'>{'<d/>' * 5000}</b></a>"
+    known = Tags(text).element(1)
+    assert (known.start_tag, list(known.attributes), known.children) == ((3, 12), ["c"], [])
+    assert Tags(text).element(0) == spans(text)
+
+
 @pytest.mark.parametrize("text", ["<a>", "<a><b>", "<a><b></b>"])
 def test_an_element_without_an_end_has_no_place(text: str) -> None:
     with pytest.raises(UnplacedError):

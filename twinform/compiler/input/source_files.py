@@ -23,6 +23,8 @@ class SourceFiles:
     _read: dict[str, bytes | None] = field(default_factory=dict[str, bytes | None], repr=False)
     _lines: dict[str, tuple[str, Lines] | None] = field(default_factory=dict[str, tuple[str, Lines] | None], repr=False)
 
+    _last: dict[tuple[str, int], str] = field(default_factory=dict[tuple[str, int], str], repr=False)
+
     @classmethod
     def of(cls, loaded: LoadResult) -> "SourceFiles":
         """Those of a file that was read."""
@@ -43,12 +45,16 @@ class SourceFiles:
 
     def line(self, file: str, number: int) -> str | None:
         """A line of a file, from 1, without its end; None where it has none."""
+        if (file, number) in self._last:
+            return self._last[file, number]
         found = self._lines_of(file)
         if found is None or not 0 < number <= len(found[1]):
             return None
         text, lines = found
         end = lines.start(number + 1) if number < len(lines) else len(text)
-        return text[lines.start(number) : end].rstrip("\r\n")
+        self._last.clear()  # a file may be one long line, with a thousand findings
+        self._last[file, number] = line = text[lines.start(number) : end].rstrip("\r\n")
+        return line
 
     def place(self, file: str, offset: int) -> tuple[int, int] | None:
         """The line and column of an offset in a file; None where it has no such place."""

@@ -102,6 +102,8 @@ class SyntaxPlaces:
 
     def _first_undecodable(self, error: LoggedError, path: str) -> Location:
         """The first byte that is no character of UTF-8, where that is on the line of the error."""
+        if error.kind != "ERR_INVALID_ENCODING" or b"\0" in self._data:
+            return Location(line=error.line, path=path)
         try:
             self._data.decode()
         except UnicodeDecodeError as wrong:

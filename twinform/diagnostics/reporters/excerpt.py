@@ -21,11 +21,9 @@ def excerpt(where: Location, line: str | None) -> Iterator[tuple[str, str]]:
     Of a piece that goes on in other lines only the first one is shown. Nothing is where the line is not known, or the
     finding is about the whole file.
     """
-    if line is None or not line.strip() or not (where.column or where.path.strip("/")):
+    if not line or line.isspace() or not (where.column or where.path.strip("/")):
         return
     begin = max(0, where.column - 1)
-    end = where.end_column - 1 if where.end_line == where.line else len(line.rstrip())
-    end = max(begin + 1, end) if where.end_line else begin + 1
     start, stop = _window(line, begin)
     cut = _CUT if start else ""
     shown = "".join(_shown(each) for each in line[start:stop]).rstrip()
@@ -33,6 +31,7 @@ def excerpt(where: Location, line: str | None) -> Iterator[tuple[str, str]]:
     yield f"{where.line:>{gutter}} | {cut}{shown}{_CUT if stop < len(line) else ''}", ""
     if where.column and begin <= len(line):
         indent = len(cut) + _width(line[start:begin])
+        end = where.end_column - 1 if where.end_line <= where.line else start + len(line[start:stop].rstrip())
         marks = "^" * max(1, _width(line[begin : min(end, stop)]))
         yield f"{'':{gutter}} | {' ' * indent}", marks
 

@@ -4,6 +4,8 @@ import os
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import twinform
 from twinform.compiler.input.finding_spans import located, with_columns
@@ -134,3 +136,31 @@ def test_source_files_know_lines_and_places() -> None:
     assert files.place("a", 8) is None
     assert files.place("nothing", 0) is None
     assert SourceFiles({"a": b"\xff"}).line("a", 1) is None
+
+
+SEED = (
+    b'<?xml version="1.0"?>\n<robot name="r" x="1">\r\n\t<link name="a"><!-- - --><inertial><mass value="m"/>'
+    b'</inertial></link>\n<joint name="j" type="fixd"><parent link="b"/><child link="a"/></joint>'
+    b"<![CDATA[x]]><g:y/></robot>"
+)
+EDITS = st.tuples(
+    st.integers(0, len(SEED)),
+    st.integers(0, 6),
+    st.sampled_from([b"", b"<", b">", b'"', b"--", b"\xff", b"\n", b"&", b"'"]),
+)
+
+
+@given(st.lists(EDITS, min_size=1, max_size=3))
+def test_whatever_is_in_a_file_each_finding_has_a_place_in_it_or_none(edits: list[tuple[int, int, bytes]]) -> None:
+    data = SEED
+    for start, count, new in edits:
+        data = data[:start] + new + data[start + count :]
+    loaded = twinform.check(data, name="r")
+    found, files = located(loaded), SourceFiles.of(loaded)
+    assert len(found) == len(loaded.diagnostics)
+    for each in found:
+        where = each.location
+        if where.column:
+            assert where[1:2] + where[3:4] <= where[4:]
+            line = files.line("r", where.line)
+            assert line is None or where.column <= len(line) + 1

@@ -7,7 +7,9 @@ from twinform.compiler.batch.record import Outcome
 from twinform.compiler.batch.task import Done, Task
 from twinform.compiler.errors import CompileError
 from twinform.compiler.includes.expanding import expand
+from twinform.compiler.input.finding_spans import with_columns
 from twinform.compiler.input.loading import read
+from twinform.compiler.input.source_files import SourceFiles
 from twinform.compiler.inspection import inspect
 from twinform.diagnostics import Policy
 from twinform.passes import Pipeline
@@ -34,6 +36,7 @@ class Check:
         loaded = read(task.path, task.load_options, name=name)
         loaded = expand(loaded, task.load_options) if self.expand_includes else loaded
         seen = self.policy.apply(inspect(loaded, task.load_options, self.passes).diagnostics)
+        seen = with_columns(seen, SourceFiles.of(loaded)) if seen else seen
         if not loaded.unreadable and not any(each.is_error for each in seen):
             return Done(outcome=Outcome.ACCEPTED, diagnostics=rows(seen, name))
         outcome = Outcome.UNREADABLE if loaded.unreadable else Outcome.REFUSED
