@@ -22,7 +22,7 @@ _ABOUT = """\
 Every URDF and SDF file of the corpus that has a comment is formatted, converted to its own format and to the other one,
 converted in its place, and what it became in the other format is converted back. *Kept* are comments that are there
 once, with their text; *in the ledger* are those of what is not converted, such as the rest of a world around a model.
-Files are refused for what is wrong in them, and not for comments: `format` and `--in-place` want XML that is well-formed.
+Files are refused for what is wrong in them, not for comments; `format` and `--in-place` want XML that is well-formed.
 Comments of xacro files stay in these, since what they expand to is another text; `format` keeps them."""
 
 
