@@ -27,6 +27,11 @@ _REFERRED = ("link", "joint", "frame")
 """What an extension may refer to by its name."""
 _FAR = 8
 """So many elements behind a comment are looked at for one that it can stand before."""
+_MOST = 5000
+"""So many comments are placed, and more stand behind the root: a hostile file may have a million at one place. The most
+in a real file are some hundreds."""
+_LONGEST_RUN = 32
+"""So many comments on one line are looked at for its ends."""
 _OWN = re.compile(r"\s*twinform:")
 """How comments begin that are for us, such as suppressions of findings, which are about one format."""
 _STEP = "  "
@@ -110,9 +115,13 @@ class _Placing:
         for each in around:
             if each is None:
                 before_root = False
-                for comment in tree.iter(etree.Comment):
-                    if self._travels(comment):
+                for number, comment in enumerate(tree.iter(etree.Comment)):
+                    if not self._travels(comment):
+                        continue
+                    if number < _MOST:
                         self._place(comment)
+                    else:
+                        self.placed.bottom.append(_text(comment))
             elif each.tag is etree.Comment and self._travels(each):
                 (self.placed.top if before_root else self.placed.bottom).append(_text(each))
 
@@ -289,7 +298,9 @@ def _ends_line(comment: XmlElement) -> bool:
 def _run(comment: XmlElement, step: Callable[[XmlElement], XmlElement | None]) -> Iterator[XmlElement]:
     """A comment and those that follow each other in one direction."""
     here: XmlElement | None = comment
-    while here is not None and here.tag is etree.Comment:
+    for _ in range(_LONGEST_RUN):
+        if here is None or here.tag is not etree.Comment:
+            return
         yield here
         here = step(here)
 

@@ -193,3 +193,11 @@ def test_comments_in_other_encodings(encoding: str) -> None:
 def test_a_default_namespace() -> None:
     text = b'<robot xmlns="urn:x" name="r"><!-- a --><link name="a"/></robot>'
     assert "<!-- a -->" in twinform.convert(text, to="urdf").text
+
+
+@pytest.mark.parametrize("unit", ["<!---->", "<!---->\n", "<x/><!---->\n", "<link name='{}'/><!---->\n"])
+def test_many_comments_at_one_place_take_no_more_time_each(unit: str) -> None:
+    count = 7_000  # more than are placed; one by one from the first on, they take minutes
+    body = "".join(unit.format(number) for number in range(count))
+    text = f'<robot name="r"><link name="a"/><gazebo><plugin name="p" filename="p">{body}</plugin></gazebo></robot>'
+    assert len(comments(twinform.convert(text.encode(), to="sdf").text)) == count
