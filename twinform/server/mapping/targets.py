@@ -5,10 +5,10 @@ from collections.abc import Iterator
 from functools import cache
 from typing import Self, cast, get_args
 
-from reports.mapping.rows import FORMATS, FormatName, Row, rows
 from twinform.ir import Document, Model, Node
 from twinform.schemas import table
 from twinform.schemas.facts import Fact
+from twinform.server.mapping.rows import FORMATS, FormatName, Row, rows
 
 Chain = tuple[str, ...]
 """Fields of the IR from the outside in, each with its class: `("Joint.axis", "Axis.xyz")`."""

@@ -1,0 +1,38 @@
+"""The settings of a project for the language server, which asks for each file that it checks."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from twinform.cli.config.errors import ConfigError
+from twinform.cli.config.files import find
+from twinform.cli.config.settings import Settings as ProjectSettings
+from twinform.cli.config.settings import parse_settings
+from twinform.cli.config.trust import require_inside
+from twinform.compiler.input.options import LoadOptions
+from twinform.compiler.search.uris import SearchPath
+from twinform.diagnostics import Policy
+from twinform.server.settings import USUAL_LIMITS, Settings
+
+
+def settings_of(path: Path) -> Settings:
+    """The settings for a file: of the nearest configuration, where there is one that can be read.
+
+    Folders that it names outside of its own are refused, since nobody was asked whether it is to be trusted.
+    """
+    try:
+        found = find(path.absolute().parent)
+        if found is None:
+            return Settings()
+        config, table = found
+        project = parse_settings(config, table)
+        for folder in project.paths:
+            require_inside(config, Path(folder), "paths")
+    except ConfigError as error:
+        return Settings(problem=str(error))
+    return _settings(project)
+
+
+def _settings(project: ProjectSettings) -> Settings:
+    usual = Settings()
+    load_options = LoadOptions(strict=bool(project.strict), search=SearchPath.of(project.paths), limits=USUAL_LIMITS)
+    return replace(usual, load_options=load_options, policy=Policy(frozenset(project.allow), frozenset(project.deny)))
