@@ -52,6 +52,7 @@ generate: $(SYNCED) ## write the files that are made from tables: schemas and re
 	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md
 	$(BIN)/python -m reports libsdformat_codes
 	$(BIN)/python -m reports mapping
+	$(BIN)/python -m reports.mapping.destinations twinform/server/mapping/destinations.json
 
 lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel that works in an empty environment
 	$(BIN)/ruff check .
@@ -68,6 +69,7 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md --check
 	$(BIN)/python -m reports libsdformat_codes --check
 	$(BIN)/python -m reports mapping --check
+	$(BIN)/python -m reports.mapping.destinations twinform/server/mapping/destinations.json --check
 	$(MAKE) --no-print-directory wheel
 
 wheel: $(SYNCED) # build the wheel, list it, install it into an empty environment and run the command

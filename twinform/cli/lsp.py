@@ -12,7 +12,7 @@ from twinform.cli.failure import Unusable
 def command(*, stdio: bool) -> None:
     """Be the language server of an editor.
 
-    Editors start it, and talk to it on standard input and output; docs/how-to/edit-in-an-editor.md has the settings of each.
+    Editors start it, and talk to it on standard input and output. The settings of each are in the folder editors/.
     """
     del stdio
     try:

@@ -1,10 +1,11 @@
 """The documents that are open in the editor: their texts, kept in step with what is typed there."""
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
+from typing import Any, TypeVar
 
 from lsprotocol.types import PositionEncodingKind, TextDocumentContentChangeEvent, TextDocumentContentChangePartial
 from pygls.uris import to_fs_path
@@ -15,6 +16,7 @@ from twinform.server.settings import LARGEST, MOST_TAGS
 from twinform.server.tree import Tree, parse
 from twinform.text import SourceText
 
+Made = TypeVar("Made")
 _DECLARED = re.compile(r"""\s*<\?xml[^>]{0,200}?\sencoding\s*=\s*["']([A-Za-z][\w.-]*)["']""")
 _LONE = re.compile("[\ud800-\udfff]")
 
@@ -54,6 +56,13 @@ class Document:
     def good(self) -> "Document | None":
         """The last state of it that was well-formed."""
         return self if self.tree.whole else self.before
+
+    def once(self, make: "Callable[[Document], Made]") -> "Made":
+        """What a function makes of it, made once."""
+        known: dict[object, Any] = self.__dict__.setdefault("made", {})
+        if make not in known:
+            known[make] = make(self)
+        return known[make]
 
     @cached_property
     def schema(self) -> Schema:

@@ -9,7 +9,7 @@ from twinform.schemas import Fact, Table, Version, parse_version, rows_by_name, 
 from twinform.server.mapping.rows import FORMATS, FormatName, Row
 from twinform.server.tree import Node, Tree
 
-__all__ = ["FormatName", "Place", "Schema", "format_of", "is_of_xacro"]
+__all__ = ["FormatName", "Place", "Schema", "format_of", "inside", "is_of_xacro"]
 
 _ROOTS: dict[str, FormatName] = {"robot": "urdf", "sdf": "sdf", "gazebo": "sdf"}
 _ENDINGS: tuple[tuple[tuple[str, ...], FormatName], ...] = (
@@ -105,15 +105,16 @@ class Schema:
         row = around.below(node.tag)
         if row is None:
             return _extension(node, around) if around.definition == "gazebo" else None
-        return _inside(row, around)
+        return inside(row, around.version)
 
 
-def _inside(row: Row, around: Place) -> Place:
-    fact = row.fact
+def inside(row: Row, version: Version | None = None) -> Place:
+    """What an element of a row is, in a version of its format or else in the newest."""
+    fact, facts = row.fact, table(row.format)
+    version = version or facts.newest
     if fact.reference is None:
-        return Place(around.format, around.version, row, fact, around.definition, f"{row.steps}/")
-    inside = table(around.format).definitions[fact.reference]
-    return Place(around.format, around.version, row, inside, fact.reference, "")
+        return Place(row.format, version, row, fact, row.definition, f"{row.steps}/")
+    return Place(row.format, version, row, facts.definitions[fact.reference], fact.reference, "")
 
 
 def _extension(node: Node, around: Place) -> Place | None:
@@ -123,7 +124,7 @@ def _extension(node: Node, around: Place) -> Place | None:
         holder = Place(FORMATS[1], facts.newest, None, facts.definitions[definition], definition, "")
         row = holder.below(node.tag)
         if row is not None:
-            return _inside(row, holder)
+            return inside(row)
     return None
 
 

@@ -8,9 +8,10 @@ from lsprotocol import types
 
 from twinform.diagnostics import Diagnostic
 from twinform.server.checking import Checked, Job
-from twinform.server.diagnostics import as_protocol, by_file, notice, uri_of
+from twinform.server.diagnostics import as_protocol, by_file, notice
 from twinform.server.documents import Document, Documents
 from twinform.server.files import Files
+from twinform.server.includes import Neighbors
 from twinform.server.scheduling import PAUSE, Checks
 from twinform.server.settings import SettingsOf
 
@@ -24,7 +25,9 @@ class Session:
     def __init__(self, settings_of: SettingsOf, publish: Publish) -> None:
         self.documents = Documents()
         self.files = Files(self.documents)
+        self.neighbors = Neighbors(self.files)
         self.folders: list[Path] = []
+        self.snippets = False
         self.found: dict[str, tuple[Document, tuple[Diagnostic, ...]]] = {}
         self.settings_of = settings_of
         self._publish = publish
@@ -124,6 +127,3 @@ def _once(found: list[types.Diagnostic]) -> list[types.Diagnostic]:
     """Diagnostics without those that say the same of the same place."""
     seen = {(each.range.start.line, each.range.start.character, str(each.code), each.message): each for each in found}
     return list(seen.values())
-
-
-__all__ = ["Session", "uri_of"]
