@@ -8,7 +8,7 @@ import click
 import pydantic  # noqa: F401 # pyright: ignore[reportUnusedImport] - decisions: near the top of the stack
 
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
-from twinform.cli.findings import notes_option, show
+from twinform.cli.findings import all_option, notes_option, placed, show
 from twinform.cli.inputs import InputOptions, inputs, load_options_of, reading_options
 from twinform.cli.pipeline_option import pipeline_option
 from twinform.cli.policy import policy_of, policy_options
@@ -18,8 +18,10 @@ from twinform.diagnostics.reporters import REPORTERS, Findings
 from twinform.passes import PassError
 
 if TYPE_CHECKING:
+    from twinform.compiler.input.source_files import SourceFiles
     from twinform.passes import Pipeline
 
+_FOR_PEOPLE = frozenset({"text", "concise"})
 _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 
 
@@ -27,6 +29,7 @@ _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "
 @click.argument("words", metavar="IN... [NAME:=VALUE...]", nargs=-1, required=True)
 @click.option("--format", "style", type=click.Choice(list(REPORTERS)), default="text", help="How to print findings.")
 @notes_option
+@all_option
 @policy_options
 @click.option(
     "--passes",
@@ -43,6 +46,7 @@ def command(
     style: str,
     *,
     notes: bool,
+    every: bool,
     allow: tuple[str, ...],
     deny: tuple[str, ...],
     check_passes: "Pipeline | None",
@@ -64,12 +68,13 @@ def command(
     loaded = [_inspected(each, load_options, check_passes) for each in loaded]
     loaded, seen = [replace(each, diagnostics=policy.apply(each.diagnostics)) for each in loaded], loaded
     allowed = sum(len(each.diagnostics) for each in seen) - sum(len(each.diagnostics) for each in loaded)
-    findings = [Findings(each.path, each.diagnostics) for each in loaded]
-    if style == "text":
-        for each in findings:
-            show(each, notes=notes, on_stderr=False)
+    if style in _FOR_PEOPLE:
+        for each in loaded:
+            found, short = Findings(each.path, each.diagnostics), style == "concise"
+            show(found, notes=notes, on_stderr=False, every=every, short=short, files=_files(each))
     else:
-        click.echo(REPORTERS[style](findings), nl=False)
+        files = [placed(Findings(each.path, each.diagnostics), _files(each)) for each in loaded]
+        click.echo(REPORTERS[style](files), nl=False)
     click.echo(_summary(loaded) + (f"; {allowed} allowed" if allowed else ""), err=True)
     ctx.exit(_exit_code(loaded))
 
@@ -81,6 +86,15 @@ def _inspected(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline 
         raise click.UsageError(str(error)) from error
     except PassError as error:
         raise Unusable(str(error)) from error
+
+
+def _files(loaded: LoadResult) -> "SourceFiles | None":
+    """The files that the findings about one are about; None without findings."""
+    if not loaded.diagnostics:
+        return None
+    from twinform.compiler.input.source_files import SourceFiles  # noqa: PLC0415 - only findings have places
+
+    return SourceFiles.of(loaded)
 
 
 def _exit_code(loaded: list[LoadResult]) -> int:

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -11,11 +12,15 @@ from twinform.cli.findings import show
 from twinform.cli.gazebo_files import GazeboFiles
 from twinform.cli.instrumentation import InstrumentationOptions
 from twinform.cli.outputs import Output, Outputs, beside
+from twinform.cli.source import Source
 from twinform.cli.targets import Job
 from twinform.compiler import CompileError, Conversion, ConversionRequest, LoadOptions, read, run_conversion
 from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
 from twinform.diagnostics.reporters import Findings
 from twinform.passes import PassError, PassInstrumentation, SideFilePass
+
+if TYPE_CHECKING:
+    from twinform.compiler.input.source_files import SourceFiles
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -26,6 +31,7 @@ class Options:
     load_options: LoadOptions
     ledger: Path | None
     notes: bool
+    every: bool
     policy: Policy
     watching: InstrumentationOptions
     gazebo_files: GazeboFiles
@@ -55,11 +61,18 @@ class Options:
         yield from self.gazebo_files.places()
         yield from beside(job.path, self.beside)
 
-    def show(self, name: str, diagnostics: tuple[Diagnostic, ...]) -> bool:
+    def show(self, source: Source, diagnostics: tuple[Diagnostic, ...]) -> bool:
         """Print the findings as the project wants to see them; whether none of them is an error."""
         seen = self.policy.apply(diagnostics)
-        show(Findings(name, seen), notes=self.notes, on_stderr=True)
+        files = _files(source) if seen else None
+        show(Findings(source.name, seen), notes=self.notes, on_stderr=True, every=self.every, files=files)
         return not any(each.is_error for each in seen)
+
+
+def _files(source: Source) -> "SourceFiles":
+    from twinform.compiler.input.source_files import SourceFiles  # noqa: PLC0415 - only findings have places
+
+    return SourceFiles({source.name: source.content}) if isinstance(source.content, bytes) else SourceFiles()
 
 
 def run_job(job: Job, options: Options, label: str, outputs: Outputs) -> int:
@@ -69,13 +82,13 @@ def run_job(job: Job, options: Options, label: str, outputs: Outputs) -> int:
         conversion, patched = _converted(job, options, instrumented.instrumentation)
     except CompileError as error:
         instrumented.report()
-        options.show(job.source.name, error.diagnostics)
+        options.show(job.source, error.diagnostics)
         return UNUSABLE if error.unreadable else FINDINGS
     except PassError as error:
         instrumented.fault(error)
         return FINDINGS
     instrumented.end()
-    if not options.show(job.source.name, conversion.diagnostics):
+    if not options.show(job.source, conversion.diagnostics):
         return FINDINGS
     _add(conversion, patched, job.path, options.ledger, outputs)
     if not options.gazebo_files.make(conversion, job.source.name, outputs, notes=options.notes):
@@ -144,7 +157,7 @@ def print_plan(job: Job, options: Options, label: str) -> int:
     """Print the passes of one conversion; gives its exit code."""
     loaded = read(job.source.content, options.load_options, name=job.source.name)
     if loaded.document is None or not loaded.accepted:
-        options.show(loaded.path, loaded.diagnostics)
+        options.show(job.source, loaded.diagnostics)
         return UNUSABLE if loaded.unreadable else FINDINGS
     click.echo(f"{label}{': ' if label else ''}{options.request_for(job).plan(loaded.document)}")
     return 0

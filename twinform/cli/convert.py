@@ -9,7 +9,7 @@ from click.core import ParameterSource
 
 from twinform.cli.config import settings_of
 from twinform.cli.conversion import Options, print_plan, run_job
-from twinform.cli.findings import notes_option
+from twinform.cli.findings import all_option, notes_option
 from twinform.cli.gazebo_files import GazeboFiles, companion_options, version_for
 from twinform.cli.inputs import inputs, load_options_of, reading_options
 from twinform.cli.instrumentation import InstrumentationOptions, watching_options
@@ -42,6 +42,7 @@ from twinform.compiler import LoadOptions
 @companion_options
 @click.option("--model", metavar="NAME", help="The model of the file to convert, whatever it becomes.")
 @notes_option
+@all_option
 @policy_options
 @click.option(
     "--split",
@@ -77,6 +78,7 @@ def command(
     into: Path | None,
     base: Path | None,
     notes: bool,
+    every: bool,
     allow: tuple[str, ...],
     deny: tuple[str, ...],
     **asked: Unpack[Asked],
@@ -101,6 +103,7 @@ def command(
         load_options=load_options,
         ledger=ledger,
         notes=notes,
+        every=every,
         policy=policy,
         watching=watching,
         audit=audit,

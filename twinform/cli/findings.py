@@ -1,11 +1,15 @@
 """Prints findings on a terminal, in color where it has any."""
 
 import os
+from typing import TYPE_CHECKING
 
 import click
 
 from twinform.diagnostics import Severity
-from twinform.diagnostics.reporters import Findings, text
+from twinform.diagnostics.reporters import Findings, concise, text
+
+if TYPE_CHECKING:
+    from twinform.compiler.input.source_files import SourceFiles
 
 _COLORS = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.INFO: "cyan"}
 
@@ -25,9 +29,39 @@ notes_option = click.option(
 )
 
 
-def show(findings: Findings, *, notes: bool, on_stderr: bool) -> None:
-    """Print the findings of one file for people; notes only where they are asked for."""
+all_option = click.option("--all", "every", is_flag=True, help="Print each finding, also where several have one cause.")
+
+
+def show(
+    findings: Findings,
+    *,
+    notes: bool,
+    on_stderr: bool,
+    every: bool = False,
+    short: bool = False,
+    files: "SourceFiles | None" = None,
+) -> None:
+    """Print the findings of one file for people, with the pieces of the files that they are about.
+
+    Notes are printed only where they are asked for, and each finding of one cause only where `every` one is. What is
+    `short` has a line for each.
+    """
     if not notes:
         worse = tuple(each for each in findings.diagnostics if each.severity > Severity.INFO)
         findings = findings._replace(diagnostics=worse)
-    click.echo(text([findings], paint), nl=False, err=on_stderr)
+    if findings.diagnostics:
+        found = [placed(findings, files)]
+        report = concise(found, paint) if short else text(found, paint, every=every)
+        click.echo(report, nl=False, err=on_stderr)
+
+
+def placed(findings: Findings, files: "SourceFiles | None" = None) -> Findings:
+    """The findings with columns, and with the texts that they are about; without findings nothing is read."""
+    if not findings.diagnostics:
+        return findings
+    # positions are for files with findings
+    from twinform.compiler.input.finding_spans import with_columns  # noqa: PLC0415 - see above
+    from twinform.compiler.input.source_files import SourceFiles  # noqa: PLC0415 - see above
+
+    files = files or SourceFiles()
+    return Findings(findings.path, with_columns(findings.diagnostics, files), files)

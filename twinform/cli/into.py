@@ -11,7 +11,7 @@ from twinform.cli.source import Source
 from twinform.cli.targets import Job, known_target
 from twinform.compiler import CompileError
 from twinform.compiler.in_place import Change, convert_into
-from twinform.diagnostics.reporters.text import printable
+from twinform.diagnostics.reporters import printable
 
 _LONGEST = 60
 """The longest piece of a file that is shown, in characters."""
@@ -37,9 +37,9 @@ def run_into(source: Source, into: Path | None, base: Path | None, options: Opti
     try:
         updated = convert_into(request, Path(source.name), into, options.load_options, base=base)
     except CompileError as error:
-        options.show(source.name, error.diagnostics)
+        options.show(source, error.diagnostics)
         return UNUSABLE if error.unreadable else FINDINGS
-    if not options.show(source.name, updated.conversion.diagnostics):
+    if not options.show(source, updated.conversion.diagnostics):
         return FINDINGS
     outputs.add("--into", into, updated.data)
     outputs.news.extend(_line(into, change) for change in updated.changes)

@@ -30,13 +30,13 @@ def run_split(source: Source, to: Target, options: Options, folder: Path, output
         )
     except CompileError as error:
         instrumented.report()
-        options.show(source.name, error.diagnostics)
+        options.show(source, error.diagnostics)
         return UNUSABLE if error.unreadable else FINDINGS
     except PassError as error:
         instrumented.fault(error)
         return FINDINGS
     instrumented.end()
-    if not options.show(source.name, result.diagnostics):
+    if not options.show(source, result.diagnostics):
         return FINDINGS
     _add(result, folder, options.ledger, outputs)
     outputs.news.append(f"{len(result.files)} files: {summary(result.ledger)}")

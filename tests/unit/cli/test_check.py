@@ -38,7 +38,7 @@ def test_both_engines_agree(run: Run, folder: Path, engine: str) -> None:
 def test_findings_are_on_stdout_and_the_summary_on_stderr(run: Run, folder: Path) -> None:
     file = folder / "warned.urdf"
     done = run("check", file, folder / "broken.urdf")
-    assert done.stdout.startswith(f"{file}:2: warning: ")
+    assert done.stdout.startswith(f"{file}:2:22: warning: ")
     assert "[unknown-element]\n    at /" in done.stdout
     assert done.stderr == "2 files: 1 error, 1 warning, 0 notes; 1 could not be read\n"
 
@@ -50,7 +50,9 @@ def test_json_has_a_row_for_every_file(run: Run, folder: Path) -> None:
     assert [bool(row["diagnostics"]) for row in rows] == [False, True, True]
 
 
-@pytest.mark.parametrize(("style", "start"), [("sarif", "{\n"), ("github", "::error file=")])
+@pytest.mark.parametrize(
+    ("style", "start"), [("sarif", "{\n"), ("github", "::error file="), ("junit", "<?xml "), ("concise", "")]
+)
 def test_other_formats(run: Run, folder: Path, style: str, start: str) -> None:
     done = run("check", "--format", style, folder / "wrong.urdf")
     assert done.exit_code == 1
@@ -74,6 +76,28 @@ def test_color_is_for_terminals_without_no_color(folder: Path, monkeypatch: pyte
     assert "\x1b[" not in output(terminal=True)
 
 
+REPEATED = '<robot name="r">\n  <link name="a"/>\n' + '  <tag name="b"/>\n' * 5 + "</robot>\n"
+
+
+def test_findings_of_one_cause_are_one_unless_all_are_wanted(run: Run) -> None:
+    def output(*options: str) -> str:
+        return run("check", "-", *options, text=REPEATED).stdout
+
+    grouped = output()
+    assert grouped.count("[unknown-element]") == 1
+    assert "<stdin>:3:4: warning: <tag> is not an element of <robot> [unknown-element], 5 x\n" in grouped
+    assert "    also at 4:4, 5:4, 6:4 and 1 more; --all shows each\n" in grouped
+    assert output("--all").count("[unknown-element]\n") == 5
+    assert len(output("--format", "concise").splitlines()) == 5
+
+
+def test_the_short_form_has_notes_where_one_asks(run: Run) -> None:
+    text = '<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="continuous"><parent link="a"/>'
+    text += '<child link="b"/></joint></robot>'
+    assert "[missing-axis]" not in run("check", "-", "--format", "concise", text=text).stdout
+    assert "<stdin>:1:50: info: " in run("check", "-", "--format", "concise", "--notes", text=text).stdout
+
+
 TURNING = """<robot name="r"><link name="a"/><link name="b"><inertial><mass value="1"/>
 <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
 <joint name="j" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>
@@ -85,7 +109,7 @@ def test_passes_that_only_look_are_run(run: Run, tmp_path: Path) -> None:
     robot.write_text(TURNING)
     assert run("check", robot).stdout == ""
     assert (
-        f"{robot}:4: warning: joint 'j' turns from -20 to 21 rad"
+        f"{robot}:4:2: warning: joint 'j' turns from -20 to 21 rad"
         in run("check", robot, "--passes", "check-limits").stdout
     )
     for passes in ("fill-limits{damping=1}", "bridge-config{file=b.yaml}"):

@@ -57,7 +57,7 @@ def test_errors_of_both_files_are_reported_on_stderr(run: Run, folder: Path):
     done = run("diff", folder / "wrong.urdf", folder / "broken.urdf")
     assert done.exit_code == 2
     assert done.stdout == ""
-    assert "wrong.urdf:3: error" in done.stderr
+    assert "wrong.urdf:3:4: error" in done.stderr
     assert "broken.urdf" in done.stderr
 
 

@@ -11,12 +11,16 @@ from dataclasses import dataclass, field, replace
 
 from twinform.diagnostics import Diagnostic, Location
 from twinform.schemas import XmlElement
+from twinform.schemas.xml import prefix_of
 
-_STEP = re.compile(r"/(?P<tag>[^/\[\]@]+)(?:\[@name='(?P<name>.*?)'\]|\[(?P<place>\d+)\])?(?=/|$)", re.DOTALL)
+_STEP = re.compile(
+    r"/(?P<tag>[^/\[\]@]+)(?:\[@(?P<key>name|reference)='(?P<value>.*?)'\]|\[(?P<place>\d+)\])?(?=/|$)", re.DOTALL
+)
 _ATTRIBUTE = re.compile(r"/@[^/\]']+$")
 
-Key = tuple[str, str | None]
-"""The name of an element, and its attribute `name`; None where it may have any."""
+Key = tuple[str, str | None, str | None]
+"""The name of an element, and the attribute that tells it from others with its value; None where it may have any."""
+_KEYS = ("name", "reference")
 
 
 @dataclass(slots=True)
@@ -27,16 +31,18 @@ class _Children:
         default_factory=dict[XmlElement, dict[Key, list[XmlElement]]]
     )
 
-    def named(self, element: XmlElement, tag: str, name: str | None) -> list[XmlElement]:
+    def named(self, element: XmlElement, key: Key) -> list[XmlElement]:
         found = self.of.get(element)
         if found is None:
             found = self.of[element] = defaultdict(list)
             for child in element:
-                found[str(child.tag), None].append(child)
-                own = child.get("name")
-                if own is not None:
-                    found[str(child.tag), own].append(child)
-        return found.get((tag, name), [])
+                tag = _written_tag(child)
+                found[tag, None, None].append(child)
+                for name in _KEYS:
+                    own = child.get(name)
+                    if own is not None:
+                        found[tag, name, own].append(child)
+        return found.get(key, [])
 
 
 class PartFinder:
@@ -49,6 +55,10 @@ class PartFinder:
     def find(self, where: Location) -> XmlElement | None:
         """The part at a location; None where the path is not ours, or leads to several parts or beside the line."""
         return _found(self.root, where, self.children)
+
+    def find_path(self, where: Location) -> XmlElement | None:
+        """The part that a path leads to, whatever the line is; None where it leads to several."""
+        return _found(self.root, where._replace(line=self.root.sourceline or 0), self.children)
 
 
 def with_exact_lines(diagnostics: Iterable[Diagnostic], root: XmlElement, file: str) -> Iterator[Diagnostic]:
@@ -75,10 +85,17 @@ def _found(root: XmlElement, where: Location, children: _Children) -> XmlElement
         parts = [
             (child, was or child.sourceline == where.line)
             for element, was in parts
-            for child in _chosen(children.named(element, step["tag"], step["name"]), step["place"])
+            for child in _chosen(children.named(element, (step["tag"], step["key"], step["value"])), step["place"])
         ]
     found = [part for part, was in parts if was]
     return found[0] if len(found) == 1 else None
+
+
+def _written_tag(element: XmlElement) -> str:
+    """The name of an element as paths have it: with the prefix that it was written with."""
+    tag = str(element.tag)
+    prefix = prefix_of(element, tag)
+    return f"{prefix}:{tag.partition('}')[2]}" if prefix else tag
 
 
 def _chosen(found: list[XmlElement], place: str | None) -> list[XmlElement]:

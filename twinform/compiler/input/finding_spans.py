@@ -1,34 +1,82 @@
-"""Columns of findings: the piece of the text that a location means, from its line and its path."""
+"""Columns of findings: the piece of the text that a finding is about, from its line and its path.
 
-from dataclasses import dataclass, field
+Positions are made when somebody asks for them, and for files with findings only. Where it is in doubt which piece is
+meant, a finding stays as it is: with a line and without a column.
+"""
+
+from collections import defaultdict
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 from twinform.compiler.input.finding_lines import PartFinder
+from twinform.compiler.input.finding_pieces import piece, quoted, values
+from twinform.compiler.input.limits import LIFTED_LIMITS
 from twinform.compiler.input.loading import read_tree_again
-from twinform.compiler.input.parsing import UnreadableError
-from twinform.diagnostics import Location, Span
+from twinform.compiler.input.options import LoadResult, expanded_name
+from twinform.compiler.input.parsing import UnreadableError, parse
+from twinform.compiler.input.source_files import SourceFiles
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Span
+from twinform.diagnostics.rules import reading, structure
 from twinform.schemas import XmlElement
-from twinform.text import ElementSpan, Lines, SourceText, UndecodableError, UnplacedError, spans
+from twinform.text import ElementSpan, Lines, SourceText, UnplacedError, spans
+from twinform.text.masking import masked
+
+_OF_ROOT = frozenset({reading.UNKNOWN_ROOT, reading.OLD_ROOT})
+"""Findings about the root element whatever it is called."""
 
 
-@dataclass(frozen=True, slots=True)
+def located(loaded: LoadResult) -> tuple[Diagnostic, ...]:
+    """The findings about a file, with columns, in the order in which they stand in it."""
+    return with_columns(loaded.diagnostics, SourceFiles.of(loaded))
+
+
+def with_columns(diagnostics: tuple[Diagnostic, ...], files: SourceFiles) -> tuple[Diagnostic, ...]:
+    """The findings with columns, in the order of their lines; the files are those that they are about."""
+    texts: dict[str, FindingSpans | None] = {}
+    found = [_with_column(each, files, texts) for each in diagnostics]
+    return tuple(sorted(found, key=lambda each: (each.location.line, each.location.column)))
+
+
+def _with_column(one: Diagnostic, files: SourceFiles, texts: dict[str, "FindingSpans | None"]) -> Diagnostic:
+    where = one.location
+    if not where.line or where.column:
+        return one
+    if where.file not in texts:
+        data = files.data(where.file)
+        texts[where.file] = FindingSpans.of(data) if data else None
+    place = texts[where.file]
+    span = place and place.piece(one, expanded=_is_expanded(one))
+    return replace(one, location=place.location(where, span)) if place and span else one
+
+
+def _is_expanded(one: Diagnostic) -> bool:
+    """Whether a finding is about a part of what xacro made of a file: its place in that comes second."""
+    return bool(one.related) and one.related[0].file.endswith(expanded_name(""))
+
+
+@dataclass(frozen=True)  # no slots: the lines are kept in the dictionary
 class FindingSpans:
     """Where the findings about one file stand in its text."""
 
     text: str
-    lines: Lines
     parts: PartFinder
     places: dict[XmlElement, ElementSpan] = field(repr=False)
 
     @classmethod
     def of(cls, data: bytes) -> "FindingSpans | None":
-        """Those of a file; None for one that is not well-formed or no text."""
+        """Those of a file; None for one that cannot be read, or is no text."""
         try:
-            root = read_tree_again(data)
+            root = _tree(data)
             text = SourceText.of(data).text
-            places = dict(zip(root.iter("*"), spans(text).walk(), strict=True))
-        except (UnreadableError, UndecodableError, UnplacedError):
+            places = dict(zip(root.iter("*"), _spans(text).walk(), strict=True))
+        except (UnreadableError, ValueError):  # also: not the same elements; a codec that knows its own errors
             return None
-        return cls(text, Lines(text), PartFinder(root), places)
+        return cls(text, PartFinder(root), places) if _agree(places, text) else None
+
+    @cached_property
+    def lines(self) -> Lines:
+        """The lines of the text."""
+        return Lines(self.text)
 
     def span(self, where: Location) -> Span | None:
         """The attribute with its value, or the start tag, that a location leads to; None where it leads to none.
@@ -41,3 +89,112 @@ class FindingSpans:
         place = self.places[element]
         attribute = place.attributes.get(where.path.rpartition("/@")[2]) if "/@" in where.path else None
         return attribute.whole if attribute else place.start_tag
+
+    def piece(self, finding: Diagnostic, *, expanded: bool = False) -> Span | None:
+        """The smallest piece that a finding is about; None where that is in doubt.
+
+        Of one whose part was `expanded` from what stands here, the path may be another.
+        """
+        where = finding.location
+        if finding.rule is structure.TABBED_NUMBERS:
+            return self._tabbed(finding)
+        if finding.rule in _OF_ROOT:
+            return self.places[self.parts.root].name
+        element = self.parts.find(where)
+        if element is not None:
+            return piece(finding, self.places[element], self.text)
+        if not where.path:
+            return self._named(finding)
+        place = self._on_line(where) if expanded else None
+        return piece(finding, place, self.text) if place else self._inside(finding)
+
+    def location(self, where: Location, span: Span) -> Location:
+        """A location at a piece of the text."""
+        (line, column), (end_line, end_column) = self.lines.place(span.start), self.lines.place(span.end)
+        return where._replace(line=line, column=column, end_line=end_line, end_column=end_column)
+
+    @cached_property
+    def _begun(self) -> dict[int, list[ElementSpan]]:
+        """The elements by the line on which they begin."""
+        found: dict[int, list[ElementSpan]] = defaultdict(list)
+        for place in self.places.values():
+            found[self.lines.place(place.start_tag.start).line].append(place)
+        return found
+
+    def _on_line(self, where: Location) -> ElementSpan | None:
+        """The only element of this kind that begins on a line, with the attribute if it is about one."""
+        path, _, attribute = where.path.partition("/@")
+        tag = path.rpartition("/")[2].partition("[")[0] if "']" not in path else _last_tag(path)
+        found = [
+            each
+            for each in self._begun.get(where.line, [])
+            if each.name.of(self.text) == tag and (not attribute or attribute in each.attributes)
+        ]
+        return found[0] if len(found) == 1 else None
+
+    def _inside(self, finding: Diagnostic) -> Span | None:
+        """What was found in the part that a path leads to, on the line that is that of something in this part."""
+        where, found = finding.location, finding.found
+        around = self.parts.find_path(where)
+        if around is None or not found:
+            return None
+        pieces = [
+            span
+            for element in around.iter("*")
+            if element.sourceline == where.line
+            for span in values(self.places[element], self.text)
+            if span.of(self.text) == found
+        ]
+        return pieces[0] if len(pieces) == 1 else None
+
+    def _named(self, finding: Diagnostic) -> Span | None:
+        """What the message of a finding without a path names, in the only element that begins on its line."""
+        found = self._begun.get(finding.location.line, [])
+        if len(found) != 1:
+            return None
+        return quoted(finding.message, found[0], self.text) or found[0].name
+
+    def _tabbed(self, finding: Diagnostic) -> Span | None:
+        """The value of the only attribute on a line that the message names, and whose value is broken."""
+        found = [
+            attribute.value
+            for place in self.places.values()
+            for name, attribute in place.attributes.items()
+            if f"'{name}'" in finding.message and self.lines.place(attribute.name.start).line == finding.location.line
+        ]
+        return found[0] if len(found) == 1 else None
+
+
+def _last_tag(path: str) -> str:
+    """The name of the element that a path ends with, whose names may have slashes in them."""
+    steps = path.split("']")
+    last = steps[-1] or steps[-2].partition("[@")[0]
+    return last.rpartition("/")[2].partition("[")[0]
+
+
+def _tree(data: bytes) -> XmlElement:
+    """The tree as it was read, also of a file of another format.
+
+    Raises:
+        UnreadableError: it is no XML.
+    """
+    try:
+        return read_tree_again(data)
+    except UnreadableError:
+        return parse(data, DiagnosticSink(), LIFTED_LIMITS)
+
+
+def _spans(text: str) -> ElementSpan:
+    try:
+        return spans(text)
+    except UnplacedError:
+        return spans(masked(text))  # what is repaired when it is read is no reason to know nothing
+
+
+def _agree(places: dict[XmlElement, ElementSpan], text: str) -> bool:
+    """Whether the elements are called the same in the tree and in the text, but for prefixes and old roots."""
+    pairs = iter(places.items())
+    next(pairs, None)
+    return all(
+        str(element.tag).rpartition("}")[2] == place.name.of(text).rpartition(":")[2] for element, place in pairs
+    )

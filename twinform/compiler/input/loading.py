@@ -104,7 +104,7 @@ def _check_text(text: bytes, sink: DiagnosticSink, load_options: LoadOptions) ->
             return _check_json(text, sink, load_options)
         document, tree, size = read_document(text, sink, load_options)
     except UnreadableError:
-        return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True)
+        return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True, content=text)
     if document is not None and not sink.has_errors:
         read = len(sink.diagnostics)
         verify(document, sink)

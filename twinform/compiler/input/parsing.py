@@ -24,6 +24,7 @@ from twinform.compiler.input.limits import (
 from twinform.compiler.input.xml_recovery import (
     LIMITS,
     LOST_BRACKET,
+    XmlError,
     first_fatal,
     repaired,
     with_bracket,
@@ -81,7 +82,9 @@ def parse(text: bytes, sink: DiagnosticSink, limits: Limits = USUAL_LIMITS) -> X
         root, repaired = _recover(text, sink, error), True
     refuse_excess(excess_of_namespaces(root, text, repaired=repaired), sink)
     if root.getroottree().docinfo.doctype:
-        sink.report(reading.DOCTYPE, "the document has a DOCTYPE; none is allowed", Location(line=1, path="/"))
+        from twinform.compiler.input.syntax_places import SyntaxPlaces  # noqa: PLC0415 - few files are refused
+
+        sink.report(reading.DOCTYPE, "the document has a DOCTYPE; none is allowed", SyntaxPlaces(text).doctype())
         raise UnreadableError
     if b"\0" in text[:4] or text[:2] in _UTF_16:
         message = "the file is in UTF-16, which neither urdfdom nor Drake nor libsdformat reads"
@@ -114,7 +117,9 @@ def _parser(*, recover: bool) -> etree.XMLParser:
 
 
 def _recover(text: bytes, sink: DiagnosticSink, error: etree.XMLSyntaxError) -> XmlElement:
-    whole = with_bracket(text)
+    from twinform.compiler.input.syntax_places import SyntaxPlaces  # noqa: PLC0415 - few files are not well-formed
+
+    source, whole = text, with_bracket(text)
     if whole is not None:
         line = text[: text.index(b"?xml")].count(b"\n") + 1
         message = "not well-formed XML, repaired: the '<' of the XML declaration is missing"
@@ -129,16 +134,19 @@ def _recover(text: bytes, sink: DiagnosticSink, error: etree.XMLSyntaxError) -> 
     log = list(parser.error_log)
     flaw = first_fatal(log, text)
     if root is None or flaw is not None:
-        line, column, message, hint = flaw or (error.position[0], error.position[1], error.msg or "not XML", None)
+        flaw = flaw or XmlError(error.position[0], error.position[1], error.msg or "not XML", None)
         if any(entry.type_name == "ERR_RESOURCE_LIMIT" for entry in log):
-            refuse_excess(Excess(f"{LIMITS} (column {column})", Location(line=line, path="/")), sink)
-        words = f"not well-formed XML: {message} (column {column})"
-        sink.report(reading.NOT_WELL_FORMED, words, Location(line=line, path="/"), help=hint)
+            refuse_excess(Excess(f"{LIMITS} (column {flaw.column})", Location(line=flaw.line, path="/")), sink)
+        where = SyntaxPlaces(text).location(flaw) if text == source else Location(line=flaw.line, path="/")
+        sink.report(reading.NOT_WELL_FORMED, f"not well-formed XML: {flaw.message}", where, help=flaw.help)
         raise UnreadableError from error
     refuse_excess(excess_of_tree(root, text), sink)
-    for line, _, message, hint in (*flaws, *repaired(log)):
-        words = f"not well-formed XML, repaired: {message}"
-        sink.report(reading.REPAIRED_XML, words, Location(line=line, path="/"), help=hint)
+    places = SyntaxPlaces(source)
+    for flaw in (*flaws, *repaired(log)):
+        words = f"not well-formed XML, repaired: {flaw.message}"
+        is_placed = text == source or (flaw in flaws and whole is None)
+        where = places.location(flaw) if is_placed else Location(line=flaw.line, path="/")
+        sink.report(reading.REPAIRED_XML, words, where, help=flaw.help)
     _declare_prefixes(root)
     return root
 

@@ -61,12 +61,13 @@ class Entry(Protocol):
 
 
 class XmlError(NamedTuple):
-    """What is wrong at a place, and what to do about it."""
+    """What is wrong at a place, and what to do about it; `kind` is what libxml2 calls it."""
 
     line: int
     column: int
     message: str
     help: str | None
+    kind: str = ""
 
 
 def with_bracket(text: bytes) -> bytes | None:
@@ -86,7 +87,9 @@ def with_single_colons(text: bytes) -> tuple[bytes, list[XmlError]]:
         copied = found.end()
         if not found["start"].startswith(b"</"):
             name = found["start"][1:].decode(errors="replace")
-            flaws.append(XmlError(line, 0, f"two colons behind the prefix {name}", _HELP["NS_ERR_QNAME"]))
+            column = len(text[text.rfind(b"\n", 0, found.start()) + 1 : found.end()].decode(errors="replace"))
+            words = f"two colons behind the prefix {name}"
+            flaws.append(XmlError(line, column, words, _HELP["NS_ERR_QNAME"], "NS_ERR_QNAME"))
     return b"".join((*pieces, text[copied:])), flaws
 
 
@@ -99,15 +102,15 @@ def first_fatal(log: Iterable[Entry], text: bytes) -> XmlError | None:
             continue
         line = entry.line
         if entry.type_name == "ERR_COMMENT_NOT_FINISHED":
-            line = text[: text.rfind(b"<!--")].count(b"\n") + 1
-        return XmlError(line, entry.column, entry.message.strip(), _help(entry, text))
+            line = text.count(b"\n", 0, text.find(b"<!--", text.rfind(b"-->") + 1)) + 1
+        return XmlError(line, entry.column, entry.message.strip(), _help(entry, text), entry.type_name)
     return None
 
 
 def repaired(log: Iterable[Entry]) -> list[XmlError]:
     """The entries that do not."""
     return [
-        XmlError(entry.line, entry.column, entry.message.strip(), REPAIRS[entry.type_name])
+        XmlError(entry.line, entry.column, entry.message.strip(), REPAIRS[entry.type_name], entry.type_name)
         for entry in log
         if entry.type_name in REPAIRS
     ]
@@ -122,6 +125,8 @@ def _help(entry: Entry, text: bytes) -> str | None:
         case "ERR_NAME_REQUIRED":
             if entry.message.startswith("xmlParseEntityRef"):
                 return "write & as &amp;"
+            if entry.message.startswith("error parsing attribute name"):
+                return "close the tag with '>' before the next one; a name begins with a letter"
             return "write the name right behind the '<'; a '<' that is meant as text is written &lt;"
         case "ERR_DOCUMENT_EMPTY":
             return "a model begins with '<': delete what stands before it, or name another file if this is no model"

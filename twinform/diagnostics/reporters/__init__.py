@@ -3,13 +3,17 @@
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from twinform.diagnostics.reporters.findings import Findings, Reporter
+from twinform.diagnostics.reporters.findings import NO_TEXTS, Findings, Reporter, Texts
 from twinform.diagnostics.reporters.github import github
 from twinform.diagnostics.reporters.json import json
+from twinform.diagnostics.reporters.junit import junit
+from twinform.diagnostics.reporters.printable import printable
 from twinform.diagnostics.reporters.sarif import sarif
-from twinform.diagnostics.reporters.text import Paint, printable, text
+from twinform.diagnostics.reporters.text import Paint, concise, text
 
-REPORTERS: Mapping[str, Reporter] = MappingProxyType({"text": text, "json": json, "sarif": sarif, "github": github})
+REPORTERS: Mapping[str, Reporter] = MappingProxyType(
+    {"text": text, "concise": concise, "json": json, "sarif": sarif, "github": github, "junit": junit}
+)
 """Every output format by its name on the command line."""
 
-__all__ = ["REPORTERS", "Findings", "Paint", "Reporter", "printable", "text"]
+__all__ = ["NO_TEXTS", "REPORTERS", "Findings", "Paint", "Reporter", "Texts", "concise", "printable", "text"]

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from twinform.diagnostics.diagnostic import Diagnostic
+from twinform.diagnostics.location import Location
 from twinform.diagnostics.reporters.findings import Findings
 from twinform.diagnostics.rule import Severity
 
@@ -14,17 +15,30 @@ _IN_PROPERTIES = (*_IN_DATA, (":", "%3A"), (",", "%2C"))
 
 
 def github(files: Sequence[Findings]) -> str:
-    """`::error file=,line=,title=::message`, one line for each finding; empty without findings."""
+    """`::error file=,line=,col=,endLine=,endColumn=,title=::message`, a line for each finding; empty without any."""
     return "".join(f"{_command(each, file.path)}\n" for file in files for each in file.diagnostics)
 
 
 def _command(diagnostic: Diagnostic, file: str) -> str:
     where = diagnostic.location
-    properties = {"file": where.file or file, "line": str(where.line or ""), "title": diagnostic.rule.name}
+    properties = {
+        "file": where.file or file,
+        "line": str(where.line or ""),
+        **_end(where),
+        "title": diagnostic.rule.name,
+    }
     listed = ",".join(f"{key}={_escape(value, _IN_PROPERTIES)}" for key, value in properties.items() if value)
     parts = (diagnostic.message, where.path and f"at {where.path}", diagnostic.help and f"help: {diagnostic.help}")
     message = _escape("\n".join(part for part in parts if part), _IN_DATA)
     return f"::{_COMMANDS[diagnostic.severity]} {listed}::{message}"
+
+
+def _end(where: Location) -> dict[str, str]:
+    """The columns of a piece in one line; GitHub takes none of a piece that goes on in others."""
+    if where.end_line > where.line:
+        return {"endLine": str(where.end_line)}
+    end = {"endLine": str(where.end_line), "endColumn": str(where.end_column)} if where.end_line else {}
+    return {"col": str(where.column), **end} if where.column else {}
 
 
 def _escape(text: str, table: tuple[tuple[str, str], ...]) -> str:

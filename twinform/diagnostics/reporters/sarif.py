@@ -1,66 +1,119 @@
 """The report for code scanning: SARIF 2.1.0."""
 
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 from urllib.parse import quote
 
-from twinform.diagnostics.catalog import catalog
+from twinform.diagnostics.addresses import HOME, RULES
+from twinform.diagnostics.built_in import BUILT_IN
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.location import Location
-from twinform.diagnostics.reporters.findings import Findings
+from twinform.diagnostics.reporters.findings import Findings, placed_edits
 from twinform.diagnostics.rule import Rule, Severity
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
+_FINGERPRINT = "finding/v1"
 _LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 
 
 def sarif(files: Sequence[Findings]) -> str:
-    """A log of one run: all rules of the catalog, and a result for each finding."""
+    """A log of one run: the rules that were found, and a result for each finding."""
     import json  # noqa: PLC0415 - few runs write it
     from importlib.metadata import version  # noqa: PLC0415 - see above
 
-    rules = _rules(files)
+    rules = dict(sorted({each.rule.name: each.rule for file in files for each in file.diagnostics}.items()))
     order = {name: index for index, name in enumerate(rules)}
-    driver = {"name": "twinform", "version": version("twinform"), "rules": [_rule(rule) for rule in rules.values()]}
-    results = [_result(each, file.path, order) for file in files for each in file.diagnostics]
+    driver = {
+        "name": "twinform",
+        "version": version("twinform"),
+        "informationUri": HOME,
+        "rules": [_rule(rule) for rule in rules.values()],
+    }
+    seen: Counter[str] = Counter()
+    results = [_result(each, file, order, seen) for file in files for each in file.diagnostics]
     run = {"tool": {"driver": driver}, "columnKind": "unicodeCodePoints", "results": results}
     return json.dumps({"$schema": _SCHEMA, "version": "2.1.0", "runs": [run]}, indent=2) + "\n"
 
 
-def _rules(files: Sequence[Findings]) -> dict[str, Rule]:
-    """The catalog, and the rules of third-party passes that found something."""
-    used = {each.rule.name: each.rule for file in files for each in file.diagnostics}
-    return dict(sorted((used | catalog()).items()))
-
-
 def _rule(rule: Rule) -> dict[str, object]:
+    from twinform.diagnostics.pages import sections  # noqa: PLC0415 - few runs write it
+
+    page = list(sections(rule))
+    text = "\n".join(f"{heading}: {body}" for heading, body in page)
+    markdown = "\n\n".join(f"**{heading}.** {body}" for heading, body in page)
+    address = {"helpUri": f"{RULES}#{rule.name}"} if BUILT_IN.get(rule.name) else {}
     return {
         "id": rule.name,
         "shortDescription": {"text": rule.finds},
         "fullDescription": {"text": rule.matters},
-        "help": {"text": f"Example: {rule.example}\nBetter: {rule.better}"},
+        "help": {"text": text, "markdown": markdown},
+        **address,
         "defaultConfiguration": {"level": _LEVELS[rule.severity]},
     }
 
 
-def _result(diagnostic: Diagnostic, file: str, order: dict[str, int]) -> dict[str, object]:
+def _result(diagnostic: Diagnostic, file: Findings, order: dict[str, int], seen: Counter[str]) -> dict[str, object]:
     message = f"{diagnostic.message}\n{diagnostic.help}" if diagnostic.help else diagnostic.message
-    related = [{"id": number, **_location(each, file)} for number, each in enumerate(diagnostic.related)]
+    related = [{"id": number, **_location(each, file.path)} for number, each in enumerate(diagnostic.related)]
+    fixes = _fixes(diagnostic, file)
     return {
         "ruleId": diagnostic.rule.name,
         "ruleIndex": order[diagnostic.rule.name],
         "level": _LEVELS[diagnostic.severity],
         "message": {"text": message},
-        "locations": [_location(diagnostic.location, file)],
+        "locations": [_location(diagnostic.location, file.path)],
+        "partialFingerprints": {_FINGERPRINT: _fingerprint(diagnostic, file.path, seen)},
         **({"relatedLocations": related} if related else {}),
+        **({"fixes": fixes} if fixes else {}),
     }
 
 
+def _fingerprint(diagnostic: Diagnostic, file: str, seen: Counter[str]) -> str:
+    """What stays the same where lines move: the file, the rule, the path and the message; counted where it recurs."""
+    from hashlib import sha256  # noqa: PLC0415 - few runs write it
+
+    where = diagnostic.location
+    parts = (_uri(where.file or file), diagnostic.rule.name, where.path, diagnostic.message)
+    found = sha256("\0".join(parts).encode(errors="surrogatepass")).hexdigest()[:32]
+    seen[found] += 1
+    return f"{found}:{seen[found]}"
+
+
 def _location(location: Location, file: str) -> dict[str, object]:
-    region = {"region": {"startLine": location.line}} if location.line else {}
+    region = {"region": _region(location)} if location.line else {}
     physical: dict[str, object] = {"artifactLocation": {"uri": _uri(location.file or file)}, **region}
     logical = {"logicalLocations": [{"fullyQualifiedName": location.path}]} if location.path else {}
     return {"physicalLocation": physical, **logical}
+
+
+def _region(location: Location) -> dict[str, int]:
+    begin = {"startLine": location.line}
+    if not location.column:
+        return begin
+    end = {"endLine": location.end_line, "endColumn": location.end_column} if location.end_line else {}
+    return {**begin, "startColumn": location.column, **end}
+
+
+def _fixes(diagnostic: Diagnostic, file: Findings) -> list[dict[str, object]]:
+    edits = placed_edits(diagnostic, file.path, file.texts)
+    if diagnostic.fix is None or not edits:
+        return []
+    replacements = [
+        {
+            "deletedRegion": {
+                "startLine": start[0],
+                "startColumn": start[1],
+                "endLine": end[0],
+                "endColumn": end[1],
+            },
+            "insertedContent": {"text": new},
+        }
+        for start, end, new in edits
+    ]
+    artifact = {"uri": _uri(diagnostic.location.file or file.path)}
+    changes = [{"artifactLocation": artifact, "replacements": replacements}]
+    return [{"description": {"text": diagnostic.fix.title}, "artifactChanges": changes}]
 
 
 def _uri(file: str) -> str:

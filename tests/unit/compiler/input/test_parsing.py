@@ -142,14 +142,24 @@ TOP = Location("r.urdf", 1, "/")
 
 FINDINGS: dict[str, tuple[bytes, list[tuple[str, Location, str, str | None]]]] = {
     "nothing": (b" \n", [("unreadable-file", NOWHERE, "the file is empty", None)]),
-    "no element": (b"<!-- a -->", [("not-well-formed", TOP, f"{NO_START} (column 11)", NO_MODEL)]),
+    "no element": (
+        b"<!-- a -->",
+        [("not-well-formed", TOP._replace(column=11, end_line=1, end_column=11), NO_START, NO_MODEL)],
+    ),
     "zero bytes": (
         b"\0\0",
-        [("not-well-formed", TOP, "not well-formed XML: Document is empty (column 1)", NO_MODEL)],
+        [
+            (
+                "not-well-formed",
+                TOP._replace(column=1, end_line=1, end_column=2),
+                "not well-formed XML: Document is empty",
+                NO_MODEL,
+            )
+        ],
     ),
     "a document type": (
         b"\n<!DOCTYPE robot><robot/>",
-        [("doctype", TOP, "the document has a DOCTYPE; none is allowed", None)],
+        [("doctype", Location("r.urdf", 2, "/", 1, 2, 10), "the document has a DOCTYPE; none is allowed", None)],
     ),
     "an encoding": (
         b"<?xml version='1.0' encoding='utf-7'?><robot/>",

@@ -22,7 +22,7 @@ HEAD = "<robot name='r'>\n"
 
 REFUSED = {
     "a value without quotes": Case(HEAD + "<link name=a/>\n</robot>", 2, "put the value of the attribute in quotes"),
-    "quotes that are not closed": Case(HEAD + "<link name='a/>\n</robot>", 3, "close the quotes"),
+    "quotes that are not closed": Case(HEAD + "<link name='a/>\n</robot>", 2, "close the quotes"),
     "an attribute without a value": Case(HEAD + "<link name/>\n</robot>", 2, "give the attribute a value"),
     "an attribute without a value in the only line": Case("<robot a/>\n", 1, "give the attribute a value"),
     "an end tag with an attribute in the last line": Case(HEAD + "</robot a>\n \n", 2, "has no attributes"),
@@ -42,7 +42,7 @@ REFUSED = {
     "a blank behind the bracket": Case(HEAD + "< link name='a'/>\n</robot>", 2, "right behind the '<'"),
     "two colons in an attribute": Case(HEAD + "<link gz::name='a'/>\n</robot>", 2, "one colon"),
     "an open comment": Case(HEAD + "<!-- open\n<link name='a'/>\n</robot>", 2, "close the comment"),
-    "an open section": Case(HEAD + "<![CDATA[ open\n</robot>", 3, "close the section"),
+    "an open section": Case(HEAD + "<![CDATA[ open\n</robot>", 2, "close the section"),
     "bytes of another encoding": Case(HEAD.encode() + b"<link name='\xff'/>\n</robot>", 2, "save the file as UTF-8"),
     "an unknown encoding": Case("<?xml version='1.0' encoding='foo'?>\n" + HEAD + "</robot>", 1, "such as UTF-8"),
     "a control character": Case(HEAD + "<link name='\x01'/>\n</robot>", 2, "delete the control character"),
@@ -90,9 +90,9 @@ def findings(text: bytes) -> list[Diagnostic]:
 
 def test_what_is_refused_reports_where_in_the_line() -> None:
     (found,) = findings(b"<robot>\n  <link name='a'></lnik>\n</robot>")
-    assert found.location == Location("r.urdf", 2, "/")
+    assert found.location == Location("r.urdf", 2, "/", 20, 2, 24)
     mismatch = "Opening and ending tag mismatch: link line 2 and lnik"
-    assert found.message == f"not well-formed XML: {mismatch} (column 25)"
+    assert found.message == f"not well-formed XML: {mismatch}"
     assert found.help == "write </link> for the <link> of line 2 before this </lnik>, or correct the name"
     assert found.is_error
 
@@ -210,11 +210,12 @@ LOGGED: dict[str, tuple[list[Logged], bytes, XmlError | None]] = {
 @pytest.mark.parametrize("name", LOGGED)
 def test_the_first_doubt_is_what_is_wrong(name: str) -> None:
     log, text, flaw = LOGGED[name]
-    assert first_fatal(iter(log), text) == flaw
+    found = first_fatal(iter(log), text)
+    assert (found._replace(kind="") if found else None) == flaw
 
 
 def test_what_is_repaired_is_all_that_can_be() -> None:
     assert repaired(iter([LATE, NO_BLANK, NO_VERSION])) == [
-        XmlError(1, 6, "reason", "move <?xml ...?> to the very beginning of the file"),
-        XmlError(1, 7, "reason", "write <?xml version='1.0'?>"),
+        XmlError(1, 6, "reason", "move <?xml ...?> to the very beginning of the file", "ERR_RESERVED_XML_NAME"),
+        XmlError(1, 7, "reason", "write <?xml version='1.0'?>", "ERR_VERSION_MISSING"),
     ]

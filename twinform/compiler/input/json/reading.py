@@ -56,7 +56,7 @@ def read_json(text: bytes, sink: DiagnosticSink) -> JsonSource | None:
         decoded = text.decode("utf-8-sig")
         data = json.loads(decoded, object_pairs_hook=_object, parse_constant=_refuse)
     except json.JSONDecodeError as error:
-        _report(sink, f"not JSON: {error.msg} (column {error.colno})", Location(line=error.lineno))
+        _report(sink, f"not JSON: {error.msg} (column {error.colno})", Location(line=error.lineno, column=error.colno))
         return None
     except (ValueError, RecursionError) as error:
         _report(sink, f"not JSON: {'it is nested too deep' if isinstance(error, RecursionError) else error}")

@@ -1,0 +1,177 @@
+"""Which piece of an element a finding is about: the value, the text or the name that is wrong.
+
+The smallest piece is chosen that holds what was found; where none does without a doubt, the name of the start tag.
+"""
+
+import re
+from collections.abc import Iterable, Iterator
+
+from twinform.diagnostics import Diagnostic, Rule, Span
+from twinform.diagnostics.rules import (
+    bodies,
+    edits,
+    frames,
+    inertia,
+    joints,
+    model,
+    sdf_versions,
+    structure,
+    to_sdf,
+)
+from twinform.text import AttributeSpan, ElementSpan
+
+_NAMES: frozenset[Rule] = frozenset(
+    {
+        structure.UNKNOWN_ELEMENT,
+        structure.UNKNOWN_ATTRIBUTE,
+        structure.OUTSIDE_VERSION,
+        structure.DEPRECATED_ELEMENT,
+        structure.DIALECT,
+        structure.REPEATED_ELEMENT,
+        structure.MISSING_ELEMENT,
+        structure.MISSING_ATTRIBUTE,
+        structure.MISSING_PART,
+        sdf_versions.GONE_FROM_SDF,
+        edits.NOT_FOR_FORMAT,
+        to_sdf.GAZEBO_TAG_WITHOUT_TARGET,
+        to_sdf.GAZEBO_CONFLICT,
+    }
+)
+"""Findings about an element or attribute itself, whatever its value is."""
+_PARTS: dict[Rule, str] = {
+    model.DUPLICATE_NAME: "name",
+    model.EMPTY_NAME: "name",
+    model.SHARED_NAME: "name",
+    model.UNPRINTABLE_NAME: "name",
+    model.DANGLING_LINK: "link",
+    model.UNKNOWN_MATERIAL: "name",
+    model.LOWER_ABOVE_UPPER: "lower",
+    frames.FRAME_CYCLE: "name",
+    bodies.CONFLICTING_MATERIAL: "name",
+    joints.MIMIC_CYCLE: "joint",
+    inertia.NON_POSITIVE_MASS: "mass",
+}
+"""The attribute, or the child element, that a finding about an element is about, where it has one."""
+_QUOTED = re.compile(r"'((?:[^']|(?<=\w)'(?=\w))+)'")
+_EXPRESSION = re.compile(r"when evaluating expression '(.*)'$", re.DOTALL)
+_TOKEN = re.compile(r"[^\s,]+")
+_ASIDE = re.compile(r"<!--.*?-->|<\?.*?\?>", re.DOTALL)
+
+
+def piece(finding: Diagnostic, element: ElementSpan, text: str) -> Span:
+    """The piece of an element that a finding is about; the element is the one that its path leads to."""
+    attribute = finding.location.path.rpartition("/@")[2] if "/@" in finding.location.path else None
+    if attribute is not None:
+        written = element.attributes.get(attribute)
+        return _of_attribute(finding, written, text) if written else element.name
+    if finding.rule is structure.STRAY_TEXT:
+        return next((span for span in _texts(element, text) if span.of(text) == finding.found), element.name)
+    if finding.rule in _NAMES:
+        return element.name
+    if finding.rule is structure.SPLIT_VALUE:
+        return _own_text(element, text) or element.name
+    return _part(finding, element, text) or _holding(finding, element, text) or element.name
+
+
+def quoted(message: str, element: ElementSpan, text: str) -> Span | None:
+    """The value, or text, of an element that a message quotes, or an expression of xacro in it."""
+    wanted = set(_QUOTED.findall(message)) | {word.strip(".,:;[]'\"") for word in message.split()}
+    expression = _EXPRESSION.search(message)
+    if expression is not None:
+        begin = [at for form in ("${%s}", "$(%s)") if (at := _place(form % expression[1], element, text)) is not None]
+        return begin[0] if len(begin) == 1 else None
+    return _exact(values(element, text), wanted, text)
+
+
+def values(element: ElementSpan, text: str) -> list[Span]:
+    """The text of an element, if it has one, and the values of its attributes, if they are not empty."""
+    own = _own_text(element, text)
+    return [
+        *((own,) if own else ()),
+        *(each.value for each in element.attributes.values() if each.value.of(text)),
+    ]
+
+
+def _place(word: str, element: ElementSpan, text: str) -> Span | None:
+    """Where a word stands in a start tag or text, if it is there once."""
+    inside = Span(element.start_tag.start, (_own_text(element, text) or element.start_tag).end)
+    start = text.find(word, *inside)
+    if start < 0 or text.find(word, start + 1, inside.end) >= 0:
+        return None
+    return Span(start, start + len(word))
+
+
+def _part(finding: Diagnostic, element: ElementSpan, text: str) -> Span | None:
+    name = _PARTS.get(finding.rule)
+    if name is None:
+        return None
+    if (named := element.attributes.get(name)) is not None:
+        return named.value if named.value.of(text) else named.whole
+    child = next((each for each in element.children if each.name.of(text) == name), None)
+    if child is None:
+        return None
+    value = child.attributes.get("value")
+    return _own_text(child, text) or (value.value if value else child.name)
+
+
+def _of_attribute(finding: Diagnostic, attribute: AttributeSpan, text: str) -> Span:
+    if finding.rule in _NAMES:
+        return attribute.name
+    found = _only_token(attribute.value, finding.found, text)
+    return found or (attribute.value if attribute.value.of(text) else attribute.whole)
+
+
+def _holding(finding: Diagnostic, element: ElementSpan, text: str) -> Span | None:
+    """The text or value in an element that holds what was found, or what the message quotes."""
+    parts = values(element, text)
+    found = finding.found
+    if found is not None:
+        words = (word for part in parts if (word := _only_token(part, found, text)))
+        return _exact(parts, {found}, text) or _only(words) or _in_children(element, found, text)
+    name = element.attributes.get("name")
+    others = [part for part in parts if name is None or part != name.value]
+    return _exact(others, set(_QUOTED.findall(finding.message)), text)
+
+
+def _exact(parts: list[Span], wanted: set[str], text: str) -> Span | None:
+    return _only(each for each in parts if each.of(text) in wanted)
+
+
+def _in_children(element: ElementSpan, found: str, text: str) -> Span | None:
+    """The text or value of a child that is what was found, if only one is."""
+    return _exact([part for child in element.children for part in values(child, text)], {found}, text)
+
+
+def _only(found: Iterable[Span]) -> Span | None:
+    spans = list(found)
+    return spans[0] if len(spans) == 1 else None
+
+
+def _only_token(part: Span, wanted: str | None, text: str) -> Span | None:
+    """The word of a text or value, if that has several of which exactly one is wanted."""
+    if not wanted:
+        return None
+    words = [Span(*found.span()) for found in _TOKEN.finditer(text, part.start, part.end)]
+    return _only(word for word in words if word.of(text) == wanted)
+
+
+def _own_text(element: ElementSpan, text: str) -> Span | None:
+    """The text of an element without blanks around it, and with comments between; None where it has children."""
+    if element.children or element.content is None:
+        return None
+    written = _ASIDE.sub(lambda aside: " " * len(aside[0]), element.content.of(text))
+    start = element.content.start + len(written) - len(written.lstrip())
+    end = element.content.start + len(written.rstrip())
+    return Span(start, end) if start < end else None
+
+
+def _texts(element: ElementSpan, text: str) -> Iterator[Span]:
+    """The texts directly in an element, without blanks around them."""
+    for run in element.texts():
+        start, end = run
+        while start < end and text[start].isspace():
+            start += 1
+        while end > start and text[end - 1].isspace():
+            end -= 1
+        if start < end:
+            yield Span(start, end)

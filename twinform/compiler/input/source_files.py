@@ -1,0 +1,73 @@
+"""The texts of the files that findings are about: the one that was read, and those that it includes or is made from."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from twinform.compiler.input.limits import LARGEST
+from twinform.compiler.input.options import LoadResult
+from twinform.compiler.input.regular_files import read_regular
+from twinform.text import Lines, SourceText
+
+
+@dataclass(frozen=True, slots=True)
+class SourceFiles:
+    """The bytes and lines of files by their names in locations; each is read once, when something asks for it.
+
+    `contents` are those that are at hand.
+    """
+
+    contents: Mapping[str, bytes] = field(default_factory=dict[str, bytes], repr=False)
+    _read: dict[str, bytes | None] = field(default_factory=dict[str, bytes | None], repr=False)
+    _lines: dict[str, tuple[str, Lines] | None] = field(default_factory=dict[str, tuple[str, Lines] | None], repr=False)
+
+    @classmethod
+    def of(cls, loaded: LoadResult) -> "SourceFiles":
+        """Those of a file that was read."""
+        was_made = any(name.startswith(f"{loaded.path} (") for name in loaded.origins)
+        contents = {} if was_made or loaded.content is None else {loaded.path: loaded.content}
+        return cls(contents)
+
+    def data(self, file: str) -> bytes | None:
+        """The bytes of a file; None where there is none, or it is too large."""
+        found = self.contents.get(file)
+        if found is not None or not file:
+            return found
+        if file not in self._read:
+            self._read[file] = _data(file)
+        return self._read[file]
+
+    def line(self, file: str, number: int) -> str | None:
+        """A line of a file, from 1, without its end; None where it has none."""
+        found = self._lines_of(file)
+        if found is None or not 0 < number <= len(found[1]):
+            return None
+        text, lines = found
+        end = lines.start(number + 1) if number < len(lines) else len(text)
+        return text[lines.start(number) : end].rstrip("\r\n")
+
+    def place(self, file: str, offset: int) -> tuple[int, int] | None:
+        """The line and column of an offset in a file; None where it has no such place."""
+        found = self._lines_of(file)
+        return found[1].place(offset) if found is not None and 0 <= offset <= len(found[0]) else None
+
+    def _lines_of(self, file: str) -> tuple[str, Lines] | None:
+        if file not in self._lines:
+            self._lines[file] = self._text(file)
+        return self._lines[file]
+
+    def _text(self, file: str) -> tuple[str, Lines] | None:
+        data = self.data(file)
+        try:
+            text = SourceText.of(data).text if data else None
+        except ValueError:
+            return None
+        return (text, Lines(text)) if text is not None else None
+
+
+def _data(file: str) -> bytes | None:
+    try:
+        found = read_regular(Path(file), LARGEST)
+    except (OSError, ValueError):
+        return None
+    return found if len(found) <= LARGEST else None

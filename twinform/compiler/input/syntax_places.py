@@ -1,0 +1,157 @@
+"""Where in the text a syntax error of XML is: from the line and column at which libxml2 noticed it to the piece itself.
+
+libxml2 says how far it had read, which is behind a name that it does not know, and at the end of a file for a comment
+that is never closed. What it calls the error tells which piece before that is meant.
+"""
+
+import re
+from collections.abc import Mapping
+from typing import Protocol
+
+from twinform.diagnostics import Location, Span
+from twinform.text import Lines, SourceText
+
+
+class LoggedError(Protocol):
+    """An error as libxml2 logs it; lines and columns count from 1."""
+
+    @property
+    def line(self) -> int: ...  # noqa: D102 - the names say it
+    @property
+    def column(self) -> int: ...  # noqa: D102 - as above
+    @property
+    def message(self) -> str: ...  # noqa: D102 - as above
+    @property
+    def kind(self) -> str: ...  # noqa: D102 - as above
+
+
+_WORDS: Mapping[str, str] = {
+    "ERR_TAG_NAME_MISMATCH": r"and (?P<word>\S+)$",
+    "ERR_ATTRIBUTE_REDEFINED": r"Attribute (?P<word>\S+) redefined",
+    "ERR_ATTRIBUTE_WITHOUT_VALUE": r"for attribute (?P<word>\S+)$",
+    "NS_ERR_UNDEFINED_NAMESPACE": r"prefix (?P<prefix>\S+) (?:for (?P<word>\S+) )?on (?P<tag>\S+) is",
+}
+"""Where the message names the piece."""
+_BEFORE: Mapping[str, str] = {
+    "ERR_TAG_NAME_MISMATCH": r"</\s*(?P<piece>{word})",
+    "ERR_ATTRIBUTE_REDEFINED": r"\s(?P<piece>{word})\s*=",
+    "ERR_ATTRIBUTE_WITHOUT_VALUE": r"\s(?P<piece>{word})",
+    "ERR_RESERVED_XML_NAME": r"(?P<piece><\?xml)",
+    "ERR_VERSION_MISSING": r"(?P<piece><\?xml)",
+    "ERR_UNKNOWN_VERSION": r"version\s*=\s*[\"'](?P<piece>[^\"']*)",
+    "ERR_UNDECLARED_ENTITY": r"(?P<piece>&[^\s;&]*;)",
+    "ERR_CDATA_NOT_FINISHED": r"(?P<piece><!\[CDATA\[)",
+    "NS_ERR_QNAME": r"<(?P<piece>[\w.-]+::)",
+    "ERR_ATTRIBUTE_NOT_FINISHED": r"\s(?P<piece>[^\s=<>\"']+\s*=\s*[\"'])",
+}
+"""The piece is the last of this form before the place that libxml2 gives."""
+_HERE = re.compile(r"</?[\w:.-]+|--|[\w:.-]+|\S")
+"""What stands at that place, where that is the piece."""
+_DOCTYPE = re.compile(r"(?:\s|<!--.*?-->|<\?.*?\?>)*(?P<piece><!DOCTYPE)", re.DOTALL)
+_OPEN_TAG = re.compile(r"<(?P<piece>[\w:.-]+)")
+_OPEN_VALUE = re.compile(r"\s(?P<piece>[^\s=<>\"']+\s*=\s*[\"'])")
+
+
+class SyntaxPlaces:
+    """Finds the pieces of one text."""
+
+    def __init__(self, data: bytes) -> None:
+        self._data = data
+        self._text = _decoded(data)
+        self._lines = Lines(self._text or "")
+        # libxml2 ends lines at line feeds only
+        self._starts = [0, *(found.end() for found in re.finditer("\n", self._text or ""))]
+
+    def location(self, error: LoggedError, path: str = "/") -> Location:
+        """The location of an error; without a column where it is not known."""
+        if self._text is None:
+            return self._first_undecodable(error, path)
+        span = self._piece(error, self._text)
+        return self.at(span, path) if span else Location(line=error.line, path=path)
+
+    def at(self, span: Span, path: str = "/") -> Location:
+        """The location of a piece."""
+        (line, column), (end_line, end_column) = self._lines.place(span.start), self._lines.place(span.end)
+        return Location("", line, path, column, end_line, end_column)
+
+    def doctype(self) -> Location:
+        """The location of the document type declaration."""
+        found = _DOCTYPE.match(self._text or "")
+        return self.at(Span(*found.span("piece"))) if found else Location(line=1, path="/")
+
+    def _piece(self, error: LoggedError, text: str) -> Span | None:
+        if not 0 < error.line <= len(self._starts):
+            return None
+        offset = self._starts[error.line - 1] + max(0, error.column - 1)
+        if offset > len(text):
+            return None
+        if error.kind == "ERR_LT_IN_ATTRIBUTE":
+            return _unclosed(text, offset)
+        if error.kind == "ERR_NAME_REQUIRED":
+            return _nameless(text, offset)
+        if error.kind == "ERR_COMMENT_NOT_FINISHED":
+            start = text.find("<!--", text.rfind("-->") + 1)
+            return Span(start, start + len("<!--")) if start >= 0 else None
+        pattern = _pattern(error)
+        if pattern is not None:
+            return _last(re.compile(pattern), text, offset)
+        here = _HERE.match(text, offset)
+        return Span(*here.span()) if here else Span(offset, offset)
+
+    def _first_undecodable(self, error: LoggedError, path: str) -> Location:
+        """The first byte that is no character of UTF-8, where that is on the line of the error."""
+        try:
+            self._data.decode()
+        except UnicodeDecodeError as wrong:
+            start = self._data.rfind(b"\n", 0, wrong.start) + 1
+            line = self._data.count(b"\n", 0, start) + 1
+            column = len(self._data[start : wrong.start].decode()) + 1
+            if line == error.line:
+                return Location("", line, path, column, line, column + 1)
+        return Location(line=error.line, path=path)
+
+
+def _decoded(data: bytes) -> str | None:
+    try:
+        return SourceText.of(data).text
+    except ValueError:
+        return None
+
+
+def _pattern(error: LoggedError) -> str | None:
+    found = re.search(_WORDS[error.kind], error.message) if error.kind in _WORDS else None
+    if error.kind == "NS_ERR_UNDEFINED_NAMESPACE":
+        if found is None:
+            return None
+        prefix, word, tag = (re.escape(each or "") for each in found.group("prefix", "word", "tag"))
+        return rf"\s(?P<piece>{prefix}:{word})\s*=" if word else rf"<(?P<piece>{prefix}:{tag})(?=[\s/>])"
+    pattern = _BEFORE.get(error.kind)
+    if pattern is None or (found is None and error.kind in _WORDS):
+        return None
+    return pattern.replace("{word}", re.escape(found["word"])) if found else pattern
+
+
+def _last(pattern: re.Pattern[str], text: str, end: int) -> Span | None:
+    """The last piece before an offset; where there are many lines before it, not from the very beginning."""
+    for start in (text.rfind("\n", 0, end) + 1, max(0, end - 10_000), 0):
+        found = list(pattern.finditer(text, start, end + 1))
+        if found:
+            return Span(*found[-1].span("piece"))
+    return None
+
+
+def _unclosed(text: str, offset: int) -> Span | None:
+    """A `<` in a value; where the value goes on over lines, its quotes are not closed, and its beginning is meant."""
+    opened = _last(_OPEN_VALUE, text, offset)
+    if opened is not None and "\n" in text[opened.end : offset]:
+        return opened
+    return Span(offset, offset + 1) if text[offset : offset + 1] == "<" else None
+
+
+def _nameless(text: str, offset: int) -> Span | None:
+    """A `&` or `<` without a name; a tag that is not closed before the next one begins."""
+    if text[offset - 1 : offset] in {"&", "<"}:
+        return Span(offset - 1, offset)
+    if text[offset : offset + 1] == "<":
+        return _last(_OPEN_TAG, text, offset - 1)
+    return Span(offset, min(offset + 1, len(text)))
