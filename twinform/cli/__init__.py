@@ -15,6 +15,7 @@ COMMANDS: Mapping[str, str] = {
     "convert": "Compile robot models from one format into the other.",
     "check": "Find everything that is wrong with robot models.",
     "diff": "Say whether two files describe the same robot.",
+    "format": "Lay out the text of models, and change nothing else.",
     "stats": "Print in numbers what models are made of.",
     "batch": "Work on every model of a folder, on several processors or machines.",
     "reproduce": "Run a pass again that failed.",

@@ -24,6 +24,13 @@ def _size(_ctx: click.Context, _option: click.Parameter, value: str) -> int:
 
 
 _ARGUMENT = re.compile(r"(?P<name>[A-Za-z_][\w.-]*):=(?P<value>.*)", re.DOTALL)
+size_option = click.option(
+    "--max-size",
+    metavar="SIZE",
+    default=str(LARGEST),
+    callback=_size,
+    help="The largest file that is read, such as 200MB or 1GiB; by default 64MiB.",
+)
 _OPTIONS = (
     click.option("--strict/--no-strict", default=False, help="Refuse what readers ignore, such as unknown names."),
     click.option(
@@ -45,13 +52,7 @@ _OPTIONS = (
         default=None,
         help="Expand all files, or none; by default those called .xacro. It evaluates expressions in them.",
     ),
-    click.option(
-        "--max-size",
-        metavar="SIZE",
-        default=str(LARGEST),
-        callback=_size,
-        help="The largest file that is read, such as 200MB or 1GiB; by default 64MiB.",
-    ),
+    size_option,
     click.option(
         "--max-tags",
         type=click.IntRange(min=1),

@@ -85,7 +85,14 @@ class ElementSpan:
 
 
 class UnplacedError(ValueError):
-    """The text is not well-formed, or has a document type declaration: nothing is known of its places."""
+    """The text is not well-formed, or has a document type declaration: nothing is known of its places.
+
+    `line` and `column` are where a parser stopped, from 1, and 0 where that is not known.
+    """
+
+    def __init__(self, message: str, line: int = 0, column: int = 0) -> None:
+        super().__init__(message)
+        self.line, self.column = line, column
 
 
 class Lines:

@@ -149,5 +149,5 @@ def _load(ctx: click.Context, _option: click.Parameter, value: Path | None) -> N
     settings = parse_settings(path, table)
     names = NamedPipelines(path, settings.pipelines)
     ctx.meta[_KEY] = Project(path, settings.paths, settings.allow, settings.deny, tuple(settings.pipelines), names)
-    given = {name: getattr(settings, name) for name in _DEFAULTS}
+    given = {name: getattr(settings, name) for name in _DEFAULTS} | dict(settings.format)
     ctx.default_map = {name: value for name, value in given.items() if value is not None}

@@ -3,7 +3,7 @@
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 
@@ -16,12 +16,23 @@ from twinform.schemas import versions_of
 UrdfVersion = Literal["1.0", "1.1", "1.2"]
 
 
+_CONFIG = ConfigDict(frozen=True, extra="forbid", strict=True, alias_generator=lambda name: name.replace("_", "-"))
+
+
+class FormatSettings(BaseModel):
+    """The settings of `twinform format`; `None` where nothing is set."""
+
+    model_config = _CONFIG
+
+    indent: Annotated[int, Field(ge=0, le=16)] | Literal["tab"] | None = None
+    numbers: Literal["kept", "shortest"] | None = None
+    sort_attributes: bool | None = None
+
+
 class Settings(BaseModel):
     """The settings of a project; `None` where nothing is set. `paths` are relative to the folder of the file."""
 
-    model_config = ConfigDict(
-        frozen=True, extra="forbid", strict=True, alias_generator=lambda name: name.replace("_", "-")
-    )
+    model_config = _CONFIG
 
     sdf_version: str | None = None
     urdf_version: UrdfVersion | None = None
@@ -34,6 +45,7 @@ class Settings(BaseModel):
     paths: list[str] = Field(default_factory=list[str])
     allow: list[str] = Field(default_factory=list[str])
     deny: list[str] = Field(default_factory=list[str])
+    format: FormatSettings = Field(default_factory=FormatSettings)
     pipelines: Mapping[str, object] = Field(default_factory=dict[str, object])
 
     @field_validator("sdf_version")
@@ -72,7 +84,8 @@ def _readable(path: Path, error: ValidationError) -> ConfigError:
     problem = error.errors(include_url=False)[0]
     key = ".".join(map(str, problem["loc"]))
     if problem["type"] == "extra_forbidden":
-        known = sorted(field.alias or name for name, field in Settings.model_fields.items())
+        table = FormatSettings if problem["loc"][0] == "format" else Settings
+        known = sorted(field.alias or name for name, field in table.model_fields.items())
         return ConfigError(path, f"there is no such key{nearest(key, known)}", key=key)
     return ConfigError(
         path,

@@ -1,0 +1,151 @@
+"""`twinform format`."""
+
+import stat
+from collections import Counter
+from pathlib import Path
+from typing import Literal
+
+import click
+
+from twinform.cli.config import config_options
+from twinform.cli.failure import FINDINGS, UNUSABLE
+from twinform.cli.findings import show
+from twinform.cli.inputs import size_option
+from twinform.cli.source import Source, open_source
+from twinform.compiler import CompileError, write_all_atomically
+from twinform.compiler.formatting import formatted
+from twinform.compiler.input.limits import Limits
+from twinform.compiler.input.parsing import UnreadableError, read_bytes
+from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.reporters import Findings
+from twinform.text import SourceText
+from twinform.text.formatting import FormatOptions
+from twinform.text.line_diff import line_diff
+
+_WIDEST = 16
+
+
+class _Indent(click.ParamType[str]):
+    """A number of blanks, or `tab`."""
+
+    name = "indent"
+
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """What a level is indented by."""
+        if str(value) == "tab":
+            return "\t"
+        if not (str(value).isdecimal() and int(str(value)) <= _WIDEST):
+            self.fail(f"{value!r} is neither a number from 0 to {_WIDEST} nor 'tab'", param, ctx)
+        return " " * int(str(value))
+
+
+@click.command("format")
+@click.argument("files", metavar="FILE...", nargs=-1, required=True)
+@click.option("--check", is_flag=True, help="Write nothing; list the files that are not formatted, and exit with 1.")
+@click.option("--diff", is_flag=True, help="Write nothing; print what would change, and exit with 1 if anything would.")
+@click.option(
+    "--indent", type=_Indent(), metavar="N|tab", default="2", help="Blanks for each level, or tab; by default 2."
+)
+@click.option(
+    "--numbers",
+    type=click.Choice(["kept", "shortest"]),
+    default="kept",
+    help="Whether numbers keep their spelling, or get the shortest one of the same value.",
+)
+@click.option("--sort-attributes/--no-sort-attributes", help="Put attributes into their usual order.")
+@size_option
+@config_options
+@click.pass_context
+def command(
+    ctx: click.Context,
+    files: tuple[str, ...],
+    *,
+    check: bool,
+    diff: bool,
+    indent: str,
+    numbers: Literal["kept", "shortest"],
+    sort_attributes: bool,
+    max_size: int,
+) -> None:
+    """Lay out the text of models, and change nothing else.
+
+    FILE is URDF, SDF, xacro or other XML, and is written anew where it changes; - is standard input, which goes to
+    standard output. Comments and texts, and what they mean, stay as they are. Exit code: 0 formatted, 1 with --check or
+    --diff where something would change, 2 where a file could not be read or written, or is no XML.
+    """
+    options, limits = FormatOptions(indent, numbers, sort_attributes), Limits(max_size)
+    run = _Run(options, limits, check=check, diff=diff)
+    found = Counter[Outcome](run.file(open_source(name, max_size)) for name in files)
+    click.echo(run.summary(found), err=True)
+    would_change = (check or diff) and found["changed"]
+    ctx.exit(UNUSABLE if found["unusable"] else FINDINGS if would_change else 0)
+
+
+Outcome = Literal["changed", "same", "unusable"]
+
+
+class _Run:
+    """One call: what is done with each file."""
+
+    def __init__(self, options: FormatOptions, limits: Limits, *, check: bool, diff: bool) -> None:
+        self.options, self.limits, self.check, self.diff = options, limits, check, diff
+
+    def file(self, source: Source) -> Outcome:
+        """Format a file, or tell what would change in it."""
+        try:
+            before = _data(source, self.limits)
+            after = formatted(before, source.name, self.options, self.limits)
+        except CompileError as error:
+            show(Findings(source.name, error.diagnostics), notes=False, on_stderr=True)
+            return "unusable"
+        if self.check or self.diff:
+            self._tell(source, before, after)
+        elif isinstance(source.content, bytes):
+            click.echo(after, nl=False)
+        elif before != after and not _write(Path(source.content), after):
+            return "unusable"
+        return "same" if before == after else "changed"
+
+    def _tell(self, source: Source, before: bytes, after: bytes) -> None:
+        if self.diff:
+            for line in line_diff(source.name, SourceText.of(before).text, SourceText.of(after).text):
+                click.echo(line.encode("utf-8", "replace"), nl=False)
+        elif before != after:
+            click.echo(source.name)
+
+    def summary(self, found: Counter[Outcome]) -> str:
+        """What became of the files."""
+        word = "would change" if self.check or self.diff else "formatted"
+        parts = [f"{_count(found['changed'])} {word}", f"{found['same']} unchanged"]
+        return ", ".join(parts) + (f", {found['unusable']} could not be formatted" if found["unusable"] else "")
+
+
+def _count(number: int) -> str:
+    return f"{number} file{'' if number == 1 else 's'}"
+
+
+def _data(source: Source, limits: Limits) -> bytes:
+    """The bytes of a file.
+
+    Raises:
+        CompileError: it cannot be read.
+    """
+    if isinstance(source.content, bytes):
+        return source.content
+    sink = DiagnosticSink(source.name)
+    try:
+        return read_bytes(Path(source.content), sink, limits)
+    except UnreadableError as error:
+        raise CompileError(tuple(sink.diagnostics), unreadable=True) from error
+
+
+def _write(path: Path, data: bytes) -> bool:
+    """Put a file in its place; whether that could be done."""
+    try:
+        if not path.stat().st_mode & (stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH):
+            raise PermissionError(0, "it is read-only")
+        write_all_atomically({path: data})
+    except OSError as error:
+        click.echo(f"Error: cannot write {path}: {error.strerror}", err=True)
+        return False
+    return True

@@ -1,0 +1,259 @@
+"""The formatter: lays the text of a model out anew, and changes nothing that means anything.
+
+It works on the text and not on a tree, so that comments, processing instructions, CDATA sections, entities, quotes and
+the spelling of numbers stay as they are, also in xacro files. What it does:
+
+1. One element a line, indented by its depth; a comment at the end of a line stays there.
+2. At most two blank lines in a row, no blanks at the end of lines, a line end at the end of the file.
+3. One blank before each attribute. What an author has laid out by hand stays: attributes on lines of their own, which
+   are aligned, and columns of attributes in neighboring tags.
+4. Only where it is asked for: attributes in their usual order, and numbers in their shortest spelling.
+
+Texts are content. An element with text beside elements, or with `xml:space="preserve"`, stays as it is between its
+tags. The lines of a comment, and of a text of nothing but numbers, move with the element that they belong to.
+"""
+
+import re
+from array import array
+from dataclasses import dataclass
+from typing import Literal
+
+from twinform.text.numbers import all_numbers, shortest
+from twinform.text.source_text import SourceText
+from twinform.text.start_tags import TAB, StartTag, name_of
+from twinform.text.tokens import Kind, Tokens
+from twinform.text.usage import usage
+
+_LINE_END = re.compile(r"\r\n|\n|\r")
+_MOST_LINE_ENDS = 3
+"""Two blank lines in a row are the most that are kept."""
+_PRESERVED = re.compile(r"""\sxml:space\s*=\s*["']preserve["']""")
+_WIDE = re.compile(r"[ \t\r\n]{2}|\t")
+_PLAIN = re.compile(r"""<([^\s/>]++)(?: [^\s=<>/"']++=(?:"[^"\r\n]*+"|'[^'\r\n]*+'))*+(?:>| ?/>)""")
+"""A start tag that is laid out already."""
+_TAGS = frozenset({Kind.START, Kind.EMPTY})
+_BETWEEN = frozenset({Kind.BLANK, Kind.COMMENT})
+
+
+@dataclass(frozen=True, slots=True)
+class FormatOptions:
+    """How a text is laid out; `indent` is what each level is indented by."""
+
+    indent: str = "  "
+    numbers: Literal["kept", "shortest"] = "kept"
+    sort_attributes: bool = False
+
+
+def format_text(source: SourceText, options: FormatOptions) -> SourceText:
+    """The file, laid out.
+
+    Raises:
+        UnplacedError: the text is not well-formed, or has a document type declaration.
+    """
+    tokens = Tokens(source.text)
+    return source.with_text(_Formatting(tokens, options, _line_end(source.text)).run())
+
+
+def _line_end(text: str) -> str:
+    """What ends a line: that of the first one."""
+    found = _LINE_END.search(text)
+    return found.group() if found else "\n"
+
+
+class _Formatting:
+    """One run over the tokens of a text."""
+
+    def __init__(self, tokens: Tokens, options: FormatOptions, line_end: str) -> None:
+        self.tokens, self.options, self.line_end = tokens, options, line_end
+        self.fixed = _fixed_contents(tokens)
+        self.out: list[str] = []
+        self.asked = (0, False)
+        self.keeps_tags = options.numbers == "kept" and not options.sort_attributes
+        self.opaque = usage().opaque
+        self.open: list[_Open] = [_Open("", opaque=False)]
+
+    def run(self) -> str:
+        """The whole text."""
+        kinds, fixed, number = self.tokens.kinds, self.fixed, 0
+        while number < len(kinds):
+            kind = kinds[number]
+            if kind in _TAGS:
+                self._begin_line(number)
+                self._start(number)
+                if fixed[number]:
+                    self._fixed(number, fixed[number])
+                    number = fixed[number]
+            elif kind == Kind.END:
+                self._end(number)
+            elif kind == Kind.COMMENT:
+                self._comment(number)
+            elif kind == Kind.INSTRUCTION:
+                self._begin_line(number)
+                self.out.append(self.tokens[number])
+            number += 1
+        self.out.append(self.line_end)
+        return "".join(self.out)
+
+    def _start(self, number: int) -> None:
+        text, around = self.tokens[number], self.open[-1]
+        plain = _PLAIN.fullmatch(text) if self.keeps_tags else None
+        self.out.append(text if plain else self._tag_text(number, self._tag(number)))
+        around.row = number if self._is_row(number) else None
+        if self.tokens.kinds[number] == Kind.START:
+            name = plain[1] if plain else name_of(text)
+            self.open.append(_Open(name, opaque=around.opaque or name in self.opaque))
+
+    def _end(self, number: int) -> None:
+        ended = self.open.pop()
+        if not (ended.on_one_line and self._lines_before(number) == 0):
+            self._begin_line(number)
+        elif self.tokens.kinds[number - 1] == Kind.BLANK:
+            self.out.append(self.tokens[number - 1])
+        self.out.append(f"</{ended.name}>")
+
+    def _fixed(self, number: int, end: int) -> None:
+        """What is between two tags and stays, and the second of them."""
+        begin = self.tokens.ends[number]
+        text, ended = self.tokens.text[begin : self.tokens.start(end)], self.open.pop()
+        is_leaf = end == number + 2 and self.tokens.kinds[number + 1] == Kind.TEXT
+        if is_leaf and not ended.opaque and ended.name in usage().numeric_texts and all_numbers(text):
+            text = self._moved(shortest(text) if self.options.numbers == "shortest" else text, number)
+        self.out.append(f"{text}</{ended.name}>")
+
+    def _comment(self, number: int) -> None:
+        if self.out and self._lines_before(number) == 0 and self._ends_line(number):
+            before = self.tokens[number - 1] if self.tokens.kinds[number - 1] == Kind.BLANK else ""
+            self.out.append(before + self.tokens[number])
+        else:
+            self._begin_line(number)
+            self.out.append(self._moved(self.tokens[number], number))
+
+    def _ends_line(self, number: int) -> bool:
+        """Whether no element follows on the line of a comment."""
+        if number >= self.asked[0]:
+            self.asked = self._end_of_comments(number)
+        return self.asked[1]
+
+    def _end_of_comments(self, number: int) -> tuple[int, bool]:
+        """The token behind the comments on a line that begin here, and whether it ends the line, or the element."""
+        kinds = self.tokens.kinds
+        for here in range(number, len(kinds)):
+            if kinds[here] == Kind.BLANK:
+                if _LINE_END.search(self.tokens[here]):
+                    return here, True
+            elif kinds[here] != Kind.COMMENT:
+                return here, kinds[here] == Kind.END
+        return len(kinds), True
+
+    def _begin_line(self, number: int) -> None:
+        """Go to a new line, where this token is to stand, behind as many blank lines as there were."""
+        self.open[-1].on_one_line = False
+        if self.out:
+            lines = min(max(self._lines_before(number), 1), _MOST_LINE_ENDS)
+            self.out.append(self.line_end * lines + self._indent)
+
+    @property
+    def _indent(self) -> str:
+        return self.options.indent * (len(self.open) - 1)
+
+    def _lines_before(self, number: int) -> int:
+        if not number or self.tokens.kinds[number - 1] != Kind.BLANK:
+            return 0
+        return len(_LINE_END.findall(self.tokens[number - 1]))
+
+    def _moved(self, text: str, number: int) -> str:
+        """A text of several lines; those indented at least as the line of the token are indented as it is now."""
+        if "\n" not in text:
+            return text
+        old, new = self._old_indent(number), self._indent
+        return text if old in {None, new} else re.sub(rf"\n{old}(?![\r\n])", lambda _: f"\n{new}", text)
+
+    def _old_indent(self, number: int) -> str | None:
+        """The blanks before a token, where it is the first of its line."""
+        if not number:
+            return ""
+        before = self.tokens[number - 1]
+        is_blank = self.tokens.kinds[number - 1] == Kind.BLANK
+        return _LINE_END.split(before)[-1] if is_blank and _LINE_END.search(before) else None
+
+    def _tag(self, number: int) -> StartTag:
+        """A start tag, with what is asked for done in it but for its layout."""
+        tag, options = StartTag.of(self.tokens[number]), self.options
+        if options.sort_attributes:
+            tag = tag.sorted_by([usage().rank(tag.name, each.name) for each in tag.attributes])
+        if options.numbers == "shortest" and not self.open[-1].opaque:
+            numeric = usage().numeric_attributes
+            tag = tag.with_values(lambda name, value: shortest(value) if (tag.name, name) in numeric else value)
+        return tag
+
+    def _tag_text(self, number: int, tag: StartTag) -> str:
+        if tag.is_broken:
+            return tag.on_lines(self.line_end + self._indent, self.options.indent, self._column(number))
+        is_wide = _WIDE.search(self.tokens[number]) is not None
+        return tag.on_one_line(keep_gaps=is_wide and self._is_in_table(number, tag))
+
+    def _is_in_table(self, number: int, tag: StartTag) -> bool:
+        """Whether attributes of a tag are aligned with those of the element before or behind it."""
+        neighbors = (self.open[-1].row, self._next_row(number)) if self._is_row(number) else ()
+        return any(each is not None and tag.is_aligned_with(self._tag(each)) for each in neighbors)
+
+    def _is_row(self, number: int) -> bool:
+        """Whether an element has no elements in it."""
+        return self._end_of_row(number) is not None
+
+    def _end_of_row(self, number: int) -> int | None:
+        kinds = self.tokens.kinds
+        if kinds[number] == Kind.EMPTY:
+            return number
+        end = number + 1 if kinds[number + 1] == Kind.END else number + 2
+        return end if kinds[end] == Kind.END and kinds[number + 1] != Kind.COMMENT else None
+
+    def _next_row(self, number: int) -> int | None:
+        kinds, here = self.tokens.kinds, (self._end_of_row(number) or number) + 1
+        while here < len(kinds) and kinds[here] in _BETWEEN:
+            here += 1
+        is_tag = here < len(kinds) and kinds[here] in _TAGS
+        return here if is_tag and self._is_row(here) else None
+
+    def _column(self, number: int) -> int:
+        """The column of a token, from 0, where it stood."""
+        start = self.tokens.start(number)
+        line = max(self.tokens.text.rfind("\n", 0, start), self.tokens.text.rfind("\r", 0, start)) + 1
+        return len(self.tokens.text[line:start].expandtabs(TAB))
+
+
+def _fixed_contents(tokens: Tokens) -> "array[int]":
+    """For each start tag whose content stays as it is the number of its end tag, and 0 for every other token."""
+    fixed = array("q", bytes(8 * len(tokens)))
+    open_tags: list[int] = []
+    is_fixed: list[bool] = []
+    may_preserve = "xml:space" in tokens.text
+    for number, kind in enumerate(tokens.kinds):
+        if kind == Kind.START:
+            open_tags.append(number)
+            is_fixed.append(may_preserve and _PRESERVED.search(tokens[number]) is not None)
+        elif kind == Kind.TEXT:
+            is_fixed[-1] = True
+        elif kind == Kind.END:
+            start = open_tags.pop()
+            if is_fixed.pop() or _has_blanks_only(tokens, start, number):
+                fixed[start] = number
+    return fixed
+
+
+def _has_blanks_only(tokens: Tokens, start: int, end: int) -> bool:
+    """Whether there are blanks between two tags, on one line: somebody may want them."""
+    return end == start + 2 and tokens.kinds[start + 1] == Kind.BLANK and not _LINE_END.search(tokens[start + 1])
+
+
+@dataclass(slots=True)
+class _Open:
+    """An element that is not ended yet.
+
+    `row` is its last child if that has no elements in it; `on_one_line` that nothing in it has begun a line.
+    """
+
+    name: str
+    opaque: bool
+    row: int | None = None
+    on_one_line: bool = True

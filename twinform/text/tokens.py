@@ -1,0 +1,84 @@
+"""The tokens of an XML text: tags, comments, processing instructions, CDATA sections and what is between them.
+
+They cover the whole text without a gap, so that a text can be put together again from them. They are kept in arrays
+rather than as objects: a file of 60 MB has millions.
+"""
+
+import re
+from array import array
+from enum import IntEnum
+from xml.parsers import expat
+
+from twinform.text.positions import UnplacedError
+
+_TOKEN = re.compile(
+    r"""<!--.*?-->|<\?.*?\?>|<!\[CDATA\[.*?\]\]>|<(?:[^"'>]++|"[^"]*+"|'[^']*+')*+>|[^<]++""",
+    re.DOTALL,
+)
+
+
+class Kind(IntEnum):
+    """What a token is; `BLANK` is a text of nothing but white space, and `EMPTY` a tag such as `<a/>`."""
+
+    BLANK = 0
+    TEXT = 1
+    START = 2
+    EMPTY = 3
+    END = 4
+    COMMENT = 5
+    INSTRUCTION = 6
+
+
+class Tokens:
+    """The tokens of a text, by their numbers; the blanks before and after the root element are tokens too.
+
+    Raises:
+        UnplacedError: the text is not well-formed, or has a document type declaration.
+    """
+
+    def __init__(self, text: str) -> None:
+        _require_well_formed(text)
+        self.text = text
+        self.kinds = bytearray()
+        self.ends = array("q")
+        for found in _TOKEN.finditer(text):
+            self.kinds.append(_kind(found.group()))
+            self.ends.append(found.end())
+
+    def __len__(self) -> int:
+        return len(self.kinds)
+
+    def __getitem__(self, number: int) -> str:
+        return self.text[self.start(number) : self.ends[number]]
+
+    def start(self, number: int) -> int:
+        """Where a token begins."""
+        return self.ends[number - 1] if number else 0
+
+
+def _kind(token: str) -> Kind:
+    if token[0] != "<":
+        return Kind.TEXT if token.strip(" \t\r\n") else Kind.BLANK
+    match token[1]:
+        case "/":
+            return Kind.END
+        case "?":
+            return Kind.INSTRUCTION
+        case "!":
+            return Kind.COMMENT if token[2] == "-" else Kind.TEXT
+        case _:
+            return Kind.EMPTY if token[-2] == "/" else Kind.START
+
+
+def _require_well_formed(text: str) -> None:
+    """Raise where another parser would not read the same tokens."""
+    parser = expat.ParserCreate("utf-8")
+    parser.StartDoctypeDeclHandler = _refuse_doctype
+    try:
+        parser.Parse(text.encode("utf-8", "surrogatepass"), True)
+    except expat.ExpatError as error:
+        raise UnplacedError(expat.errors.messages[error.code], error.lineno, error.offset + 1) from error
+
+
+def _refuse_doctype(*_: object) -> None:
+    raise UnplacedError("the document has a DOCTYPE")
