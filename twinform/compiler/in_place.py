@@ -83,8 +83,9 @@ def _built(request: ConversionRequest, edited: Path, into: Path, load_options: L
 
 
 def _bytes(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> bytes:
+    unsaved = load_options.search.unsaved_of(path)
     try:
-        return read_bytes(path, sink, load_options.limits)
+        return read_bytes(path, sink, load_options.limits) if unsaved is None else unsaved
     except UnreadableError as error:
         raise CompileError(tuple(sink.diagnostics), unreadable=True) from error
 

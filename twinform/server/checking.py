@@ -9,14 +9,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
 
-from twinform.compiler.input.finding_spans import FindingSpans
+from twinform.compiler.input.finding_spans import with_columns
 from twinform.compiler.input.loading import read
-from twinform.compiler.input.options import LoadResult
+from twinform.compiler.input.options import LoadOptions, LoadResult
+from twinform.compiler.input.source_files import SourceFiles
 from twinform.compiler.inspection import inspect
-from twinform.diagnostics import Diagnostic, Location
+from twinform.diagnostics import Diagnostic
 from twinform.diagnostics.rules import model, structure
 from twinform.server.settings import Settings
-from twinform.text import Lines
 
 _OF_WHOLE_ROBOTS = frozenset({model.EMPTY_MODEL.name, structure.MISSING_ATTRIBUTE.name, structure.MISSING_ELEMENT.name})
 """What is missing in a xacro file that others include, and is not looked for in it."""
@@ -30,6 +30,12 @@ class Job(NamedTuple):
     settings: Settings
     is_part: bool = False
 
+    @property
+    def load_options(self) -> LoadOptions:
+        """How its file is read, and those that it is made of."""
+        search = replace(self.settings.load_options.search, unsaved=self.unsaved, seen=set())
+        return replace(self.settings.load_options, search=search)
+
 
 @dataclass(frozen=True, slots=True)
 class Checked:
@@ -41,31 +47,19 @@ class Checked:
 
 def check(job: Job) -> Checked:
     """Read a document as `twinform check` does."""
-    search = replace(job.settings.load_options.search, unsaved=job.unsaved, seen=set())
-    load_options = replace(job.settings.load_options, search=search)
+    load_options = job.load_options
     loaded = inspect(read(str(job.path), load_options), load_options)
-    found = job.settings.policy.apply(findings_of(loaded))
+    found = job.settings.policy.apply(findings_of(loaded, job.unsaved))
     if job.is_part:
         found = tuple(each for each in found if not _is_of_whole_robot(each))
-    return Checked(found, frozenset(str(path.absolute()) for path in search.seen))
+    return Checked(found, frozenset(str(path.absolute()) for path in load_options.search.seen))
 
 
 def _is_of_whole_robot(found: Diagnostic) -> bool:
     return found.rule.name in _OF_WHOLE_ROBOTS and found.location.path in {"/robot", "/robot/@name"}
 
 
-def findings_of(loaded: LoadResult) -> tuple[Diagnostic, ...]:
-    """What was found, with columns and fixes: the one place where both come in."""
-    places = None if loaded.content is None or loaded.origins else FindingSpans.of(loaded.content)
-    if places is None:
-        return loaded.diagnostics
-    return tuple(replace(each, location=_with_columns(each.location, places)) for each in loaded.diagnostics)
-
-
-def _with_columns(where: Location, places: FindingSpans) -> Location:
-    span = places.span(where)
-    if span is None:
-        return where
-    lines: Lines = places.lines
-    start, end = lines.place(span.start), lines.place(span.end)
-    return where._replace(line=start.line, column=start.column, end_line=end.line, end_column=end.column)
+def findings_of(loaded: LoadResult, unsaved: Mapping[str, bytes]) -> tuple[Diagnostic, ...]:
+    """What was found, with columns, and with fixes where there are any: the one place where both come in."""
+    files = SourceFiles({**unsaved, **SourceFiles.of(loaded).contents})
+    return with_columns(loaded.diagnostics, files)

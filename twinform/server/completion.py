@@ -46,12 +46,12 @@ def _listed(session: Session, document: Document, span: Span, found: Iterable[Pr
             kind=each.kind,
             detail=each.detail or None,
             documentation=types.MarkupContent(types.MarkupKind.Markdown, each.text) if each.text else None,
-            sort_text=f"{0 if each.first else 1}{each.label}",
+            sort_text=f"{each.rank}{number:04}",
             filter_text=each.label,
             insert_text_format=types.InsertTextFormat.Snippet if snippet else types.InsertTextFormat.PlainText,
             text_edit=types.TextEdit(range_, each.new if snippet else plain(each.new)),
         )
-        for each in found
+        for number, each in enumerate(found)
     ]
     return types.CompletionList(is_incomplete=False, items=items)
 
@@ -107,7 +107,7 @@ def _in_text(session: Session, document: Document, cursor: Cursor, offset: int) 
 
 def _with_bracket(found: Iterable[Proposal]) -> Iterator[Proposal]:
     for each in found:
-        yield Proposal(each.label, f"<{each.new}", each.kind, each.detail, each.text, each.first)
+        yield Proposal(each.label, f"<{each.new}", each.kind, each.detail, each.text, each.rank)
 
 
 def _elements(
@@ -123,7 +123,7 @@ def _elements(
         if row.fact.repeats or row.fact.name not in there:
             name = row.fact.name
             new = name if bare else _element(name, row)
-            yield Proposal(name, new, _ITEM.Class, _detail(row.fact), text_of_row(row), first=row.fact.required)
+            yield Proposal(name, new, _ITEM.Class, _detail(row.fact), text_of_row(row), _rank(row.fact))
     for parameter in parameters_in(parent):
         if not parameter.is_attribute and (parameter.is_many or parameter.name not in there):
             yield _parameter(parameter, bare=bare)
@@ -170,7 +170,9 @@ def _parameter(parameter: Parameter, *, bare: bool) -> Proposal:
     name = parameter.name
     ending = ">\n  $0\n</" if parameter.children else ">$1</"
     new = name if bare else f"{name}{ending}{name}>"
-    return Proposal(name, new, _ITEM.Field, parameter.type, described(parameter), first=parameter.is_required)
+    return Proposal(
+        name, new, _ITEM.Field, parameter.type, described(parameter), rank=0 if parameter.is_required else 1
+    )
 
 
 def _attributes(session: Session, document: Document, node: Node, *, named: bool) -> Iterator[Proposal]:
@@ -184,7 +186,7 @@ def _attributes(session: Session, document: Document, node: Node, *, named: bool
         row = place.below(fact.name) if place and fact.is_attribute else None
         if row is not None and name not in node.attributes:
             new = name if named else _attribute(fact, 1)
-            yield Proposal(name, new, _ITEM.Property, _detail(fact), text_of_row(row), first=fact.required)
+            yield Proposal(name, new, _ITEM.Property, _detail(fact), text_of_row(row), _rank(fact))
 
 
 def _values(session: Session, document: Document, node: Node, attribute: str | None) -> Iterator[Proposal]:
@@ -221,6 +223,10 @@ def _plugins(attribute: str) -> Iterator[Proposal]:
     for each in systems().values():
         value = each.file if attribute == "filename" else each.class_name
         yield Proposal(value, value, _ITEM.Module, each.name)
+
+
+def _rank(fact: Fact) -> int:
+    return 2 if fact.dialect else 0 if fact.required else 1
 
 
 def _detail(fact: Fact) -> str:

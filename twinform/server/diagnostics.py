@@ -7,6 +7,8 @@ from lsprotocol import types
 from pygls.uris import from_fs_path
 
 from twinform.diagnostics import Diagnostic, Location, Severity, Span
+from twinform.diagnostics.addresses import RULES
+from twinform.diagnostics.built_in import BUILT_IN
 from twinform.server.documents import Document
 from twinform.server.tree import Node, Tree
 
@@ -40,6 +42,7 @@ def as_protocol(found: Diagnostic, document: Document, document_of: DocumentOf) 
         message=message,
         severity=_SEVERITIES[found.severity],
         code=found.rule.name,
+        code_description=_page(found),
         source=SOURCE,
         related_information=_related(found, document_of) or None,
     )
@@ -85,6 +88,11 @@ def _related(found: Diagnostic, document_of: DocumentOf) -> list[types.Diagnosti
             place = types.Location(document.uri, document.positions.range(span_of(where, document)))
             made.append(types.DiagnosticRelatedInformation(place, where.path or "see"))
     return made
+
+
+def _page(found: Diagnostic) -> types.CodeDescription | None:
+    """The page of one of our own rules."""
+    return types.CodeDescription(f"{RULES}#{found.rule.name}") if found.rule.name in BUILT_IN else None
 
 
 def uri_of(path: Path) -> str:

@@ -51,8 +51,9 @@ def _by_text(document: Document) -> dict[str, list[Name]]:
 
 
 def name_at(document: Document, offset: int) -> Name | None:
-    """The name around an offset."""
-    return next((each for each in names_of(document) if each.span.start <= offset <= each.span.end), None)
+    """The name around an offset; the innermost, where one is in an expression that is in another."""
+    around = [each for each in names_of(document) if each.span.start <= offset <= each.span.end]
+    return min(around, key=lambda each: each.span.end - each.span.start, default=None)
 
 
 def _names(document: Document) -> Iterator[Name]:

@@ -6,17 +6,12 @@ forgotten. One that takes too long is ended with its process, and so is one of a
 
 import asyncio
 from collections.abc import Awaitable, Callable
-from concurrent.futures import BrokenExecutor
 
-from pebble import ProcessExpired
-
-from twinform.compiler.workers.processes import ProcessExecutor
 from twinform.server.checking import Checked, Job, check
+from twinform.server.workers import TaskError, Worker
 
 PAUSE = 0.15
 """Seconds without a key after which a document is checked."""
-_SECONDS = 30.0
-"""The longest check; one of the largest document that is followed takes a tenth of it."""
 JobOf = Callable[[str], Job | None]
 Show = Callable[[str, "Checked | str"], Awaitable[None]]
 """Shows what came of the check of a document: the findings, or why there are none."""
@@ -25,11 +20,10 @@ Show = Callable[[str, "Checked | str"], Awaitable[None]]
 class Checks:
     """The checks that are waiting or running, one for each document at most."""
 
-    def __init__(self, job_of: JobOf, show: Show) -> None:
-        self._job_of, self._show = job_of, show
+    def __init__(self, worker: Worker, job_of: JobOf, show: Show) -> None:
+        self._worker, self._job_of, self._show = worker, job_of, show
         self._tasks: dict[str, asyncio.Task[None]] = {}
         self._wanted: dict[str, int] = {}
-        self._executor = ProcessExecutor(1, _SECONDS)
 
     def want(self, uri: str, pause: float = PAUSE) -> None:
         """Have a document checked soon."""
@@ -45,10 +39,9 @@ class Checks:
             task.cancel()
 
     def stop(self) -> None:
-        """End the process."""
+        """Have no document checked any more."""
         for uri in list(self._tasks):
             self.forget(uri)
-        self._executor.shutdown()
 
     async def _run(self, uri: str, pause: float) -> None:
         """Check a document until the last check is of its last text."""
@@ -75,16 +68,7 @@ class Checks:
             await asyncio.sleep(pause)
 
     async def _outcome(self, job: Job) -> Checked | str:
-        for _ in range(2):
-            try:
-                return await asyncio.wrap_future(self._executor.submit(check, job))
-            except TimeoutError:
-                return f"the check took longer than {_SECONDS:g} seconds and was ended"
-            except ProcessExpired as error:
-                return f"the process of the check died (exit code {error.exitcode})"
-            except BrokenExecutor:  # the process died while it had nothing to do
-                self._executor.shutdown()
-                self._executor = ProcessExecutor(1, _SECONDS)
-            except Exception as error:  # noqa: BLE001 - whatever is wrong with us must not take the editor's server down
-                return f"the check failed, which is a fault of twinform: {error!r}"
-        return "the process of the check cannot be started"
+        try:
+            return await self._worker.run(check, job)
+        except TaskError as error:
+            return f"the file could not be checked: {error}"

@@ -14,6 +14,7 @@ from twinform.server.files import Files
 from twinform.server.includes import Neighbors
 from twinform.server.scheduling import PAUSE, Checks
 from twinform.server.settings import SettingsOf
+from twinform.server.workers import Worker
 
 Publish = Callable[[types.PublishDiagnosticsParams], None]
 _ADVICE = "it is not followed while you type; run `twinform check` on it, and open it again once it is smaller"
@@ -31,7 +32,8 @@ class Session:
         self.found: dict[str, tuple[Document, tuple[Diagnostic, ...]]] = {}
         self.settings_of = settings_of
         self._publish = publish
-        self._checks = Checks(self._job, self._show)
+        self.worker = Worker()
+        self._checks = Checks(self.worker, self.job, self._show)
         self._shown: dict[str, dict[str, list[types.Diagnostic]]] = {}
         self._read: dict[str, frozenset[str]] = {}
 
@@ -61,6 +63,7 @@ class Session:
     def stop(self) -> None:
         """End all that runs."""
         self._checks.stop()
+        self.worker.stop()
 
     def findings(self, document: Document) -> tuple[Diagnostic, ...]:
         """What was found in this very text; nothing while it was not checked yet."""
@@ -81,7 +84,8 @@ class Session:
             if uri != document.uri and str(document.path.absolute()) in files:
                 self._checks.want(uri)
 
-    def _job(self, uri: str) -> Job | None:
+    def job(self, uri: str) -> Job | None:
+        """What a task in another process has to know of a document; None for one that is not followed."""
         document = self.documents.get(uri)
         if document is None:
             return None

@@ -7,6 +7,7 @@ from pathlib import Path
 from twinform.compiler.input.limits import Limits
 from twinform.compiler.input.options import LoadOptions
 from twinform.diagnostics import Policy
+from twinform.text.formatting import FormatOptions
 
 LARGEST = 4 * 2**20
 """The largest text, in bytes, that is followed while somebody types: twice the largest real file."""
@@ -17,10 +18,11 @@ USUAL_LIMITS = Limits(LARGEST, MOST_TAGS)
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """How files are read, and which findings the project wants to see. `problem` is what is wrong with its file."""
+    """How files are read and laid out, and which findings are shown. `problem` is what is wrong with its file."""
 
     load_options: LoadOptions = field(default_factory=lambda: LoadOptions(limits=USUAL_LIMITS))
     policy: Policy = field(default_factory=Policy)
+    layout: FormatOptions = field(default_factory=FormatOptions)
     problem: str = ""
 
 

@@ -1,4 +1,4 @@
-"""What may be written at the cursor in the language of xacro: its elements, macros, their parameters, and expressions."""
+"""What may be written at the cursor in the language of xacro: elements, macros, parameters, and expressions."""
 
 import re
 from collections.abc import Iterator
@@ -8,6 +8,7 @@ from lsprotocol import types
 from twinform.diagnostics import Span
 from twinform.server.documents import Document
 from twinform.server.known_names import names_of_kind
+from twinform.server.name import Name
 from twinform.server.proposal import Proposal
 from twinform.server.session import Session
 from twinform.server.tree import Node
@@ -25,7 +26,11 @@ def in_expression(session: Session, document: Document, offset: int) -> tuple[Sp
     before = document.text[max(0, offset - _LOOKED_BACK) : offset]
     found = _IN_EXPRESSION.search(before)
     if found is not None:
-        names = names_of_kind(session, document, "property", "param")
+        names = [
+            each
+            for each in names_of_kind(session, document, "param", "property")
+            if each.kind == "property" or _is_here(each, document, offset)
+        ]
         word = found["word"] or ""
         return Span(offset - len(word), offset), [_named(each.text, each.kind) for each in names]
     found = _IN_SUBSTITUTION.search(before)
@@ -61,13 +66,19 @@ def xacro_attributes(session: Session, document: Document, node: Node, *, named:
         needed, others, _ = ELEMENTS[local]
         for name in (*needed, *others):
             if name not in node.attributes:
-                yield Proposal(name, name if named else f'{name}="$1"', _ITEM.Property, first=name in needed)
+                yield Proposal(name, name if named else f'{name}="$1"', _ITEM.Property, rank=0 if name in needed else 1)
         return
     for macro in names_of_kind(session, document, "macro"):
         for each in parameter_names(macro.node) if macro.text == local else ():
             if not each.block and each.name not in node.attributes:
                 new = each.name if named else f'{each.name}="$1"'
-                yield Proposal(each.name, new, _ITEM.Property, each.written, first=each.needed)
+                yield Proposal(each.name, new, _ITEM.Property, each.written, rank=0 if each.needed else 1)
+
+
+def _is_here(parameter: Name, document: Document, offset: int) -> bool:
+    """Whether a place is in the macro of a parameter."""
+    macro = parameter.node
+    return macro in document.tree.nodes and macro.start_tag.start <= offset <= macro.end
 
 
 def _named(text: str, kind: str) -> Proposal:

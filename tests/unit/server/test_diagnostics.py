@@ -68,9 +68,9 @@ def test_a_text_that_is_not_well_formed_is_a_finding_like_others(tmp_path: Path)
 @pytest.mark.parametrize(
     ("encoding", "columns"),
     [
-        (types.PositionEncodingKind.Utf16, (34, 43)),
-        (types.PositionEncodingKind.Utf8, (37, 46)),
-        (types.PositionEncodingKind.Utf32, (33, 42)),
+        (types.PositionEncodingKind.Utf16, (34, 39)),
+        (types.PositionEncodingKind.Utf8, (37, 42)),
+        (types.PositionEncodingKind.Utf32, (33, 38)),
     ],
 )
 def test_columns_are_counted_as_the_editor_counts(

@@ -35,4 +35,13 @@ def settings_of(path: Path) -> Settings:
 def _settings(project: ProjectSettings) -> Settings:
     usual = Settings()
     load_options = LoadOptions(strict=bool(project.strict), search=SearchPath.of(project.paths), limits=USUAL_LIMITS)
-    return replace(usual, load_options=load_options, policy=Policy(frozenset(project.allow), frozenset(project.deny)))
+    wanted, layout = project.format, usual.layout
+    if wanted.indent is not None:
+        layout = replace(layout, indent="\t" if wanted.indent == "tab" else " " * wanted.indent)
+    layout = replace(layout, numbers=wanted.numbers or layout.numbers, sort_attributes=bool(wanted.sort_attributes))
+    return replace(
+        usual,
+        layout=layout,
+        load_options=load_options,
+        policy=Policy(frozenset(project.allow), frozenset(project.deny)),
+    )
