@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, TypeVar
@@ -25,7 +25,6 @@ _LONE = re.compile("[\ud800-\udfff]")
 class Document:
     """One state of a text. It is never changed: each key makes another one.
 
-    `good` is the last state of it that was well-formed, which may be this one; None where there was none.
     `excess` tells why it is not followed; its text is empty then.
     """
 
@@ -34,7 +33,6 @@ class Document:
     version: int | None = None
     language: str = ""
     encoding: PositionEncodingKind = PositionEncodingKind.Utf16
-    before: "Document | None" = field(default=None, repr=False, compare=False)
     excess: str = ""
 
     @property
@@ -47,15 +45,15 @@ class Document:
         """Where its lines are."""
         return Positions.of(self.text, self.encoding)
 
+    @property
+    def is_parsed(self) -> bool:
+        """Whether anybody has asked for its tree."""
+        return "tree" in self.__dict__
+
     @cached_property
     def tree(self) -> Tree:
         """Its elements, however much is missing."""
         return parse(self.text)
-
-    @cached_property
-    def good(self) -> "Document | None":
-        """The last state of it that was well-formed."""
-        return self if self.tree.whole else self.before
 
     def once(self, make: "Callable[[Document], Made]") -> "Made":
         """What a function makes of it, made once."""
@@ -63,6 +61,11 @@ class Document:
         if make not in known:
             known[make] = make(self)
         return known[make]
+
+    def release(self) -> None:
+        """Give up the tree, whose elements hold each other: to find that out takes the garbage collector longer."""
+        if self.is_parsed:
+            self.tree.release()
 
     @cached_property
     def schema(self) -> Schema:
@@ -110,6 +113,7 @@ class Documents:
     def __init__(self) -> None:
         self.encoding = PositionEncodingKind.Utf16
         self._open: dict[str, Document] = {}
+        self._good: dict[str, Document] = {}
 
     def __iter__(self) -> Iterator[Document]:
         return iter(tuple(self._open.values()))
@@ -127,9 +131,13 @@ class Documents:
         """The document that is open of a file."""
         return next((each for each in self if each.path == path and not each.excess), None)
 
+    def last_good(self, document: Document) -> Document | None:
+        """The last state of a document that was well-formed, as far as anybody has looked at it."""
+        return document if document.tree.whole else self._good.get(document.uri)
+
     def open(self, uri: str, text: str, version: int, language: str) -> Document:
         """Take up a document."""
-        return self._keep(uri, text, version, language, None)
+        return self._keep(uri, text, version, language)
 
     def change(self, uri: str, changes: Iterable[TextDocumentContentChangeEvent], version: int) -> Document | None:
         """Do what was done in the editor; None for what is not open."""
@@ -138,11 +146,11 @@ class Documents:
             return None
         for change in changes:
             if not isinstance(change, TextDocumentContentChangePartial):
-                document = self._keep(uri, change.text, version, document.language, document.good)
+                document = self._keep(uri, change.text, version, document.language)
             elif not document.excess:
                 start, end = document.positions.span(change.range)
                 text = document.text[:start] + change.text + document.text[end:]
-                document = self._keep(uri, text, version, document.language, document)
+                document = self._keep(uri, text, version, document.language)
             else:
                 document = self._open[uri] = replace(document, version=version)
         return document
@@ -150,17 +158,20 @@ class Documents:
     def close(self, uri: str) -> None:
         """Forget a document."""
         self._open.pop(uri, None)
+        self._good.pop(uri, None)
 
-    def _keep(self, uri: str, text: str, version: int, language: str, last: Document | None) -> Document:
+    def _keep(self, uri: str, text: str, version: int, language: str) -> Document:
+        last = self._open.get(uri)
+        if last is not None:
+            self._leave(last)
         excess = excess_of(text)
-        before = _last_good(last)
-        made = Document(uri, "" if excess else text, version, language, self.encoding, before, excess)
+        made = Document(uri, "" if excess else text, version, language, self.encoding, excess)
         self._open[uri] = made
         return made
 
-
-def _last_good(last: Document | None) -> Document | None:
-    """The last well-formed state. One that nobody has asked about does not count: it is not parsed for this."""
-    if last is None:
-        return None
-    return last if "tree" in last.__dict__ and last.tree.whole else last.before
+    def _leave(self, last: Document) -> None:
+        """Go on from a state: it is kept as the last good one, or let go."""
+        if last.is_parsed and last.tree.whole:
+            last, self._good[last.uri] = self._good.get(last.uri, last), last
+        if last is not self._good.get(last.uri):
+            last.release()

@@ -7,6 +7,7 @@ from lsprotocol import types
 
 from twinform.diagnostics import Diagnostic, Span
 from twinform.diagnostics.registry import RuleRegistryError, find_rule
+from twinform.passes.plugins.catalog import systems
 from twinform.passes.plugins.parts import PluginKind
 from twinform.schemas import table
 from twinform.schemas.documentation import Documentation
@@ -14,7 +15,7 @@ from twinform.server.cursor import Cursor, Kind, cursor_at
 from twinform.server.diagnostics import span_of
 from twinform.server.documents import Document
 from twinform.server.mapping.destinations import destination
-from twinform.server.mapping.rows import FormatName, Row
+from twinform.server.mapping.rows import FORMATS, FormatName, Row, rows
 from twinform.server.name import Name
 from twinform.server.names import name_at
 from twinform.server.navigation import Found, meant_by, search_of
@@ -37,6 +38,13 @@ def hover(session: Session, document: Document, offset: int) -> types.Hover | No
     piece = cursor.piece if cursor else Span(offset, offset)
     content = types.MarkupContent(types.MarkupKind.Markdown, "\n\n---\n\n".join(parts))
     return types.Hover(content, document.positions.range(piece))
+
+
+def warm_up() -> None:
+    """Read all tables, before somebody waits for them."""
+    for format in FORMATS:
+        text_of_row(rows(format)[-1])
+    systems()
 
 
 def text_of_row(row: Row) -> str:

@@ -48,7 +48,8 @@ def _kinds(kind: ReferenceKind, document: Document) -> tuple[str, ...]:
 
 def _documents(session: Session, document: Document) -> Iterator[Document]:
     yield document
-    if document.good is not None and document.good is not document:
-        yield document.good
+    good = session.documents.last_good(document)
+    if good is not None and good is not document:
+        yield good
     if document.is_xacro:
         yield from session.neighbors.included(document, search_of(session, document))[1:]

@@ -7,6 +7,7 @@ plugins and other parts without a typed form, the name of the parameter shows it
 from collections.abc import Iterator
 from functools import cache
 
+from twinform.compiler.input.limits import MOST_ATTRIBUTES
 from twinform.diagnostics import Span
 from twinform.ir import Element
 from twinform.ir.references import REFERENCES, ReferenceKind
@@ -58,7 +59,7 @@ def name_at(document: Document, offset: int) -> Name | None:
 
 def _names(document: Document) -> Iterator[Name]:
     for node in document.tree.nodes:
-        if node.tag and not is_of_xacro(node.tag):
+        if node.tag and not is_of_xacro(node.tag) and len(node.attributes) <= MOST_ATTRIBUTES:
             yield from _of_attributes(document, node)
             yield from _of_text(document, node)
 

@@ -28,12 +28,10 @@ class Positions:
 
     def offset(self, position: Position) -> int:
         """The offset of a position; beyond the end of a line it is that end."""
-        if position.line < 0:
-            return 0
         if position.line >= len(self.starts):
             return len(self.text)
         line = self._line(position.line)
-        return self.starts[position.line] + _characters(line, max(0, position.character), self.encoding)
+        return self.starts[position.line] + _characters(line, position.character, self.encoding)
 
     def position(self, offset: int) -> Position:
         """The position of an offset."""

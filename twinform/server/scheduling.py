@@ -24,12 +24,15 @@ class Checks:
         self._worker, self._job_of, self._show = worker, job_of, show
         self._tasks: dict[str, asyncio.Task[None]] = {}
         self._wanted: dict[str, int] = {}
+        self._due: dict[str, float] = {}
 
     def want(self, uri: str, pause: float = PAUSE) -> None:
         """Have a document checked soon."""
+        loop = asyncio.get_running_loop()
         self._wanted[uri] = self._wanted.get(uri, 0) + 1
+        self._due[uri] = loop.time() + pause
         if uri not in self._tasks:
-            self._tasks[uri] = asyncio.get_running_loop().create_task(self._run(uri, pause))
+            self._tasks[uri] = loop.create_task(self._run(uri))
 
     def forget(self, uri: str) -> None:
         """Have a document not checked any more."""
@@ -43,13 +46,13 @@ class Checks:
         for uri in list(self._tasks):
             self.forget(uri)
 
-    async def _run(self, uri: str, pause: float) -> None:
+    async def _run(self, uri: str) -> None:
         """Check a document until the last check is of its last text."""
         try:
             done = -1
             while done != self._wanted[uri]:
-                await self._quiet(uri, pause)
-                done, pause = self._wanted[uri], PAUSE
+                await self._quiet(uri)
+                done = self._wanted[uri]
                 job = self._job_of(uri)
                 if job is None:
                     return
@@ -60,12 +63,11 @@ class Checks:
             if self._tasks.get(uri) is asyncio.current_task():
                 del self._tasks[uri]
 
-    async def _quiet(self, uri: str, pause: float) -> None:
-        """Wait until nothing was typed for so long."""
-        seen = -1
-        while seen != self._wanted[uri]:
-            seen = self._wanted[uri]
-            await asyncio.sleep(pause)
+    async def _quiet(self, uri: str) -> None:
+        """Wait until nothing was typed for the pause, which each key begins again."""
+        loop = asyncio.get_running_loop()
+        while (left := self._due[uri] - loop.time()) > 0:
+            await asyncio.sleep(left)
 
     async def _outcome(self, job: Job) -> Checked | str:
         try:

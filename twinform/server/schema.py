@@ -36,6 +36,9 @@ def format_of(tree: Tree, name: str, language: str = "") -> FormatName | None:
     return promised[0] if promised else _LANGUAGES.get(language)
 
 
+_ROWS: dict[tuple[str, str, str, Version], dict[str, Row]] = {}
+
+
 @dataclass(frozen=True, slots=True)
 class Place:
     """What an element is. `row` is None for a root; `inside` holds the rows of what may stand in it.
@@ -52,10 +55,19 @@ class Place:
 
     def below(self, name: str) -> Row | None:
         """The row of a child, or with `@` of an attribute; that of another version where this one has none."""
-        found = rows_by_name(self.inside.rows, self.version).get(name)
-        if found is None:
-            return None
-        return Row(self.format, self.definition, f"{self.around}{name}", found.since, found)
+        return self._rows.get(name)
+
+    @property
+    def _rows(self) -> dict[str, Row]:
+        """The rows of all that any version has in it, made once for each definition and version."""
+        key = (self.format, self.definition, self.around, self.version)
+        if key not in _ROWS:
+            best = rows_by_name(self.inside.rows, self.version)
+            _ROWS[key] = {
+                name: Row(self.format, self.definition, f"{self.around}{name}", fact.since, fact)
+                for name, fact in best.items()
+            }
+        return _ROWS[key]
 
     def known(self) -> list[Fact]:
         """The rows of all that may stand in it in this version, or in a dialect of it."""

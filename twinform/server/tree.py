@@ -93,6 +93,11 @@ class Tree:
             found, here = here, _child_at(here, offset)
         return found
 
+    def release(self) -> None:
+        """Let go of the elements, which hold each other; the tree is of no use afterwards."""
+        for node in self.nodes:
+            node.parent = None
+
     def aside_at(self, offset: int) -> Span | None:
         """The comment, section or instruction around an offset."""
         return next((each for each in self.asides if each.start < offset < each.end), None)
@@ -217,23 +222,24 @@ class _Scan:
         while (found := _ATTRIBUTE.match(self.text, here)) is not None:
             here = found.end()
             value = self._value(found)
-            if not (found["end"] or found["stop"]):
+            name = found["name"]
+            cut = not (found["end"] or found["stop"])
+            if cut:
                 self.whole = False
                 here = max(found.end("name"), value.end)
-            name = found["name"]
             if name not in spans:
                 spans[name] = AttributeSpan(Span(found.start("name"), here), Span(*found.span("name")), value)
-                values[name] = value.of(self.text)
-            junk = _JUNK.match(self.text, here)
-            here = junk.end() if junk else here
+                values[name] = self.text[value.start : value.end]
+            if cut and (junk := _JUNK.match(self.text, here)) is not None:
+                here = junk.end()
         junk = _JUNK.match(self.text, here)
         return spans, values, junk.end() if junk else here
 
     def _value(self, found: re.Match[str]) -> Span:
         """What is between the quotes; of a value that is not closed, what is left of its line."""
         for group in ("double", "single"):
-            if found[group] is not None:
-                start, end = found.span(group)
+            start, end = found.span(group)
+            if start >= 0:
                 if not (found["end"] or found["stop"]):
                     line_end = min(
                         (at for at in (self.text.find("\n", start, end), self.text.find("\r", start, end)) if at >= 0),

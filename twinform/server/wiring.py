@@ -1,6 +1,8 @@
 """The language server itself: which request is answered by which function, on standard input and output."""
 
+import gc
 import logging
+import threading
 from collections.abc import Callable
 from typing import Any, TypeVar
 
@@ -14,7 +16,7 @@ from twinform.server.completion import complete
 from twinform.server.documents import Document, path_of
 from twinform.server.editing import Rewritten, lay_out, run_passes
 from twinform.server.folding import folds
-from twinform.server.hover import hover
+from twinform.server.hover import hover, warm_up
 from twinform.server.links import links
 from twinform.server.navigation import Place, definitions, references, search_of
 from twinform.server.protocol import Protocol
@@ -24,13 +26,17 @@ from twinform.server.settings import SettingsOf, no_settings
 from twinform.server.symbols import outline, search
 from twinform.server.workers import TaskError
 
+_SELDOM = (100_000, 50, 100)
+"""When the garbage collector looks: all trees, and all that was imported, take it longer than a key may."""
 Answer = TypeVar("Answer")
 
 
 def serve(settings_of: SettingsOf = no_settings) -> None:
     """Talk to an editor until it says that it is done."""
     logging.getLogger("pygls").setLevel(logging.CRITICAL)
-    make_server(settings_of).start_io()
+    server = make_server(settings_of)
+    gc.set_threshold(*_SELDOM)
+    server.start_io()
 
 
 def make_server(settings_of: SettingsOf = no_settings) -> LanguageServer:
@@ -54,6 +60,10 @@ def _follow_documents(server: LanguageServer, session: Session) -> None:
         text = params.capabilities.text_document
         item = text.completion.completion_item if text and text.completion else None
         session.snippets = bool(item and item.snippet_support)
+
+    @server.feature(types.INITIALIZED)
+    def initialized(_: types.InitializedParams) -> None:
+        threading.Thread(target=warm_up, daemon=True).start()
 
     @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
     def opened(params: types.DidOpenTextDocumentParams) -> None:

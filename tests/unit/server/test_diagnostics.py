@@ -45,7 +45,7 @@ def test_findings_stand_at_the_piece_that_is_wrong_and_go_when_it_is_right(tmp_p
     async def steps(one: Editor) -> None:
         uri = one.open(tmp_path / "robot.urdf", ROBOT)
         (found,) = await one.diagnostics(uri)
-        assert (found.code, place(found), found.source) == ("invalid-value", (2, 18, 2, 29), "twinform")
+        assert (found.code, place(found), found.source) == ("invalid-value", (2, 24, 2, 28), "twinform")
         version = one.change(uri, ((2, 27, 2, 28), "ed"), ((1, 2, 1, 2), '<link name="arm"/>'))
         assert codes(await one.diagnostics(uri, version)) == []
         one.close(uri)

@@ -8,7 +8,7 @@ import json
 import shutil
 import tomllib
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import pytest
 from lsprotocol import types
@@ -84,14 +84,25 @@ def params(request: dict[str, str], folder: Path) -> Any:
 def shown(value: Any, folder: str) -> Any:
     """An answer as the file has it: without what is empty, and ranges as texts."""
     if isinstance(value, dict):
+        value = cast("dict[str, Any]", value)
         if set(value) == {"start", "end"}:
             start, end = value["start"], value["end"]
             return f"{start['line']}:{start['character']}-{end['line']}:{end['character']}"
-        named = {str(key).replace(folder, ""): shown(one, folder) for key, one in value.items() if key not in _LEFT_OUT}
+        named = {key.replace(folder, ""): shown(one, folder) for key, one in value.items() if key not in _LEFT_OUT}
         return {key: one for key, one in named.items() if one not in (None, [], {})}
     if isinstance(value, list):
-        return [shown(one, folder) for one in value]
+        return [shown(one, folder) for one in cast("list[Any]", value)]
     return value.replace(folder, "").replace(folder.removeprefix("file://"), "") if isinstance(value, str) else value
+
+
+def choices(found: types.CompletionList) -> list[str]:
+    """Proposals in the order in which an editor shows them, and what they make of which range."""
+    listed: list[str] = []
+    for each in sorted(found.items, key=lambda each: each.sort_text or ""):
+        assert isinstance(each.text_edit, types.TextEdit)
+        where = shown(get_converter().unstructure(each.text_edit.range), "")
+        listed.append(f"{each.label}: {each.text_edit.new_text!r} at {where}")
+    return listed
 
 
 async def answer(one: Editor, request: dict[str, str], folder: Path) -> Any:
@@ -100,13 +111,10 @@ async def answer(one: Editor, request: dict[str, str], folder: Path) -> Any:
         found = await one.request(METHODS[request["method"]], params(request, folder))
     except JsonRpcException as error:
         return {"error": error.message}
+    if request["method"] == "completion":
+        return choices(found)
     if request["method"] == "passes":
         found = one.edits.pop().edit
-    if request["method"] == "completion":
-        return [
-            f"{each.label}: {each.text_edit.new_text!r} at {shown(converter.unstructure(each.text_edit.range), '')}"
-            for each in sorted(found.items, key=lambda each: each.sort_text)
-        ]
     return shown(converter.unstructure(found), f"{folder.as_uri()}/")
 
 
