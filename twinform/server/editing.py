@@ -1,6 +1,5 @@
 """Rewrites whole documents in another process: by passes, in place, and by the formatter."""
 
-from dataclasses import replace
 from typing import NamedTuple
 
 from twinform.compiler.errors import CompileError
@@ -27,10 +26,11 @@ def run_passes(job: Job, pipeline: str) -> Rewritten:
     document = read(str(job.path), load_options).document
     if document is None:
         return Rewritten(problem="the document cannot be read: mend what is wrong with it first")
-    request = ConversionRequest(to=document.format.value, passes=parse_pipeline(pipeline))
-    version = document.version if document.format.value == "sdf" else None
+    to = document.format.value
+    version = document.version if to == "sdf" else None
     try:
-        updated = convert_in_place(replace(request, sdf_version=version), job.path, load_options)
+        request = ConversionRequest(to=to, sdf_version=version, passes=parse_pipeline(pipeline))
+        updated = convert_in_place(request, job.path, load_options)
     except CompileError as error:
         return Rewritten(problem=_first(error.diagnostics))
     except (PassError, PipelineError) as error:

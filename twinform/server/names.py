@@ -23,6 +23,7 @@ from twinform.server.xacro_names import XACRO_KINDS, meant, xacro_names
 DEFINED = ("link", "joint", "frame", "model", "material", "sensor")
 """What is called by its attribute `name`, and can be found by it."""
 _SCOPES = frozenset({"model", "world", "robot"})
+_STATES = frozenset({"model", "model_state"})
 _FIELDS: dict[str, ReferenceKind] = {
     f"{node.__name__}.{field}": kind for node, fields in REFERENCES.items() for field, kind in fields.items()
 }
@@ -72,6 +73,9 @@ def _of_attributes(document: Document, node: Node) -> Iterator[Name]:
         if attribute == "name" and _defines(document, node):
             yield Name(value, span.value, node, node.tag, defines=True, scope=_scope(node.parent))
             continue
+        if attribute == "name" and node.tag in _STATES and _in_state(node):
+            yield Name(value, span.value, node, "model", defines=False)
+            continue
         kind = kind_at(document, node, attribute)
         if kind is not None:
             yield from _steps(value, span.value, node, kind)
@@ -107,7 +111,7 @@ def _of_text(document: Document, node: Node) -> Iterator[Name]:
 
 def _defines(document: Document, node: Node) -> bool:
     """Whether an element is what its name calls, and not something that refers to it."""
-    if node.tag not in DEFINED:
+    if node.tag not in DEFINED or (node.tag == "model" and _in_state(node)):
         return False
     row = document.schema.row(node)
     if row is None:
@@ -166,7 +170,7 @@ def scope_of_reference(node: Node) -> Node | None:
 
 def found_in(document: Document, name: Name) -> list[Name]:
     """The definitions that a name means in a document: of the first kind that has any, in the nearest scope."""
-    scope: Node | None = name.scope
+    scope = _model_of_state(document, name.scope)
     text = name.text
     format: FormatName | None = document.schema.format
     if format == "sdf" and "::" in text:
@@ -180,6 +184,19 @@ def found_in(document: Document, name: Name) -> list[Name]:
         if own:
             return own
     return []
+
+
+def _in_state(node: Node) -> bool:
+    """Whether an element records the state of a world, so that its models are those of the world."""
+    return any(each.tag == "state" for each in node.above())
+
+
+def _model_of_state(document: Document, scope: Node | None) -> Node | None:
+    """The model whose state an element records; any other scope itself."""
+    if scope is None or not _in_state(scope):
+        return scope
+    called = defined(document, scope.get("name") or "")
+    return next((each.node for each in called if each.kind == "model"), scope)
 
 
 def _inside(document: Document, name: Name) -> list[Name]:

@@ -59,6 +59,8 @@ def rename(session: Session, document: Document, offset: int, new: str) -> types
 
 
 def _refuse_expression(name: Name) -> None:
+    if name.text in RESERVED:
+        raise RefusedError(f"{name.text!r} has a meaning of its own")
     if "$" in name.text:
         raise RefusedError(f"{name.text!r} is made by an expression: rename what is in the expression")
 
