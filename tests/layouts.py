@@ -72,7 +72,7 @@ def _content(data: bytes, *, values: bool) -> list[object]:
 def _part(node: XmlElement, *, values: bool) -> object:
     if not isinstance(node.tag, str):
         lines = [line.lstrip() for line in (node.text or "").split("\n")]
-        return str(node).partition(" ")[0], lines, _text(node.tail)
+        return str(node)[:2], lines, _text(node.tail)
     attributes = sorted(node.items()) if values else sorted(node.keys())
     return node.tag, attributes, _text(node.text) if values else None, _text(node.tail)
 

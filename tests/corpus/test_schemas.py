@@ -15,14 +15,17 @@ from twinform.compiler.input.loading import declared_version, read_tree
 from twinform.compiler.input.parsing import UnreadableError
 from twinform.diagnostics import DiagnosticSink, Rule
 from twinform.diagnostics.rules import structure
-from twinform.schemas import Version, XmlElement, xmlschema_errors
-from twinform.schemas.xsd import lenient_schema_text
+from twinform.schemas import Version, XmlElement, table, xmlschema_errors
+from twinform.schemas.xacro_xsd import imported_schemas
+from twinform.schemas.xsd import generate_schema, lenient_schema_text
 
 CHUNKS = chunks()
 _REFUSED_BY_ALL = frozenset(
     {structure.STRAY_TEXT, structure.INVALID_VALUE, structure.MISSING_ATTRIBUTE, structure.MISSING_ELEMENT}
 )
 """Findings about what no schema takes, lenient or not; where the robot does not depend on it they are warnings."""
+
+_UNUSUAL = _REFUSED_BY_ALL | {structure.UNKNOWN_ELEMENT}
 
 
 @pytest.mark.parametrize("chunk", CHUNKS)
@@ -50,6 +53,29 @@ def _faults(file: CorpusFile) -> list[str]:
     if not faults and _of_dialects(rules) and not _projection(name, version).validate(root):
         faults.append(f"{file.name} is not taken by the lenient schema in XSD 1.0")
     return faults
+
+
+def test_schemas_of_xacro_take_the_files_of_which_nothing_is_unusual(corpus: Path, tmp_path: Path) -> None:
+    schemas = {root: _xacro_schema(name, tmp_path / name) for root, name in (("robot", "urdf"), ("sdf", "sdf"))}
+    files = sorted(corpus.rglob("*.xacro"))[:: 1 if DEEP else 8]
+    taken = 0
+    for path in files:
+        checked = twinform.check(path)
+        if not checked.accepted or checked.unreadable or {each.rule for each in checked.diagnostics} & _UNUSUAL:
+            continue
+        tree = etree.parse(path)
+        assert schemas[str(tree.getroot().tag)].validate(tree), path
+        taken += 1
+    assert taken > len(files) // 10
+
+
+def _xacro_schema(format: str, folder: Path) -> etree.XMLSchema:
+    folder.mkdir()
+    facts = table(format)
+    main = generate_schema(facts, facts.newest, "1.0", xacro=True)
+    for name, text in {"main.xsd": main, **imported_schemas()}.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    return etree.XMLSchema(etree.parse(folder / "main.xsd"))
 
 
 def _of_dialects(rules: AbstractSet[Rule]) -> bool:

@@ -12,12 +12,13 @@ from twinform.cli.findings import show
 from twinform.cli.gazebo_files import GazeboFiles
 from twinform.cli.instrumentation import InstrumentationOptions
 from twinform.cli.outputs import Output, Outputs, beside
+from twinform.cli.own_options import FileOptions
 from twinform.cli.source import Source
 from twinform.cli.targets import Job
 from twinform.compiler import CompileError, Conversion, ConversionRequest, LoadOptions, read, run_conversion
 from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
 from twinform.diagnostics.reporters import Findings
-from twinform.passes import PassError, PassInstrumentation, SideFilePass
+from twinform.passes import PassError, PassInstrumentation, Pipeline, SideFilePass
 
 if TYPE_CHECKING:
     from twinform.compiler.input.source_files import SourceFiles
@@ -42,6 +43,11 @@ class Options:
         return replace(
             self.request, to=job.target, sdf_version=self.request.sdf_version if job.target == "sdf" else None
         )
+
+    def for_file(self, own: FileOptions) -> "Options":
+        """The same for a file that has its own settings."""
+        request = replace(self.request, passes=own.passes or Pipeline())
+        return replace(self, load_options=own.load_options, policy=own.policy, request=request)
 
     @property
     def beside(self) -> list[str]:

@@ -7,23 +7,42 @@ from typing import Unpack
 import click
 from click.core import ParameterSource
 
+from twinform.cli.command import Command
+from twinform.cli.completion import files
 from twinform.cli.config import settings_of
 from twinform.cli.conversion import Options, print_plan, run_job
 from twinform.cli.findings import all_option, notes_option
 from twinform.cli.gazebo_files import GazeboFiles, companion_options, version_for
-from twinform.cli.inputs import inputs, load_options_of, reading_options
+from twinform.cli.inputs import inputs, reading_options
 from twinform.cli.instrumentation import InstrumentationOptions, watching_options
 from twinform.cli.outputs import Outputs
-from twinform.cli.policy import policy_of, policy_options
+from twinform.cli.own_options import OptionsByFile
+from twinform.cli.policy import policy_options
 from twinform.cli.request import Asked, ordering_options, request_of
 from twinform.cli.source import Source
 from twinform.cli.targets import TARGETS, Job, Target, jobs, jobs_in_place
 from twinform.compiler import LoadOptions
 
+EXAMPLES = {
+    "Make SDF for Gazebo": "twinform convert robot.urdf -o robot.sdf",
+    "Write an older version": "twinform convert robot.urdf -o robot.sdf --sdf-version 1.9",
+    "List what was not expressed": "twinform convert robot.sdf -o robot.urdf --ledger ledger.json",
+    "Run passes on the way": "twinform convert robot.urdf -o robot.sdf --passes 'fill-limits{effort=100}'",
+    "Change a file itself, where a pass does": "twinform convert robot.urdf --in-place --passes fill-inertia",
+    "Let a URDF follow what was edited in its SDF": "twinform convert robot.sdf --into robot.urdf",
+}
 
-@click.command("convert")
-@click.argument("words", metavar="IN... [NAME:=VALUE...]", nargs=-1, required=True)
-@click.option("-o", "--output", "out", metavar="OUT", help="The file to write, or the directory for several inputs.")
+
+@click.command("convert", cls=Command, examples=EXAMPLES)
+@click.argument("words", metavar="IN... [NAME:=VALUE...]", nargs=-1, required=True, shell_complete=files)
+@click.option(
+    "-o",
+    "--output",
+    "out",
+    metavar="OUT",
+    shell_complete=files,
+    help="The file to write, or the directory for several inputs.",
+)
 @click.option("--in-place", is_flag=True, help="Change each input itself, and in it only what the passes change.")
 @click.option(
     "--into",
@@ -50,6 +69,9 @@ from twinform.compiler import LoadOptions
     help="Write each model of a world into the directory OUT, and an SDF that includes them: URDF where Gazebo reads "
     "it as the same robot, or SDF with --to sdf.",
 )
+@click.option(
+    "--check", is_flag=True, help="Write nothing: print how the files that are there differ from what would be written."
+)
 @click.option("--audit", is_flag=True, help="Count what became of every element and attribute; fail if any is missing.")
 @reading_options
 @click.option("--print-pipeline", is_flag=True, help="Print every pass that would run, in order, and stop.")
@@ -68,6 +90,7 @@ def command(
     model: str | None,
     split: bool,
     audit: bool,
+    check: bool,
     print_pipeline: bool,
     dumps: tuple[str, ...],
     changes: bool,
@@ -87,14 +110,16 @@ def command(
 
     IN are URDF, SDF, xacro or JSON files; - is standard input. Arguments of xacro are written NAME:=VALUE. All that is
     asked for is written at once, or, where an input has an error, nothing. No file is written over one that is read.
-    Exit code: 0 without errors, 1 with errors, 2 where a file could not be read or written.
+    Exit code: 0 without errors, 1 with errors or where --check finds a difference, 2 where a file could not be read or
+    written.
     """
     sources, arguments = inputs(words)
     if ledger is not None and len(sources) > 1:
         raise click.UsageError("--ledger takes one input")
     if ctx.get_parameter_source("gazebo") is not ParameterSource.DEFAULT:
         asked["sdf_version"] = version_for(gazebo, asked["sdf_version"])
-    policy, load_options = policy_of(ctx, allow, deny), load_options_of(arguments, asked)
+    by_file = OptionsByFile(ctx, arguments, asked, allow, deny, asked["passes"])
+    load_options, policy, _ = by_file.usual
     watching = InstrumentationOptions(
         dumps=dumps, changes=changes, times=times, statistics=statistics, reproducers=reproducers
     )
@@ -109,6 +134,8 @@ def command(
         audit=audit,
         gazebo_files=GazeboFiles(bridge, world, gazebo),
     )
+    if len(sources) == 1:
+        options = options.for_file(by_file.of(sources[0].name))
     if options.gazebo_files and (split or len(sources) > 1):
         raise click.UsageError("--bridge and --world take one input, and no --split")
     if options.beside and len(sources) > 1:
@@ -117,7 +144,7 @@ def command(
     if split:
         from twinform.cli.splitting import run_split  # noqa: PLC0415 - few worlds are split
 
-        whole = Outputs(read)
+        whole = Outputs(read, check=check)
         folder = _folder(out, target, model, in_place=in_place)
         code = run_split(_only(sources), target or "urdf", options, folder, whole)
         ctx.exit(_end(whole, [code], load_options))
@@ -126,18 +153,24 @@ def command(
 
         if out or in_place or target or asked["passes"]:
             raise click.UsageError("--into says what is written: leave -o, --in-place, --to and --passes out")
-        updated = Outputs(read, [into] if into else ())
+        updated = Outputs(read, [into] if into else (), check)
         code = run_into(_only(sources, "--into"), into, base, options, updated)
         ctx.exit(_end(updated, [code], load_options))
     todo = jobs_in_place(sources, out, target) if in_place else jobs(sources, out, target)
+    _require_sdf(ctx, todo)
+    planned = [(job, options.for_file(by_file.of(job.source.name))) for job in todo]
+    if print_pipeline:
+        ctx.exit(max(print_plan(job, own, label=_label(job, todo)) for job, own in planned))
+    outputs = Outputs(read, [job.path for job in todo if in_place and job.path], check)
+    outputs.require_apart([place for job, own in planned for place in own.places(job, outputs)])
+    ctx.exit(_end(outputs, [run_job(job, own, _label(job, todo), outputs) for job, own in planned], load_options))
+
+
+def _require_sdf(ctx: click.Context, todo: Sequence[Job]) -> None:
+    """Raise where a version of SDF is typed, and nothing becomes SDF."""
     versioned = ctx.get_parameter_source("sdf_version") is ParameterSource.COMMANDLINE
     if versioned and all(job.target != "sdf" for job in todo):
         raise click.UsageError("--sdf-version is for --to sdf")
-    if print_pipeline:
-        ctx.exit(max(print_plan(job, options, label=_label(job, todo)) for job in todo))
-    outputs = Outputs(read, [job.path for job in todo if in_place and job.path])
-    outputs.require_apart([place for job in todo for place in options.places(job, outputs)])
-    ctx.exit(_end(outputs, [run_job(job, options, _label(job, todo), outputs) for job in todo], load_options))
 
 
 def _label(job: Job, todo: Sequence[Job]) -> str:
@@ -148,8 +181,8 @@ def _label(job: Job, todo: Sequence[Job]) -> str:
 def _end(outputs: Outputs, codes: Sequence[int], load_options: LoadOptions) -> int:
     """Write everything if nothing is wrong; gives the exit code."""
     if not max(codes):
-        outputs.write(load_options.search.seen)
-    elif len(codes) > 1:
+        return outputs.write(load_options.search.seen)
+    if len(codes) > 1:
         wrong = sum(map(bool, codes))
         click.echo(f"nothing is written: {wrong} of {len(codes)} inputs could not be converted", err=True)
     return max(codes)

@@ -5,6 +5,8 @@ from typing import Unpack
 
 import click
 
+from twinform.cli.command import Command
+from twinform.cli.completion import files
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
 from twinform.cli.inputs import InputOptions, file_options, inputs, load_options_of
@@ -18,8 +20,14 @@ _COLORS = {Severity.DIFFERENCE: "red", Severity.NOTE: "cyan"}
 _PAIR = 2
 
 
-@click.command("diff")
-@click.argument("words", metavar="A B [NAME:=VALUE...]", nargs=-1, required=True)
+EXAMPLES = {
+    "Is it the same robot?": "twinform diff robot.urdf robot.sdf",
+    "Allow for rounding": "twinform diff robot.urdf robot.sdf --tolerance 1e-6",
+}
+
+
+@click.command("diff", cls=Command, examples=EXAMPLES)
+@click.argument("words", metavar="A B [NAME:=VALUE...]", nargs=-1, required=True, shell_complete=files)
 @click.option("--format", "style", type=click.Choice(list(REPORTERS)), default="text", help="How to print differences.")
 @click.option("--model", metavar="NAME", help="The model to compare, where a file has several.")
 @tolerance_option

@@ -4,15 +4,21 @@ from collections.abc import Iterable, Mapping
 
 import click
 
+from twinform.cli.command import Command
+from twinform.cli.completion import rule_names
 from twinform.cli.failure import Unusable
 from twinform.cli.findings import heading
 from twinform.diagnostics import Rule
 from twinform.diagnostics.pages import sections, severity_words
 from twinform.diagnostics.registry import OWN, RegisteredRule, RuleRegistryError, find_rule, rules
 
+EXAMPLES = {
+    "Say what a rule finds, and what is better": "twinform explain dangling-link",
+}
 
-@click.command("explain")
-@click.argument("name", metavar="[RULE]", required=False)
+
+@click.command("explain", cls=Command, examples=EXAMPLES)
+@click.argument("name", metavar="[RULE]", required=False, shell_complete=rule_names)
 def command(name: str | None) -> None:
     """Print the page of a rule, or list all rules."""
     try:

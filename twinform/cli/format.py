@@ -7,6 +7,8 @@ from typing import Literal
 
 import click
 
+from twinform.cli.command import Command
+from twinform.cli.completion import files as files_of
 from twinform.cli.config import config_options
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
@@ -39,8 +41,16 @@ class _Indent(click.ParamType[str]):
         return " " * int(str(value))
 
 
-@click.command("format")
-@click.argument("files", metavar="FILE...", nargs=-1, required=True)
+EXAMPLES = {
+    "Format a file": "twinform format robot.urdf",
+    "Show what would change": "twinform format robot.urdf robot.sdf --diff",
+    "Fail where a file is not formatted, as in CI": "twinform format robot.sdf --check",
+    "Write numbers as short as they can be": "twinform format robot.urdf --numbers shortest",
+}
+
+
+@click.command("format", cls=Command, examples=EXAMPLES)
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, shell_complete=files_of)
 @click.option("--check", is_flag=True, help="Write nothing; list the files that are not formatted, and exit with 1.")
 @click.option("--diff", is_flag=True, help="Write nothing; print what would change, and exit with 1 if anything would.")
 @click.option(

@@ -8,9 +8,11 @@ from typing import Any, TypedDict, TypeVar
 import click
 
 from twinform.cli.config import config_options, settings_of
+from twinform.cli.files import Exclusion, NothingFoundError, PatternError, discover
 from twinform.cli.source import Source, open_source
 from twinform.compiler import LoadOptions, SearchPath
 from twinform.compiler.input.limits import LARGEST, MOST_TAGS, Limits, parse_size
+from twinform.diagnostics import Policy
 from twinform.schemas import Engine
 
 Command = TypeVar("Command", bound=Callable[..., Any])
@@ -89,8 +91,13 @@ class InputOptions(TypedDict):
     max_tags: int
 
 
-def load_options_of(arguments: Mapping[str, str], input_options: InputOptions) -> LoadOptions:
-    """The options as the compiler takes them; the folders of the project come after those of the command line."""
+def load_options_of(
+    arguments: Mapping[str, str], input_options: InputOptions, policy: Policy | None = None
+) -> LoadOptions:
+    """The options as the compiler takes them; the folders of the project come after those of the command line.
+
+    Where there is a policy, what it allows is left out, errors too.
+    """
     paths = (*input_options["paths"], *settings_of(click.get_current_context()).folders)
     return LoadOptions(
         input_options["strict"],
@@ -99,6 +106,8 @@ def load_options_of(arguments: Mapping[str, str], input_options: InputOptions) -
         arguments,
         input_options["xacro"],
         Limits(input_options["max_size"], input_options["max_tags"]),
+        allow=policy.allow if policy else frozenset(),
+        tolerant=policy is not None,
     )
 
 
@@ -108,14 +117,36 @@ def inputs(words: Sequence[str]) -> tuple[list[Source], dict[str, str]]:
     Raises:
         click.UsageError: there are no files, or arguments that nothing takes.
     """
-    ctx = click.get_current_context(silent=True)
-    xacro = bool(ctx and ctx.params.get("xacro"))
+    files, arguments = _split(words)
+    return _opened(files, arguments), arguments
+
+
+def model_inputs(words: Sequence[str], exclusion: Exclusion) -> tuple[list[Source], dict[str, str]]:
+    """The same, where the files may be folders and globs too: all models there that the exclusion leaves.
+
+    Raises:
+        click.UsageError: as above, or there is no model.
+    """
+    files, arguments = _split(words)
+    try:
+        return _opened(discover(files, exclusion), arguments), arguments
+    except (NothingFoundError, PatternError) as error:
+        raise click.UsageError(str(error)) from error
+
+
+def _split(words: Sequence[str]) -> tuple[list[str], dict[str, str]]:
     matches = [_ARGUMENT.fullmatch(word) for word in words]
     arguments = {match["name"]: match["value"] for match in matches if match}
     files = [word for word, match in zip(words, matches, strict=True) if not match]
     if not files:
         raise click.UsageError("there are arguments of xacro and no input")
+    return files, arguments
+
+
+def _opened(files: Sequence[str], arguments: Mapping[str, str]) -> list[Source]:
+    ctx = click.get_current_context(silent=True)
+    xacro = bool(ctx and ctx.params.get("xacro"))
     if arguments and not (xacro or any(file.lower().endswith(".xacro") for file in files)):
         raise click.UsageError(f"{next(iter(arguments))}:=... is an argument of xacro, and no input is a .xacro file")
     size = int(ctx.params["max_size"]) if ctx and "max_size" in ctx.params else LARGEST
-    return [open_source(file, size) for file in files], arguments
+    return [open_source(file, size) for file in files]

@@ -10,7 +10,8 @@ from twinform.cli.outputs import Outputs
 from twinform.cli.source import Source
 from twinform.cli.targets import Job, known_target
 from twinform.compiler import CompileError
-from twinform.compiler.in_place import Change, convert_into
+from twinform.compiler.in_place import Change
+from twinform.compiler.into import convert_into
 from twinform.diagnostics.reporters import printable
 
 _LONGEST = 60

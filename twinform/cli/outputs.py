@@ -44,11 +44,13 @@ def beside(result: Path | None, side_files: Iterable[str]) -> list[Output]:
 class Outputs:
     """The files of a call while they are made, the text for standard output, and what is printed once all is there.
 
-    `inputs` are the files that the call reads, of which those `spared` may be written over.
+    `inputs` are the files that the call reads, of which those `spared` may be written over. Where it is to `check`,
+    nothing is written, and the files that are there are compared with what would be.
     """
 
     inputs: Sequence[Path] = ()
     spared: Sequence[Path] = ()
+    check: bool = False
     texts: list[tuple[Output, str | bytes]] = field(default_factory=list[tuple[Output, str | bytes]])
     stdout: str | None = None
     news: list[str] = field(default_factory=list[str])
@@ -94,14 +96,18 @@ class Outputs:
             _require_ours(place.path, side_file)
             self.texts.append((place, side_file.text))
 
-    def write(self, read: Iterable[Path] = ()) -> None:
-        """Write all, and print the news; `read` are files that were read on the way.
+    def write(self, read: Iterable[Path] = ()) -> int:
+        """Write all, or compare, and print the news; `read` are files that were read on the way. Gives the exit code.
 
         Raises:
             click.UsageError: one would be written over another, or over one that was read.
             Unusable: one cannot be written; then none is.
         """
         self.require_apart([output for output, _ in self.texts], read)
+        if self.check:
+            from twinform.cli.outdated import report_outdated  # noqa: PLC0415 - most runs write
+
+            return report_outdated(self.texts, to_stdout=self.stdout is not None)
         try:
             write_all_atomically({output.path: text for output, text in self.texts}, self._print)
         except OSError as error:
@@ -110,6 +116,7 @@ class Outputs:
             raise Unusable(f"cannot write {error.filename}: {error.strerror}") from error
         for line in self.news:
             click.echo(line, err=True)
+        return 0
 
     def _print(self) -> None:
         if self.stdout is not None:

@@ -6,6 +6,8 @@ from typing import Literal
 
 import click
 
+from twinform.cli.command import Command
+from twinform.cli.completion import pass_names, pipelines
 from twinform.cli.config import config_options, settings_of
 from twinform.cli.config.options import Project
 from twinform.cli.failure import Unusable
@@ -19,10 +21,22 @@ from twinform.passes.framework.tables import print_tables
 _TABLE_NAME = "mine"
 
 
-@click.command("passes")
-@click.argument("name", required=False)
+EXAMPLES = {
+    "List all passes": "twinform passes",
+    "Print the page of one": "twinform passes fill-limits",
+    "A pipeline as the table of a configuration": "twinform passes --table 'fill-limits{effort=100},check-inertia'",
+}
+
+
+@click.command("passes", cls=Command, examples=EXAMPLES)
+@click.argument("name", required=False, shell_complete=pass_names)
 @click.option("--format", "style", type=click.Choice(["text", "json"]), default="text", help="How to print them.")
-@click.option("--table", metavar="PIPELINE", help="Print a pipeline as the table that a configuration would have.")
+@click.option(
+    "--table",
+    metavar="PIPELINE",
+    shell_complete=pipelines,
+    help="Print a pipeline as the table that a configuration would have.",
+)
 @config_options
 @click.pass_context
 def command(ctx: click.Context, name: str | None, style: Literal["text", "json"], table: str | None) -> None:

@@ -1,14 +1,17 @@
 """`--allow` and `--deny`."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
 import click
 
-from twinform.cli.config import ConfigError, settings_of
+from twinform.cli.completion import rule_names
+from twinform.cli.config import ConfigError, Project, settings_of
+from twinform.cli.config.per_file import NO_OWN_SETTINGS, OwnSettings, RuleSettings
 from twinform.cli.failure import Unusable
 from twinform.diagnostics import Policy
-from twinform.diagnostics.registry import RuleRegistryError, find_rule, rules
+from twinform.diagnostics.registry import RuleRegistryError, find_rule
+from twinform.diagnostics.registry import rules as known_rules
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -16,43 +19,64 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 def policy_options(command: Command) -> Command:
     """Give a command `--allow` and `--deny`; what the configuration has comes in addition."""
     for name, text in (("deny", "Make findings of a rule errors"), ("allow", "Leave out findings of a rule")):
-        more = "" if name == "deny" else ", if they are no errors"
         command = click.option(
-            f"--{name}", metavar="RULE", multiple=True, help=f"{text}{more}; repeatable.", callback=_known
+            f"--{name}",
+            metavar="RULE",
+            multiple=True,
+            help=f"{text}; repeatable.",
+            callback=_known,
+            shell_complete=rule_names,
         )(command)
     return command
 
 
-def policy_of(ctx: click.Context, allow: tuple[str, ...], deny: tuple[str, ...]) -> Policy:
-    """The policy of a command: that of its options, and of the project where the options say nothing else.
+def policy_of(
+    ctx: click.Context, allow: Sequence[str], deny: Sequence[str], own: OwnSettings = NO_OWN_SETTINGS
+) -> Policy:
+    """The policy for a file, whose `own` settings go before those of the project, and options before both.
 
     Raises:
-        ConfigError: the configuration names a rule that there is not.
+        ConfigError: the configuration names a rule that there is not, or allows a fatal one.
     """
     project = settings_of(ctx)
-    for key, names in (("allow", project.allow), ("deny", project.deny)):
+    policy = Policy()
+    for rules in (RuleSettings(project.allow, project.deny), *own.rules):
+        _require_known(project, rules)
+        policy = _over(policy, rules.allow, rules.deny)
+    return _over(policy, allow, deny)
+
+
+def _require_known(project: Project, rules: RuleSettings) -> None:
+    for option, names in (("allow", rules.allow), ("deny", rules.deny)):
         for name in names:
-            if project.path and (problem := _unknown(name)):
-                raise ConfigError(project.path, problem, key=key)
-    allowed, denied = frozenset(allow), frozenset(deny)
-    both = sorted(allowed & denied) or sorted({*project.allow} & {*project.deny})
+            if project.path and (problem := _problem(name, option)):
+                raise ConfigError(project.path, problem, key=f"{rules.key}.{option}".removeprefix("."))
+
+
+def _over(before: Policy, allowed: Sequence[str], denied: Sequence[str]) -> Policy:
+    """The policy with more rules, which go before those that it has."""
+    allow, deny = frozenset(allowed), frozenset(denied)
+    both = sorted(allow & deny)
     if both:
         raise click.UsageError(f"{both[0]} is allowed and denied")
-    return Policy(allowed | (frozenset(project.allow) - denied), denied | (frozenset(project.deny) - allowed))
+    return Policy((before.allow - deny) | allow, (before.deny - allow) | deny)
 
 
-def _known(_ctx: click.Context, _option: click.Parameter, names: tuple[str, ...]) -> tuple[str, ...]:
+def _known(_ctx: click.Context, option: click.Parameter, names: tuple[str, ...]) -> tuple[str, ...]:
     for name in names:
-        if problem := _unknown(name):
+        if problem := _problem(name, option.name or ""):
             raise click.BadParameter(problem)
     return names
 
 
-def _unknown(name: str) -> str:
-    """What is wrong with the name of a rule; empty where there is one."""
+def _problem(name: str, option: str) -> str:
+    """What is wrong with a rule of an option; empty where nothing is."""
     from twinform.passes.framework.options import nearest  # noqa: PLC0415 - most names are those of rules
 
     try:
-        return "" if find_rule(name) else f"no rule is called {name}{nearest(name, list(rules()))}"
+        found = find_rule(name)
+        if found is None:
+            return f"no rule is called {name}{nearest(name, list(known_rules()))}"
     except RuleRegistryError as error:
         raise Unusable(str(error)) from error
+    return f"{name} is fatal, and cannot be allowed" if option == "allow" and found.rule.fatal else ""

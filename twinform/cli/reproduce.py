@@ -6,6 +6,7 @@ from pathlib import Path
 import click
 
 from twinform import __version__
+from twinform.cli.command import Command
 from twinform.cli.failure import FINDINGS, Unusable
 from twinform.compiler import LoadOptions
 from twinform.compiler.includes.other_documents import OtherDocuments
@@ -14,8 +15,12 @@ from twinform.compiler.reproducers.reproducer import Reproducer
 from twinform.compiler.search.uris import LocalAssets, SearchPath
 from twinform.passes import PassError, PipelineError, RegistryError
 
+EXAMPLES = {
+    "Run the pass again of which a fault has left a file": "twinform reproduce twinform-fault.json",
+}
 
-@click.command("reproduce")
+
+@click.command("reproduce", cls=Command, examples=EXAMPLES)
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option(
     "--path",

@@ -5,6 +5,7 @@ from typing import Any, TypeVar
 
 import click
 
+from twinform.cli.completion import pipelines, sdf_versions
 from twinform.cli.inputs import InputOptions
 from twinform.cli.pipeline_option import pipeline_option
 from twinform.compiler import URDF_VERSIONS, ConversionRequest, Language, UrdfVersion
@@ -22,12 +23,19 @@ def _known_version(_ctx: click.Context, _option: click.Parameter, value: str | N
 
 
 _OPTIONS = (
-    click.option("--sdf-version", metavar="V", callback=_known_version, help="The version of SDF to write."),
+    click.option(
+        "--sdf-version",
+        metavar="V",
+        callback=_known_version,
+        shell_complete=sdf_versions,
+        help="The version of SDF to write.",
+    ),
     click.option("--urdf-version", type=click.Choice(URDF_VERSIONS), help="The version of URDF to write."),
     click.option(
         "--passes",
         metavar="PIPELINE",
         callback=pipeline_option("passes"),
+        shell_complete=pipelines,
         help="Passes to run, such as 'check-inertia', or @NAME for one that the configuration names.",
     ),
     click.option(
@@ -35,6 +43,7 @@ _OPTIONS = (
         default=True,
         help="Whether to keep what the target lacks in elements of tf:.",
     ),
+    click.option("--comments/--no-comments", default=True, help="Whether comments of the source go along."),
 )
 
 
@@ -52,6 +61,7 @@ class Asked(InputOptions):
     urdf_version: UrdfVersion | None
     passes: Pipeline | None
     carriers: bool
+    comments: bool
     expand_includes: bool
 
 
@@ -63,6 +73,7 @@ def request_of(asked: Asked, to: Language, model: str | None = None) -> Conversi
         urdf_version=asked["urdf_version"],
         passes=asked["passes"] or Pipeline(),
         carriers=asked["carriers"],
+        comments=asked["comments"],
         model=model,
         expand_includes=asked["expand_includes"],
     )

@@ -1,16 +1,29 @@
 """`twinform schema`."""
 
-from typing import IO, Literal
+from pathlib import Path
+from typing import Literal
 
 import click
 from click.core import ParameterSource
 
+from twinform.cli.command import Command
 from twinform.cli.failure import Unusable
-from twinform.schemas import json_schema_text, parse_version, schema_text, table
-from twinform.schemas.xsd import lenient_schema_text
+from twinform.cli.outputs import Outputs
+from twinform.schemas import Version, json_schema_text, parse_version, schema_text, table
+from twinform.schemas.xacro_xsd import imported_schemas
+from twinform.schemas.xsd import generate_schema, lenient_schema_text
+
+_STDOUT = Path("-")
 
 
-@click.command("schema")
+EXAMPLES = {
+    "Write an XML schema for an editor": "twinform schema sdf --version 1.9 -o sdf.xsd",
+    "One for xacro files, and those that it imports": "twinform schema urdf --xacro -o robot.xsd",
+    "The JSON Schema of documents": "twinform schema json",
+}
+
+
+@click.command("schema", cls=Command, examples=EXAMPLES)
 @click.argument("language", metavar="urdf|sdf|json", type=click.Choice(["urdf", "sdf", "json"]))
 @click.option("--version", metavar="V", help="The version of the format; the newest where it is not given.")
 @click.option(
@@ -21,9 +34,14 @@ from twinform.schemas.xsd import lenient_schema_text
 )
 @click.option("--lenient", is_flag=True, help="Accept elements of dialects and of other versions, and unknown names.")
 @click.option(
+    "--xacro",
+    is_flag=True,
+    help="Accept ${...} for any value, and xacro's elements anywhere; lenient besides. It is several files: needs -o.",
+)
+@click.option(
     "-o",
     "--output",
-    type=click.File("w", encoding="utf-8", atomic=True),
+    type=click.Path(path_type=Path, allow_dash=True),
     default="-",
     help="Where to write; standard output where it is not given.",
 )
@@ -35,22 +53,48 @@ def command(
     xsd: Literal["1.0", "1.1"],
     *,
     lenient: bool,
-    output: IO[str],
+    xacro: bool,
+    output: Path,
 ) -> None:
     """Print the schema of URDF, SDF or JSON.
 
     That of URDF and SDF is an XML schema, that of documents as JSON a JSON Schema. XML schemas are strict: they take
     the syntax of one version. A lenient one is for editors of files that are not. In XSD 1.0 it takes no elements that
-    it does not know; in XSD 1.1 it does.
+    it does not know; in XSD 1.1 it does. For xacro files, the schemas of xacro's own elements are written beside it.
     """
+    asked = ctx.get_parameter_source("xsd") is ParameterSource.COMMANDLINE
     if language == "json":
-        asked = ctx.get_parameter_source("xsd") is ParameterSource.COMMANDLINE
-        if version is not None or asked or lenient:
-            raise click.UsageError("--version, --xsd and --lenient are for urdf and sdf")
-        output.write(json_schema_text())
+        if version is not None or asked or lenient or xacro:
+            raise click.UsageError("--version, --xsd, --lenient and --xacro are for urdf and sdf")
+        _write({output: json_schema_text()})
         return
     facts = table(language)
     if version is not None and version not in facts.versions:
         raise Unusable(f"{language.upper()} has no version {version!r}; it has {', '.join(facts.versions)}")
     wanted = parse_version(version) if version else facts.newest
-    output.write((lenient_schema_text if lenient else schema_text)(language, wanted, xsd))
+    if xacro:
+        if xsd == "1.1":
+            raise click.UsageError("--xacro has XSD 1.0, which editors read")
+        _write(_for_xacro(language, wanted, output))
+    else:
+        _write({output: (lenient_schema_text if lenient else schema_text)(language, wanted, xsd)})
+
+
+def _for_xacro(language: str, version: Version, output: Path) -> dict[Path, str]:
+    """The schema, and beside it those that it imports."""
+    if output == _STDOUT:
+        raise click.UsageError("--xacro makes several files: name the first with -o, such as -o robot.xsd")
+    others = {output.with_name(name): text for name, text in imported_schemas().items()}
+    if output in others:
+        raise click.UsageError(f"{output.name} is the name of a schema that is written beside it")
+    return {output: generate_schema(table(language), version, "1.0", xacro=True)} | others
+
+
+def _write(texts: dict[Path, str]) -> None:
+    if _STDOUT in texts:
+        click.echo(texts[_STDOUT], nl=False)
+        return
+    outputs = Outputs()
+    for path, text in texts.items():
+        outputs.add("-o", path, text)
+    outputs.write()

@@ -4,6 +4,8 @@ from typing import Unpack
 
 import click
 
+from twinform.cli.command import Command
+from twinform.cli.completion import files
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
 from twinform.cli.inputs import InputOptions, inputs, load_options_of, reading_options
@@ -11,9 +13,14 @@ from twinform.compiler import expand, read
 from twinform.compiler.statistics import REPORTERS, FileStatistics, measure
 from twinform.diagnostics.reporters import Findings
 
+EXAMPLES = {
+    "Count links, joints, masses and triangles": "twinform stats robot.urdf",
+    "The same for a program": "twinform stats robot.urdf robot.sdf --format json",
+}
 
-@click.command("stats")
-@click.argument("words", metavar="IN... [NAME:=VALUE...]", nargs=-1, required=True)
+
+@click.command("stats", cls=Command, examples=EXAMPLES)
+@click.argument("words", metavar="IN... [NAME:=VALUE...]", nargs=-1, required=True, shell_complete=files)
 @click.option("--format", "style", type=click.Choice(list(REPORTERS)), default="text", help="How to print the numbers.")
 @click.option("--meshes/--no-meshes", default=True, help="Whether to look into mesh files.")
 @reading_options

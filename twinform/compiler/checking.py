@@ -27,6 +27,7 @@ def check(
     max_size: int = LARGEST,
     max_tags: int = MOST_TAGS,
     expand_includes: bool = False,
+    allow: Iterable[str] = (),
     passes: "str | Pipeline | None" = None,
 ) -> LoadResult:
     """Read a file, the bytes of one or a document, and say everything that is wrong with it.
@@ -35,14 +36,18 @@ def check(
     `arguments`, which evaluates expressions and reads files that it names; where `xacro` is true others are as well,
     and where it is false all are refused. The files that includes name are read only where `expand_includes` asks for
     it. `passes` are run on a model without errors, for what they find. Files of more than `max_size` bytes or
-    `max_tags` tags are refused.
+    `max_tags` tags are refused. Findings of the rules in `allow` are left out, as are those that comments in the files
+    allow; they are `allowed` in the result.
 
     Raises:
         ReadOnlyPassError: a pass would change the model.
         PassError: a pass is at fault.
         PipelineError: `passes` is not a pipeline.
     """
-    load_options = LoadOptions(strict, engine, SearchPath.of(paths), arguments or {}, xacro, Limits(max_size, max_tags))
+    limits, rules = Limits(max_size, max_tags), frozenset(allow)
+    load_options = LoadOptions(
+        strict, engine, SearchPath.of(paths), arguments or {}, xacro, limits, allow=rules, tolerant=True
+    )
     if isinstance(passes, str):
         from twinform.passes import parse_pipeline  # noqa: PLC0415 - most checks have no passes
 

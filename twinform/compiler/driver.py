@@ -6,6 +6,8 @@ from functools import cached_property
 from pathlib import Path
 
 from twinform.compiler.errors import CompileError
+from twinform.compiler.input.allowances import staying
+from twinform.compiler.input.comments import comments_of
 from twinform.compiler.input.limits import LARGEST, MOST_TAGS, Limits
 from twinform.compiler.input.loading import (
     Input,
@@ -15,6 +17,7 @@ from twinform.compiler.input.loading import (
     read,
     read_tree_again,
 )
+from twinform.compiler.output.comments import Comments
 from twinform.compiler.output.emitting import emit, emit_legal
 from twinform.compiler.request import ConversionRequest, Language, UrdfVersion
 from twinform.compiler.search.uris import LocalAssets, SearchPath
@@ -23,7 +26,7 @@ from twinform.diagnostics.rules.model import MISSING_LIMIT
 from twinform.diagnostics.rules.structure import MISSING_ATTRIBUTE, OUTSIDE_VERSION
 from twinform.ir import Document, Format, Include
 from twinform.ir.verify import verify
-from twinform.passes import Pass, PassInstrumentation, Pipeline
+from twinform.passes import Pass, PassError, PassInstrumentation, Pipeline
 from twinform.passes.analyses.candidates import candidates, name_once_expanded, wanted_includes
 from twinform.passes.sdf_versions import has_early_frames
 from twinform.schemas import Engine, XmlElement, versions_of
@@ -94,12 +97,14 @@ def convert(
     max_size: int = LARGEST,
     max_tags: int = MOST_TAGS,
     expand_includes: bool = False,
+    comments: bool = True,
+    allow: Iterable[str] = (),
     instrumentation: PassInstrumentation | None = None,
 ) -> Conversion:
     """Compile a file, the bytes of one or a document into the target's format; `instrumentation` sees each pass.
 
-    `paths`, `arguments`, `xacro`, `max_size` and `max_tags` are those of `check`. URDF has no includes: for it, those
-    in the model are always expanded.
+    `paths`, `arguments`, `xacro`, `max_size`, `max_tags` and `allow` are those of `check`. URDF has no includes: for
+    it, those in the model are always expanded. `comments` are those of the source, which go along.
 
     Raises:
         CompileError: the source, a pass or the result has an error.
@@ -115,8 +120,12 @@ def convert(
         carriers=carriers,
         model=model,
         expand_includes=expand_includes,
+        comments=comments,
     )
-    load_options = LoadOptions(strict, engine, SearchPath.of(paths), arguments or {}, xacro, Limits(max_size, max_tags))
+    limits, rules = Limits(max_size, max_tags), frozenset(allow)
+    load_options = LoadOptions(
+        strict, engine, SearchPath.of(paths), arguments or {}, xacro, limits, allow=rules, tolerant=True
+    )
     return run_conversion(request, source, load_options, name=name, instrumentation=instrumentation)
 
 
@@ -147,7 +156,14 @@ def run_conversion(
         request = replace(request, mixed=has_mixed_words(loaded))
         if loaded.document is None or not (loaded.accepted or (request.passes and _may_be_mended(loaded))):
             raise CompileError(loaded.diagnostics, unreadable=loaded.unreadable)
-        return _run(loaded, loaded.document, request, load_options, instrumentation=instrumentation)
+        try:
+            return _run(loaded, loaded.document, request, load_options, instrumentation=instrumentation)
+        except (PassError, LookupError, ValueError, RecursionError) as error:
+            allowed = [each for each in loaded.allowed if each.is_error]
+            if not allowed:
+                raise
+            stays = staying(allowed, f"the model cannot be converted with it ({error})")
+            raise CompileError((*loaded.diagnostics, *stays)) from error
 
 
 def _wanted(document: Document | None, request: ConversionRequest) -> Callable[[Include], bool]:
@@ -167,7 +183,8 @@ def has_mixed_words(loaded: LoadResult) -> bool:
 
 def mixed_words(loaded: LoadResult) -> frozenset[str]:
     """Elements and attributes in files that the versions of these do not have."""
-    return frozenset(each.found for each in loaded.diagnostics if _is_outside_version(each) and each.found)
+    found = (*loaded.diagnostics, *loaded.allowed)
+    return frozenset(each.found for each in found if _is_outside_version(each) and each.found)
 
 
 def _is_outside_version(found: Diagnostic) -> bool:
@@ -203,22 +220,37 @@ def _run(
 ) -> Conversion:
     """The rest of the way of a document that was read."""
     kept = [each for each in loaded.diagnostics if not each.is_error]
-    sink = DiagnosticSink(loaded.path, load_options.strict, kept, list(loaded.entries), origins=dict(loaded.origins))
+    sink = DiagnosticSink(
+        loaded.path,
+        load_options.strict,
+        kept,
+        list(loaded.entries),
+        origins=dict(loaded.origins),
+        allows=loaded.allowances and loaded.allowances.in_conversion,
+        allowed=list(loaded.allowed),
+    )
     passes = _with_files(request, load_options, loaded.path)
     changed = passes.run(document, sink, instrumentation=instrumentation, verify=verify if loaded.accepted else None)
     if not loaded.accepted:
         verify(changed, sink)
     text = ""
     if not sink.has_errors:
-        document, text = written(
-            changed, request, sink, instrumentation, kept=mixed_words(loaded) if loaded.mixed else None
-        )
+        kept_words = mixed_words(loaded) if loaded.mixed else None
+        comments = _comments(loaded, document, request)
+        document, text = written(changed, request, sink, instrumentation, kept=kept_words, comments=comments)
     if sink.has_errors:
         raise CompileError(tuple(sink.diagnostics))
     lost = sum(entry.weight for entry in sink.entries)
     ledger = Ledger(max(0, loaded.size - lost), sink.traced_entries())
     origin = loaded.tree if loaded.content is None else loaded.content
     return Conversion(text, document, tuple(sink.diagnostics), ledger, origin, tuple(sink.side_files))
+
+
+def _comments(loaded: LoadResult, document: Document, request: ConversionRequest) -> Comments | None:
+    """The comments that go along; JSON has no place for any."""
+    if not request.comments or request.to == "json":
+        return None
+    return comments_of(loaded, document, Format(request.to), request.model)
 
 
 def _with_files(request: ConversionRequest, load_options: LoadOptions, file: str) -> Pipeline:
@@ -237,8 +269,9 @@ def written(
     instrumentation: PassInstrumentation | None,
     *,
     kept: frozenset[str] | None,
+    comments: Comments | None = None,
 ) -> tuple[Document, str]:
-    """What a document becomes, and its text.
+    """What a document becomes, and its text, with the comments of its file.
 
     One that was put together from several files has elements that are `kept` although its version does not have
     them: the files had them too. It is None where there was one file.
@@ -254,7 +287,7 @@ def written(
     legal = request.legalisation(document)
     fit = (kept is not None or bool(len(legal))) and not request.target(document, Format(request.to)).mixed
     kept = frozenset() if len(legal) or kept is None else kept
-    return emit_legal(document, legal, sink, instrumentation, fit=fit, kept=kept)
+    return emit_legal(document, legal, sink, instrumentation, fit=fit, kept=kept, comments=comments)
 
 
 def _may_be_mended(loaded: LoadResult) -> bool:

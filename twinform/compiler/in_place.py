@@ -12,10 +12,13 @@ from twinform.compiler.output.emitting import document_tree
 from twinform.compiler.request import ConversionRequest
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules.edits import EDIT_CONFLICT
-from twinform.ir import Document, Format
+from twinform.ir import Document
 from twinform.passes import PassInstrumentation
-from twinform.schemas import path_of
-from twinform.text import Lines, Place, SourceText, UndecodableError, UnplacedError, apply, edits, merge
+from twinform.schemas import XmlElement, path_of
+from twinform.text import Lines, Merge, Place, SourceText, UndecodableError, UnplacedError, apply, edits, merge
+
+_ADDITIVE = "gazebo"
+"""Elements of URDF that add up where they refer to the same part."""
 
 
 class Change(NamedTuple):
@@ -46,43 +49,21 @@ def convert_in_place(
     Raises:
         CompileError: it cannot be converted, or cannot be changed in its place.
     """
+    request = replace(request, comments=False)  # the text of the file has them
     conversion = run_conversion(request, str(path), load_options, name=str(path), instrumentation=instrumentation)
     loaded = read(str(path), load_options, name=str(path))
     sink = DiagnosticSink(str(path), load_options.strict)
     if loaded.document is None:  # it could be converted a moment ago
         raise CompileError(loaded.diagnostics)
-    return _updated(_bytes(path, sink, load_options), loaded.document, conversion, sink, same=True)
+    return updated(file_bytes(path, sink, load_options), loaded.document, conversion, sink, same=True)
 
 
-def convert_into(
-    request: ConversionRequest, edited: Path, into: Path, load_options: LoadOptions, *, base: Path | None = None
-) -> Updated:
-    """Convert an edited file, and change in the file `into` only what the edits change.
-
-    The edits are what differs from `base`: the file as it was before them, or else what `into` is converted to.
+def file_bytes(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> bytes:
+    """The bytes of a file.
 
     Raises:
-        CompileError: one of the files cannot be converted, or both sides have changed the same.
+        CompileError: it cannot be read.
     """
-    conversion = run_conversion(request, str(edited), load_options, name=str(edited))
-    old = str(base) if base else _built(request, edited, into, load_options)
-    before = run_conversion(request, old, load_options, name=str(base or into))
-    sink = DiagnosticSink(str(into), load_options.strict)
-    return _updated(_bytes(into, sink, load_options), before.document, conversion, sink, same=base is None)
-
-
-def _built(request: ConversionRequest, edited: Path, into: Path, load_options: LoadOptions) -> bytes:
-    """What a file is converted to, in the format and the version of the edited one."""
-    document = read(str(edited), load_options, name=str(edited)).document
-    if document is None:  # it could be converted a moment ago
-        raise CompileError(())
-    back = replace(request, to=document.format.value, sdf_version=None, urdf_version=None, model=None)
-    if document.format is Format.SDF:
-        back = replace(back, sdf_version=document.version)
-    return run_conversion(back, str(into), load_options, name=str(into)).text.encode()
-
-
-def _bytes(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> bytes:
     unsaved = load_options.search.unsaved_of(path)
     try:
         return read_bytes(path, sink, load_options.limits) if unsaved is None else unsaved
@@ -90,7 +71,7 @@ def _bytes(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> bytes
         raise CompileError(tuple(sink.diagnostics), unreadable=True) from error
 
 
-def _updated(source: bytes, before: Document, conversion: Conversion, sink: DiagnosticSink, *, same: bool) -> Updated:
+def updated(source: bytes, before: Document, conversion: Conversion, sink: DiagnosticSink, *, same: bool) -> Updated:
     """A file with what a conversion has changed in a document; `same` means that this is the document of the file.
 
     Raises:
@@ -100,17 +81,43 @@ def _updated(source: bytes, before: Document, conversion: Conversion, sink: Diag
         own, _ = read_tree(source, DiagnosticSink(sink.file))
     except UnreadableError as error:
         raise CompileError(read(source, LoadOptions(), name=sink.file).diagnostics, unreadable=True) from error
-    merged = merge(document_tree(before), document_tree(conversion.document), own, same=same)
-    for element, message in merged.conflicts:
-        where = Location(line=element.sourceline or 0, path=path_of(element))
-        sink.report(EDIT_CONFLICT, f"cannot be changed in place: {message}", where)
-    if not merged.conflicts:
-        try:
-            text = SourceText.of(source)
-            made = sorted(edits(text, own, merged.tree), key=lambda edit: edit.span)
-            lines = Lines(text.text)
-            changes = [Change(lines.place(span.start), span.of(text.text), new) for span, new in made]
-            return Updated(conversion, text.with_text(apply(text.text, made)).data, tuple(changes))
-        except (UnplacedError, UndecodableError, UnicodeEncodeError) as error:
-            sink.report(EDIT_CONFLICT, f"cannot be changed in place: {error}", Location(line=1, path="/"))
+    try:
+        merged = _merged(document_tree(before), document_tree(conversion.document), own, same=same)
+        if not merged.conflicts:
+            return _patched(SourceText.of(source), own, merged.tree, conversion)
+    except (UnplacedError, UndecodableError, UnicodeEncodeError) as error:
+        sink.report(EDIT_CONFLICT, f"cannot be changed in place: {error}", Location(line=1, path="/"))
+    else:
+        for element, message in merged.conflicts:
+            where = Location(line=element.sourceline or 0, path=path_of(element))
+            sink.report(EDIT_CONFLICT, f"cannot be changed in place: {message}", where)
     raise CompileError((*conversion.diagnostics, *sink.diagnostics))
+
+
+def _merged(before: XmlElement, after: XmlElement, own: XmlElement, *, same: bool) -> Merge:
+    at = _model_in_world(before, own)
+    if at is not None:
+        before, after = before[0], after[0]
+    return merge(before, after, own, at=at, same=same, additive=_ADDITIVE)
+
+
+def _patched(text: SourceText, own: XmlElement, tree: XmlElement, conversion: Conversion) -> Updated:
+    made = sorted(edits(text, own, tree), key=lambda edit: edit.span)
+    lines = Lines(text.text)
+    changes = [Change(lines.place(span.start), span.of(text.text), new) for span, new in made]
+    return Updated(conversion, text.with_text(apply(text.text, made)).data, tuple(changes))
+
+
+def _model_in_world(before: XmlElement, own: XmlElement) -> XmlElement | None:
+    """Where the only model of a document stands in a file that has it in a world; None for any other file.
+
+    Raises:
+        UnplacedError: it is not there, or there are several.
+    """
+    model = before[0] if len(before) == 1 and before[0].tag == "model" else None
+    if model is None or own.find("world") is None:
+        return None
+    found = [each for each in own.iterfind("world/model") if each.get("name") == model.get("name")]
+    if len(found) != 1:
+        raise UnplacedError(f"it is a world, in which {len(found) or 'no'} models are called {model.get('name')!r}")
+    return found[0]

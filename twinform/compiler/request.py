@@ -20,7 +20,8 @@ DEFAULT_SDF_VERSION = "1.11"
 class ConversionRequest:
     """What a conversion is asked for; `passes` are the user's, and `assets` the files beside the source.
 
-    `mixed` means that the source has elements that its version does not have.
+    `mixed` means that the source has elements that its version does not have; `comments` that those of the source go
+    along.
     """
 
     to: Language
@@ -31,6 +32,7 @@ class ConversionRequest:
     model: str | None = None
     expand_includes: bool = False
     mixed: bool = False
+    comments: bool = True
     assets: Assets = field(default=NO_ASSETS, compare=False, repr=False)
 
     def plan(self, source: Document) -> Pipeline:

@@ -17,6 +17,8 @@ This file is made by `python -m twinform.diagnostics.pages docs/reference/rules.
 
 def severity_words(rule: Rule) -> str:
     """How bad it is, and how bad under `--strict` where that differs."""
+    if rule.fatal:
+        return f"{rule.severity}, which cannot be allowed"
     if rule.strict in {None, rule.severity}:
         return str(rule.severity)
     return f"{rule.severity}, {rule.strict} under --strict"

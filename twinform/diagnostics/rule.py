@@ -22,7 +22,8 @@ class Rule:
     """A kind of finding. Its name describes the thing found, reads well after "allow", and is never used again.
 
     `strict` is the severity under `--strict`; it is the plain one where it is not given. `fix` says how safe
-    its fixes are at best, if there are any.
+    its fixes are at best, if there are any. What is `fatal` leaves nothing to go on with, and cannot be allowed.
+    What is `unsound` is no tree: `check` may allow it, and nothing can be made of it.
     The other fields are the rule's page, as `twinform explain` prints it.
     """
 
@@ -35,6 +36,8 @@ class Rule:
     references: str = ""
     strict: Severity | None = None
     fix: Safety | None = None
+    fatal: bool = False
+    unsound: bool = False
 
     def severity_in(self, *, strict: bool) -> Severity:
         """The severity of a finding in this mode."""

@@ -1,6 +1,6 @@
 """The sink into which each stage of the compiler writes diagnostics, ledger entries and side files."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
@@ -28,7 +28,7 @@ class DiagnosticSink:
 
     `file` completes the locations, which know only a line and a path. `origins` lead from the lines of expanded texts
     to where they were written. `has_errors` is whether anything here stops a conversion. `side_files` are the files
-    that passes make to lie beside the result.
+    that passes make to lie beside the result. What it `allows` is no finding, and kept apart as `allowed`.
     """
 
     file: str = ""
@@ -39,6 +39,8 @@ class DiagnosticSink:
     has_errors: bool = False
     origins: dict[str, Origins] = field(default_factory=dict[str, Origins])
     side_files: list[SideFile] = field(default_factory=list[SideFile])
+    allows: Callable[[Diagnostic], bool] | None = None
+    allowed: list[Diagnostic] = field(default_factory=list[Diagnostic])
 
     def __post_init__(self) -> None:
         self.has_errors = any(diagnostic.is_error for diagnostic in self.diagnostics)
@@ -87,6 +89,13 @@ class DiagnosticSink:
         for diagnostic in diagnostics:
             self._add(self._traced(diagnostic))
 
+    def take_out(self, allowed: Iterable[Diagnostic]) -> None:
+        """Set findings apart that are allowed."""
+        self.allowed.extend(allowed)
+        gone = {id(each) for each in self.allowed}
+        self.diagnostics = [each for each in self.diagnostics if id(each) not in gone]
+        self.has_errors = any(each.is_error for each in self.diagnostics)
+
     def account(self, fate: Fate, rule: Rule, message: str, location: Location = NOWHERE, weight: int = 1) -> None:
         """Add a ledger entry."""
         self.entries.append(Entry(fate, rule, message, self._origin(self._complete(location)), weight))
@@ -101,6 +110,9 @@ class DiagnosticSink:
         return where.file, where.path or where.line
 
     def _add(self, diagnostic: Diagnostic) -> None:
+        if self.allows and self.allows(diagnostic):
+            self.allowed.append(diagnostic)
+            return
         if not self.takes(diagnostic.severity):
             self.left_out += 1
             return

@@ -19,7 +19,7 @@ from twinform.schemas.validator import (
 )
 from twinform.schemas.value_stores import Data
 from twinform.schemas.values import VALUE_TYPES, format_value, parse_value
-from twinform.schemas.writer import LAST_LINE, Writer, element_xml, in_order, writer
+from twinform.schemas.writer import LAST_LINE, Writer, Written, element_xml, in_order, noted, writer
 from twinform.schemas.xml import (
     XmlElement,
     declared_namespaces,
@@ -44,6 +44,7 @@ __all__ = [
     "Table",
     "Version",
     "Writer",
+    "Written",
     "XmlElement",
     "declared_namespaces",
     "element_data",
@@ -56,6 +57,7 @@ __all__ = [
     "keep_element",
     "libxml2_errors",
     "locate",
+    "noted",
     "parse_value",
     "parse_version",
     "path_of",

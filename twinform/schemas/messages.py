@@ -266,6 +266,8 @@ def repeated(context: Context, element: XmlElement) -> None:
     """A second one of what may stand once."""
     context.tolerated.append((element, None))
     parent = element.getparent()
+    if parent is not None and element.tag == "camera" and parent.get("type") == "multicamera":
+        return  # which is what this type of sensor is for, although the specification counts one
     holder = "its parent" if parent is None else f"<{parent.tag}>"
     context.report(structure.REPEATED_ELEMENT, element, f"<{element.tag}> occurs more than once in {holder}")
 

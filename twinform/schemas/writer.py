@@ -4,7 +4,9 @@ A writer writes the content of the node, in the order of the facts, and decides 
 names of their fields. Children that came from a file keep the order that they had in it.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Generator, Iterable
+from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import cache
 from operator import itemgetter
 from typing import Any, TypeVar
@@ -31,8 +33,31 @@ _ALWAYS = "opaque"
 """A field that is never None, for steps that look at several fields themselves."""
 
 
+Written = list[tuple[Any, XmlElement]]
+"""Parts that were written, with the elements that they have become; an element may have been taken away again."""
+
+_written: ContextVar[Written | None] = ContextVar("written", default=None)
+"""Where what is written is noted; writers are shared, so that they cannot hold it themselves."""
+
 LAST_LINE = 65535
 """libxml2 keeps no number beyond it."""
+
+
+@contextmanager
+def noted() -> Generator[Written]:
+    """Note which elements the parts become that are written in the meantime."""
+    written: Written = []
+    token = _written.set(written)
+    try:
+        yield written
+    finally:
+        _written.reset(token)
+
+
+def _note(part: Any, element: XmlElement) -> None:
+    written = _written.get()
+    if written is not None:
+        written.append((part, element))
 
 
 def element_xml(element: Any, parent: XmlElement | None = None) -> XmlElement:
@@ -42,6 +67,7 @@ def element_xml(element: Any, parent: XmlElement | None = None) -> XmlElement:
     made.text, made.tail = element.text, element.tail
     if element.source is not None:
         made.sourceline = min(element.source.line, LAST_LINE)  # pyright: ignore[reportAttributeAccessIssue] - it can be set
+    _note(element, made)
     for child in element.children:
         element_xml(child, made)
     return made
@@ -84,6 +110,7 @@ class Writer:
 
         def write(node: Any, element: XmlElement) -> None:
             values: dict[str, Any] = node.__dict__
+            _note(node, element)
             if text is not None:
                 element.text = text(node)
             for field, write_value in steps:
@@ -316,7 +343,7 @@ def _write_opaque(parts: Iterable[Any], element: XmlElement) -> None:
     for part in parts:
         holder = _holder(element, part.at)
         if part.element is not None:
-            element_xml(part.element, holder)
+            _note(part, element_xml(part.element, holder))
         elif part.attribute is not None:
             holder.set(*part.attribute)
         else:

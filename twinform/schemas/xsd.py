@@ -7,7 +7,8 @@ repeated choice, without counts and without keys, so it accepts whatever the nor
 What other namespaces add is skipped rather than checked: a `robot` inside of a foreign element is not ours.
 
 A lenient schema, for editors of real files, also takes the syntax of other versions and of dialects, and any attribute;
-in XSD 1.1 any other element too, which XSD 1.0 cannot tell from those that it knows.
+in XSD 1.1 any other element too, which XSD 1.0 cannot tell from those that it knows. One for xacro files also takes
+expressions instead of values, and looks into xacro's elements (`xacro_xsd.py`).
 """
 
 from lxml import etree
@@ -16,19 +17,22 @@ from twinform.schemas.documentation import Documentation
 from twinform.schemas.facts import Fact, Table, Version, print_version, rows_by_name, table
 from twinform.schemas.meanings import Path
 from twinform.schemas.packaged import XsdVersion
+from twinform.schemas.xacro_xsd import import_xacro, unambiguous
 from twinform.schemas.xml import XmlElement
 from twinform.schemas.xsd_assertions import declare_assertions
 from twinform.schemas.xsd_names import declare_names
-from twinform.schemas.xsd_values import XS, Values, allow_attributes, xs
+from twinform.schemas.xsd_values import XS, Values, allow_attributes, annotate, xs
 
 _MANY = {"minOccurs": "0", "maxOccurs": "unbounded"}
 _FOREIGN = "foreign"
 """A group of nothing but foreign elements. Where it stood inline, xmlschema 4.3 would let text pass as well."""
 
 
-def generate_schema(facts: Table, version: Version, xsd: XsdVersion, *, lenient: bool = False) -> str:
-    """The text of the schema of a version of the format."""
-    schema = _Generator(facts, version, xsd, lenient=lenient).generate()
+def generate_schema(
+    facts: Table, version: Version, xsd: XsdVersion, *, lenient: bool = False, xacro: bool = False
+) -> str:
+    """The text of the schema of a version of the format; one for xacro files is lenient."""
+    schema = _Generator(facts, version, xsd, lenient=lenient or xacro, xacro=xacro).generate()
     etree.indent(schema)
     for annotation in schema.iter(XS + "annotation"):
         annotation.text = annotation[0].tail = None  # one line each
@@ -43,26 +47,31 @@ def lenient_schema_text(format: str, version: Version, xsd: XsdVersion = "1.0") 
 class _Generator:
     """Makes one schema; definitions are declared as they are met."""
 
-    def __init__(self, facts: Table, version: Version, xsd: XsdVersion, *, lenient: bool) -> None:
+    def __init__(self, facts: Table, version: Version, xsd: XsdVersion, *, lenient: bool, xacro: bool) -> None:
         self.table = facts
         self.version = version
         self.normative = xsd == "1.1" and not lenient
         self.lenient = lenient
+        self.xacro = xacro
         self.others = {"notQName": "##definedSibling", "namespace": "##any"} if lenient and xsd == "1.1" else {}
         self.documentation = Documentation(facts)
-        self.values = Values(facts.format, lenient=lenient)
+        self.values = Values(facts.format, lenient=lenient, expressions=xacro)
         self.schema = etree.Element(XS + "schema", {"version": print_version(version)}, nsmap={"xs": XS[1:-1]})
         self.wanted = [facts.root]
 
     def generate(self) -> XmlElement:
         """The whole schema."""
         xs(xs(self.schema, "annotation"), "documentation").text = self._about()
+        if self.xacro:
+            import_xacro(self.schema)
         root = xs(self.schema, "element", name=self.table.root, type=self.table.root)
         self._declare_names(root, self.table.definitions[self.table.root], (self.table.root,))
+        for name, definition in unambiguous(self.table, self.version) if self.xacro else ():
+            self._refer(definition, xs(self.schema, "element", name=name))
         for name in self.wanted:  # it grows on the way
             definition = self.table.definitions[name]
             complex_type = xs(self.schema, "complexType", name=name)
-            _annotate(self.documentation.of_definition(name), complex_type)
+            annotate(self.documentation.of_definition(name), complex_type)
             self._fill(definition, complex_type, (name,))
         self._allow_foreign(xs(xs(self.schema, "group", name=_FOREIGN), "sequence"), **_MANY)
         self.values.declare(self.schema)
@@ -71,6 +80,8 @@ class _Generator:
     def _about(self) -> str:
         """What the schema is, for whoever opens it."""
         name = f"{self.table.format.upper()} {print_version(self.version)}"
+        if self.xacro:
+            return f"{name} in xacro files: expressions may stand for values, and xacro's elements anywhere."
         if self.lenient:
             return f"{name}, with the syntax of other versions and of dialects, and any attribute."
         strict = f"{name}, strict: what is no word of this version is refused, unless it is in a namespace."
@@ -92,9 +103,9 @@ class _Generator:
     def _attributes(self, fact: Fact, holder: XmlElement, path: Path) -> None:
         for row in self._present(fact.attributes):
             attribute = xs(holder, "attribute", name=row.name[1:])
-            if row.required and not (self.lenient and row.dialect):
+            if row.required and not (self.lenient and row.dialect) and not (self.xacro and path == (self.table.root,)):
                 attribute.set("use", "required")
-            _annotate(self._words(row, fact, (*path, row.name)), attribute)
+            annotate(self._words(row, fact, (*path, row.name)), attribute)
             self.values.attribute(row, attribute)
         allow_attributes(holder, "##any" if fact.any or self.lenient else "##other")
 
@@ -142,7 +153,7 @@ class _Generator:
         if counted and row.repeats:
             element.set("maxOccurs", "unbounded")
         path = (*path, row.name)
-        _annotate(self._words(row, holder, path), element)
+        annotate(self._words(row, holder, path), element)
         if row.reference:
             self._refer(row.reference, element)
         elif row.type:
@@ -174,7 +185,8 @@ class _Generator:
         return [row for row in rows if row.exists_in(self.version) and row.dialect is None]
 
     def _allow_foreign(self, group: XmlElement, **counts: str) -> None:
-        xs(group, "any", **{"namespace": "##other", **self.others}, processContents="skip", **counts)
+        process = "lax" if self.xacro else "skip"
+        xs(group, "any", **{"namespace": "##other", **self.others}, processContents=process, **counts)
 
 
 def _allow_anything(fact: Fact, complex_type: XmlElement) -> None:
@@ -182,11 +194,3 @@ def _allow_anything(fact: Fact, complex_type: XmlElement) -> None:
         raise ValueError(f"{fact.name}: XSD 1.0 cannot tell known children from any others")
     complex_type.set("mixed", "true")
     xs(xs(complex_type, "sequence"), "any", namespace="##any", processContents="skip", **_MANY)
-
-
-def _annotate(text: str, element: XmlElement) -> None:
-    """Tell editors and people what an element or attribute is."""
-    if text:
-        annotation = etree.Element(XS + "annotation")
-        element.insert(0, annotation)
-        xs(annotation, "documentation").text = text

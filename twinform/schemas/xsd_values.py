@@ -4,6 +4,7 @@ All patterns are linear and none of XSD's own numbers or truth values is used: l
 Numbers that no double can hold fit the patterns; the parsers refuse them.
 """
 
+import re
 from dataclasses import dataclass
 
 from lxml import etree
@@ -17,6 +18,8 @@ _FINITE = r"[+\-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+\-]?[0-9]+)?"
 _NUMBER = rf"{_FINITE}|[+\-]?([iI][nN][fF]|[nN][aA][nN])"
 _INT = r"[+\-]?(0[xX][0-9a-fA-F]+|[0-9]+(\.0*)?)"
 _UINT = r"\+?(0[xX][0-9a-fA-F]+|[0-9]+(\.0*)?)|-(0[xX]0+|0+(\.0*)?)"
+EXPRESSION = r".*[$][({].*"
+"""Text with a value of xacro's in it: `${...}` or `$(...)`."""
 _BOOL = "[tT][rR][uU][eE]|[fF][aA][lL][sS][eE]|0|1"
 
 
@@ -64,9 +67,10 @@ def xs(parent: XmlElement, tag: str, /, **attributes: str) -> XmlElement:
 class Values:
     """The value types that one schema uses. Asking for one puts it on the list of those to declare."""
 
-    def __init__(self, format: str, *, lenient: bool = False) -> None:
+    def __init__(self, format: str, *, lenient: bool = False, expressions: bool = False) -> None:
         self.tokens = TOKENS[format]
         self.lenient = lenient
+        self.expressions = expressions
         self.used: set[str] = set()
         self.blank: set[str] = set()
         self.leaves: set[str] = set()
@@ -74,7 +78,7 @@ class Values:
     def attribute(self, row: Fact, attribute: XmlElement) -> None:
         """Give an attribute its type. Its text stands as it is, blanks and all."""
         if row.enum:
-            _enumerate(xs(xs(attribute, "simpleType"), "restriction", base="xs:string"), self._enum(row))
+            self._words(row, xs(attribute, "simpleType"))
         else:
             attribute.set("type", self._value(row.type))
 
@@ -93,7 +97,10 @@ class Values:
             return xs(content, "extension", base=self._text(row.type, needed=row.needs_text))
         self.leaves.add(_WORD)
         restriction = xs(content, "restriction", base=f"{_WORD}-leaf")
-        _enumerate(restriction, self._enum(row))
+        if self.expressions:  # a restriction has no union
+            xs(restriction, "pattern", value="|".join((*map(_literally, self._enum(row)), EXPRESSION)))
+        else:
+            _enumerate(restriction, self._enum(row))
         return restriction
 
     def declare(self, schema: XmlElement) -> None:
@@ -108,10 +115,26 @@ class Values:
             union = xs(schema, "simpleType", name=f"{name}-or-blank")
             xs(union, "union", memberTypes=f"{name}-value blank")
         for name in sorted(self.used):
-            _declare_tokens(xs(schema, "simpleType", name=f"{name}-value"), self.tokens[name])
+            self._declare_value(xs(schema, "simpleType", name=f"{name}-value"), self.tokens[name])
+        if self.expressions:
+            expression = xs(xs(schema, "simpleType", name="expression"), "restriction", base="xs:token")
+            xs(expression, "pattern", value=EXPRESSION)
         if self.blank:
             blank = xs(xs(schema, "simpleType", name="blank"), "restriction", base="xs:token")
             xs(blank, "length", value="0")
+
+    def _declare_value(self, simple_type: XmlElement, tokens: Tokens) -> None:
+        if self.expressions:
+            union = xs(simple_type, "union", memberTypes="expression")
+            _declare_tokens(xs(union, "simpleType"), tokens)
+        else:
+            _declare_tokens(simple_type, tokens)
+
+    def _words(self, row: Fact, simple_type: XmlElement) -> None:
+        """The words of an enumeration."""
+        if self.expressions:
+            simple_type = xs(xs(simple_type, "union", memberTypes="expression"), "simpleType")
+        _enumerate(xs(simple_type, "restriction", base="xs:string"), self._enum(row))
 
     def _enum(self, row: Fact) -> tuple[str, ...]:
         """The values of an enumeration; in a lenient schema also those of dialects and of other versions."""
@@ -132,6 +155,14 @@ class Values:
         return f"{name}-or-blank"
 
 
+def annotate(text: str, element: XmlElement) -> None:
+    """Tell editors and people what an element or attribute is."""
+    if text:
+        annotation = etree.Element(XS + "annotation")
+        element.insert(0, annotation)
+        xs(annotation, "documentation").text = text
+
+
 def allow_attributes(holder: XmlElement, namespace: str) -> None:
     """Let an element carry attributes that are not looked at."""
     xs(holder, "anyAttribute", namespace=namespace, processContents="skip")
@@ -140,6 +171,11 @@ def allow_attributes(holder: XmlElement, namespace: str) -> None:
 def _enumerate(restriction: XmlElement, words: tuple[str, ...]) -> None:
     for word in words:
         xs(restriction, "enumeration", value=word)
+
+
+def _literally(word: str) -> str:
+    """A word as a pattern."""
+    return re.sub(r"([.\\?*+{}()\[\]|^-])", r"\\\1", word)
 
 
 def _declare_tokens(simple_type: XmlElement, tokens: Tokens) -> None:

@@ -20,7 +20,7 @@ USUAL_LIMITS = Limits(LARGEST, MOST_TAGS)
 class Settings:
     """How files are read and laid out, and which findings are shown. `problem` is what is wrong with its file."""
 
-    load_options: LoadOptions = field(default_factory=lambda: LoadOptions(limits=USUAL_LIMITS))
+    load_options: LoadOptions = field(default_factory=lambda: LoadOptions(limits=USUAL_LIMITS, tolerant=True))
     policy: Policy = field(default_factory=Policy)
     layout: FormatOptions = field(default_factory=FormatOptions)
     problem: str = ""

@@ -76,7 +76,7 @@ class Case:
         """What the file becomes, by default in the other format; the findings where it does not become anything."""
         to = to or _OTHER[self.path.suffix]
         try:
-            return convert(self.path, to=to, sdf_version=sdf_version, strict=self.strict).text
+            return convert(self.path, to=to, sdf_version=sdf_version, strict=self.strict, comments=False).text
         except CompileError as error:
             return "\n".join(f"{each.location.line}: {each.rule.name}" for each in error.diagnostics if each.is_error)
 

@@ -80,7 +80,9 @@ class PassCase(Case):
     def _run(self, source: Path | bytes, pipeline: str) -> Conversion | CompileError:
         with chdir(self.path.parent):
             try:
-                return convert(source, to=_FORMATS[self.path.suffix], passes=pipeline, strict=self.strict)
+                return convert(
+                    source, to=_FORMATS[self.path.suffix], passes=pipeline, strict=self.strict, comments=False
+                )
             except CompileError as error:
                 return error
 

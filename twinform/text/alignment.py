@@ -1,8 +1,10 @@
 """Which children of an element are which children of another state of it: the alignment of two lists of elements."""
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Hashable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from collections.abc import Set as AbstractSet
 from difflib import SequenceMatcher
+from functools import partial
 
 from twinform.schemas import XmlElement
 
@@ -10,6 +12,7 @@ BLANKS = " \t\r\n"
 """The white space of XML."""
 Pair = tuple[int, int]
 """The places of a child in the lists before and after."""
+Places = list[int]
 _MANY = 2000
 """Lists of more elements that are alike are aligned from both ends only: difflib takes the square of their number."""
 
@@ -83,39 +86,105 @@ def texts(element: XmlElement) -> tuple[str, ...]:
 def aligned(before: Sequence[XmlElement], after: Sequence[XmlElement], contents: Contents) -> list[Pair]:
     """Which elements of two lists belong together, in order.
 
-    First those that are equal, then between these those with the same tag and name, then those with the same tag.
+    First those that are equal, then between these those with the same tag and name, then those with the same tag. What
+    is on the other side under its own name, if in another place, has not changed its name.
     """
+    known = {key for each in before if (key := known_by(each))[1]} & set(map(known_by, after))
     numbers = [contents.number(each) for each in before], [contents.number(each) for each in after]
     pairs: list[Pair] = []
     for old, new, equal in _blocks(*numbers):
         if equal:
             pairs.extend(zip(old, new, strict=True))
         else:
-            pairs.extend(_by_name(before, after, old, new))
+            pairs.extend(_by_name(before, after, old, new, known))
     return pairs
+
+
+def known_by(element: XmlElement) -> tuple[str, str | None]:
+    """What an element is known by: its name, or what it refers to as a `<gazebo>` does."""
+    return str(element.tag), element.get("name") or element.get("reference")
 
 
 def matched(before: Sequence[XmlElement], after: Sequence[XmlElement], contents: Contents) -> list[Pair]:
-    """The same for lists in different orders: what is left is matched with what is equal, or has its tag and name."""
-    pairs = aligned(before, after, contents)
-    for key in (contents.number, _key):
-        taken = [{pair[0] for pair in pairs}, {pair[1] for pair in pairs}]
-        waiting: dict[Hashable, list[int]] = defaultdict(list)
-        for j in reversed([j for j in range(len(after)) if j not in taken[1]]):
-            waiting[key(after[j])].append(j)
-        left = [i for i in range(len(before)) if i not in taken[0]]
-        pairs += [(i, waiting[key(before[i])].pop()) for i in left if waiting[key(before[i])]]
+    """Which elements of two lists in different orders belong together.
+
+    First those that are equal, then those with the same tag and name, of several of a name the most similar ones, then
+    those that have changed their names.
+    """
+    pairs = list(_in_groups(before, after, [], contents.number, _in_order))
+    similar = partial(_most_similar, before, after, contents)
+    pairs += _in_groups(before, after, pairs, known_by, similar)
+    here, there = _left(before, after, pairs)
+    known = {known_by(before[i]) for i, _ in pairs}
+    named = [i for i in here if known_by(before[i]) not in known], [j for j in there if known_by(after[j]) not in known]
+    return pairs + list(_by_tag(before, after, *named))
+
+
+def _left(before: Sequence[XmlElement], after: Sequence[XmlElement], pairs: Sequence[Pair]) -> tuple[Places, Places]:
+    """The places of what is in no pair."""
+    taken = {i for i, _ in pairs}, {j for _, j in pairs}
+    return [i for i in range(len(before)) if i not in taken[0]], [j for j in range(len(after)) if j not in taken[1]]
+
+
+def _in_groups(
+    before: Sequence[XmlElement],
+    after: Sequence[XmlElement],
+    pairs: Sequence[Pair],
+    key: Callable[[XmlElement], Hashable],
+    pair: Callable[[Places, Places], Iterable[Pair]],
+) -> Iterator[Pair]:
+    """Pairs among those with the same key that are in no pair yet."""
+    here, there = _left(before, after, pairs)
+    groups = defaultdict[Hashable, tuple[Places, Places]](lambda: ([], []))
+    for i in here:
+        groups[key(before[i])][0].append(i)
+    for j in there:
+        groups[key(after[j])][1].append(j)
+    for old, new in groups.values():
+        if old and new:
+            yield from pair(old, new)
+
+
+def _in_order(old: Places, new: Places) -> Iterable[Pair]:
+    return zip(old, new, strict=False)
+
+
+def _most_similar(
+    before: Sequence[XmlElement], after: Sequence[XmlElement], contents: Contents, old: Places, new: Places
+) -> Iterable[Pair]:
+    """Pairs of those that have most in common. Where a side has more of them, nothing in common makes no pair."""
+    if len(old) == len(new) == 1 or len(old) * len(new) > _MANY:
+        return _in_order(old, new)
+    parts = {i: _parts(before[i], contents) for i in old}, {j: _parts(after[j], contents) for j in new}
+    common = {(i, j): (parts[0][i] & parts[1][j]).total() for i in old for j in new}
+    pairs: list[Pair] = []
+    for i, j in sorted(common, key=lambda pair: (-common[pair], *pair)):
+        taken = any(i == here or j == there for here, there in pairs)
+        if not taken and (common[i, j] or len(old) == len(new)):
+            pairs.append((i, j))
     return pairs
 
 
-def _by_name(before: Sequence[XmlElement], after: Sequence[XmlElement], old: range, new: range) -> Iterator[Pair]:
-    keys = [_key(before[i]) for i in old], [_key(after[i]) for i in new]
+def _parts(element: XmlElement, contents: Contents) -> Counter[Hashable]:
+    """What an element has: attributes, and all elements in it."""
+    inside: list[Hashable] = [contents.number(each) for each in element.iter("*") if each is not element]
+    return Counter([*inside, *element.items()])
+
+
+def _by_name(
+    before: Sequence[XmlElement], after: Sequence[XmlElement], old: range, new: range, known: AbstractSet[Hashable]
+) -> Iterator[Pair]:
+    keys = [known_by(before[i]) for i in old], [known_by(after[i]) for i in new]
     for inner_old, inner_new, equal in _blocks(*keys):
         here, there = [old[i] for i in inner_old], [new[i] for i in inner_new]
         if equal:
             yield from zip(here, there, strict=True)
         else:
-            yield from _by_tag(before, after, here, there)
+            renamed = (
+                [i for i in here if known_by(before[i]) not in known],
+                [j for j in there if known_by(after[j]) not in known],
+            )
+            yield from _by_tag(before, after, *renamed)
 
 
 def _by_tag(
@@ -134,10 +203,6 @@ def _by_tag(
         if j > last:
             yield i, j
             last = j
-
-
-def _key(element: XmlElement) -> tuple[str, str | None]:
-    return str(element.tag), element.get("name")
 
 
 def _blocks(before: Sequence[Hashable], after: Sequence[Hashable]) -> Iterator[tuple[range, range, bool]]:

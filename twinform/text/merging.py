@@ -4,13 +4,24 @@ The third tree is how a person wrote the document. It may spell numbers otherwis
 was changed too and says something else about a part that changed, that is a conflict, and nothing is decided.
 """
 
-from collections.abc import Iterator, Sequence
+from collections import Counter, defaultdict
+from collections.abc import Hashable, Iterator, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from twinform.schemas import XmlElement
-from twinform.text.alignment import Contents, aligned, elements, matched, same_value, spelled_alike, stripped, texts
+from twinform.text.alignment import (
+    Contents,
+    aligned,
+    elements,
+    known_by,
+    matched,
+    same_value,
+    spelled_alike,
+    stripped,
+    texts,
+)
 
 
 class Conflict(NamedTuple):
@@ -28,17 +39,45 @@ class Merge:
     conflicts: tuple[Conflict, ...]
 
 
-def merge(before: XmlElement, after: XmlElement, own: XmlElement, *, same: bool = False) -> Merge:
-    """A copy of the tree `own` with all that has changed from `before` to `after`.
+def merge(
+    before: XmlElement,
+    after: XmlElement,
+    own: XmlElement,
+    *,
+    at: XmlElement | None = None,
+    same: bool = False,
+    additive: str | None = None,
+) -> Merge:
+    """A copy of the tree `own` with all that has changed from `before` to `after`, in the element `at` of it.
 
     `same` means that `before` was made of `own` and says the same, so that nothing can be a conflict: what differs
-    between them is how they say it.
+    between them is how they say it. Elements called `additive` in the root add up where they are known by the same, and
+    any number of them stands for one.
     """
     made = deepcopy(own)
     originals = dict(zip(made.iter("*"), own.iter("*"), strict=True))
-    merging = _Merging(originals, same)
-    merging.element(before, after, made)
+    merging = _Merging(originals, same, additive)
+    target = made if at is None else next(copy for copy, each in originals.items() if each is at)
+    merging.element(added_up(before, additive), added_up(after, additive), [target])
     return Merge(made, tuple(merging.conflicts))
+
+
+def added_up(root: XmlElement, additive: str | None) -> XmlElement:
+    """A copy of the tree with one element where there are several that add up; itself where there are none."""
+    groups = defaultdict[Hashable, list[XmlElement]](list)
+    for child in root.iterchildren(additive) if additive else ():
+        groups[known_by(child), tuple(sorted(child.items()))].append(child)
+    if all(len(group) == 1 for group in groups.values()):
+        return root
+    made = deepcopy(root)
+    places = {each: i for i, each in enumerate(root)}
+    children = [*made]
+    for first, *others in groups.values():
+        for other in others:
+            child = children[places[other]]
+            children[places[first]].extend([*child])
+            made.remove(child)
+    return made
 
 
 @dataclass(slots=True)
@@ -47,22 +86,25 @@ class _Merging:
 
     originals: dict[XmlElement, XmlElement]
     same: bool
+    additive: str | None = None
     exact: Contents = field(default_factory=Contents)
     alike: Contents = field(default_factory=lambda: Contents(spelled_alike))
     conflicts: list[Conflict] = field(default_factory=list[Conflict])
 
-    def element(self, before: XmlElement, after: XmlElement, own: XmlElement) -> None:
-        """Change one element, and all in it, which is changed in place."""
+    def element(self, before: XmlElement, after: XmlElement, owns: Sequence[XmlElement]) -> None:
+        """Change one element, and all in it, which is changed in place; several where they add up."""
         if self.exact.number(before) == self.exact.number(after):
             return
+        own = owns[0]
         if before.tag != after.tag:
             self._conflict(own, f"<{before.tag}> becomes <{after.tag}>")
             return
-        self._attributes(before, after, own)
+        for each in owns:
+            self._attributes(before, after, each)
         if any(texts(before)[1:]) or any(texts(after)[1:]):
             self._mixed(before, after, own)
             return
-        pairs = [*self._children(before, after, own)]
+        pairs = [*self._children(before, after, owns)]
         self._text(before, after, own)
         for triple in pairs:
             self.element(*triple)
@@ -107,50 +149,64 @@ class _Merging:
         own[:] = [deepcopy(each) for each in elements(after)]
 
     def _children(
-        self, before: XmlElement, after: XmlElement, own: XmlElement
-    ) -> Iterator[tuple[XmlElement, XmlElement, XmlElement]]:
+        self, before: XmlElement, after: XmlElement, owns: Sequence[XmlElement]
+    ) -> Iterator[tuple[XmlElement, XmlElement, Sequence[XmlElement]]]:
         """Delete and insert children, and give those that are in all three."""
-        old, new, mine = elements(before), elements(after), elements(own)
+        old, new, mine = elements(before), elements(after), [each for own in owns for each in elements(own)]
         kept = {j: i for i, j in aligned(old, new, self.exact)}
-        here = {i: mine[k] for i, k in matched(old, mine, self.alike)}
+        here = {i: [mine[k], *self._like(mine, k)] for i, k in matched(old, mine, self.alike)}
         stay = set(kept.values())
         gone = [i for i in range(len(old)) if i not in stay]
-        known = {id(each) for each in here.values()}
+        known = {id(each) for group in here.values() for each in group}
         added = {self.alike.number(each) for each in mine if id(each) not in known}
-        moved = {self.exact.number(old[i]): here[i] for i in gone if i in here}
+        moved = {self.exact.number(old[i]): here[i][0] for i in gone if i in here}
         self._delete(old, [i for i in gone if i in here], here)
         behind: XmlElement | None = None
         for j, each in enumerate(new):
             if j in kept and kept[j] in here:
-                behind = here[kept[j]]
-                yield old[kept[j]], each, behind
+                yield old[kept[j]], each, here[kept[j]]
+                behind = here[kept[j]][-1]
             elif j in kept:
                 if self.exact.number(old[kept[j]]) == self.exact.number(each):
                     continue
                 if self.same:
-                    behind = self._insert(own, deepcopy(each), behind)
+                    behind = self._insert(owns[0], deepcopy(each), behind)
                 else:
-                    self._conflict(own, f"{_shown(each)} has changed, and is not there")
+                    self._conflict(owns[0], f"{_shown(each)} has changed, and is not there")
             elif self.alike.number(each) not in added:
-                behind = self._insert(own, deepcopy(moved.get(self.exact.number(each), each)), behind)
+                behind = self._insert(owns[0], deepcopy(moved.get(self.exact.number(each), each)), behind)
 
-    def _delete(self, old: Sequence[XmlElement], gone: list[int], here: dict[int, XmlElement]) -> None:
+    def _like(self, mine: Sequence[XmlElement], k: int) -> Iterator[XmlElement]:
+        """The others that add up with one."""
+        if mine[k].tag == self.additive:
+            yield from (each for i, each in enumerate(mine) if i != k and known_by(each) == known_by(mine[k]))
+
+    def _delete(self, old: Sequence[XmlElement], gone: list[int], here: dict[int, list[XmlElement]]) -> None:
         for i in gone:
-            if not self.same and self.alike.number(old[i]) != self.alike.number(here[i]):
-                self._conflict(here[i], f"{_shown(old[i])} is deleted, and has been changed here")
+            if not self.same and self._differs(old[i], here[i]):
+                self._conflict(here[i][0], f"{_shown(old[i])} is deleted, and has been changed here")
                 continue
-            parent = here[i].getparent()
-            if parent is not None:
-                _keep_tail(parent, here[i])
-                parent.remove(here[i])
+            for each in here[i]:
+                parent = each.getparent()
+                if parent is not None:
+                    _keep_tail(parent, each)
+                    parent.remove(each)
+
+    def _differs(self, old: XmlElement, owns: Sequence[XmlElement]) -> bool:
+        """Whether an element, or what adds up to it, is not what it was."""
+        if len(owns) == 1:
+            return self.alike.number(old) != self.alike.number(owns[0])
+        inside = Counter(self.alike.number(each) for own in owns for each in elements(own))
+        return inside != Counter(map(self.alike.number, elements(old)))
 
     @staticmethod
     def _insert(own: XmlElement, made: XmlElement, behind: XmlElement | None) -> XmlElement:
         made.tail = None
-        if behind is None:
+        parent = own if behind is None else behind.getparent()
+        if parent is None or behind is None:
             own.insert(0, made)
         else:
-            own.insert(own.index(behind) + 1, made)
+            parent.insert(parent.index(behind) + 1, made)
             made.tail, behind.tail = behind.tail, None
         return made
 

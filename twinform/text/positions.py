@@ -160,7 +160,7 @@ class _Placing:
         return seen
 
     def _start(self, _: str, __: dict[str, str]) -> None:
-        element = _start_tag(self.text, self._here())
+        element = start_tag(self.text, self._here())
         if self.open:
             self.open[-1].children.append(element)
         else:
@@ -188,7 +188,8 @@ class _Placing:
         raise UnplacedError("the document has a DOCTYPE")
 
 
-def _start_tag(text: str, start: int) -> ElementSpan:
+def start_tag(text: str, start: int) -> ElementSpan:
+    """The start tag at an offset, of an element without content."""
     found = _NAME.match(text, start)
     assert found is not None  # noqa: S101 - expat has found a tag there
     name, here = Span(*found.span(1)), found.end()

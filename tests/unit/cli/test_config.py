@@ -68,7 +68,7 @@ def test_without_configuration_there_are_no_names(run: Run, here: Path) -> None:
         ("[pipelines\n", "twinform.toml:1: Expected ']' at the end of a table declaration"),
         ("a = 1\nb = \n", "twinform.toml:2: Invalid value"),
         ("[pipelins]\n", "twinform.toml: pipelins: there is no such key; did you mean pipelines?"),
-        ("speed = 1\n", "twinform.toml: speed: there is no such key; there are allow, carriers, check-passes, deny"),
+        ("speed = 1\n", "twinform.toml: speed: there is no such key; there are allow, baseline, carriers, "),
         ("strict = 'yes'", "twinform.toml: strict: should be a valid boolean"),
         ("sdf-version = '2.0'", "twinform.toml: sdf-version: SDF has no version '2.0'; it has 1.2, "),
         ("urdf-version = '2.0'", "twinform.toml: urdf-version: should be '1.0', '1.1' or '1.2'"),
@@ -84,6 +84,14 @@ def test_without_configuration_there_are_no_names(run: Run, here: Path) -> None:
         ("[pipelines]\n'a b' = ''", 'twinform.toml: pipelines."a b": the name of a pipeline takes letters'),
         ("[pipelines]\nfill = '@b'\nb = '@fill'", "a pipeline stands for itself: fill -> b -> fill"),
         ("[pipelines]\nfill = '@fill'", "a pipeline stands for itself: fill -> fill"),
+        ("allow = ['doctype']", "twinform.toml: allow: doctype is fatal, and cannot be allowed"),
+        ("exclude = 'build'", "twinform.toml: exclude: should be a valid list"),
+        ("[[files]]\nstrict = true", "twinform.toml: files[0].match: Field required"),
+        ("[[files]]\nmatch = []", "twinform.toml: files[0].match: List should have at least 1 item"),
+        ("[[files]]\nmatch = ['*.urdf']\nalow = []", "files[0].alow: there is no such key; did you mean allow?"),
+        ("[[files]]\nmatch = ['*.urdf']\nallow = ['x']", "twinform.toml: files[0].allow: no rule is called x"),
+        ("[[files]]\nmatch = ['!']", "twinform.toml: files[0].match: "),
+        ("[[files]]\nmatch = ['*.urdf']\npasses = 'no'", "files[0].passes: no pass is called no"),
         (b"a = 1\n# \xff", "twinform.toml:2: the file is not UTF-8"),
         ("a = " + "[" * 100_000, "twinform.toml: it is nested too deeply"),
         ("#" * 2**21, "is larger than"),
@@ -155,14 +163,17 @@ def test_findings_are_allowed_and_denied(run: Run, here: Path) -> None:
     assert run("check", "warned.urdf", "--allow", "unknown-element").exit_code == 0
 
 
-def test_errors_cannot_be_allowed(run: Run, here: Path) -> None:
+def test_errors_can_be_allowed_and_fatal_ones_cannot(run: Run, here: Path) -> None:
     rules = {
         line.split("[")[-1].rstrip("]")
         for line in run("check", "wrong.urdf").stdout.splitlines()
         if ": error: " in line
     }
     assert rules
-    assert run("check", "wrong.urdf", *(f"--allow={rule}" for rule in rules)).exit_code == 1
+    done = run("check", "wrong.urdf", *(f"--allow={rule}" for rule in rules))
+    assert (done.exit_code, "; 1 allowed" in done.stderr) == (0, True)
+    done = run("check", "broken.urdf", "--allow", "not-well-formed")
+    assert (done.exit_code, "not-well-formed is fatal, and cannot be allowed" in done.stderr) == (2, True)
 
 
 def test_unknown_rules_are_wrong_usage(run: Run, here: Path) -> None:

@@ -64,7 +64,7 @@ def test_standard_input_goes_to_standard_output(run: Run, files: Path) -> None:
 def test_what_is_no_xml_stays_and_the_others_are_formatted(run: Run, files: Path) -> None:
     done = run("format", "broken.urdf", "missing.urdf", "ugly.urdf")
     assert done.exit_code == 2
-    assert "broken.urdf:3: error: not well-formed XML: " in done.stderr
+    assert "broken.urdf:3:3: error: not well-formed XML: " in done.stderr
     assert "missing.urdf: error: cannot read the file" in done.stderr
     assert done.stderr.endswith("1 file formatted, 0 unchanged, 2 could not be formatted\n")
     assert (Path("broken.urdf").read_text(), Path("ugly.urdf").read_text()) == (BROKEN, NICE)
@@ -74,13 +74,13 @@ def test_what_is_no_xml_stays_and_the_others_are_formatted(run: Run, files: Path
     ("data", "complaint"),
     [
         (b"", "<stdin>: error: the file is empty"),
-        (b"\n<?xml version='1.0'?><a/>", "<stdin>:2: error: not well-formed XML: XML declaration allowed only"),
-        (b"<a><!-- -- --></a>", "<stdin>:1: error: not well-formed XML: "),
-        (b"<!DOCTYPE a><a/>", "<stdin>:1: error: the document has a DOCTYPE"),
+        (b"\n<?xml version='1.0'?><a/>", "<stdin>:2:1: error: not well-formed XML: XML declaration allowed only"),
+        (b"<a><!-- -- --></a>", "<stdin>:1:9: error: not well-formed XML: "),
+        (b"<!DOCTYPE a><a/>", "<stdin>:1:1: error: the document has a DOCTYPE"),
         (b"<?xml version='1.0' encoding='no-such'?><a/>", "<stdin>:1: error: the encoding 'no-such'"),
-        (b"<a>\xff</a>", "<stdin>:1: error: not well-formed XML: "),
-        (b'{"robot": 1}', "<stdin>:1: error: not well-formed XML: "),
-        (b"<a><!" + b"-" * 100, "<stdin>:1: error: not well-formed XML: "),
+        (b"<a>\xff</a>", "<stdin>:1:4: error: not well-formed XML: "),
+        (b'{"robot": 1}', "<stdin>:1:1: error: not well-formed XML: "),
+        (b"<a><!" + b"-" * 100, "<stdin>:1:4: error: not well-formed XML: "),
     ],
 )
 def test_what_cannot_be_formatted_is_refused(run: Run, data: bytes, complaint: str) -> None:

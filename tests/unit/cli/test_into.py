@@ -1,8 +1,13 @@
 """`twinform convert --into`: a file follows the edits of the one that was made of it."""
 
+from copy import deepcopy
 from pathlib import Path
 
 import pytest
+
+from twinform.compiler import in_place
+from twinform.schemas import XmlElement
+from twinform.text import Merge
 
 from .conftest import Run
 
@@ -73,6 +78,66 @@ def test_what_both_have_changed_is_a_conflict(run: Run, twins: Path) -> None:
     assert (done.exit_code, Path("r.urdf").read_text()) == (1, before)
     assert "r.urdf:8:45: error: cannot be changed in place: value is '3.50' here and was '1.5'" in done.stderr
     assert "[edit-conflict]" in done.stderr
+
+
+WORLD = """<sdf version="1.9">
+  <world name="w">  <!-- a yard -->
+    <model name="other"><link name="l"/></model>
+    <model name="r"><link name='base'><inertial><mass>2.0</mass></inertial></link></model>
+  </world>
+</sdf>
+"""
+
+
+def test_a_robot_in_a_world_follows_in_its_place(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("w.sdf").write_text(WORLD)
+    assert run("convert", "w.sdf", "--model", "r", "-o", "r.urdf").exit_code == 0
+    _edit("r.urdf", 'mass value="2"', 'mass value="3"')
+    assert run("convert", "r.urdf", "--into", "w.sdf", "--model", "r").exit_code == 0
+    assert Path("w.sdf").read_text() == WORLD.replace("2.0", "3")
+    _edit("w.sdf", "<mass>3<", "<mass>4<")
+    done = run("convert", "w.sdf", "--into", "r.urdf", "--model", "r")
+    assert (done.exit_code, done.stderr.splitlines()[-2:]) == (0, ["r.urdf:5:20: 3 becomes 4", "r.urdf: 1 change"])
+
+
+def test_new_parts_are_of_the_version_of_the_file(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("r.urdf").write_text(HAND_WRITTEN)
+    assert run("convert", "r.urdf", "-o", "r.sdf", "--sdf-version", "1.6").exit_code == 0
+    _edit("r.urdf", 'xyz="0.0 0 1"/>', 'xyz="0.0 0 1"/><origin xyz="0 0 0.5"/>')
+    assert run("convert", "r.urdf", "--into", "r.sdf").exit_code == 0
+    assert "\n      <pose>0 0 0.5 0 0 0</pose>\n" in Path("r.sdf").read_text()
+    assert run("diff", "r.urdf", "r.sdf").exit_code == 0
+
+
+def test_a_new_name_is_followed_into_a_world(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("w.sdf").write_text(WORLD.replace('    <model name="other"><link name="l"/></model>\n', ""))
+    assert run("convert", "w.sdf", "-o", "r.urdf").exit_code == 0
+    _edit("r.urdf", 'name="r"', 'name="s"')
+    _edit("r.urdf", 'mass value="2"', 'mass value="3"')
+    _edit("w.sdf", '"r"', '"t"')
+    before = Path("w.sdf").read_text()
+    done = run("convert", "r.urdf", "--into", "w.sdf")
+    assert Path("w.sdf").read_text() == before.replace("2.0", "3").replace('"t"', '"s"')
+    assert done.exit_code == 0
+
+
+def test_a_file_that_would_be_another_robot_is_not_written(
+    run: Run, twins: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def wrong(_before: XmlElement, _after: XmlElement, own: XmlElement, **_: object) -> Merge:
+        made = deepcopy(own)
+        for mass in made.iter("mass"):
+            mass.set("value", "7")
+        return Merge(made, ())
+
+    monkeypatch.setattr(in_place, "merge", wrong)
+    _edit("r.sdf", "<mass>1.5</mass>", "<mass>2.5</mass>")
+    done = run("convert", "r.sdf", "--into", "r.urdf")
+    assert (done.exit_code, Path("r.urdf").read_text()) == (1, HAND_WRITTEN)
+    assert "cannot be changed in place: inertial/mass of link 'arm' is 7" in done.stderr
 
 
 @pytest.mark.parametrize(

@@ -44,7 +44,32 @@ def test_a_file_is_written(run: Run, tmp_path: Path) -> None:
     assert etree.XMLSchema(etree.parse(file)).validate(etree.fromstring(GOOD))
 
 
-WRONG = ["sdf --version 9.9", "mjcf", "", "json --version 1", "json --lenient", "json --xsd 1.0"]
+def test_the_schema_of_xacro_files_is_written_with_those_that_it_imports(run: Run, tmp_path: Path) -> None:
+    file = tmp_path / "robot.xsd"
+    assert run("schema", "urdf", "--xacro", "-o", file).exit_code == 0
+    assert len(list(tmp_path.iterdir())) == 4
+    head = '<robot xmlns:xacro="http://ros.org/wiki/xacro">'
+    schema = etree.XMLSchema(etree.parse(file))
+    assert schema.validate(etree.fromstring(head + '<xacro:arg name="a" default="${b}"/></robot>'))
+    assert not schema.validate(etree.fromstring(head + '<xacro:arg name="a"/></robot>'))
+
+
+def test_a_schema_that_would_be_written_over_is_an_error(run: Run, tmp_path: Path) -> None:
+    done = run("schema", "urdf", "--xacro", "-o", tmp_path / "xacro-ros.org.xsd")
+    assert (done.exit_code, list(tmp_path.iterdir())) == (2, [])
+
+
+WRONG = [
+    "sdf --version 9.9",
+    "mjcf",
+    "",
+    "json --version 1",
+    "json --lenient",
+    "json --xsd 1.0",
+    "json --xacro -o a",
+    "urdf --xacro",
+    "urdf --xacro --xsd 1.1 -o a",
+]
 
 
 @pytest.mark.parametrize("arguments", [words.split() for words in WRONG])

@@ -8,7 +8,7 @@ from twinform.diagnostics.reporters.excerpt import excerpt
 
 def shown(line: str | None, column: int, end_column: int, end_line: int = 7) -> list[str]:
     """Both lines, without the gutter."""
-    where = Location("a.urdf", 7, "", column, end_line, end_column)
+    where = Location("a.urdf", 7, "/robot", column, end_line, end_column)
     return [f"{line}{marks}"[8:] for line, marks in excerpt(where, line)]
 
 
@@ -47,6 +47,6 @@ def test_a_line_that_is_not_known_or_blank_is_not_shown(line: str | None) -> Non
 
 
 def test_the_gutter_has_the_number() -> None:
-    (line, _), (rule, marks) = excerpt(Location("a", 1234567, "", 1, 1234567, 2), "<a/>")
+    (line, _), (rule, marks) = excerpt(Location("a", 1234567, "/a", 1, 1234567, 2), "<a/>")
     assert line == "1234567 | <a/>"
     assert f"{rule}{marks}" == "        | ^"

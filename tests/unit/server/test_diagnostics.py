@@ -211,6 +211,24 @@ def test_the_configuration_of_the_project_counts(tmp_path: Path) -> None:
     run(tmp_path, steps)
 
 
+def test_arguments_of_some_files_and_comments_that_allow_findings_count(tmp_path: Path) -> None:
+    (tmp_path / "twinform.toml").write_text('[[files]]\nmatch = ["*.xacro"]\narguments = { size = 2 }\n')
+    text = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:arg name="size" default=""/>
+  <!-- twinform: allow unknown-attribute - on purpose -->
+  <link name="a$(arg size)" nam="b"/>
+  <link name="a2"/>
+</robot>"""
+
+    async def steps(one: Editor) -> None:
+        uri = one.open(tmp_path / "robot.urdf.xacro", text)
+        found = await one.diagnostics(uri)
+        assert "duplicate-name" in codes(found)
+        assert "unknown-attribute" not in codes(found)
+
+    run(tmp_path, steps)
+
+
 def test_without_the_extra_the_command_says_what_to_install(tmp_path: Path) -> None:
     (tmp_path / "pygls.py").write_text("raise ModuleNotFoundError(\"No module named 'pygls'\", name='pygls')\n")
     done = subprocess.run(

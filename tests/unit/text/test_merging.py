@@ -25,6 +25,12 @@ CASES = {
         '<a><b v="1.0"/><c/><d/></a>',
         '<a><c/><d/><b v="1.0"/></a>',
     ),
+    "names in another order": (
+        '<a><b name="x" v="1"/><c name="x"/><b name="y" v="1"/><c name="y"/></a>',
+        '<a><b name="x" v="1"/><c name="x"/><b name="y" v="2"/><c name="y"/></a>',
+        '<a><c name="x"/><b name="x" w="0" v="1.0"/><c name="y"/><b name="y" w="0" v="1.0"/></a>',
+        '<a><c name="x"/><b name="x" w="0" v="1.0"/><c name="y"/><b name="y" w="0" v="2"/></a>',
+    ),
     "text between elements": ("<a>1<b/>2</a>", "<a>1<c/>3</a>", '<a z="1">1<b/>2</a>', '<a z="1">1<c/>3</a>'),
     "text between elements that comes": ("<a><b/></a>", "<a>1<b/>3</a>", "<a><b/></a>", "<a>1<b/>3</a>"),
     "a new name": (
@@ -93,3 +99,38 @@ def test_nothing_changed_and_nothing_touched(name: str) -> None:
     before, _, own, _ = map(etree.fromstring, CASES[name])
     merged = merge(before, before, own)
     assert (etree.tostring(merged.tree), merged.conflicts) == (etree.tostring(own), ())
+
+
+ADDED_UP = {
+    "one of several that stand for one": (
+        '<a><g r="x"><b/></g><g r="x"><c v="1"/></g></a>',
+        '<a><g r="x"><b/></g><g r="x"><c v="2"/></g></a>',
+        '<a><g r="x"><c v="1.0"/><!-- here --><b/></g></a>',
+        '<a><g r="x"><c v="2"/><!-- here --><b/></g></a>',
+    ),
+    "one that stands for several": (
+        '<a><g r="x"><b/><c v="1"/></g></a>',
+        '<a><g r="x"><b/><c v="2"/></g></a>',
+        '<a><g r="x"><c v="1.0"/></g><g r="y"/><g r="x"><b/></g></a>',
+        '<a><g r="x"><c v="2"/></g><g r="y"/><g r="x"><b/></g></a>',
+    ),
+    "a part goes, the others stay": (
+        '<a><g r="x"><b/></g><g r="x"><c v="1"/></g></a>',
+        '<a><g r="x"><b/></g></a>',
+        '<a><g r="x"><b/><c v="1.0"/></g></a>',
+        '<a><g r="x"><b/></g></a>',
+    ),
+    "all go": ('<a><g r="x"><b/><c/></g></a>', "<a/>", '<a><g r="x"><c/></g><z/><g r="x"><b/></g></a>', "<a><z/></a>"),
+}
+
+
+@pytest.mark.parametrize("same", [True, False])
+@pytest.mark.parametrize("name", ADDED_UP)
+def test_parts_that_add_up(name: str, same: bool) -> None:
+    before, after, own, expected = (
+        etree.fromstring(text.replace("r=", "reference=").replace("<g", "<gazebo").replace("</g>", "</gazebo>"))
+        for text in ADDED_UP[name]
+    )
+    found = merge(before, after, own, same=same, additive="gazebo")
+    assert not found.conflicts
+    assert etree.tostring(found.tree) == etree.tostring(expected)

@@ -7,20 +7,27 @@ import click
 
 from twinform.cli.batch.models import ModelOptions, model_options, models
 from twinform.cli.batch.running import RunOptions, run_and_end, run_options
+from twinform.cli.command import Command
+from twinform.cli.completion import pipelines
 from twinform.cli.inputs import InputOptions, load_options_of, reading_options
 from twinform.cli.policy import policy_of, policy_options
 from twinform.cli.request import pipeline_option
 from twinform.compiler.batch import Batch, Check
 from twinform.passes import Pipeline
 
+EXAMPLES = {
+    "Check a folder of models": "twinform batch check models --report findings.jsonl",
+}
 
-@click.command("check")
+
+@click.command("check", cls=Command, examples=EXAMPLES)
 @click.argument("source", metavar="SRC", type=click.Path(path_type=Path))
 @click.option(
     "--passes",
     "check_passes",
     metavar="PIPELINE",
     callback=pipeline_option("check-passes"),
+    shell_complete=pipelines,
     help="Passes that only look, such as 'check-inertia,check-limits', or @NAME for one that the configuration names.",
 )
 @model_options
@@ -44,13 +51,14 @@ def command(
     --report has all findings. Exit code: 0 without errors, 1 with errors, 2 where a file could not be read.
     """
     options = cast("RunOptions", rest)
-    job = Check(policy=policy_of(ctx, allow, deny), passes=check_passes, expand_includes=expand_includes)
+    policy = policy_of(ctx, allow, deny)
+    job = Check(policy=policy, passes=check_passes, expand_includes=expand_includes)
     with models(source, cast("ModelOptions", rest)) as found:
         whole = Batch(
             source=found.folder,
             entries=found.entries,
             job=job,
-            load_options=load_options_of({}, cast("InputOptions", rest)),
+            load_options=load_options_of({}, cast("InputOptions", rest), policy),
             shard=rest["shard"],
             seconds=options["timeout"],
             shown=found.shown,

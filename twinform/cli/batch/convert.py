@@ -7,13 +7,19 @@ import click
 
 from twinform.cli.batch.models import ModelOptions, model_options, models
 from twinform.cli.batch.running import RunOptions, run_and_end, run_options
+from twinform.cli.command import Command
 from twinform.cli.inputs import load_options_of, reading_options
 from twinform.cli.policy import policy_of, policy_options
 from twinform.cli.request import Asked, ordering_options, request_of
 from twinform.compiler.batch import Batch, Convert
 
+EXAMPLES = {
+    "Convert a folder of models, with four processes": "twinform batch convert models out --to sdf --jobs 4",
+    "A quarter of them, on each of four machines": "twinform batch convert models out --to sdf --shard 1/4",
+}
 
-@click.command("convert")
+
+@click.command("convert", cls=Command, examples=EXAMPLES)
 @click.argument("source", metavar="SRC", type=click.Path(path_type=Path))
 @click.argument("dest", metavar="DEST", type=click.Path(path_type=Path))
 @click.option("--to", "target", type=click.Choice(["sdf", "urdf"]), required=True, help="The format.")
@@ -57,7 +63,7 @@ def command(
             source=found.folder,
             entries=found.entries,
             job=job,
-            load_options=load_options_of({}, asked),
+            load_options=load_options_of({}, asked, policy),
             dest=dest,
             shard=rest["shard"],
             seconds=options["timeout"],

@@ -7,12 +7,17 @@ import click
 
 from twinform.cli.batch.models import pair_options
 from twinform.cli.batch.running import RunOptions, run_and_end, run_options
+from twinform.cli.command import Command
 from twinform.cli.inputs import InputOptions, file_options, load_options_of
 from twinform.cli.tolerance import tolerance_option
 from twinform.compiler.batch import Batch, Diff, FolderError, of_folder, pairs
 
+EXAMPLES = {
+    "Compare the models of two folders": "twinform batch diff models out",
+}
 
-@click.command("diff")
+
+@click.command("diff", cls=Command, examples=EXAMPLES)
 @click.argument("a", metavar="A", type=click.Path(path_type=Path))
 @click.argument("b", metavar="B", type=click.Path(path_type=Path))
 @tolerance_option

@@ -4,11 +4,16 @@ from pathlib import Path
 
 import click
 
+from twinform.cli.command import Command
 from twinform.cli.failure import Unusable
 from twinform.compiler.batch import BusyError, merge
 
+EXAMPLES = {
+    "Put four parts together": "twinform batch merge all out1 out2 out3 out4",
+}
 
-@click.command("merge")
+
+@click.command("merge", cls=Command, examples=EXAMPLES)
 @click.argument("dest", metavar="DEST", type=click.Path(path_type=Path))
 @click.argument("others", metavar="FROM...", nargs=-1, type=click.Path(path_type=Path))
 def command(dest: Path, others: tuple[Path, ...]) -> None:

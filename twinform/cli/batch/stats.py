@@ -7,11 +7,16 @@ import click
 
 from twinform.cli.batch.models import ModelOptions, model_options, models
 from twinform.cli.batch.running import RunOptions, run_and_end, run_options
+from twinform.cli.command import Command
 from twinform.cli.inputs import InputOptions, load_options_of, reading_options
 from twinform.compiler.batch import Batch, Stats
 
+EXAMPLES = {
+    "Numbers of every model, for a table": "twinform batch stats models",
+}
 
-@click.command("stats")
+
+@click.command("stats", cls=Command, examples=EXAMPLES)
 @click.argument("source", metavar="SRC", type=click.Path(path_type=Path))
 @click.option("--meshes/--no-meshes", default=True, help="Whether to look into mesh files.")
 @model_options

@@ -11,6 +11,8 @@ from twinform.cli.config.errors import ConfigError
 from twinform.cli.config.files import Table, find, section
 
 if TYPE_CHECKING:
+    from twinform.cli.config.per_file import PerFile
+    from twinform.cli.config.settings import Settings
     from twinform.passes import Names, Pipeline
 
 Command = TypeVar("Command", bound=Callable[..., Any])
@@ -35,6 +37,10 @@ class Project:
     pipelines: Sequence[str] = ()
     known: "Names | None" = None
     trusted: bool = False
+    exclude: Sequence[str] | None = None
+    extend_exclude: Sequence[str] = ()
+    baseline: str | None = None
+    per_file: "PerFile | None" = None
 
     @property
     def folders(self) -> Sequence[str]:
@@ -50,6 +56,22 @@ class Project:
         for folder in self.paths:
             require_inside(self.path, Path(folder), "paths")
         return self.paths
+
+    @property
+    def baseline_file(self) -> Path | None:
+        """The file of the baseline, if there is one.
+
+        Raises:
+            ConfigError: it leads out of the folder of the file.
+        """
+        if self.path is None or self.baseline is None:
+            return None
+        file = self.path.parent / self.baseline
+        if not self.trusted:
+            from twinform.cli.config.trust import require_inside  # noqa: PLC0415 - few projects have one
+
+            require_inside(self.path, file, "baseline")
+        return file
 
     @property
     def names(self) -> "Names":
@@ -124,6 +146,14 @@ def _nearest() -> tuple[Path, Table] | None:
         return None  # the current folder is gone
 
 
+def _per_file(path: Path, settings: "Settings") -> "PerFile | None":
+    if not settings.files:
+        return None
+    from twinform.cli.config.per_file import PerFile  # noqa: PLC0415 - few projects have such tables
+
+    return PerFile(path, settings.files)
+
+
 def _none(ctx: click.Context, _option: click.Parameter, value: bool) -> None:
     if value:
         ctx.meta[_KEY] = Project()
@@ -148,6 +178,17 @@ def _load(ctx: click.Context, _option: click.Parameter, value: Path | None) -> N
     path, table = found
     settings = parse_settings(path, table)
     names = NamedPipelines(path, settings.pipelines)
-    ctx.meta[_KEY] = Project(path, settings.paths, settings.allow, settings.deny, tuple(settings.pipelines), names)
+    ctx.meta[_KEY] = Project(
+        path,
+        settings.paths,
+        settings.allow,
+        settings.deny,
+        tuple(settings.pipelines),
+        names,
+        exclude=settings.exclude,
+        extend_exclude=settings.extend_exclude,
+        baseline=settings.baseline,
+        per_file=_per_file(path, settings),
+    )
     given = {name: getattr(settings, name) for name in _DEFAULTS} | dict(settings.format)
     ctx.default_map = {name: value for name, value in given.items() if value is not None}

@@ -29,8 +29,22 @@ class FormatSettings(BaseModel):
     sort_attributes: bool | None = None
 
 
+class FileSettings(BaseModel):
+    """The settings of some files: those that a pattern of `match` fits, in the notation of `.gitignore`."""
+
+    model_config = _CONFIG
+
+    match: list[str] = Field(min_length=1)
+    arguments: Mapping[str, str | int | float | bool] = Field(default_factory=dict[str, str | int | float | bool])
+    strict: bool | None = None
+    passes: str | None = None
+    check_passes: str | None = None
+    allow: list[str] = Field(default_factory=list[str])
+    deny: list[str] = Field(default_factory=list[str])
+
+
 class Settings(BaseModel):
-    """The settings of a project; `None` where nothing is set. `paths` are relative to the folder of the file."""
+    """The settings of a project; `None` where nothing is set. Paths are relative to the folder of the file."""
 
     model_config = _CONFIG
 
@@ -47,6 +61,10 @@ class Settings(BaseModel):
     deny: list[str] = Field(default_factory=list[str])
     format: FormatSettings = Field(default_factory=FormatSettings)
     pipelines: Mapping[str, object] = Field(default_factory=dict[str, object])
+    exclude: list[str] | None = None
+    extend_exclude: list[str] = Field(default_factory=list[str])
+    baseline: str | None = None
+    files: list[FileSettings] = Field(default_factory=list[FileSettings])
 
     @field_validator("sdf_version")
     @classmethod
@@ -82,11 +100,11 @@ def parse_settings(path: Path, found: Table) -> Settings:
 def _readable(path: Path, error: ValidationError) -> ConfigError:
     """Pydantic's first complaint."""
     problem = error.errors(include_url=False)[0]
-    key = ".".join(map(str, problem["loc"]))
+    key = "".join(f"[{each}]" if isinstance(each, int) else f".{each}" for each in problem["loc"]).removeprefix(".")
     if problem["type"] == "extra_forbidden":
-        table = FormatSettings if problem["loc"][0] == "format" else Settings
+        table = {"files": FileSettings, "format": FormatSettings}.get(str(problem["loc"][0]), Settings)
         known = sorted(field.alias or name for name, field in table.model_fields.items())
-        return ConfigError(path, f"there is no such key{nearest(key, known)}", key=key)
+        return ConfigError(path, f"there is no such key{nearest(str(problem['loc'][-1]), known)}", key=key)
     return ConfigError(
         path,
         problem["msg"].removeprefix("Value error, ").removeprefix("Input ").replace("dictionary", "table"),

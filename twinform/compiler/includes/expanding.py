@@ -52,7 +52,7 @@ def expand(
     document = loaded.document
     if document is None or not loaded.accepted or document.format is not Format.SDF or not has_includes(document):
         return loaded
-    sink = DiagnosticSink(loaded.path, load_options.strict, list(loaded.diagnostics), origins=dict(loaded.origins))
+    sink = _sink(loaded, load_options)
     reader = _Reader(load_options, sink, carriers)
     whole = reader.expanded(document, Path(loaded.path), (), wanted)
     excess = excess_of_names(len(whole.document.namespaces), whole.size)
@@ -64,10 +64,25 @@ def expand(
         loaded,
         document=whole.document,
         diagnostics=tuple(sink.diagnostics),
+        allowed=tuple(sink.allowed),
         origins=sink.origins,
         entries=tuple(sink.entries),
         included=whole.size,
         mixed=True,
+    )
+
+
+def _sink(loaded: LoadResult, load_options: LoadOptions) -> DiagnosticSink:
+    origins = dict(loaded.origins)
+    if loaded.allowances:
+        loaded.allowances.origins = origins
+    return DiagnosticSink(
+        loaded.path,
+        load_options.strict,
+        list(loaded.diagnostics),
+        origins=origins,
+        allows=loaded.allowances and loaded.allowances.in_conversion,
+        allowed=list(loaded.allowed),
     )
 
 

@@ -3,7 +3,7 @@
 from twinform.compiler.input.gazebo_extensions import check_extensions
 from twinform.compiler.input.json import compare_documents
 from twinform.compiler.input.loading import lower_tree
-from twinform.compiler.input.options import LoadResult
+from twinform.compiler.input.options import LoadOptions, LoadResult
 from twinform.compiler.output.emitting import document_tree, located
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import structure
@@ -11,7 +11,7 @@ from twinform.ir import Document, Format
 from twinform.ir.verify import verify
 
 
-def check_document(document: Document, sink: DiagnosticSink) -> LoadResult:
+def check_document(document: Document, sink: DiagnosticSink, load_options: LoadOptions) -> LoadResult:
     """Report everything that is wrong with a document, as if it were a file: it is, once it is written."""
     try:
         tree = document_tree(document)
@@ -27,4 +27,7 @@ def check_document(document: Document, sink: DiagnosticSink) -> LoadResult:
     verify(document, sink)
     if document.format is Format.URDF:
         check_extensions(document, sink)
-    return LoadResult(sink.file, document, tuple(sink.diagnostics), tree=tree)
+    allowances = load_options.allowances(sink.file)
+    allowances.settle(sink)
+    allowed = tuple(sink.allowed)
+    return LoadResult(sink.file, document, tuple(sink.diagnostics), tree=tree, allowed=allowed, allowances=allowances)

@@ -6,9 +6,10 @@ The smallest piece is chosen that holds what was found; where none does without 
 import re
 from collections.abc import Iterable, Iterator
 
-from twinform.diagnostics import Diagnostic, Rule, Span
+from twinform.diagnostics import Diagnostic, Rule, Span, nearest_name
 from twinform.diagnostics.rules import (
     bodies,
+    classic,
     edits,
     frames,
     inertia,
@@ -29,10 +30,10 @@ _NAMES: frozenset[Rule] = frozenset(
         structure.DIALECT,
         structure.REPEATED_ELEMENT,
         structure.MISSING_ELEMENT,
-        structure.MISSING_ATTRIBUTE,
         structure.MISSING_PART,
         sdf_versions.GONE_FROM_SDF,
         edits.NOT_FOR_FORMAT,
+        classic.PARAMETER_WITHOUT_COUNTERPART,
         to_sdf.GAZEBO_TAG_WITHOUT_TARGET,
         to_sdf.GAZEBO_CONFLICT,
     }
@@ -50,10 +51,18 @@ _PARTS: dict[Rule, str] = {
     bodies.CONFLICTING_MATERIAL: "name",
     joints.MIMIC_CYCLE: "joint",
     inertia.NON_POSITIVE_MASS: "mass",
+    model.TWO_PARENTS: "child",
+    model.KINEMATIC_LOOP: "child",
+    model.SELF_JOINT: "child",
 }
 """The attribute, or the child element, that a finding about an element is about, where it has one."""
 _QUOTED = re.compile(r"'((?:[^']|(?<=\w)'(?=\w))+)'")
 _EXPRESSION = re.compile(r"when evaluating expression '(.*)'$", re.DOTALL)
+_ARGUMENT = re.compile(r"^Undefined substitution argument (\S+)$")
+_ALIKE = 0.75
+"""How much of an attribute's name is that of the missing one where it is a slip of it."""
+_SHORTEST = 4
+"""Names with fewer letters are no slips of others."""
 _TOKEN = re.compile(r"[^\s,]+")
 _ASIDE = re.compile(r"<!--.*?-->|<\?.*?\?>", re.DOTALL)
 
@@ -66,6 +75,8 @@ def piece(finding: Diagnostic, element: ElementSpan, text: str) -> Span:
         return _of_attribute(finding, written, text) if written else element.name
     if finding.rule is structure.STRAY_TEXT:
         return next((span for span in _texts(element, text) if span.of(text) == finding.found), element.name)
+    if finding.rule is structure.MISSING_ATTRIBUTE:
+        return _misspelt(finding, element) or element.name
     if finding.rule in _NAMES:
         return element.name
     if finding.rule is structure.SPLIT_VALUE:
@@ -77,10 +88,14 @@ def quoted(message: str, element: ElementSpan, text: str) -> Span | None:
     """The value, or text, of an element that a message quotes, or an expression of xacro in it."""
     wanted = set(_QUOTED.findall(message)) | {word.strip(".,:;[]'\"") for word in message.split()}
     expression = _EXPRESSION.search(message)
+    argument = _ARGUMENT.search(message)
+    if argument is not None:
+        return _place(f"$(arg {argument[1]})", element, text)
     if expression is not None:
         begin = [at for form in ("${%s}", "$(%s)") if (at := _place(form % expression[1], element, text)) is not None]
         return begin[0] if len(begin) == 1 else None
-    return _exact(values(element, text), wanted, text)
+    ends = [each for each in values(element, text) if "." in each.of(text) and f"/{each.of(text)}'" in message]
+    return _exact(values(element, text), wanted, text) or _only(ends)
 
 
 def values(element: ElementSpan, text: str) -> list[Span]:
@@ -90,6 +105,13 @@ def values(element: ElementSpan, text: str) -> list[Span]:
         *((own,) if own else ()),
         *(each.value for each in element.attributes.values() if each.value.of(text)),
     ]
+
+
+def _misspelt(finding: Diagnostic, element: ElementSpan) -> Span | None:
+    """The name of the attribute that is a slip of the missing one; short names, such as ixx and ixy, are all alike."""
+    missing = _QUOTED.search(finding.message)
+    near = nearest_name(missing[1], element.attributes, _ALIKE) if missing and len(missing[1]) >= _SHORTEST else None
+    return element.attributes[near].name if near else None
 
 
 def _place(word: str, element: ElementSpan, text: str) -> Span | None:
@@ -110,7 +132,7 @@ def _part(finding: Diagnostic, element: ElementSpan, text: str) -> Span | None:
     child = next((each for each in element.children if each.name.of(text) == name), None)
     if child is None:
         return None
-    value = child.attributes.get("value")
+    value = child.attributes.get("value") or child.attributes.get("link")
     return _own_text(child, text) or (value.value if value else child.name)
 
 

@@ -4,23 +4,27 @@ Positions are made when somebody asks for them, and for files with findings only
 meant, a finding stays as it is: with a line and without a column.
 """
 
-from collections import defaultdict
+import re
+from bisect import bisect_left
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from twinform.compiler.input.finding_lines import PartFinder
 from twinform.compiler.input.finding_pieces import piece, quoted, values
 from twinform.compiler.input.limits import LIFTED_LIMITS
-from twinform.compiler.input.loading import read_tree_again
+from twinform.compiler.input.loading import garbage_collection_paused, read_tree_again
 from twinform.compiler.input.options import LoadResult, expanded_name
 from twinform.compiler.input.parsing import UnreadableError, parse
 from twinform.compiler.input.source_files import SourceFiles
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Span
 from twinform.diagnostics.rules import reading, structure
 from twinform.schemas import XmlElement
-from twinform.text import ElementSpan, Lines, SourceText, UnplacedError, spans
-from twinform.text.masking import masked
+from twinform.schemas.writer import LAST_LINE
+from twinform.text import ElementSpan, Lines, SourceText
+from twinform.text.positions import start_tag
+from twinform.text.tags import Tags
 
+_WORD = re.compile(r"[\w:.-]+")
 _OF_ROOT = frozenset({reading.UNKNOWN_ROOT, reading.OLD_ROOT})
 """Findings about the root element whatever it is called."""
 
@@ -31,22 +35,32 @@ def located(loaded: LoadResult) -> tuple[Diagnostic, ...]:
 
 
 def with_columns(diagnostics: tuple[Diagnostic, ...], files: SourceFiles) -> tuple[Diagnostic, ...]:
-    """The findings with columns, in the order of their lines; the files are those that they are about."""
+    """The findings with columns, file after file, in the order of their lines; `files` are those they are about."""
     texts: dict[str, FindingSpans | None] = {}
-    found = [_with_column(each, files, texts) for each in diagnostics]
-    return tuple(sorted(found, key=lambda each: (each.location.line, each.location.column)))
+    with garbage_collection_paused():
+        found = [_with_column(each, files, texts) for each in diagnostics]
+    order = {file: number for number, file in enumerate(dict.fromkeys(each.location.file for each in found))}
+    return tuple(sorted(found, key=lambda each: (order[each.location.file], each.location.line, each.location.column)))
 
 
 def _with_column(one: Diagnostic, files: SourceFiles, texts: dict[str, "FindingSpans | None"]) -> Diagnostic:
     where = one.location
-    if not where.line or where.column:
+    if where.column and not where.end_line:
+        return replace(one, location=_with_end(where, files))
+    if where.column or not (where.line or where.path):
         return one
     if where.file not in texts:
         data = files.data(where.file)
-        texts[where.file] = FindingSpans.of(data) if data else None
+        texts[where.file] = FindingSpans.of(data, files.trees.get(where.file)) if data else None
     place = texts[where.file]
     span = place and place.piece(one, expanded=_is_expanded(one))
     return replace(one, location=place.location(where, span)) if place and span else one
+
+
+def _with_end(where: Location, files: SourceFiles) -> Location:
+    """A place that another program gave, up to the end of the word there."""
+    word = _WORD.match(files.line(where.file, where.line) or "", where.column - 1)
+    return where._replace(end_line=where.line, end_column=word.end() + 1) if word else where
 
 
 def _is_expanded(one: Diagnostic) -> bool:
@@ -58,20 +72,25 @@ def _is_expanded(one: Diagnostic) -> bool:
 class FindingSpans:
     """Where the findings about one file stand in its text."""
 
-    text: str
+    tags: Tags
     parts: PartFinder
-    places: dict[XmlElement, ElementSpan] = field(repr=False)
+    places: dict[XmlElement, int] = field(repr=False)
 
     @classmethod
-    def of(cls, data: bytes) -> "FindingSpans | None":
-        """Those of a file; None for one that cannot be read, or is no text."""
+    def of(cls, data: bytes, tree: XmlElement | None = None) -> "FindingSpans | None":
+        """Those of a file, of which the `tree` may be at hand; None for one that cannot be read, or is no text."""
         try:
-            root = _tree(data)
-            text = SourceText.of(data).text
-            places = dict(zip(root.iter("*"), _spans(text).walk(), strict=True))
+            root = _tree(data) if tree is None else tree
+            tags = Tags(SourceText.of(data).text)
+            places = dict(zip(root.iter("*"), range(len(tags)), strict=True))
         except (UnreadableError, ValueError):  # also: not the same elements; a codec that knows its own errors
             return None
-        return cls(text, PartFinder(root), places) if _agree(places, text) else None
+        return cls(tags, PartFinder(root), places) if _agree(places, tags) else None
+
+    @property
+    def text(self) -> str:
+        """The text of the file."""
+        return self.tags.text
 
     @cached_property
     def lines(self) -> Lines:
@@ -86,7 +105,7 @@ class FindingSpans:
         element = self.parts.find(where)
         if element is None:
             return None
-        place = self.places[element]
+        place = self._element(element)
         attribute = place.attributes.get(where.path.rpartition("/@")[2]) if "/@" in where.path else None
         return attribute.whole if attribute else place.start_tag
 
@@ -99,10 +118,12 @@ class FindingSpans:
         if finding.rule is structure.TABBED_NUMBERS:
             return self._tabbed(finding)
         if finding.rule in _OF_ROOT:
-            return self.places[self.parts.root].name
+            return start_tag(self.text, self.tags.starts[0]).name
         element = self.parts.find(where)
+        if element is None and (not where.line or where.line > LAST_LINE):
+            element = self.parts.find_path(where)
         if element is not None:
-            return piece(finding, self.places[element], self.text)
+            return piece(finding, self._element(element), self.text)
         if not where.path:
             return self._named(finding)
         place = self._on_line(where) if expanded else None
@@ -113,13 +134,17 @@ class FindingSpans:
         (line, column), (end_line, end_column) = self.lines.place(span.start), self.lines.place(span.end)
         return where._replace(line=line, column=column, end_line=end_line, end_column=end_column)
 
-    @cached_property
-    def _begun(self) -> dict[int, list[ElementSpan]]:
-        """The elements by the line on which they begin."""
-        found: dict[int, list[ElementSpan]] = defaultdict(list)
-        for place in self.places.values():
-            found[self.lines.place(place.start_tag.start).line].append(place)
-        return found
+    def _element(self, element: XmlElement) -> ElementSpan:
+        return self.tags.element(self.places[element])
+
+    def _begun(self, line: int) -> list[ElementSpan]:
+        """The elements that begin on a line."""
+        if not 0 < line <= len(self.lines):
+            return []
+        begin = self.lines.start(line)
+        end = self.lines.start(line + 1) if line < len(self.lines) else len(self.text)
+        places = range(bisect_left(self.tags.starts, begin), bisect_left(self.tags.starts, end))
+        return [self.tags.element(place) for place in places]
 
     def _on_line(self, where: Location) -> ElementSpan | None:
         """The only element of this kind that begins on a line, with the attribute if it is about one."""
@@ -127,7 +152,7 @@ class FindingSpans:
         tag = path.rpartition("/")[2].partition("[")[0] if "']" not in path else _last_tag(path)
         found = [
             each
-            for each in self._begun.get(where.line, [])
+            for each in self._begun(where.line)
             if each.name.of(self.text) == tag and (not attribute or attribute in each.attributes)
         ]
         return found[0] if len(found) == 1 else None
@@ -142,25 +167,30 @@ class FindingSpans:
             span
             for element in around.iter("*")
             if element.sourceline == where.line
-            for span in values(self.places[element], self.text)
+            for span in values(self._element(element), self.text)
             if span.of(self.text) == found
         ]
         return pieces[0] if len(pieces) == 1 else None
 
     def _named(self, finding: Diagnostic) -> Span | None:
         """What the message of a finding without a path names, in the only element that begins on its line."""
-        found = self._begun.get(finding.location.line, [])
+        found = self._begun(finding.location.line)
         if len(found) != 1:
             return None
         return quoted(finding.message, found[0], self.text) or found[0].name
 
     def _tabbed(self, finding: Diagnostic) -> Span | None:
         """The value of the only attribute on a line that the message names, and whose value is broken."""
+        line = finding.location.line
+        if not 0 < line <= len(self.lines):
+            return None
+        around = bisect_left(self.tags.starts, self.lines.start(line)) - 1  # its start tag may go on here
+        before = [self.tags.element(around)] if around >= 0 else []
         found = [
             attribute.value
-            for place in self.places.values()
-            for name, attribute in place.attributes.items()
-            if f"'{name}'" in finding.message and self.lines.place(attribute.name.start).line == finding.location.line
+            for element in (*before, *self._begun(line))
+            for name, attribute in element.attributes.items()
+            if f"'{name}'" in finding.message and self.lines.place(attribute.name.start).line == line
         ]
         return found[0] if len(found) == 1 else None
 
@@ -184,17 +214,9 @@ def _tree(data: bytes) -> XmlElement:
         return parse(data, DiagnosticSink(), LIFTED_LIMITS)
 
 
-def _spans(text: str) -> ElementSpan:
-    try:
-        return spans(text)
-    except UnplacedError:
-        return spans(masked(text))  # what is repaired when it is read is no reason to know nothing
-
-
-def _agree(places: dict[XmlElement, ElementSpan], text: str) -> bool:
+def _agree(places: dict[XmlElement, int], tags: Tags) -> bool:
     """Whether the elements are called the same in the tree and in the text, but for prefixes and old roots."""
-    pairs = iter(places.items())
-    next(pairs, None)
     return all(
-        str(element.tag).rpartition("}")[2] == place.name.of(text).rpartition(":")[2] for element, place in pairs
+        place == 0 or str(element.tag).rpartition("}")[2] == tags.name(place).rpartition(":")[2]
+        for element, place in places.items()
     )

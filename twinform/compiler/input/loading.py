@@ -11,6 +11,7 @@ from pathlib import Path
 
 from twinform.compiler.errors import CompileError
 from twinform.compiler.input import sdf, urdf
+from twinform.compiler.input.allowances import Allowances, content_of
 from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.gazebo_extensions import check_extensions
 from twinform.compiler.input.limits import LARGEST, LIFTED_LIMITS, MOST_TAGS, USUAL_LIMITS, Limits, excess_of_json
@@ -72,7 +73,7 @@ def read(source: Input, load_options: LoadOptions, *, name: str = "") -> LoadRes
         if isinstance(source, Document):
             from twinform.compiler.input.documents import check_document  # noqa: PLC0415 - it reads what it has written
 
-            return check_document(source, sink)
+            return check_document(source, sink, load_options)
         return _check(source, sink, load_options)
 
 
@@ -85,7 +86,10 @@ def _check(source: str | Path | bytes, sink: DiagnosticSink, load_options: LoadO
         text = source if isinstance(source, bytes) else _content(Path(source), sink, load_options)
     except UnreadableError:
         return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True)
-    return _check_text(text, sink, load_options)
+    allowances = load_options.allowances(sink.file)
+    if not _JSON.match(text):
+        allowances.read(text, sink)
+    return _check_text(text, sink, load_options, allowances)
 
 
 def _content(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> bytes:
@@ -98,11 +102,11 @@ def _content(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> byt
     return read_bytes(path, sink, load_options.limits) if unsaved is None else unsaved
 
 
-def _check_text(text: bytes, sink: DiagnosticSink, load_options: LoadOptions) -> LoadResult:
+def _check_text(text: bytes, sink: DiagnosticSink, load_options: LoadOptions, allowances: Allowances) -> LoadResult:
     try:
         if _JSON.match(text):
-            return _check_json(text, sink, load_options)
-        document, tree, size = read_document(text, sink, load_options)
+            return _check_json(text, sink, load_options, allowances)
+        document, tree, size = read_document(text, sink, load_options, allowances)
     except UnreadableError:
         return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True, content=text)
     if document is not None and not sink.has_errors:
@@ -113,12 +117,24 @@ def _check_text(text: bytes, sink: DiagnosticSink, load_options: LoadOptions) ->
         if len(sink.diagnostics) > read:
             whole = read_tree_again(text) if tree is None else tree
             sink.diagnostics[read:] = with_exact_lines(sink.diagnostics[read:], whole, sink.file)
+    allowances.settle(sink)
+    if document is None:
+        allowances.put_back(sink)
     found = tuple(sorted(sink.diagnostics, key=lambda each: each.location.line))
     tree = tree if load_options.keep_tree else None
-    return LoadResult(sink.file, document, found, tree=tree, content=text, tree_size=size)
+    return LoadResult(
+        sink.file,
+        document,
+        found,
+        tree=tree,
+        content=text,
+        tree_size=size,
+        allowed=tuple(sink.allowed),
+        allowances=allowances,
+    )
 
 
-def _check_json(text: bytes, sink: DiagnosticSink, load_options: LoadOptions) -> LoadResult:
+def _check_json(text: bytes, sink: DiagnosticSink, load_options: LoadOptions, allowances: Allowances) -> LoadResult:
     """Read a JSON document as the text of its format that it stands for.
 
     Raises:
@@ -131,13 +147,16 @@ def _check_json(text: bytes, sink: DiagnosticSink, load_options: LoadOptions) ->
     if source is None:
         return LoadResult(sink.file, None, tuple(sink.diagnostics))
     name = f"{sink.file} (as {source.format.upper()})"
-    loaded = _check_text(source.text, DiagnosticSink(name, sink.strict), load_options)
+    allowances.origins = sink.origins
+    loaded = _check_text(source.text, DiagnosticSink(name, sink.strict), load_options, allowances)
     sink.origins[name] = source.origins(loaded.document, sink.file)
     sink.extend(loaded.diagnostics)
     if loaded.document is not None and loaded.accepted:
         source.compare(loaded.document, sink)
+    allowances.settle(sink)
     found = tuple(sorted(sink.diagnostics, key=lambda each: each.location.line))
-    return replace(loaded, path=sink.file, diagnostics=found, origins=sink.origins)
+    allowed = (*loaded.allowed, *sink.allowed)
+    return replace(loaded, path=sink.file, diagnostics=found, origins=sink.origins, allowed=allowed)
 
 
 def _check_xacro(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> LoadResult:
@@ -156,9 +175,14 @@ def _check_xacro(path: Path, sink: DiagnosticSink, load_options: LoadOptions) ->
     load_options.search.seen.update(map(Path, {place.file for place in expansion.origins.places}))
     name = expanded_name(sink.file)
     sink.origins[name] = expansion.origins
-    loaded = _check_text(expansion.text, DiagnosticSink(name, sink.strict), load_options)
+    allowances = load_options.allowances(sink.file, sink.origins)
+    unsaved = load_options.search.unsaved_of(path)
+    allowances.read(content_of(path, load_options.limits) if unsaved is None else unsaved, sink)
+    loaded = _check_text(expansion.text, DiagnosticSink(name, sink.strict), load_options, allowances)
     sink.extend(loaded.diagnostics)
-    return replace(loaded, path=sink.file, diagnostics=tuple(sink.diagnostics), origins=sink.origins)
+    allowances.settle(sink)
+    allowed = (*loaded.allowed, *sink.allowed)
+    return replace(loaded, path=sink.file, diagnostics=tuple(sink.diagnostics), origins=sink.origins, allowed=allowed)
 
 
 def load(
@@ -205,7 +229,7 @@ def _document(loaded: LoadResult) -> Document:
 
 
 def read_document(
-    text: bytes, sink: DiagnosticSink, load_options: LoadOptions
+    text: bytes, sink: DiagnosticSink, load_options: LoadOptions, allowances: Allowances
 ) -> tuple[Document | None, XmlElement | None, int | None]:
     """The document of an XML text, its tree, and the size of that if it need not be kept; a large one is not then.
 
@@ -234,6 +258,7 @@ def read_document(
         validate(root, context, engine, errors)
     if document is not None:
         amend(document, "namespaces", namespaces)
+        allowances.settle(sink)
         if sink.has_errors:
             _verify_what_is_there(document, read_tree_again(text) if is_used_up else root, sink)
     return document, None if is_used_up else root, size
@@ -249,13 +274,15 @@ def _built(
     return document
 
 
-def read_tree(text: bytes, sink: DiagnosticSink, limits: Limits = USUAL_LIMITS) -> tuple[XmlElement, str | None]:
+def read_tree(
+    text: bytes, sink: DiagnosticSink, limits: Limits = USUAL_LIMITS, *, keep_comments: bool = False
+) -> tuple[XmlElement, str | None]:
     """The XML tree of a text in one of our formats, its names plain, and the default namespace that it had.
 
     Raises:
         UnreadableError: it is not XML, or of another format.
     """
-    root = parse(text, sink, limits)
+    root = parse(text, sink, limits, keep_comments=keep_comments)
     namespace = strip_default_namespace(root)
     if root.tag == _OLD_ROOT and root.get("version") in _OLD_ROOT_VERSIONS:
         message = f"the root of SDF {root.get('version')} is <{_OLD_ROOT}>; read, and written, as <sdf>"
@@ -269,9 +296,9 @@ def read_tree(text: bytes, sink: DiagnosticSink, limits: Limits = USUAL_LIMITS) 
     return root, namespace
 
 
-def read_tree_again(text: bytes) -> XmlElement:
-    """The tree of a text that `read_tree` took before, whatever its size."""
-    return read_tree(text, DiagnosticSink(), LIFTED_LIMITS)[0]
+def read_tree_again(text: bytes, *, keep_comments: bool = False) -> XmlElement:
+    """The tree of a text that `read_tree` took before, whatever its size; with its comments where they are kept."""
+    return read_tree(text, DiagnosticSink(), LIFTED_LIMITS, keep_comments=keep_comments)[0]
 
 
 def lower_tree(root: XmlElement, sink: DiagnosticSink, *, valid: bool = False) -> Document | None:

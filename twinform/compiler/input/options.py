@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from twinform.compiler.input.allowances import Allowances
 from twinform.compiler.input.limits import USUAL_LIMITS, Limits
 from twinform.compiler.search.uris import SearchPath
 from twinform.diagnostics import Diagnostic, Entry, Origins
@@ -20,7 +21,8 @@ class LoadOptions:
 
     `search` are the folders for URIs, `arguments` those of xacro. `xacro` selects which files are expanded: by default
     those whose name ends so, all where it is true, and none where it is false. `limits` say how large files may be.
-    Without `keep_tree` the result has no tree, which needs more memory than the document.
+    Without `keep_tree` the result has no tree, which needs more memory than the document. Findings of the rules in
+    `allow` are left out, as are those that comments in the files allow; errors too where the caller is `tolerant`.
     """
 
     strict: bool = False
@@ -30,6 +32,12 @@ class LoadOptions:
     xacro: bool | None = None
     limits: Limits = USUAL_LIMITS
     keep_tree: bool = True
+    allow: frozenset[str] = frozenset()
+    tolerant: bool = False
+
+    def allowances(self, file: str, origins: Mapping[str, Origins] | None = None) -> Allowances:
+        """What may be left out of the findings about a file."""
+        return Allowances(file, self.allow, self.limits, self.tolerant, origins or {})
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +48,8 @@ class LoadResult:
     from, parsed from `content` where that was no document in memory, and `tree_size` its size where it was not kept.
     `origins` lead from its lines to where they were written if it was expanded. Where includes were expanded,
     `included` is the size of their files, `entries` what became of parts of them, and `mixed` means that the files may
-    have been of several versions.
+    have been of several versions. `allowed` are the findings that the caller or a comment in a file allows, and
+    `allowances` know of others whether they are.
     """
 
     path: str
@@ -54,6 +63,8 @@ class LoadResult:
     included: int = 0
     entries: tuple[Entry, ...] = ()
     mixed: bool = False
+    allowed: tuple[Diagnostic, ...] = ()
+    allowances: Allowances | None = field(default=None, repr=False, compare=False)
 
     @property
     def text_name(self) -> str:

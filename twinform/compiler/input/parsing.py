@@ -59,7 +59,9 @@ def read_bytes(path: Path, sink: DiagnosticSink, limits: Limits = USUAL_LIMITS) 
     return text
 
 
-def parse(text: bytes, sink: DiagnosticSink, limits: Limits = USUAL_LIMITS) -> XmlElement:
+def parse(
+    text: bytes, sink: DiagnosticSink, limits: Limits = USUAL_LIMITS, *, keep_comments: bool = False
+) -> XmlElement:
     """The root of the document, its default namespace removed and undeclared prefixes given a namespace.
 
     Raises:
@@ -76,10 +78,10 @@ def parse(text: bytes, sink: DiagnosticSink, limits: Limits = USUAL_LIMITS) -> X
         raise UnreadableError
     repaired = False
     try:
-        root = etree.fromstring(text, _parser(recover=False))
+        root = etree.fromstring(text, _parser(recover=False, keep_comments=keep_comments))
         refuse_excess(excess_of_tree(root, text), sink)
     except etree.XMLSyntaxError as error:
-        root, repaired = _recover(text, sink, error), True
+        root, repaired = _recover(text, sink, error, keep_comments=keep_comments), True
     refuse_excess(excess_of_namespaces(root, text, repaired=repaired), sink)
     if root.getroottree().docinfo.doctype:
         from twinform.compiler.input.syntax_places import SyntaxPlaces  # noqa: PLC0415 - few files are refused
@@ -103,20 +105,20 @@ def refuse_excess(excess: Excess | None, sink: DiagnosticSink) -> None:
         raise UnreadableError
 
 
-def _parser(*, recover: bool) -> etree.XMLParser:
+def _parser(*, recover: bool, keep_comments: bool) -> etree.XMLParser:
     return etree.XMLParser(
         resolve_entities=False,
         no_network=True,
         load_dtd=False,
         attribute_defaults=False,
         huge_tree=False,
-        remove_comments=True,
+        remove_comments=not keep_comments,
         remove_pis=True,
         recover=recover,
     )
 
 
-def _recover(text: bytes, sink: DiagnosticSink, error: etree.XMLSyntaxError) -> XmlElement:
+def _recover(text: bytes, sink: DiagnosticSink, error: etree.XMLSyntaxError, *, keep_comments: bool) -> XmlElement:
     from twinform.compiler.input.syntax_places import SyntaxPlaces  # noqa: PLC0415 - few files are not well-formed
 
     source, whole = text, with_bracket(text)
@@ -126,7 +128,7 @@ def _recover(text: bytes, sink: DiagnosticSink, error: etree.XMLSyntaxError) -> 
         sink.report(reading.REPAIRED_XML, message, Location(line=line, path="/"), help=LOST_BRACKET)
         text = whole
     text, flaws = with_single_colons(text)
-    parser = _parser(recover=True)
+    parser = _parser(recover=True, keep_comments=keep_comments)
     try:
         root = cast("XmlElement | None", etree.fromstring(text, parser))  # None for what has no element at all
     except etree.XMLSyntaxError:  # what begins with a zero byte is no text to libxml2, and nothing is recovered
@@ -153,7 +155,7 @@ def _recover(text: bytes, sink: DiagnosticSink, error: etree.XMLSyntaxError) -> 
 
 def _declare_prefixes(root: XmlElement) -> None:
     """Give the names of undeclared prefixes, which libxml2 leaves as literal `prefix:name`, a namespace."""
-    for element in root.iter():
+    for element in root.iter("*"):
         tag = str(element.tag)
         if ":" in tag and tag[0] != "{":
             element.tag = _qualified(tag)

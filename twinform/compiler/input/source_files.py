@@ -7,6 +7,7 @@ from pathlib import Path
 from twinform.compiler.input.limits import LARGEST
 from twinform.compiler.input.options import LoadResult
 from twinform.compiler.input.regular_files import read_regular
+from twinform.schemas import XmlElement
 from twinform.text import Lines, SourceText
 
 
@@ -14,10 +15,11 @@ from twinform.text import Lines, SourceText
 class SourceFiles:
     """The bytes and lines of files by their names in locations; each is read once, when something asks for it.
 
-    `contents` are those that are at hand.
+    `contents` are those that are at hand, and `trees` what was read from them.
     """
 
     contents: Mapping[str, bytes] = field(default_factory=dict[str, bytes], repr=False)
+    trees: Mapping[str, XmlElement] = field(default_factory=dict[str, XmlElement], repr=False)
     _read: dict[str, bytes | None] = field(default_factory=dict[str, bytes | None], repr=False)
     _lines: dict[str, tuple[str, Lines] | None] = field(default_factory=dict[str, tuple[str, Lines] | None], repr=False)
 
@@ -25,8 +27,10 @@ class SourceFiles:
     def of(cls, loaded: LoadResult) -> "SourceFiles":
         """Those of a file that was read."""
         was_made = any(name.startswith(f"{loaded.path} (") for name in loaded.origins)
-        contents = {} if was_made or loaded.content is None else {loaded.path: loaded.content}
-        return cls(contents)
+        if was_made or loaded.content is None:
+            return cls()
+        trees = {} if loaded.tree is None else {loaded.path: loaded.tree}
+        return cls({loaded.path: loaded.content}, trees)
 
     def data(self, file: str) -> bytes | None:
         """The bytes of a file; None where there is none, or it is too large."""

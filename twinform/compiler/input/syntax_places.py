@@ -48,7 +48,7 @@ _BEFORE: Mapping[str, str] = {
 _HERE = re.compile(r"</?[\w:.-]+|--|[\w:.-]+|\S")
 """What stands at that place, where that is the piece."""
 _DOCTYPE = re.compile(r"(?:\s|<!--.*?-->|<\?.*?\?>)*(?P<piece><!DOCTYPE)", re.DOTALL)
-_OPEN_TAG = re.compile(r"<(?P<piece>[\w:.-]+)")
+_OPEN_TAG = re.compile(r"</?(?P<piece>[\w:.-]+)")
 _OPEN_VALUE = re.compile(r"\s(?P<piece>[^\s=<>\"']+\s*=\s*[\"'])")
 
 
@@ -92,6 +92,8 @@ class SyntaxPlaces:
         if error.kind == "ERR_COMMENT_NOT_FINISHED":
             start = text.find("<!--", text.rfind("-->") + 1)
             return Span(start, start + len("<!--")) if start >= 0 else None
+        if error.kind == "ERR_GT_REQUIRED" and text[offset : offset + 1] == "<":
+            return _last(_OPEN_TAG, text, offset - 1)
         pattern = _pattern(error)
         if pattern is not None:
             return _last(re.compile(pattern), text, offset)

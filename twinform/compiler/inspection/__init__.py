@@ -13,6 +13,7 @@ from twinform.compiler.inspection.contact_sensors import report_contact_sensors
 from twinform.compiler.inspection.driven_joints import report_driven_joints
 from twinform.compiler.inspection.massless import report_massless
 from twinform.compiler.inspection.named_files import report_named_files
+from twinform.compiler.inspection.unused_suppressions import report_unused
 from twinform.diagnostics import Diagnostic, DiagnosticSink
 
 if TYPE_CHECKING:
@@ -39,6 +40,7 @@ def inspect(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline | N
         report_contact_sensors(document, sink)
     report_named_files(document, Path(loaded.path), load_options.search, loaded.tree, sink)
     whole = DiagnosticSink(loaded.path, load_options.strict, list(loaded.diagnostics), origins=dict(loaded.origins))
+    whole.allows = loaded.allowances
     whole.extend_new(_placed(sink, loaded))
     if passes and loaded.accepted:
         from twinform.compiler.inspection.read_only_passes import run_read_only  # noqa: PLC0415 - few runs have passes
@@ -46,8 +48,13 @@ def inspect(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline | N
         found = DiagnosticSink(file, load_options.strict)
         run_read_only(document, passes, found, Path(loaded.path), load_options)
         whole.extend_new(_placed(found, loaded))
+    if loaded.allowances:
+        loaded.allowances.checked = True
+        loaded.allowances.settle(whole)
+        if not whole.has_errors:
+            report_unused(loaded.allowances, whole)
     ordered = sorted(whole.diagnostics, key=lambda each: each.location.line)
-    return replace(loaded, diagnostics=tuple(ordered))
+    return replace(loaded, diagnostics=tuple(ordered), allowed=(*loaded.allowed, *whole.allowed))
 
 
 def _placed(sink: DiagnosticSink, loaded: LoadResult) -> list[Diagnostic]:

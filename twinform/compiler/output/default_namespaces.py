@@ -22,14 +22,14 @@ def has_made_up_prefixes(text: str) -> bool:
 
 def restore_defaults(root: XmlElement, declared: Mapping[str, str]) -> None:
     """Give elements with a prefix that is not among the declared ones their namespace as a default."""
-    for element in list(root.iterdescendants()):
+    for element in list(root.iterdescendants("*")):
         prefix, tag = element.prefix or "", str(element.tag)
         namespace = tag[1:].partition("}")[0]
         parent = element.getparent()
         if parent is None or not _MADE_UP.fullmatch(prefix) or declared.get(prefix) == namespace:
             continue
         within = str(parent.tag).startswith(f"{{{namespace}}}")
-        if not within and all(str(below.tag).startswith("{") for below in element.iter()):
+        if not within and all(str(below.tag).startswith("{") for below in element.iter("*")):
             parent.replace(element, _with_default(element, namespace))
 
 

@@ -8,9 +8,11 @@ from dataclasses import replace
 from lxml import etree
 
 from twinform.compiler.output import sdf, urdf
+from twinform.compiler.output.comments import Comments, place_comments
 from twinform.compiler.output.default_namespaces import has_made_up_prefixes, restore_defaults
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Fate, Location
 from twinform.diagnostics.rules import to_sdf
+from twinform.diagnostics.rules.comments import LEFT_COMMENT
 from twinform.ir import Document, Format, walk
 from twinform.ir.verify import verify_again
 from twinform.passes import PassInstrumentation, Pipeline
@@ -20,6 +22,7 @@ from twinform.schemas import (
     XmlElement,
     is_valid_text,
     libxml2_errors,
+    noted,
     parse_version,
     path_of,
     print_version,
@@ -39,12 +42,22 @@ _TEXT_BACK_ENDS: dict[Format, Callable[[Document, Version, dict[str | None, str]
 }
 
 
-def emit(document: Document, sink: DiagnosticSink, *, fit: bool = False, kept: AbstractSet[str] = frozenset()) -> str:
+def emit(
+    document: Document,
+    sink: DiagnosticSink,
+    *,
+    fit: bool = False,
+    kept: AbstractSet[str] = frozenset(),
+    comments: Comments | None = None,
+) -> str:
     """The text of a document in its own format and version, and errors in the notes where its schema refuses it.
 
     Where the document was not read in this version, `fit` leaves out what other versions have and this one has not, and
-    accounts for it; but not the names that are `kept`, which the files that it was made of had so too.
+    accounts for it; but not the names that are `kept`, which the files that it was made of had so too. `comments` are
+    those of the file that it was made of.
     """
+    if comments is not None:
+        return _commented(document, sink, comments, fit=fit, kept=kept)
     text = text_without_tree(document)
     if text is not None and is_valid_text(text, document.format, written_version(document)):
         return text
@@ -59,10 +72,11 @@ def emit_legal(
     *,
     fit: bool = True,
     kept: AbstractSet[str] = frozenset(),
+    comments: Comments | None = None,
 ) -> tuple[Document, str]:
     """The document after the passes that its target asks for, and its text; empty where the notes have errors.
 
-    `fit` and `kept` are those of `emit`.
+    `fit`, `kept` and `comments` are those of `emit`.
     """
     if len(legalisation):
         document = legalisation.run(document, sink, instrumentation=instrumentation)
@@ -70,8 +84,19 @@ def emit_legal(
             verify_again(document, sink)
     if sink.has_errors:
         return document, ""
-    text = emit(document, sink, fit=fit, kept=kept)
+    text = emit(document, sink, fit=fit, kept=kept, comments=comments)
     return document, "" if sink.has_errors else text
+
+
+def _commented(
+    document: Document, sink: DiagnosticSink, comments: Comments, *, fit: bool, kept: AbstractSet[str]
+) -> str:
+    with noted() as written:
+        root = valid_tree(document, sink, fit=fit, kept=kept)
+    placed = place_comments(comments, root, written)
+    for message, line in placed.left:
+        sink.account(Fate.DROPPED, LEFT_COMMENT, message, Location(line=line, path="/"), 0)
+    return placed.framed(serialized(root, document, placed.on_lines))
 
 
 def valid_tree(
@@ -111,12 +136,14 @@ def _prefixes(document: Document) -> dict[str | None, str]:
     return {prefix or None: uri for prefix, uri in document.namespaces if prefix}
 
 
-def serialized(root: XmlElement, document: Document) -> str:
-    """The text of a document whose XML this is."""
+def serialized(root: XmlElement, document: Document, arrange: Callable[[XmlElement], None] | None = None) -> str:
+    """The text of a document whose XML this is; `arrange` has the last word on the blanks in it."""
     default = dict(document.namespaces).get("")
     if default is not None:
         root = _in_namespace(root, default)
     etree.indent(root, "  ")
+    if arrange is not None:
+        arrange(root)
     text = etree.tostring(root, encoding="unicode")
     if has_made_up_prefixes(text):
         restore_defaults(root, dict(document.namespaces))
@@ -175,7 +202,7 @@ def _in_namespace(root: XmlElement, namespace: str) -> XmlElement:
     made = etree.Element(f"{{{namespace}}}{root.tag}", dict(root.attrib), {None: namespace, **root.nsmap})
     made.text = root.text
     made.extend(list(root))
-    for element in made.iterdescendants():
+    for element in made.iterdescendants("*"):
         if str(element.tag)[0] != "{":
             element.tag = f"{{{namespace}}}{element.tag}"
     return made

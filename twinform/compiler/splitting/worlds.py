@@ -83,6 +83,7 @@ def split(
             list(checked.diagnostics),
             list(checked.entries),
             origins=dict(checked.origins),
+            allows=checked.allowances and checked.allowances.in_conversion,
         )
         assets = LocalAssets(load_options.search, Path(checked.path))
         request = replace(request, assets=assets, mixed=has_mixed_words(checked))
@@ -175,7 +176,7 @@ class _Files:
     def _as_urdf(self, document: Document, model: Model, named: frozenset[str]) -> tuple[_Urdf | None, str]:
         """The model as URDF, or why it cannot be."""
         alone = _alone(document, model.model_copy(update={"pose": None, "placement_frame": None}))
-        sink = DiagnosticSink(self.sink.file, self.sink.strict, origins=self.sink.origins)
+        sink = DiagnosticSink(self.sink.file, self.sink.strict, origins=self.sink.origins, allows=self.sink.allows)
         made, text = emit_legal(alone, self.request.legalisation(alone), sink, self.instrumentation)
         wrong = [each for each in sink.diagnostics if each.is_error or each.rule is UNSAYABLE_SHAPE]
         if wrong:

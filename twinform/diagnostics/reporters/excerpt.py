@@ -18,9 +18,10 @@ _CUT = "..."
 def excerpt(where: Location, line: str | None) -> Iterator[tuple[str, str]]:
     """The line of the file, and one with what underlines the piece; the second of each pair is what has a color.
 
-    Of a piece that goes on in other lines only the first one is shown. Nothing is, where the line is not known.
+    Of a piece that goes on in other lines only the first one is shown. Nothing is where the line is not known, or the
+    finding is about the whole file.
     """
-    if line is None or not line.strip():
+    if line is None or not line.strip() or not (where.column or where.path.strip("/")):
         return
     begin = max(0, where.column - 1)
     end = where.end_column - 1 if where.end_line == where.line else len(line.rstrip())

@@ -14,6 +14,7 @@ UNRESOLVED_URI = Rule(
 URI_LEAVES_FOLDER = Rule(
     name="uri-leaves-folder",
     severity=Severity.ERROR,
+    fatal=True,
     finds="A `model://` or `package://` URI that leads out of the folders of models and packages, by `..` or by a "
     "symbolic link.",
     matters="A model from somebody else could have any file of this machine read.",

@@ -14,6 +14,7 @@ DANGLING_FRAME = Rule(
 FRAME_CYCLE = Rule(
     name="frame-cycle",
     severity=Severity.ERROR,
+    unsound=True,
     finds="Frames that are given relative to each other in a circle.",
     matters="None of their poses can be computed, so every reader refuses the model.",
     example="A link with its pose relative to a joint whose own pose is relative to that link, as it is by default.",

@@ -5,6 +5,7 @@ from twinform.diagnostics.rule import Rule, Severity
 INCLUDE_CYCLE = Rule(
     name="include-cycle",
     severity=Severity.ERROR,
+    unsound=True,
     finds="A file that includes itself, directly or through others.",
     matters="The expansion would never end.",
     example="`a.sdf` includes `b.sdf`, and `b.sdf` includes `a.sdf`.",

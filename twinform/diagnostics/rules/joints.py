@@ -67,6 +67,7 @@ ZERO_LIMIT = Rule(
 MIMIC_CYCLE = Rule(
     name="mimic-cycle",
     severity=Severity.WARNING,
+    unsound=True,
     finds="Joints that mimic each other in a circle.",
     matters="None of them has a position of its own; engines drop the constraint or do not settle.",
     example="`left` mimics `right` and `right` mimics `left`.",

@@ -62,6 +62,7 @@ DANGLING_LINK = Rule(
 SELF_JOINT = Rule(
     name="self-joint",
     severity=Severity.ERROR,
+    unsound=True,
     finds="A joint that connects a link to itself, directly or by way of a frame on it, or is one of its own ends.",
     matters="It constrains nothing and has no place in a tree; readers refuse it.",
     example="`<parent link='a'/><child link='a'/>`",
@@ -94,6 +95,7 @@ SEVERAL_ROOTS = Rule(
 KINEMATIC_LOOP = Rule(
     name="kinematic-loop",
     severity=Severity.ERROR,
+    unsound=True,
     finds="Joints that go round in a circle: each link is the child of the next one's joint. In SDF it is an info.",
     matters="URDF describes a tree; such a robot has no root to begin with. In SDF it is allowed and may be meant, but "
     "not every physics engine can close it.",
@@ -103,6 +105,7 @@ KINEMATIC_LOOP = Rule(
 TWO_PARENTS = Rule(
     name="two-parents",
     severity=Severity.ERROR,
+    unsound=True,
     finds="A link that is the child of more than one joint. In SDF it is an info: that is how a loop is closed.",
     matters="URDF describes a tree: readers keep one of the joints, and not the same one. Of the engines behind SDF, "
     "not every one can close a loop.",

@@ -5,6 +5,7 @@ from twinform.diagnostics.rule import Rule, Severity
 UNREADABLE_FILE = Rule(
     name="unreadable-file",
     severity=Severity.ERROR,
+    fatal=True,
     finds="A file that is not there, cannot be opened, is empty, or is larger than 64 MB.",
     matters="There is nothing to compile. The limit keeps a hostile file from filling the memory; robots stay far "
     "below.",
@@ -14,6 +15,7 @@ UNREADABLE_FILE = Rule(
 OVERSIZED_FILE = Rule(
     name="oversized-file",
     severity=Severity.ERROR,
+    fatal=True,
     finds="A file beyond the limits: 64 MB, a million tags, elements 256 deep, 256 attributes in an element, names of "
     "1,024 characters, 10 MB in one text; entities that unfold into more.",
     matters="A hostile file could fill the memory, or keep the machine busy for hours. Robots stay far below: a chain "
@@ -25,6 +27,7 @@ OVERSIZED_FILE = Rule(
 NOT_WELL_FORMED = Rule(
     name="not-well-formed",
     severity=Severity.ERROR,
+    fatal=True,
     finds="Text that is not XML, in a way that cannot be repaired with certainty.",
     matters="The parser cannot tell what was meant, and a guess may be another robot.",
     example="An end tag that does not match, an attribute without quotes, a file cut off in the middle.",
@@ -45,6 +48,7 @@ REPAIRED_XML = Rule(
 DOCTYPE = Rule(
     name="doctype",
     severity=Severity.ERROR,
+    fatal=True,
     finds="A document type declaration.",
     matters="Entities and default attributes change a document's content, can read other files and fill the memory. "
     "No robot needs one.",
@@ -54,6 +58,7 @@ DOCTYPE = Rule(
 UNKNOWN_ROOT = Rule(
     name="unknown-root",
     severity=Severity.ERROR,
+    fatal=True,
     finds="A document whose root element is neither `robot` nor `sdf`.",
     matters="It is another format, or a dialect older than SDF 1.2, whose root was `gazebo`.",
     example="`<gazebo version='1.0'>`, `<model>` of a model.config, `<COLLADA>`.",

@@ -164,6 +164,7 @@ UNKNOWN_VERSION = Rule(
 SCHEMA_DISAGREEMENT = Rule(
     name="schema-disagreement",
     severity=Severity.ERROR,
+    fatal=True,
     finds="The XSD refuses a file in which the schema reader finds nothing wrong.",
     matters="Both are made from one table, so this is a fault of this compiler and not of the file.",
     example="None is known.",

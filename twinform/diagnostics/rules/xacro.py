@@ -5,6 +5,7 @@ from twinform.diagnostics.rule import Rule, Severity
 XACRO_ERROR = Rule(
     name="xacro-error",
     severity=Severity.ERROR,
+    fatal=True,
     finds="A xacro file that cannot be expanded: an undefined property, macro or argument, a missing include or "
     "package, a bad expression, macros that never end; or an expression or file that is refused, since a robot needs "
     "none of it: what leads to Python behind the expression, asks for too much, or lies outside of the folders of "
@@ -35,6 +36,7 @@ XACRO_MESSAGE = Rule(
 XACRO_MISSING = Rule(
     name="xacro-missing",
     severity=Severity.ERROR,
+    fatal=True,
     finds="A xacro file on a machine without xacro.",
     matters="It cannot be expanded.",
     example="`twinform check robot.urdf.xacro` after `pip install twinform`.",
@@ -43,6 +45,7 @@ XACRO_MISSING = Rule(
 XACRO_REFUSED = Rule(
     name="xacro-refused",
     severity=Severity.ERROR,
+    fatal=True,
     finds="A xacro file where `--no-xacro` refuses them.",
     matters="Expanding one evaluates its expressions and reads files of its repository and packages that it names.",
     example="`twinform check --no-xacro robot.urdf.xacro`",

@@ -1,5 +1,6 @@
 """Expands a xacro file to text, with the origin of each line."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +16,8 @@ from twinform.diagnostics import DiagnosticSink, Location, Origins
 from twinform.diagnostics.rules import reading
 from twinform.diagnostics.rules import xacro as rules
 
+_EXPAT = re.compile(r"not well-formed XML: .*: line \d+, column (\d+)$")
+"""Where expat noticed what is wrong; it counts columns from 0."""
 _REMARKS = {"warning: ": rules.XACRO_WARNING, "error: ": rules.XACRO_WARNING}
 
 
@@ -58,7 +61,9 @@ def _report_failure(outcome: Mapping[str, Any], sink: DiagnosticSink) -> None:
         sink.report(rules.XACRO_MISSING, message, Location(line=1), help=advice)
         return
     file, line = outcome["place"]
-    sink.report(rules.XACRO_ERROR, outcome["error"], Location(file, line), help=outcome.get("help") or None)
+    found = _EXPAT.search(outcome["error"])
+    column = int(found[1]) + 1 if found else 0
+    sink.report(rules.XACRO_ERROR, outcome["error"], Location(file, line, "", column), help=outcome.get("help") or None)
 
 
 def _report_remarks(outcome: Mapping[str, Any], sink: DiagnosticSink) -> None:

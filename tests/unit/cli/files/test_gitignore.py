@@ -1,0 +1,68 @@
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from twinform.cli.files import Exclusion, discover
+
+LAYOUT = {
+    ".gitignore": "# made\n/out/\n*.tmp.urdf\n!keep.tmp.urdf\ngenerated\ndeep/**/x.urdf\n\\#odd.urdf\n",
+    "a/.gitignore": "local.urdf\n!b.tmp.urdf\n",
+    ".git/info/exclude": "secret.urdf\n",
+}
+MODELS = (
+    "out/a.urdf", "a/out/a.urdf", "c.tmp.urdf", "a/b.tmp.urdf", "keep.tmp.urdf", "generated/keep.tmp.urdf",
+    "a/generated", "local.urdf", "a/local.urdf", "a/n/local.urdf", "deep/x.urdf", "deep/1/2/x.urdf", "deep/1/y.urdf",
+    "secret.urdf", "a/secret.urdf", "#odd.urdf", "plain.urdf",
+)  # fmt: skip
+
+
+@pytest.fixture
+def repository(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    if shutil.which("git"):
+        subprocess.run(["git", "init", "-q", tmp_path], check=True)
+    for name, text in {**LAYOUT, **dict.fromkeys(MODELS, "")}.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.mark.skipif(not shutil.which("git"), reason="git is the judge")
+def test_what_git_ignores_is_left_out(repository: Path) -> None:
+    listed = subprocess.run(
+        ["git", "ls-files", "--others", "--exclude-standard"], check=True, capture_output=True, text=True
+    ).stdout.splitlines()
+    expected = sorted(name for name in listed if name.endswith(".urdf"))
+    assert expected
+    assert discover(["."], Exclusion(())) == expected
+
+
+def test_patterns_above_count_below(repository: Path) -> None:
+    assert discover(["a"], Exclusion(())) == ["a/b.tmp.urdf", "a/out/a.urdf"]
+    assert discover(["out"], Exclusion(())) == ["out/a.urdf"]
+
+
+def test_another_repository_begins_anew(repository: Path) -> None:
+    for name in ("sub/.git/HEAD", "sub/c.tmp.urdf"):
+        (repository / name).parent.mkdir(parents=True, exist_ok=True)
+        (repository / name).write_text("")
+    assert discover(["sub"], Exclusion(())) == ["sub/c.tmp.urdf"]
+    assert "sub/c.tmp.urdf" in discover(["."], Exclusion(()))
+
+
+@pytest.mark.skipif(not shutil.which("git"), reason="git makes the worktree")
+def test_a_worktree_has_the_patterns_of_its_repository(repository: Path, tmp_path: Path) -> None:
+    git = ["git", "-c", "user.name=a", "-c", "user.email=a@b"]
+    subprocess.run([*git, "commit", "-q", "--allow-empty", "-m", "x"], check=True)
+    subprocess.run([*git, "worktree", "add", "-q", tmp_path / "tree"], check=True)
+    for name in ("secret.urdf", "plain.urdf"):
+        (tmp_path / "tree" / name).write_text("")
+    assert discover(["tree"], Exclusion(())) == ["tree/plain.urdf"]
+
+
+def test_bytes_that_are_no_text_and_patterns_that_are_none_ignore_nothing(tmp_path: Path) -> None:
+    (tmp_path / ".gitignore").write_bytes(b"\xff\xfe\n!\n")
+    (tmp_path / "a.urdf").write_text("")
+    assert discover([str(tmp_path)], Exclusion(())) == [str(tmp_path / "a.urdf")]

@@ -1,0 +1,85 @@
+"""What `twinform check` prints, file by file, and the exit code that follows."""
+
+from collections import Counter
+from typing import TYPE_CHECKING
+
+import click
+
+from twinform.cli.baseline import BaselineFile
+from twinform.cli.failure import FINDINGS, UNUSABLE
+from twinform.cli.findings import placed, show
+from twinform.compiler import LoadResult
+from twinform.diagnostics import Policy, Severity
+from twinform.diagnostics.reporters import REPORTERS, Findings
+
+if TYPE_CHECKING:
+    from twinform.compiler.input.source_files import SourceFiles
+
+_WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
+_FOR_PEOPLE = frozenset({"text", "concise"})
+_STREAMED = _FOR_PEOPLE | {"github"}
+"""Formats that are printed file by file; the others are one document."""
+
+
+class CheckReport:
+    """The report of a run in one format. Of models it keeps nothing: there may be thousands."""
+
+    def __init__(self, style: str, *, notes: bool, every: bool = False, baseline: BaselineFile | None = None) -> None:
+        self.style, self.notes, self.every, self.baseline = style, notes, every, baseline
+        self.kept: list[Findings] = []
+        self.counts: Counter[Severity] = Counter()
+        self.files = self.unreadable = self.allowed = self.known = 0
+
+    def add(self, loaded: LoadResult, policy: Policy) -> None:
+        """Report on one file."""
+        seen = policy.apply(loaded.diagnostics)
+        self.allowed += len(loaded.allowed) + len(loaded.diagnostics) - len(seen)
+        new = self.baseline.run.unknown(loaded.path, seen) if self.baseline else seen
+        if self.baseline and self.baseline.update:
+            new = tuple(each for each in new if each.rule.fatal or each.severity is Severity.INFO)
+        self.known += len(seen) - len(new)
+        self.files += 1
+        self.unreadable += loaded.unreadable
+        self.counts.update(each.severity for each in new)
+        self._print(Findings(loaded.path, new), _files(loaded) if new else None)
+
+    def _print(self, findings: Findings, files: "SourceFiles | None") -> None:
+        if self.style in _FOR_PEOPLE:
+            short = self.style == "concise"
+            show(findings, notes=self.notes, on_stderr=False, every=self.every, short=short, files=files)
+        elif self.style in _STREAMED:
+            click.echo(REPORTERS[self.style]([placed(findings, files)]), nl=False)
+        else:
+            self.kept.append(placed(findings, files))
+
+    def end(self) -> int:
+        """Print what is left, and the summary; gives the exit code."""
+        if self.style not in _STREAMED:
+            click.echo(REPORTERS[self.style](self.kept), nl=False)
+        news = self.baseline.write() if self.baseline else ""
+        click.echo(self._summary(), err=True)
+        if news:
+            click.echo(news, err=True)
+        if self.unreadable:
+            return UNUSABLE
+        return FINDINGS if self.counts[Severity.ERROR] else 0
+
+    def _summary(self) -> str:
+        found = ", ".join(_count(self.counts[severity], word) for severity, word in _WORDS.items())
+        more = (
+            (self.unreadable, "could not be read"),
+            (self.allowed, "allowed"),
+            (self.known, "in the baseline"),
+        )
+        return f"{_count(self.files, 'file')}: {found}{''.join(f'; {count} {what}' for count, what in more if count)}"
+
+
+def _files(loaded: LoadResult) -> "SourceFiles":
+    """The files that the findings about one are about."""
+    from twinform.compiler.input.source_files import SourceFiles  # noqa: PLC0415 - only findings have places
+
+    return SourceFiles.of(loaded)
+
+
+def _count(number: int, word: str) -> str:
+    return f"{number} {word}{'' if number == 1 else 's'}"

@@ -1,0 +1,63 @@
+"""`--check`: whether the files that a command would write are what it would write."""
+
+from collections.abc import Iterator, Sequence
+from difflib import unified_diff
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from twinform.cli.failure import FINDINGS, Unusable
+from twinform.diagnostics.reporters import printable
+
+if TYPE_CHECKING:
+    from twinform.cli.outputs import Output
+
+_MOST_LINES = 400
+"""Lines of a difference that are printed."""
+
+
+def report_outdated(texts: "Sequence[tuple[Output, str | bytes]]", *, to_stdout: bool) -> int:
+    """Print how files differ from these texts; gives the exit code.
+
+    Raises:
+        click.UsageError: something goes to standard output, where nothing is to compare.
+        Unusable: a file cannot be read.
+    """
+    if to_stdout:
+        raise click.UsageError("--check compares files: name one with -o")
+    outdated = [output.path for output, text in texts if _differs(output.path, text)]
+    for path in outdated:
+        why = "is not what it is made to be" if path.exists() else "is not there"
+        click.echo(f"{path} {why}; run the command without --check", err=True)
+    if not outdated:
+        click.echo(f"{_count(len(texts), 'file')} up to date", err=True)
+    return FINDINGS if outdated else 0
+
+
+def _differs(path: Path, text: str | bytes) -> bool:
+    new = text.encode() if isinstance(text, str) else text
+    try:
+        old = path.read_bytes()
+    except FileNotFoundError:
+        return True
+    except OSError as error:
+        raise Unusable(f"cannot read {path}: {error.strerror}") from error
+    if old == new:
+        return False
+    lines = list(_difference(str(path), old, new))
+    for line in lines[:_MOST_LINES]:
+        click.echo(line)
+    if len(lines) > _MOST_LINES:
+        click.echo(f"... and {len(lines) - _MOST_LINES} lines more")
+    return True
+
+
+def _difference(name: str, old: bytes, new: bytes) -> Iterator[str]:
+    before, after = (data.decode(errors="replace").split("\n") for data in (old, new))
+    for line in unified_diff(before, after, name, f"{name} as it would be written", lineterm="", n=2):
+        yield printable(line).rstrip()
+
+
+def _count(number: int, word: str) -> str:
+    return f"{number} {word}{' is' if number == 1 else 's are'}"

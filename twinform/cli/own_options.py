@@ -1,0 +1,75 @@
+"""The options for one file: those of the command line, of the project, and of the file's own settings in it."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, NamedTuple
+
+import click
+from click.core import ParameterSource
+
+from twinform.cli.config import settings_of
+from twinform.cli.config.per_file import NO_OWN_SETTINGS, OwnSettings
+from twinform.cli.inputs import InputOptions, load_options_of
+from twinform.cli.pipeline_option import configured_pipeline
+from twinform.cli.policy import policy_of
+from twinform.compiler import LoadOptions
+from twinform.diagnostics import Policy
+
+if TYPE_CHECKING:
+    from twinform.passes import Pipeline
+
+_TYPED = (ParameterSource.COMMANDLINE, ParameterSource.ENVIRONMENT)
+
+
+class FileOptions(NamedTuple):
+    """How one file is read, what is allowed in it, and the passes that are run on it."""
+
+    load_options: LoadOptions
+    policy: Policy
+    passes: "Pipeline | None"
+
+
+@dataclass(slots=True)
+class OptionsByFile:
+    """Gives the options for each file; `option` is the name of the one that has the passes.
+
+    `usual` are those of a file without settings of its own. All share what they know of folders.
+    """
+
+    ctx: click.Context
+    arguments: Mapping[str, str]
+    input_options: InputOptions
+    allow: Sequence[str]
+    deny: Sequence[str]
+    passes: "Pipeline | None"
+    option: str = "passes"
+    usual: FileOptions = field(init=False)
+
+    def __post_init__(self) -> None:
+        policy = policy_of(self.ctx, self.allow, self.deny)
+        self.usual = FileOptions(load_options_of(self.arguments, self.input_options, policy), policy, self.passes)
+
+    def of(self, name: str) -> FileOptions:
+        """The options for the file of this name.
+
+        Raises:
+            ConfigError: something is wrong with its settings.
+        """
+        per_file = settings_of(self.ctx).per_file
+        own = per_file.of(name) if per_file else NO_OWN_SETTINGS
+        return self.usual if own is NO_OWN_SETTINGS else self._with(self.usual, own)
+
+    def _with(self, usual: FileOptions, own: OwnSettings) -> FileOptions:
+        policy = policy_of(self.ctx, self.allow, self.deny, own)
+        load_options = replace(usual.load_options, arguments={**own.arguments, **self.arguments}, allow=policy.allow)
+        if own.strict is not None and not self._is_typed("strict"):
+            load_options = replace(load_options, strict=own.strict)
+        configured = own.check_passes if self.option == "check_passes" else own.passes
+        if configured is None or self._is_typed(self.option):
+            return FileOptions(load_options, policy, usual.passes)
+        text, key = configured
+        passes = configured_pipeline(settings_of(self.ctx), text, key) if text else None
+        return FileOptions(load_options, policy, passes)
+
+    def _is_typed(self, option: str) -> bool:
+        return self.ctx.get_parameter_source(option) in _TYPED

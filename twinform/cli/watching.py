@@ -1,0 +1,132 @@
+"""`--watch`: works on files again when they change, or a file that they are made from: includes, macros, packages."""
+
+import os
+import stat
+import time
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import click
+
+from twinform.cli.check_report import CheckReport
+from twinform.cli.failure import Unusable
+from twinform.cli.source import Source, format_of_suffix
+from twinform.compiler.observing import Observation, observed
+
+_INTERRUPTED = 130
+"""The exit code of a program that is ended by Ctrl-C, as shells give it."""
+_MILLISECONDS = 1000
+"""How long to wait for the system to tell of a change before looking: not every file system tells."""
+_MOST_WAITS = 5
+"""So many times, before new models are looked for in all folders."""
+
+
+class _Status(NamedTuple):
+    """What changes when a file does."""
+
+    time: int
+    size: int
+    number: int
+
+    @classmethod
+    def of(cls, status: os.stat_result | None) -> "_Status | None":
+        return cls(status.st_mtime_ns, status.st_size, status.st_ino) if status else None
+
+
+@dataclass(slots=True)
+class _Watched:
+    """The files that were read or looked for when each input was worked on, and what they were then."""
+
+    files: dict[str, Mapping[str, _Status | None]] = field(default_factory=dict[str, Mapping[str, "_Status | None"]])
+
+    def note(self, name: str, seen: Observation) -> None:
+        every = {**seen.looked_at, **seen.read}
+        files = {path: status for path, status in every.items() if status is None or not stat.S_ISDIR(status.st_mode)}
+        self.files[name] = {path: _Status.of(status) for path, status in files.items()}
+
+    def is_stale(self, name: str) -> bool:
+        """Whether an input is new, or something that it was made from has changed."""
+        known = self.files.get(name)
+        return known is None or any(_now(path) != status for path, status in known.items())
+
+    def folders(self, names: Iterable[str]) -> set[str]:
+        """The folders of all that the inputs of these names are made from, and the current one."""
+        files = (path for name in names for path in self.files.get(name, ()))
+        return {os.getcwd(), *map(os.path.dirname, files)}  # noqa: PTH109 - many strings
+
+
+def watch_models(
+    find: Callable[[], Sequence[Source]],
+    new_report: Callable[[], CheckReport],
+    check: Callable[[Source, CheckReport], None],
+) -> int:
+    """Check the models that are found, then those that change, until Ctrl-C; gives the exit code.
+
+    Raises:
+        Unusable: watchfiles is not installed.
+    """
+    _require_watchfiles()
+    watched = _Watched()
+    try:
+        while True:
+            sources = _found(find)
+            stale = [source for source in sources if watched.is_stale(source.name)]
+            if stale:
+                _check(stale, new_report(), check, watched)
+                click.echo(f"watching {len(sources)} file{'' if len(sources) == 1 else 's'}; Ctrl-C ends", err=True)
+            _wait([source.name for source in sources], watched)
+    except KeyboardInterrupt:
+        return _INTERRUPTED
+
+
+def _found(find: Callable[[], Sequence[Source]]) -> Sequence[Source]:
+    try:
+        return find()
+    except click.UsageError:
+        return ()  # all models are gone; they may come back
+
+
+def _check(
+    sources: Sequence[Source],
+    report: CheckReport,
+    check: Callable[[Source, CheckReport], None],
+    watched: _Watched,
+) -> None:
+    for source in sources:
+        with observed() as seen:
+            check(source, report)
+        watched.note(source.name, seen)
+    report.end()
+
+
+def _require_watchfiles() -> None:
+    try:
+        import watchfiles  # noqa: F401, PLC0415 # pyright: ignore[reportUnusedImport] - an extra
+    except ImportError as error:
+        raise Unusable("--watch needs watchfiles: run pip install 'twinform[watch]'") from error
+
+
+def _wait(names: Sequence[str], watched: _Watched) -> None:
+    """Return when a file of an input has changed, when there may be new models, or to look for these."""
+    import watchfiles  # noqa: PLC0415 - an extra
+
+    folders = sorted(folder for folder in watched.folders(names) if os.path.isdir(folder))  # noqa: PTH112 - many strings
+    waits = 0
+    try:
+        for changes in watchfiles.watch(
+            *folders, watch_filter=None, recursive=False, rust_timeout=_MILLISECONDS, yield_on_timeout=True
+        ):
+            waits += 1
+            is_new = any(format_of_suffix(path) for _, path in changes)
+            if is_new or waits == _MOST_WAITS or any(watched.is_stale(name) for name in names):
+                return
+    except FileNotFoundError:
+        time.sleep(_MILLISECONDS / 1000)  # a folder has gone while it was asked for
+
+
+def _now(path: str) -> _Status | None:
+    try:
+        return _Status.of(os.stat(path))  # noqa: PTH116 - many strings
+    except OSError:
+        return None

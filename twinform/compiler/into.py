@@ -1,0 +1,100 @@
+"""`convert --into`: a file follows the edits of another one that was made of it."""
+
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+from twinform.compiler.compare import Difference, compare_files
+from twinform.compiler.driver import Conversion, run_conversion
+from twinform.compiler.errors import CompileError
+from twinform.compiler.in_place import Updated, file_bytes, updated
+from twinform.compiler.input.loading import LoadOptions, read
+from twinform.compiler.request import ConversionRequest
+from twinform.diagnostics import DiagnosticSink, Location
+from twinform.diagnostics.rules.edits import EDIT_CONFLICT
+from twinform.ir import Format
+from twinform.passes import Pipeline
+from twinform.schemas import versions_of
+
+Key = tuple[str, str, str]
+"""What differs: its group, name and aspect."""
+
+
+def convert_into(
+    request: ConversionRequest, edited: Path, into: Path, load_options: LoadOptions, *, base: Path | None = None
+) -> Updated:
+    """Convert an edited file, and change in the file `into` only what the edits change.
+
+    The edits are what differs from `base`: the file as it was before them, or else what `into` is converted to. Where
+    the SDF is a world, `request.model` names the robot in it, if there are several.
+
+    Raises:
+        CompileError: one of the files cannot be converted, or both sides have changed the same.
+    """
+    request = replace(request, comments=False, sdf_version=_version(request, into, load_options))
+    forth = request if request.to == "urdf" else replace(request, model=None)
+    conversion = run_conversion(forth, str(edited), load_options, name=str(edited))
+    if base:
+        before = run_conversion(forth, str(base), load_options, name=str(base))
+    else:
+        built = _built(request, edited, into, load_options)
+        before = run_conversion(replace(request, model=None), built, load_options, name=str(into))
+    sink = DiagnosticSink(str(into), load_options.strict)
+    made = updated(file_bytes(into, sink, load_options), before.document, conversion, sink, same=base is None)
+    _require_the_robot(made, before, into, load_options)
+    return made
+
+
+def _version(request: ConversionRequest, into: Path, load_options: LoadOptions) -> str | None:
+    """The version of SDF that parts are written in: that of the file that they go into, if no other is asked for."""
+    if request.to != "sdf" or request.sdf_version:
+        return request.sdf_version
+    document = read(str(into), load_options, name=str(into)).document
+    return document.version if document and document.version in versions_of("sdf") else None
+
+
+def _built(request: ConversionRequest, edited: Path, into: Path, load_options: LoadOptions) -> bytes:
+    """What a file is converted to, in the format and the version of the edited one."""
+    document = read(str(edited), load_options, name=str(edited)).document
+    if document is None:  # it could be converted a moment ago
+        raise CompileError(())
+    back = replace(request, to=document.format.value, sdf_version=None, urdf_version=None, passes=Pipeline())
+    if document.format is Format.SDF:
+        back = replace(back, sdf_version=document.version, model=None)
+    return run_conversion(back, str(into), load_options, name=str(into)).text.encode()
+
+
+def _require_the_robot(made: Updated, before: Conversion, path: Path, load_options: LoadOptions) -> None:
+    """Raise where a file that has followed the edits is another robot than the edited one.
+
+    What differed between them before the edits may differ after them.
+
+    Raises:
+        CompileError: a difference is new.
+    """
+    if not made.changes:
+        return
+    after, sink = made.conversion, DiagnosticSink(str(path), load_options.strict)
+    name = next((each.name for each in after.document.models), None)
+    compared = partial(compare_files, load_options=load_options, names=(str(path), str(path)), model=name)
+    try:
+        found = compared(made.data, after.text.encode()).differences
+    except CompileError as error:
+        sink.report(
+            EDIT_CONFLICT,
+            f"cannot be changed in place: it would be wrong: {error.diagnostics[0].message}",
+            Location(line=1, path="/"),
+        )
+        raise CompileError((*after.diagnostics, *sink.diagnostics)) from error
+    known = {_key(each) for each in compared(path, before.text.encode()).differences} if found else set[Key]()
+    for each in found:
+        if _key(each) not in known:
+            where = each.a.location
+            message = f"cannot be changed in place: {each.message} would not be as in the edited file"
+            sink.report(EDIT_CONFLICT, message, Location(line=where.line or 1, path=where.path or "/"))
+    if sink.diagnostics:
+        raise CompileError((*after.diagnostics, *sink.diagnostics))
+
+
+def _key(found: Difference) -> Key:
+    return found.group, found.name, found.aspect

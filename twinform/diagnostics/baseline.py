@@ -1,0 +1,161 @@
+"""Baselines: findings that are known and not reported, kept in a JSON file with a line for each.
+
+A finding is known by its file, rule, path and message, without numbers of lines, columns and places among siblings: it
+stays the same one when something before it moves. How often it occurs is counted, so that one more is a new one.
+"""
+
+import json
+import re
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple, cast
+
+from twinform.diagnostics.diagnostic import Diagnostic
+from twinform.diagnostics.rule import Severity
+
+_MARK = "twinform-baseline"
+_VERSION = 1
+_FINDINGS = "findings"
+_PLACES = re.compile(r"\[\d+\]")
+_LINES = re.compile(r"\b(line|lines|column) \d+")
+_LONGEST = 300
+"""Characters of a message that are kept; longer ones hold texts of the file, and begin with what is wrong."""
+
+
+class BaselineError(ValueError):
+    """A text is no baseline; `line` is 0 where it is not known."""
+
+    def __init__(self, problem: str, line: int = 0) -> None:
+        super().__init__(problem)
+        self.line = line
+
+
+class KnownFinding(NamedTuple):
+    """What a finding is known by; `place` is another file than the one that was checked, if it is there."""
+
+    file: str
+    rule: str
+    path: str
+    message: str
+    place: str = ""
+
+
+Relative = Callable[[str], str]
+"""Gives the name of a file relative to the folder of the baseline, with `/`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Baseline:
+    """Known findings, and how often each occurs."""
+
+    counts: Mapping[KnownFinding, int] = field(default_factory=dict[KnownFinding, int])
+
+    @classmethod
+    def of(cls, findings: Iterable[KnownFinding]) -> "Baseline":
+        """From every finding of some files."""
+        return cls(Counter(findings))
+
+    @classmethod
+    def parse(cls, text: str) -> "Baseline":
+        """The baseline in a text.
+
+        Raises:
+            BaselineError: it is none, or one of another version.
+        """
+        try:
+            found: object = json.loads(text)
+        except json.JSONDecodeError as error:
+            raise BaselineError(f"this is no JSON: {error.msg}", error.lineno) from error
+        except (RecursionError, ValueError) as error:
+            raise BaselineError(f"this is no JSON: {error}") from error
+        table = cast("dict[str, object]", found) if isinstance(found, dict) else {}
+        if _MARK not in table:
+            raise BaselineError(f"this is no baseline: it has no key {_MARK!r}", 1)
+        if table[_MARK] != _VERSION:
+            problem = f"this is a baseline of version {table[_MARK]!r}, and this twinform knows version {_VERSION}"
+            raise BaselineError(problem, _line_of(text, f'"{_MARK}"', 1))
+        rows = table.get(_FINDINGS)
+        if not isinstance(rows, list):
+            raise BaselineError(f"{_FINDINGS!r} has to be a list", _line_of(text, f'"{_FINDINGS}"', 1))
+        counts: Counter[KnownFinding] = Counter()
+        for number, row in enumerate(cast("list[object]", rows), start=1):
+            known, count = _parsed(row, _line_of(text, '{"file"', number))
+            counts[known] += count
+        return cls(counts)
+
+    def to_json(self) -> str:
+        """The text of a file: sorted, with a line for each finding."""
+        rows = [json.dumps(_row(known, count), ensure_ascii=False) for known, count in sorted(self.counts.items())]
+        listed = "".join(f"\n    {row}{',' if place < len(rows) else ''}" for place, row in enumerate(rows, start=1))
+        return f'{{\n  "{_MARK}": {_VERSION},\n  "{_FINDINGS}": [{listed}{chr(10) + "  " if rows else ""}]\n}}\n'
+
+    def merged(self, newer: "Baseline", files: Iterable[str]) -> "Baseline":
+        """The same where what is known of these files is what a newer one knows."""
+        done = set(files)
+        kept = {known: count for known, count in self.counts.items() if known.file not in done}
+        return Baseline({**kept, **newer.counts})
+
+
+@dataclass(slots=True)
+class BaselineRun:
+    """Holds findings to a baseline, file by file; `found` are all findings that a baseline could have."""
+
+    baseline: Baseline
+    relative: Relative
+    files: set[str] = field(default_factory=set[str])
+    found: Counter[KnownFinding] = field(default_factory=Counter[KnownFinding])
+
+    def unknown(self, path: str, diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+        """The findings about a file that are not in the baseline. Notes and fatal errors never are."""
+        self.files.add(self.relative(path))
+        return tuple(each for each in diagnostics if not self._is_known(path, each))
+
+    def _is_known(self, path: str, diagnostic: Diagnostic) -> bool:
+        if diagnostic.rule.fatal or diagnostic.severity is Severity.INFO:
+            return False
+        known = known_by(path, diagnostic, self.relative)
+        self.found[known] += 1
+        return self.found[known] <= self.baseline.counts.get(known, 0)
+
+    @property
+    def gone(self) -> int:
+        """How many findings of the files that were seen are in the baseline and do not occur any more."""
+        counts = self.baseline.counts.items()
+        return sum(max(0, count - self.found[known]) for known, count in counts if known.file in self.files)
+
+    def updated(self, exists: Callable[[str], bool]) -> Baseline:
+        """The baseline of what was found; of files that were not seen it is kept if they are still there."""
+        whole = self.baseline.merged(Baseline(self.found), self.files)
+        return Baseline({known: count for known, count in whole.counts.items() if exists(known.file)})
+
+
+def known_by(path: str, diagnostic: Diagnostic, relative: Relative) -> KnownFinding:
+    """What a finding about a file is known by."""
+    where = diagnostic.location
+    place = relative(where.file) if where.file and where.file != path else ""
+    message = _LINES.sub(r"\1 N", diagnostic.message)[:_LONGEST]
+    return KnownFinding(relative(path), diagnostic.rule.name, _PLACES.sub("", where.path), message, place)
+
+
+def _row(known: KnownFinding, count: int) -> dict[str, object]:
+    row: dict[str, object] = {name: value for name, value in known._asdict().items() if value or name != "place"}
+    return row if count == 1 else {**row, "count": count}
+
+
+def _parsed(row: object, line: int) -> tuple[KnownFinding, int]:
+    cells = cast("dict[str, Any]", row) if isinstance(row, dict) else {}
+    count = cells.pop("count", 1)
+    *required, optional = KnownFinding._fields
+    if not {*required} <= {*cells} <= {*required, optional}:
+        words = f"a finding is an object with {', '.join(required)}, and perhaps {optional} and count"
+        raise BaselineError(words, line)
+    if not all(isinstance(each, str) for each in cells.values()) or type(count) is not int or count < 1:
+        raise BaselineError("what a finding is known by is text, and its count a positive whole number", line)
+    return KnownFinding(**cells), count
+
+
+def _line_of(text: str, start: str, number: int) -> int:
+    """The line on which something begins for the n-th time; 0 where the file is laid out in another way."""
+    lines = (line for line, content in enumerate(text.splitlines(), start=1) if content.strip().startswith(start))
+    return next((line for place, line in enumerate(lines, start=1) if place == number), 0)

@@ -1,0 +1,98 @@
+"""Suppression comments: `<!-- twinform: allow RULE, ... - reason -->` and `allow-file`, and the findings they cover.
+
+Pure: from comments and their lines to suppressions, and from these and findings to those that stay.
+"""
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+_OURS = re.compile(r"\s*twinform\s*(?::|\s(?=allow\b))\s*", re.IGNORECASE)
+_WORDS = re.compile(
+    r"(?P<word>allow|allow-file)\s+(?P<rules>[^\s,]+(?:\s*,\s*[^\s,]+)*)(?:\s+--?\s+\S.*)?\s*", re.DOTALL
+)
+USAGE = "write 'twinform: allow RULE, RULE - reason', or 'allow-file' for all of the file; the reason may be left out"
+
+MOST = 1000
+"""So many suppressions of a file count: every finding is held to all of them, and a hostile file has a million."""
+
+
+class Suppression(NamedTuple):
+    """The rules that a comment allows, its line, and the lines on which it allows them; all of the file where 0."""
+
+    rules: tuple[str, ...]
+    line: int
+    first: int = 0
+    last: int = 0
+
+    def covers(self, rule: str, line: int) -> bool:
+        """Whether a finding of this rule on this line is allowed."""
+        return rule in self.rules and (not self.last or self.first <= line <= self.last)
+
+
+class Flaw(NamedTuple):
+    """What is wrong with a comment that was meant to be a suppression."""
+
+    line: int
+    message: str
+    help: str = USAGE
+
+
+@dataclass(slots=True)
+class Suppressions:
+    """The suppressions of one file; those that have covered a finding are `used`, as places in `entries` and rules."""
+
+    entries: tuple[Suppression, ...] = ()
+    flaws: tuple[Flaw, ...] = ()
+    used: set[tuple[int, str]] = field(default_factory=set[tuple[int, str]])
+
+    def covers(self, rule: str, line: int) -> bool:
+        """Whether a comment allows a finding of this rule on this line."""
+        found = [(place, rule) for place, each in enumerate(self.entries) if each.covers(rule, line)]
+        self.used.update(found)
+        return bool(found)
+
+    def unused(self) -> Iterator[tuple[Suppression, str]]:
+        """Each rule of a comment that has covered no finding, with its comment."""
+        for place, each in enumerate(self.entries):
+            yield from ((each, rule) for rule in each.rules if (place, rule) not in self.used)
+
+
+NO_SUPPRESSIONS = Suppressions()
+
+
+def is_meant(text: str) -> bool:
+    """Whether a comment is for us."""
+    return _OURS.match(text) is not None
+
+
+def parse_suppressions(comments: Iterable[tuple[str, int, int, int]]) -> Suppressions:
+    """The suppressions in comments: of each its text, its line, and the first and last line of what it is about."""
+    entries: list[Suppression] = []
+    flaws: list[Flaw] = []
+    for text, line, first, last in (each for each in comments if is_meant(each[0])):
+        if len(entries) + len(flaws) >= MOST:
+            return Suppressions(
+                tuple(entries), (*flaws, Flaw(line, f"more than {MOST} suppressions: the rest is ignored"))
+            )
+        found = _parsed(text, line, first, last)
+        if isinstance(found, Flaw):
+            flaws.append(found)
+        else:
+            entries.append(found)
+    return Suppressions(tuple(entries), tuple(flaws))
+
+
+def _parsed(text: str, line: int, first: int, last: int) -> Suppression | Flaw:
+    begin = _OURS.match(text)
+    words = _WORDS.fullmatch(text, begin.end()) if begin else None
+    if words is None:
+        return Flaw(line, f"this comment is no suppression: {' '.join(text.split())[:80]!r}")
+    rules = tuple(dict.fromkeys(each.strip() for each in words["rules"].split(",")))
+    if words["word"] == "allow-file":
+        return Suppression(rules, line)
+    if not last:
+        message = "no element follows this comment in the element around it, so it allows nothing"
+        return Flaw(line, message, "put it before the element, or behind it on the same line")
+    return Suppression(rules, line, first, last)

@@ -1,0 +1,97 @@
+"""Comments of an XML text, and the lines of what each of them is about: the element after it, or the line it ends.
+
+The text need not be well-formed: only tags, comments and sections are looked for, as in files that are repaired.
+"""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+_TOKEN = re.compile(
+    r"<!--(?P<comment>.*?)-->"
+    r"|<!\[CDATA\[.*?\]\]>"
+    r"|<\?.*?\?>"
+    r"|<(?P<close>/?)[^\s<>/\"'!?](?:[^<>\"'/]++|\"[^\"]*+\"|'[^']*+'|/(?!>))*+(?P<empty>/?)>",
+    re.DOTALL,
+)
+
+
+class Comment(NamedTuple):
+    """A comment: what is between `<!--` and `-->`, the line on which it begins, and the lines that it is about.
+
+    One that stands behind something on its line is about that line, with all of a tag that ends there. Another one is
+    about the next element, with all in it; `first` and `last` are 0 where none follows in the element around it.
+    """
+
+    text: str
+    line: int
+    first: int = 0
+    last: int = 0
+
+
+@dataclass(slots=True)
+class _Open:
+    """An element that has not ended, the comments before it, and those in it that wait for an element."""
+
+    before: list[int]
+    line: int
+    waiting: list[int]
+
+
+def comments(text: str) -> list[Comment]:
+    """Every comment of a text, in order."""
+    return list(_Reading(text).run())
+
+
+class _Reading:
+    """One run over a text; lines end with a line feed, as in findings."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.line, self.counted = 1, 0
+        self.found: list[Comment] = []
+        self.open = [_Open([], 0, [])]
+        self.last_begin, self.last_end = 0, 0
+        """The lines on which the last tag began and ended."""
+
+    def run(self) -> Iterator[Comment]:
+        for token in _TOKEN.finditer(self.text):
+            begin = self._line_at(token.start())
+            end = self._line_at(token.end())
+            comment = token["comment"]
+            if comment is not None:
+                self._comment(comment, token.start(), begin)
+            elif token["close"] is not None:
+                self._tag(token, begin, end)
+                self.last_begin, self.last_end = begin, end
+        yield from self.found
+
+    def _line_at(self, offset: int) -> int:
+        self.line, self.counted = self.line + self.text.count("\n", self.counted, offset), offset
+        return self.line
+
+    def _comment(self, text: str, start: int, line: int) -> None:
+        if self.text[self.text.rfind("\n", 0, start) + 1 : start].strip():
+            first = self.last_begin if self.last_end == line else line
+            self.found.append(Comment(text, line, first, line))
+            return
+        self.open[-1].waiting.append(len(self.found))
+        self.found.append(Comment(text, line))
+
+    def _tag(self, token: re.Match[str], begin: int, end: int) -> None:
+        if token["close"]:
+            if len(self.open) > 1:
+                closed = self.open.pop()
+                self._settle(closed.before, closed.line, end)
+            return
+        around = self.open[-1]
+        before, around.waiting = around.waiting, []
+        if token["empty"]:
+            self._settle(before, begin, end)
+        else:
+            self.open.append(_Open(before, begin, []))
+
+    def _settle(self, before: list[int], first: int, last: int) -> None:
+        for index in before:
+            self.found[index] = self.found[index]._replace(first=first, last=last)
