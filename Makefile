@@ -19,7 +19,7 @@ READERS := .venv/.readers
 PEERS := .venv/.peers
 DEMO := out/demo
 
-.PHONY: help sync fmt generate lint wheel test demo report bench before prove coverage fuzz clean
+.PHONY: help sync fmt generate lint wheel test demo report bench latency vsix before prove coverage fuzz clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -52,6 +52,7 @@ generate: $(SYNCED) ## write the files that are made from tables: schemas and re
 	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md
 	$(BIN)/python -m reports libsdformat_codes
 	$(BIN)/python -m reports mapping
+	$(BIN)/python -m reports.mapping.destinations twinform/server/mapping/destinations.json
 
 lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel that works in an empty environment
 	$(BIN)/ruff check .
@@ -68,6 +69,7 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md --check
 	$(BIN)/python -m reports libsdformat_codes --check
 	$(BIN)/python -m reports mapping --check
+	$(BIN)/python -m reports.mapping.destinations twinform/server/mapping/destinations.json --check
 	$(MAKE) --no-print-directory wheel
 
 wheel: $(SYNCED) # build the wheel, list it, install it into an empty environment and run the command
@@ -119,6 +121,13 @@ $(PEERS): $(SYNCED)
 
 bench: $(PEERS) ## how fast it is, beside its peers; writes docs/evidence/performance.md: BEFORE=../older ARGS="--quick"
 	$(BIN)/python -m benchmarks.bench $(if $(BEFORE),--before $(BEFORE)) $(ARGS)
+
+latency: $(SYNCED) # how long an editor waits for an answer; writes docs/evidence/editor.md
+	$(BIN)/python -m benchmarks.editor docs/evidence/editor.md
+
+vsix: # the extension for Visual Studio Code, which needs npm: editors/vscode/twinform.vsix
+	cp LICENSE editors/vscode/LICENSE
+	cd editors/vscode && npm install --silent --no-audit --no-fund && npm run package --silent
 
 before: $(SYNCED) ## outputs and speed of this tree beside those of an older checkout: make before WITH=../older
 	$(BIN)/python -m benchmarks.before $(WITH) --every 8

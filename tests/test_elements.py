@@ -6,12 +6,12 @@ import pytest
 
 import twinform
 from reports.mapping.measure import CASES, conversions, measured
-from reports.mapping.rows import FORMATS, FormatName, rows
 from tests.corpus.there_and_back import robots
 from tests.oracles.xml_trees import first_difference
 from twinform.compiler.audit import audit
 from twinform.diagnostics import Fate, Severity
 from twinform.ir import Document, Format
+from twinform.server.mapping.rows import FORMATS, FormatName, rows
 from twinform.testing.round_trips import RoundTrip
 
 

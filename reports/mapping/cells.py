@@ -5,10 +5,10 @@ from collections.abc import Iterator
 from reports.harness.pages import rule_links
 from reports.mapping.measure import EXPRESSED, Seen
 from reports.mapping.notes import destinations
-from reports.mapping.rows import Row
-from reports.mapping.targets import field_of, targets
 from twinform.diagnostics import Fate, Severity
 from twinform.schemas.facts import Fact, print_version
+from twinform.server.mapping.rows import Row
+from twinform.server.mapping.targets import field_of, targets
 
 _LABELS: dict[Severity, str] = {Severity.ERROR: "**refused:** ", Severity.WARNING: "warning: ", Severity.INFO: "note: "}
 

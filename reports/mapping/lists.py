@@ -5,8 +5,8 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator
 
 from reports.harness.pages import rule_links
-from reports.mapping.rows import FORMATS, FormatName, Row, rows, unreachable
 from twinform.schemas import table
+from twinform.server.mapping.rows import FORMATS, FormatName, Row, rows, unreachable
 
 _WARNED = """\
 ## What is passed over

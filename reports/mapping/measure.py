@@ -9,13 +9,13 @@ from pathlib import Path
 from lxml import etree
 
 import twinform
-from reports.mapping.rows import Part, Row, parts
 from tests.corpus.files import ROOT
 from tests.corpus.there_and_back import robots
 from twinform.compiler.audit import bare_path, fates
 from twinform.diagnostics import Diagnostic, Entry, Location, Severity
 from twinform.ir import Document, Format
 from twinform.schemas import XmlElement, path_of, table
+from twinform.server.mapping.rows import Part, Row, parts
 
 CASES = ROOT / "tests" / "cases"
 EXPRESSED = "expressed"

@@ -14,8 +14,8 @@ from reports.mapping.cells import became, kind, name_of, rules_seen, versions, w
 from reports.mapping.lists import passed_over
 from reports.mapping.measure import Seen, measured
 from reports.mapping.notes import Note, notes
-from reports.mapping.rows import FORMATS, FormatName, Row, holders, rows, sections
 from twinform.schemas import table
+from twinform.server.mapping.rows import FORMATS, FormatName, Row, holders, rows, sections
 
 _ABOUT = """\
 Where each element and attribute of URDF and SDF goes in the other format, what is kept, changed and refused, and the

@@ -111,9 +111,7 @@ def test_new_parts_are_of_the_version_of_the_file(run: Run, tmp_path: Path, monk
     assert run("diff", "r.urdf", "r.sdf").exit_code == 0
 
 
-def test_a_new_name_is_followed_into_a_world(
-    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_new_name_is_followed_into_a_world(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("w.sdf").write_text(WORLD.replace('    <model name="other"><link name="l"/></model>\n', ""))
     assert run("convert", "w.sdf", "-o", "r.urdf").exit_code == 0

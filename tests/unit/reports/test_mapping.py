@@ -6,9 +6,9 @@ from reports.harness.sample import Sample
 from reports.mapping.measure import CASES
 from reports.mapping.notes import Note, destinations, notes
 from reports.mapping.report import REPORT, measure
-from reports.mapping.rows import FORMATS, FormatName, rows, sections, unreachable
-from reports.mapping.targets import field_of, targets
 from twinform.diagnostics.catalog import catalog
+from twinform.server.mapping.rows import FORMATS, FormatName, rows, sections, unreachable
+from twinform.server.mapping.targets import field_of, targets
 
 
 def _known(format: FormatName) -> set[str]:

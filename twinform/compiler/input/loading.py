@@ -83,13 +83,23 @@ def _check(source: str | Path | bytes, sink: DiagnosticSink, load_options: LoadO
     try:
         if not isinstance(source, bytes) and (load_options.xacro or Path(source).suffix.lower() == XACRO):
             return _check_xacro(Path(source), sink, load_options)
-        text = source if isinstance(source, bytes) else read_bytes(Path(source), sink, load_options.limits)
+        text = source if isinstance(source, bytes) else _content(Path(source), sink, load_options)
     except UnreadableError:
         return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True)
     allowances = load_options.allowances(sink.file)
     if not _JSON.match(text):
         allowances.read(text, sink)
     return _check_text(text, sink, load_options, allowances)
+
+
+def _content(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> bytes:
+    """What is in a file, or what an editor has of it.
+
+    Raises:
+        UnreadableError: it is missing, or too large.
+    """
+    unsaved = load_options.search.unsaved_of(path)
+    return read_bytes(path, sink, load_options.limits) if unsaved is None else unsaved
 
 
 def _check_text(text: bytes, sink: DiagnosticSink, load_options: LoadOptions, allowances: Allowances) -> LoadResult:
@@ -166,7 +176,8 @@ def _check_xacro(path: Path, sink: DiagnosticSink, load_options: LoadOptions) ->
     name = expanded_name(sink.file)
     sink.origins[name] = expansion.origins
     allowances = load_options.allowances(sink.file, sink.origins)
-    allowances.read(content_of(path, load_options.limits), sink)
+    unsaved = load_options.search.unsaved_of(path)
+    allowances.read(content_of(path, load_options.limits) if unsaved is None else unsaved, sink)
     loaded = _check_text(expansion.text, DiagnosticSink(name, sink.strict), load_options, allowances)
     sink.extend(loaded.diagnostics)
     allowances.settle(sink)

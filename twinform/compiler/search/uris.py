@@ -29,7 +29,8 @@ class SearchPath:
 
     `own` comes from the caller and is looked in first; `models` hold a folder for each model, `packages` one for each
     package, and `workspaces` packages at any depth. The folders around the file that has the URI come last. `seen` are
-    the files that were found or read, so that nothing is written over one of them.
+    the files that were found or read, so that nothing is written over one of them. `unsaved` are files, without links,
+    that are open in an editor: their contents count in place of what is on the disk.
     """
 
     own: tuple[Path, ...] = ()
@@ -39,6 +40,7 @@ class SearchPath:
     fuel: tuple[Path, ...] = ()
     index: PackageIndex = field(default_factory=PackageIndex, compare=False, repr=False)
     seen: set[Path] = field(default_factory=set[Path], compare=False, repr=False)
+    unsaved: Mapping[str, bytes] = field(default_factory=dict[str, bytes], compare=False, repr=False)
 
     @classmethod
     def of(cls, own: Iterable[str | Path] = (), environment: Mapping[str, str] = os.environ) -> Self:
@@ -75,6 +77,10 @@ class SearchPath:
                 return self._cached(uri)
             case _:
                 raise UriError(rules.UNRESOLVED_URI, f"{uri!r} has a scheme that is not known: {scheme!r}")
+
+    def unsaved_of(self, path: str | Path) -> bytes | None:
+        """What an editor has of a file; None where none does."""
+        return self.unsaved.get(os.path.realpath(path)) if self.unsaved else None
 
     def package(self, name: str, beside: Path) -> Path:
         """The folder of a package, as `$(find name)` and `package://name` mean it.

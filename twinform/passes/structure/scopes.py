@@ -16,7 +16,8 @@ PARTS: tuple[tuple[Part, str], ...] = (
     ("link", "links"), ("joint", "joints"), ("frame", "frames"), ("model", "models"), ("model", "includes"),
 )  # fmt: skip
 """The fields of a model with what has a name in its scope."""
-_RESERVED = frozenset({WORLD, MODEL, "__root__"})
+RESERVED = frozenset({WORLD, MODEL, "__root__"})
+"""Names of SDF that nothing can be called by."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,19 +52,20 @@ class Scope:
 
     def follow(self, kind: ReferenceKind, name: str) -> str:
         """The new name for an old one; what names nothing of this model stays as it is."""
-        found = None if name in _RESERVED or kind == "material" else self.find(kind, name)
+        found = None if name in RESERVED or kind == "material" else self.find(kind, name)
         return name if found is None else found
 
     def _find_own(self, kind: ReferenceKind, name: str) -> str | None:
-        return next((self.own[part][name] for part in _ORDER[kind] if name in self.own[part]), None)
+        return next((self.own[part][name] for part in LOOKUP_ORDER[kind] if name in self.own[part]), None)
 
 
-_ORDER: dict[ReferenceKind, tuple[Part, ...]] = {
+LOOKUP_ORDER: dict[ReferenceKind, tuple[Part, ...]] = {
     "link": ("link", "frame", "model", "joint"),
     "joint": ("joint", "frame", "link", "model"),
     "frame": ("link", "frame", "joint", "model"),
     "any": ("link", "frame", "joint", "model"),
 }
+"""Which parts a name may mean, the likeliest first."""
 
 
 def scope_of(model: Model, choose: Choose, *, deep: bool = True) -> Scope:
@@ -71,7 +73,7 @@ def scope_of(model: Model, choose: Choose, *, deep: bool = True) -> Scope:
     own: dict[Part, dict[str, str]] = {part: {} for part, _ in PARTS}
     for part, field_name in PARTS:
         for node in getattr(model, field_name):
-            if node.name and node.name not in _RESERVED:
+            if node.name and node.name not in RESERVED:
                 own[part].setdefault(node.name, choose(part, node.name))
     inner = {nested.name: scope_of(nested, choose if deep else _same, deep=deep) for nested in model.models}
     return Scope(model.name, own, inner)
@@ -96,7 +98,7 @@ def report_clashes(model: Model, scope: Scope, format_: Format, sink: Diagnostic
                 message = f"{part} {node.name!r} and {other[0]!r} would both be called {new!r}"
                 sink.report(rules.NAME_CLASH, message, node.location, found=new, related=(other[1],))
                 clash = True
-            elif format_ is Format.SDF and new != node.name and (new in _RESERVED or "::" in new):
+            elif format_ is Format.SDF and new != node.name and (new in RESERVED or "::" in new):
                 message = f"{part} {node.name!r} cannot be called {new!r} in SDF"
                 sink.report(rules.NAME_CLASH, message, node.location, found=new)
                 clash = True

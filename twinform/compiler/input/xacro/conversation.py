@@ -38,15 +38,18 @@ def ask_worker(path: Path, arguments: Mapping[str, str], search: SearchPath) -> 
     """
     task = {"file": str(path), "arguments": dict(arguments)}
     folders = _library_folders()
-    outcome = _ask(path, search, {**task, "yaml": _mentions_data(path)}, folders)
+    outcome = _ask(path, search, {**task, "yaml": _mentions_data(path, search)}, folders)
     if "missing" in outcome and folders:
         folders = ()
         outcome = _ask(path, search, {**task, "yaml": True}, folders)
     return _ask(path, search, {**task, "yaml": True}, folders) if "lacks" in outcome else outcome
 
 
-def _mentions_data(path: Path) -> bool:
+def _mentions_data(path: Path, search: SearchPath) -> bool:
     """Whether a file says that it reads data; it may also say so in a file that it includes."""
+    unsaved = search.unsaved_of(path)
+    if unsaved is not None:
+        return b"yaml" in unsaved
     try:
         with path.open("rb") as file:
             return b"yaml" in file.read(LARGEST)
@@ -134,7 +137,7 @@ class _Conversation:
                 case {"find": uri, "beside": beside}:
                     return self._find(uri, (Path(beside), self.path)), b""
                 case {"read": path}:
-                    content = self.files.read(path)
+                    content = self._read(path)
                     return {"size": len(content)}, content
                 case {"match": pattern}:
                     return {"paths": self.files.match(pattern)}, b""
@@ -144,6 +147,19 @@ class _Conversation:
             return {"error": str(error), "help": error.advice}, b""
         except (OSError, ValueError) as error:
             return {"missing": getattr(error, "strerror", None) or str(error)}, b""
+
+    def _read(self, path: str) -> bytes:
+        """What is in a file that may be read, or what an editor has of it.
+
+        Raises:
+            OutsideError: it must not be read.
+            OSError: it cannot be read.
+        """
+        unsaved = self.search.unsaved_of(path)
+        if unsaved is None:
+            return self.files.read(path)
+        self.files.require_inside(path)
+        return unsaved
 
     def _find(self, uri: str, files: Iterable[Path]) -> dict[str, str]:
         """Where a URI leads from the first of the files from which it leads anywhere."""

@@ -35,7 +35,7 @@ def expand(path: Path, arguments: Mapping[str, str], search: SearchPath, sink: D
     Raises:
         UnreadableError: it cannot be expanded; the diagnostics tell why.
     """
-    if not path.is_file():
+    if search.unsaved_of(path) is None and not path.is_file():
         sink.report(reading.UNREADABLE_FILE, "cannot read the file: there is none of this name")
         raise UnreadableError
     outcome = ask_worker(path, arguments, search)

@@ -57,7 +57,7 @@ class Files:
             OutsideError: it must not be read.
             OSError: it cannot be read.
         """
-        self._require_inside(path)
+        self.require_inside(path)
         # opening a pipe would wait for somebody to write, and a device may do anything
         descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
         try:
@@ -80,7 +80,7 @@ class Files:
         parts = [part for place, part in enumerate(pattern.split("/")) if part or not place]
         first = next((place for place, part in enumerate(parts) if _MAGIC.search(part)), len(parts))
         start = "".join(f"{part}/" for part in parts[:first])
-        self._require_inside(start or ".")
+        self.require_inside(start or ".")
         if ".." in parts[first:]:
             raise OutsideError(f"the pattern {pattern!r} must not go up behind a wildcard")
         found, left = [start], _MOST_LOOKED_AT
@@ -102,7 +102,12 @@ class Files:
                     found.append(f"{folder}{name}/")
         return found, left
 
-    def _require_inside(self, path: str) -> None:
+    def require_inside(self, path: str) -> None:
+        """Refuse a file that must not be read.
+
+        Raises:
+            OutsideError: it lies outside.
+        """
         if not self._is_inside(path):
             raise OutsideError(f"cannot read {path!r}: {_OUTSIDE}", _ADVICE)
 

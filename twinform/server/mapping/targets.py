@@ -5,10 +5,10 @@ from collections.abc import Iterator
 from functools import cache
 from typing import Self, cast, get_args
 
-from reports.mapping.rows import FORMATS, FormatName, Row, rows
 from twinform.ir import Document, Model, Node
 from twinform.schemas import table
 from twinform.schemas.facts import Fact
+from twinform.server.mapping.rows import FORMATS, FormatName, Row, rows
 
 Chain = tuple[str, ...]
 """Fields of the IR from the outside in, each with its class: `("Joint.axis", "Axis.xyz")`."""
@@ -75,8 +75,9 @@ def _placed(
         chain, inner = _follow(below, kind, around)
         if below.place != ".":
             yield row, chain, inner
-        if inner is not None and not below.reference:
-            yield from _placed(format, definition, below, inner, chain, f"{row.steps}/")
+        if not below.reference:  # what is in a value, such as an attribute beside a text, is in the node around it
+            inside = (inner, chain) if inner is not None else (kind, around)
+            yield from _placed(format, definition, below, *inside, f"{row.steps}/")
 
 
 def _follow(row: Fact, kind: type[Node], around: Chain) -> tuple[Chain, type[Node] | None]:

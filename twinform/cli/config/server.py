@@ -1,0 +1,56 @@
+"""The settings of a project for the language server, which asks for each file that it checks."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from twinform.cli.config.errors import ConfigError
+from twinform.cli.config.files import find
+from twinform.cli.config.per_file import NO_OWN_SETTINGS, OwnSettings, PerFile, RuleSettings
+from twinform.cli.config.settings import Settings as ProjectSettings
+from twinform.cli.config.settings import parse_settings
+from twinform.cli.config.trust import require_inside
+from twinform.compiler.search.uris import SearchPath
+from twinform.diagnostics import Policy
+from twinform.server.settings import Settings
+
+
+def settings_of(path: Path) -> Settings:
+    """The settings for a file: of the nearest configuration, where there is one that can be read.
+
+    Folders that it names outside of its own are refused, since nobody was asked whether it is to be trusted.
+    """
+    try:
+        found = find(path.absolute().parent)
+        if found is None:
+            return Settings()
+        config, table = found
+        project = parse_settings(config, table)
+        for folder in project.paths:
+            require_inside(config, Path(folder), "paths")
+        own = PerFile(config, project.files).of(str(path)) if project.files else NO_OWN_SETTINGS
+    except ConfigError as error:
+        return Settings(problem=str(error))
+    return _settings(project, own)
+
+
+def _settings(project: ProjectSettings, own: OwnSettings) -> Settings:
+    usual, policy = Settings(), Policy()
+    for allow, deny, _ in (RuleSettings(project.allow, project.deny), *own.rules):
+        policy = Policy((policy.allow - {*deny}) | {*allow}, (policy.deny - {*allow}) | {*deny})
+    load_options = replace(
+        usual.load_options,
+        strict=bool(project.strict if own.strict is None else own.strict),
+        search=SearchPath.of(project.paths),
+        arguments=own.arguments,
+        allow=policy.allow,
+    )
+    wanted, layout = project.format, usual.layout
+    if wanted.indent is not None:
+        layout = replace(layout, indent="\t" if wanted.indent == "tab" else " " * wanted.indent)
+    layout = replace(layout, numbers=wanted.numbers or layout.numbers, sort_attributes=bool(wanted.sort_attributes))
+    return replace(
+        usual,
+        layout=layout,
+        load_options=load_options,
+        policy=policy,
+    )

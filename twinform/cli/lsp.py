@@ -1,0 +1,26 @@
+"""`twinform lsp`."""
+
+import click
+
+from twinform.cli.failure import Unusable
+
+
+@click.command("lsp")
+@click.option(
+    "--stdio", is_flag=True, help="Talk on standard input and output, which is the only way; for editors that insist."
+)
+def command(*, stdio: bool) -> None:
+    """Be the language server of an editor.
+
+    Editors start it, and talk to it on standard input and output. The settings of each are in the folder editors/.
+    """
+    del stdio
+    try:
+        from twinform.server.wiring import serve  # noqa: PLC0415 - an extra has its library
+    except ImportError as error:
+        raise Unusable(
+            f"the language server needs {error.name or 'pygls'}; run: pip install 'twinform[lsp]'"
+        ) from error
+    from twinform.cli.config.server import settings_of  # noqa: PLC0415 - see above
+
+    serve(settings_of)

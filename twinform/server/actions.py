@@ -1,0 +1,123 @@
+"""What an editor offers to do: fixes of findings, and passes that change a document in its place."""
+
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+from lsprotocol import types
+
+from twinform.diagnostics import Diagnostic, Fix, Safety, Span, TextEdit
+from twinform.server.diagnostics import as_protocol, span_of
+from twinform.server.documents import Document
+from twinform.server.mapping.rows import FormatName
+from twinform.server.session import Session
+
+RUN_PASSES = "twinform.runPasses"
+"""The command that has a pipeline change a document: its arguments are the URI and the pipeline."""
+FIX_ALL = "source.fixAll.twinform"
+
+
+class PassAction(NamedTuple):
+    """A pipeline that is offered. Where `needs` has words, the document has to have one of them."""
+
+    pipeline: str
+    title: str
+    formats: tuple[FormatName, ...] = ("urdf", "sdf")
+    needs: tuple[str, ...] = ()
+
+
+PASSES = (
+    PassAction("fill-inertia", "Give links without inertia one, from their shapes"),
+    PassAction("balance-inertia", "Mend inertias that no body can have", needs=("<inertia",)),
+    PassAction(
+        "fill-limits{effort=100 velocity=3.14}", "Fill in missing limits: effort 100, velocity 3.14", needs=("<joint",)
+    ),
+    PassAction("replace-continuous", "Make continuous joints revolute, without limits", needs=("continuous",)),
+    PassAction("lump-fixed-joints", "Lump the links on fixed joints into those that hold them", needs=("fixed",)),
+    PassAction(
+        "migrate-gazebo-classic", "Migrate from Gazebo Classic to gz-sim", needs=("libgazebo_ros", "lib", "<gazebo")
+    ),
+    PassAction("materials{pbr=true}", "Give materials the colors that gz-sim renders", ("sdf",), ("<material",)),
+)
+
+
+def actions(
+    session: Session, document: Document, where: types.Range, only: Iterable[str] | None
+) -> list[types.CodeAction]:
+    """What can be done about a piece of a document; `only` are the kinds that are asked for."""
+    wanted = None if only is None else tuple(only)
+    made = [*_fixes(session, document, where), *_fix_all(session, document), *_passes(document)]
+    return [each for each in made if each.kind is not None and _is_wanted(word_of(each.kind), wanted)]
+
+
+def word_of(kind: types.CodeActionKind | str) -> str:
+    """A kind of action as the protocol writes it."""
+    return str(kind.value) if isinstance(kind, types.CodeActionKind) else kind
+
+
+def _is_wanted(kind: str, wanted: tuple[str, ...] | None) -> bool:
+    if wanted is None:
+        return not kind.startswith("source.")
+    return any(kind == each or kind.startswith(f"{each}.") or not each for each in wanted)
+
+
+def _fixes(session: Session, document: Document, where: types.Range) -> Iterator[types.CodeAction]:
+    piece = document.positions.span(where)
+    for found in session.findings(document):
+        here = span_of(found.location, document)
+        fix = found.fix
+        if fix is None or fix.safety is Safety.DISPLAY or here.end < piece.start or here.start > piece.end:
+            continue
+        yield types.CodeAction(
+            title=fix.title if fix.safety is Safety.SAFE else f"{fix.title} (the model may change)",
+            kind=types.CodeActionKind.QuickFix,
+            diagnostics=[as_protocol(found, document, session.files.document)],
+            is_preferred=fix.safety is Safety.SAFE,
+            edit=edit_of(document, fix.edits),
+        )
+
+
+def _fix_all(session: Session, document: Document) -> Iterator[types.CodeAction]:
+    edits = together(_safe(session.findings(document)))
+    if edits:
+        yield types.CodeAction(
+            title="Fix all safe problems of the file", kind=FIX_ALL, edit=edit_of(document, edits), is_preferred=True
+        )
+
+
+def _safe(found: Iterable[Diagnostic]) -> Iterator[Fix]:
+    return (each.fix for each in found if each.fix is not None and each.fix.safety is Safety.SAFE)
+
+
+def together(fixes: Iterable[Fix]) -> tuple[TextEdit, ...]:
+    """The edits of fixes; one that overlaps another, or inserts at the same place, waits for the next time."""
+    taken: list[TextEdit] = []
+    for fix in fixes:
+        if not any(_meet(one.span, other.span) for one in fix.edits for other in taken):
+            taken.extend(fix.edits)
+    return tuple(sorted(taken, key=lambda edit: edit.span))
+
+
+def _meet(one: Span, other: Span) -> bool:
+    return one == other or (one.start < other.end and other.start < one.end)
+
+
+def _passes(document: Document) -> Iterator[types.CodeAction]:
+    if document.is_xacro or not document.tree.whole:
+        return  # what a pass changes is the expanded file
+    for each in PASSES:
+        if document.format in each.formats and (not each.needs or any(word in document.text for word in each.needs)):
+            command = types.Command(each.title, RUN_PASSES, arguments=[document.uri, each.pipeline])
+            yield types.CodeAction(title=each.title, kind=types.CodeActionKind.RefactorRewrite, command=command)
+
+
+def edit_of(document: Document, edits: Iterable[TextEdit]) -> types.WorkspaceEdit:
+    """Edits of a document as the protocol has them."""
+    return types.WorkspaceEdit(changes={document.uri: text_edits(document, edits)})
+
+
+def text_edits(document: Document, edits: Iterable[TextEdit]) -> list[types.TextEdit]:
+    """Edits of its text; a byte order mark, which is no part of the text of a file, is counted."""
+    mark = document.text.startswith("\ufeff")
+    return [
+        types.TextEdit(document.positions.range(Span(span.start + mark, span.end + mark)), new) for span, new in edits
+    ]

@@ -1,0 +1,236 @@
+"""What may be written at the cursor: elements, attributes and values by the facts tables, and names of the document."""
+
+from collections.abc import Iterable, Iterator
+
+from lsprotocol import types
+
+from twinform.diagnostics import Span
+from twinform.passes.plugins.catalog import systems
+from twinform.passes.plugins.parts import Parameter
+from twinform.schemas import Fact, rows_by_name
+from twinform.server.cursor import Cursor, Kind, cursor_at
+from twinform.server.documents import Document
+from twinform.server.hover import text_of_row
+from twinform.server.known_names import names_for
+from twinform.server.mapping.rows import Row
+from twinform.server.names import kind_at
+from twinform.server.plugin_facts import described, parameter_of, parameters_in
+from twinform.server.proposal import Proposal
+from twinform.server.schema import Place, inside, is_of_xacro
+from twinform.server.session import Session
+from twinform.server.tree import Node
+from twinform.server.xacro_completion import in_expression, xacro_attributes, xacro_elements
+
+_ITEM = types.CompletionItemKind
+_BOOLS = ("true", "false")
+
+
+def complete(session: Session, document: Document, offset: int) -> types.CompletionList:
+    """What may be written at an offset, in the place of what is there."""
+    cursor = cursor_at(document, offset)
+    if cursor is None:
+        return types.CompletionList(is_incomplete=False, items=[])
+    expression = in_expression(session, document, offset)
+    if expression is not None:
+        span, found = expression
+        return _listed(session, document, span, found)
+    return _listed(session, document, *_proposals(session, document, cursor, offset))
+
+
+def _listed(session: Session, document: Document, span: Span, found: Iterable[Proposal]) -> types.CompletionList:
+    range_ = document.positions.range(span)
+    snippet = session.snippets
+    items = [
+        types.CompletionItem(
+            label=each.label,
+            kind=each.kind,
+            detail=each.detail or None,
+            documentation=types.MarkupContent(types.MarkupKind.Markdown, each.text) if each.text else None,
+            sort_text=f"{each.rank}{number:04}",
+            filter_text=each.label,
+            insert_text_format=types.InsertTextFormat.Snippet if snippet else types.InsertTextFormat.PlainText,
+            text_edit=types.TextEdit(range_, each.new if snippet else plain(each.new)),
+        )
+        for number, each in enumerate(found)
+    ]
+    return types.CompletionList(is_incomplete=False, items=items)
+
+
+def plain(snippet: str) -> str:
+    """A snippet without the places to fill in."""
+    pieces: list[str] = []
+    rest = snippet
+    while (at := rest.find("$")) >= 0:
+        pieces.append(rest[:at])
+        if rest[at : at + 2] == "${":
+            end = rest.find("}", at)
+            rest = rest[end + 1 :]
+        elif rest[at - 1 : at] == "\\":
+            pieces[-1] = pieces[-1][:-1] + "$"
+            rest = rest[at + 1 :]
+        else:
+            rest = rest[at + 2 :]
+    return "".join((*pieces, rest))
+
+
+def _proposals(session: Session, document: Document, cursor: Cursor, offset: int) -> tuple[Span, Iterable[Proposal]]:
+    node = cursor.node
+    match cursor.kind:
+        case Kind.TAG:
+            whole = node is not None and node.whole_tag
+            return cursor.piece, _elements(session, document, node.parent if node else None, node, bare=whole)
+        case Kind.ATTRIBUTE if node is not None:
+            return cursor.piece, _attributes(session, document, node, named=cursor.attribute is not None)
+        case Kind.VALUE if node is not None and cursor.attribute is not None:
+            return cursor.piece, _values(session, document, node, cursor.attribute)
+        case Kind.END_TAG if node is not None:
+            return cursor.piece, [Proposal(node.tag, node.tag, _ITEM.Property)]
+        case _:
+            return _in_text(session, document, cursor, offset)
+
+
+def _in_text(session: Session, document: Document, cursor: Cursor, offset: int) -> tuple[Span, Iterable[Proposal]]:
+    """Between tags: an end tag that was begun, the text of the element, or an element."""
+    node = cursor.node
+    start = document.text.rfind("<", 0, offset)
+    if start >= 0 and document.text.startswith("</", start) and ">" not in document.text[start:offset]:
+        tag = [Proposal(f"/{node.tag}", f"{node.tag}>", _ITEM.Property)] if node is not None else []
+        return Span(start + 2, offset), tag
+    if node is not None and not node.children:
+        values = list(_values(session, document, node, None))
+        if values:
+            return cursor.piece, values
+    empty = Span(offset, offset)
+    piece = cursor.piece if "<" not in cursor.piece.of(document.text) and cursor.piece.end == offset else empty
+    return piece, _with_bracket(_elements(session, document, node, None, bare=False))
+
+
+def _with_bracket(found: Iterable[Proposal]) -> Iterator[Proposal]:
+    for each in found:
+        yield Proposal(each.label, f"<{each.new}", each.kind, each.detail, each.text, each.rank)
+
+
+def _elements(
+    session: Session, document: Document, parent: Node | None, own: Node | None, *, bare: bool
+) -> Iterator[Proposal]:
+    """The elements that may stand in another; `bare` is without what comes behind the name."""
+    if parent is None:
+        yield from _roots(document) if document.tree.root in (None, own) else ()
+        return
+    there = [child.tag for child in parent.children if child is not own]
+    place = document.schema.place(parent)
+    for row in _children(place) if place is not None else ():
+        if row.fact.repeats or row.fact.name not in there:
+            name = row.fact.name
+            new = name if bare else _element(name, row)
+            yield Proposal(name, new, _ITEM.Class, _detail(row.fact), text_of_row(row), _rank(row.fact))
+    for parameter in parameters_in(parent):
+        if not parameter.is_attribute and (parameter.is_many or parameter.name not in there):
+            yield _parameter(parameter, bare=bare)
+    yield from xacro_elements(session, document, bare=bare)
+
+
+def _children(place: Place) -> list[Row]:
+    names = [row.name for row in place.known() if not row.is_attribute]
+    rows = (place.below(name) for name in dict.fromkeys(names))
+    return [row for row in rows if row is not None]
+
+
+def _roots(document: Document) -> Iterator[Proposal]:
+    start = document.schema.start()
+    if start is None:
+        return
+    if start.format == "urdf":
+        yield Proposal("robot", 'robot name="$1">\n  $0\n</robot>', _ITEM.Class)
+    else:
+        yield Proposal("sdf", 'sdf version="${1:1.11}">\n  $0\n</sdf>', _ITEM.Class)
+
+
+def _element(name: str, row: Row) -> str:
+    """The snippet of an element, behind its `<`: with the attributes that it needs."""
+    place = inside(row)
+    known = place.known()
+    needed = [fact for fact in known if fact.is_attribute and fact.required]
+    attributes = "".join(f" {_attribute(fact, number)}" for number, fact in enumerate(needed, 1))
+    if row.fact.type is not None or place.inside.type is not None:
+        return f"{name}{attributes}>${len(needed) + 1}</{name}>$0"
+    if any(not fact.is_attribute for fact in known) or row.fact.any or place.inside.any:
+        return f"{name}{attributes}>\n  $0\n</{name}>"
+    return f"{name}{attributes}/>$0"
+
+
+def _attribute(fact: Fact, number: int) -> str:
+    name = fact.name.removeprefix("@")
+    if fact.enum:
+        return f'{name}="${{{number}|{",".join(fact.enum)}|}}"'
+    return f'{name}="${number}"' if fact.default is None else f'{name}="${{{number}:{fact.default}}}"'
+
+
+def _parameter(parameter: Parameter, *, bare: bool) -> Proposal:
+    name = parameter.name
+    ending = ">\n  $0\n</" if parameter.children else ">$1</"
+    new = name if bare else f"{name}{ending}{name}>"
+    return Proposal(
+        name, new, _ITEM.Field, parameter.type, described(parameter), rank=0 if parameter.is_required else 1
+    )
+
+
+def _attributes(session: Session, document: Document, node: Node, *, named: bool) -> Iterator[Proposal]:
+    """The attributes that an element does not have yet; `named` is without the value, which is there."""
+    if is_of_xacro(node.tag):
+        yield from xacro_attributes(session, document, node, named=named)
+        return
+    place = document.schema.place(node)
+    for fact in rows_by_name(place.known(), place.version).values() if place else ():
+        name = fact.name.removeprefix("@")
+        row = place.below(fact.name) if place and fact.is_attribute else None
+        if row is not None and name not in node.attributes:
+            new = name if named else _attribute(fact, 1)
+            yield Proposal(name, new, _ITEM.Property, _detail(fact), text_of_row(row), _rank(fact))
+
+
+def _values(session: Session, document: Document, node: Node, attribute: str | None) -> Iterator[Proposal]:
+    """The values of an attribute, or of the text of an element."""
+    if node.parent is None and attribute == "version" and document.schema.table is not None:
+        for version in reversed(document.schema.table.versions):
+            yield Proposal(version, version, _ITEM.EnumMember)
+        return
+    row = document.schema.row(node, attribute)
+    for value in _listed_values(row):
+        yield Proposal(value, value, _ITEM.EnumMember)
+    kind = kind_at(document, node, attribute)
+    if kind is not None:
+        for name in names_for(session, document, node, kind):
+            yield Proposal(name.text, name.text.replace("$", "\\$"), _ITEM.Reference, name.kind)
+    if node.tag == "plugin" and attribute in {"filename", "name"}:
+        yield from _plugins(attribute)
+    parameter = parameter_of(node) if attribute is None else None
+    if parameter is not None:
+        choices = parameter.choices or (_BOOLS if parameter.type == "bool" else ())
+        for value in choices:
+            yield Proposal(value, value, _ITEM.EnumMember)
+
+
+def _listed_values(row: Row | None) -> tuple[str, ...]:
+    if row is None:
+        return ()
+    fact = row.fact
+    also = tuple(value for value, _ in fact.also)
+    return (*fact.enum, *also) or (_BOOLS if fact.type == "bool" else ())
+
+
+def _plugins(attribute: str) -> Iterator[Proposal]:
+    for each in systems().values():
+        value = each.file if attribute == "filename" else each.class_name
+        yield Proposal(value, value, _ITEM.Module, each.name)
+
+
+def _rank(fact: Fact) -> int:
+    return 2 if fact.dialect else 0 if fact.required else 1
+
+
+def _detail(fact: Fact) -> str:
+    words = [fact.type or "", fact.unit or "", f"default {fact.default}" if fact.default is not None else ""]
+    words += ["required"] if fact.required else []
+    words += [fact.dialect or ""]
+    return ", ".join(filter(None, words))

@@ -1,0 +1,177 @@
+"""The documents that are open in the editor: their texts, kept in step with what is typed there."""
+
+import re
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any, TypeVar
+
+from lsprotocol.types import PositionEncodingKind, TextDocumentContentChangeEvent, TextDocumentContentChangePartial
+from pygls.uris import to_fs_path
+
+from twinform.server.positions import Positions
+from twinform.server.schema import FormatName, Schema, format_of
+from twinform.server.settings import LARGEST, MOST_TAGS
+from twinform.server.tree import Tree, parse
+from twinform.text import SourceText
+
+Made = TypeVar("Made")
+_DECLARED = re.compile(r"""\s*<\?xml[^>]{0,200}?\sencoding\s*=\s*["']([A-Za-z][\w.-]*)["']""")
+_LONE = re.compile("[\ud800-\udfff]")
+
+
+@dataclass(frozen=True)  # no slots: what is made of the text is kept in the dictionary
+class Document:
+    """One state of a text. It is never changed: each key makes another one.
+
+    `excess` tells why it is not followed; its text is empty then.
+    """
+
+    uri: str
+    text: str
+    version: int | None = None
+    language: str = ""
+    encoding: PositionEncodingKind = PositionEncodingKind.Utf16
+    excess: str = ""
+
+    @property
+    def path(self) -> Path:
+        """The file; one that was never saved has the name that its URI gives it."""
+        return path_of(self.uri)
+
+    @cached_property
+    def positions(self) -> Positions:
+        """Where its lines are."""
+        return Positions.of(self.text, self.encoding)
+
+    @property
+    def is_parsed(self) -> bool:
+        """Whether anybody has asked for its tree."""
+        return "tree" in self.__dict__
+
+    @cached_property
+    def tree(self) -> Tree:
+        """Its elements, however much is missing."""
+        return parse(self.text)
+
+    def once(self, make: "Callable[[Document], Made]") -> "Made":
+        """What a function makes of it, made once."""
+        known: dict[object, Any] = self.__dict__.setdefault("made", {})
+        if make not in known:
+            known[make] = make(self)
+        return known[make]
+
+    def release(self) -> None:
+        """Give up the tree, whose elements hold each other: to find that out takes the garbage collector longer."""
+        if self.is_parsed:
+            self.tree.release()
+
+    @cached_property
+    def schema(self) -> Schema:
+        """What its elements are by the facts tables."""
+        return Schema(self.tree, self.format)
+
+    @property
+    def format(self) -> FormatName | None:
+        """The format that it is in: that of its root, or else the one that its name promises."""
+        return format_of(self.tree, self.path.name, self.language)
+
+    @property
+    def is_xacro(self) -> bool:
+        """Whether it is expanded before it is read."""
+        return self.path.suffix.lower() == ".xacro"
+
+    @cached_property
+    def data(self) -> bytes:
+        """The bytes of the file that it would be; what is half a character becomes a whole one."""
+        declared = _DECLARED.match(self.text)
+        encoding = declared[1] if declared else "utf-8"
+        text = _LONE.sub("\ufffd", self.text)
+        try:
+            return SourceText(text, encoding).data
+        except LookupError:  # which the check reports
+            return text.encode()
+
+
+def path_of(uri: str) -> Path:
+    """The file that a URI stands for."""
+    return Path(to_fs_path(uri) or uri.rpartition("/")[2] or "untitled")
+
+
+def excess_of(text: str) -> str:
+    """Why a text is not followed; empty for one that is."""
+    if len(text) > LARGEST:
+        return f"the file has more than {LARGEST >> 20} MiB"
+    tags = text.count("<")
+    return f"the file has {tags:,} tags" if tags > MOST_TAGS else ""
+
+
+class Documents:
+    """All documents that are open, by their URIs."""
+
+    def __init__(self) -> None:
+        self.encoding = PositionEncodingKind.Utf16
+        self._open: dict[str, Document] = {}
+        self._good: dict[str, Document] = {}
+
+    def __iter__(self) -> Iterator[Document]:
+        return iter(tuple(self._open.values()))
+
+    def get(self, uri: str) -> Document | None:
+        """The document of a URI, if it is open and followed."""
+        found = self._open.get(uri)
+        return None if found is None or found.excess else found
+
+    def state(self, uri: str) -> Document | None:
+        """The same, also of one that is not followed."""
+        return self._open.get(uri)
+
+    def of_path(self, path: Path) -> Document | None:
+        """The document that is open of a file."""
+        return next((each for each in self if each.path == path and not each.excess), None)
+
+    def last_good(self, document: Document) -> Document | None:
+        """The last state of a document that was well-formed, as far as anybody has looked at it."""
+        return document if document.tree.whole else self._good.get(document.uri)
+
+    def open(self, uri: str, text: str, version: int, language: str) -> Document:
+        """Take up a document."""
+        return self._keep(uri, text, version, language)
+
+    def change(self, uri: str, changes: Iterable[TextDocumentContentChangeEvent], version: int) -> Document | None:
+        """Do what was done in the editor; None for what is not open."""
+        document = self._open.get(uri)
+        if document is None:
+            return None
+        for change in changes:
+            if not isinstance(change, TextDocumentContentChangePartial):
+                document = self._keep(uri, change.text, version, document.language)
+            elif not document.excess:
+                start, end = document.positions.span(change.range)
+                text = document.text[:start] + change.text + document.text[end:]
+                document = self._keep(uri, text, version, document.language)
+            else:
+                document = self._open[uri] = replace(document, version=version)
+        return document
+
+    def close(self, uri: str) -> None:
+        """Forget a document."""
+        self._open.pop(uri, None)
+        self._good.pop(uri, None)
+
+    def _keep(self, uri: str, text: str, version: int, language: str) -> Document:
+        last = self._open.get(uri)
+        if last is not None:
+            self._leave(last)
+        excess = excess_of(text)
+        made = Document(uri, "" if excess else text, version, language, self.encoding, excess)
+        self._open[uri] = made
+        return made
+
+    def _leave(self, last: Document) -> None:
+        """Go on from a state: it is kept as the last good one, or let go."""
+        if last.is_parsed and last.tree.whole:
+            last, self._good[last.uri] = self._good.get(last.uri, last), last
+        if last is not self._good.get(last.uri):
+            last.release()

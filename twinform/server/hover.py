@@ -1,0 +1,154 @@
+"""What there is to know of what the mouse is on: meaning, unit, default, versions, and what becomes of it elsewhere."""
+
+from collections.abc import Iterator
+from functools import cache
+
+from lsprotocol import types
+
+from twinform.diagnostics import Diagnostic, Span
+from twinform.diagnostics.registry import RuleRegistryError, find_rule
+from twinform.passes.plugins.catalog import systems
+from twinform.passes.plugins.parts import PluginKind
+from twinform.schemas import table
+from twinform.schemas.documentation import Documentation
+from twinform.server.cursor import Cursor, Kind, cursor_at
+from twinform.server.diagnostics import span_of
+from twinform.server.documents import Document
+from twinform.server.mapping.destinations import destination
+from twinform.server.mapping.rows import FORMATS, FormatName, Row, rows
+from twinform.server.name import Name
+from twinform.server.names import name_at
+from twinform.server.navigation import Found, meant_by, search_of
+from twinform.server.plugin_facts import described, kind_of, parameter_of
+from twinform.server.session import Session
+from twinform.server.tree import Node
+from twinform.server.xacro_names import ELEMENTS, PREFIX
+
+_OTHERS: dict[FormatName, str] = {"urdf": "SDF", "sdf": "URDF"}
+_LONGEST = 200
+
+
+def hover(session: Session, document: Document, offset: int) -> types.Hover | None:
+    """The text about what is at an offset, with the pages of the rules that found something there."""
+    cursor = cursor_at(document, offset)
+    parts = list(_parts(session, document, cursor, offset)) if cursor else []
+    parts += _findings(session, document, offset)
+    if not parts:
+        return None
+    piece = cursor.piece if cursor else Span(offset, offset)
+    content = types.MarkupContent(types.MarkupKind.Markdown, "\n\n---\n\n".join(parts))
+    return types.Hover(content, document.positions.range(piece))
+
+
+def warm_up() -> None:
+    """Read all tables, before somebody waits for them."""
+    for format in FORMATS:
+        text_of_row(rows(format)[-1])
+    systems()
+
+
+def text_of_row(row: Row) -> str:
+    """The documentation of a row, its type, and what becomes of it in the other format."""
+    fact = row.fact
+    documentation = _documentation(row.format)
+    text = documentation.of((row.definition, *row.steps.split("/")), fact)
+    if not text and fact.reference:
+        text = documentation.of_definition(fact.reference)
+    lines = [text, *_facts(row)]
+    goes, fates = destination(row)
+    if goes or fates:
+        lines.append(f"In {_OTHERS[row.format]}: {', '.join(filter(None, (goes, fates)))}.")
+    return "\n\n".join(filter(None, lines))
+
+
+def _facts(row: Row) -> Iterator[str]:
+    fact = row.fact
+    words = [*(["required"] if fact.required else []), *(["may be repeated"] if fact.repeats else [])]
+    words += [fact.type] if fact.type else []
+    words += [f"of the dialect of {fact.dialect}"] if fact.dialect else []
+    if words:
+        yield f"*{', '.join(words)}*"
+    values = [*fact.enum, *(f"{value} ({dialect})" for value, dialect in fact.also)]
+    if values:
+        yield f"One of {', '.join(f'`{value}`' for value in values)}."
+
+
+@cache
+def _documentation(format: FormatName) -> Documentation:
+    return Documentation(table(format))
+
+
+def _parts(session: Session, document: Document, cursor: Cursor, offset: int) -> Iterator[str]:
+    name = name_at(document, offset)
+    if name is not None:
+        yield from _of_name(session, document, name)
+    node = cursor.node
+    if node is None:
+        return
+    if node.tag.startswith(PREFIX):
+        yield from _of_xacro(node, cursor)
+    attribute = cursor.attribute if cursor.kind in {Kind.ATTRIBUTE, Kind.VALUE} else None
+    if attribute is None and cursor.kind is Kind.ATTRIBUTE:
+        return
+    yield from _of_plugin(node, cursor)
+    row = document.schema.row(node, attribute)
+    if row is not None:
+        shown = f"`@{attribute}`" if attribute else f"`<{node.tag}>`"
+        yield f"**{shown}** in {row.format.upper()} `{row.definition}`\n\n{text_of_row(row)}"
+
+
+def _of_name(session: Session, document: Document, name: Name) -> Iterator[str]:
+    """Where a name is defined."""
+    if name.defines:
+        return
+    group = session.neighbors.included(document, search_of(session, document))
+    for found in meant_by(Found(document, name), group, session)[:1]:
+        line = found.document.positions.position(found.name.span.start).line + 1
+        where = "" if found.document.path == document.path else f" of {found.document.path.name}"
+        tag = found.name.node.start_tag.of(found.document.text)[:_LONGEST]
+        yield f"{found.name.kind} **{found.name.text}**, line {line}{where}\n\n```xml\n{tag}\n```"
+
+
+def _of_xacro(node: Node, cursor: Cursor) -> Iterator[str]:
+    known = ELEMENTS.get(node.tag.removeprefix(PREFIX))
+    if known is not None and cursor.kind in {Kind.TAG, Kind.END_TAG}:
+        needed, others, text = known
+        attributes = [f"`{each}`" for each in needed] + [f"`{each}` (optional)" for each in others]
+        yield f"**`<{node.tag}>`**\n\n{text}\n\nAttributes: {', '.join(attributes)}."
+
+
+def _of_plugin(node: Node, cursor: Cursor) -> Iterator[str]:
+    parameter = parameter_of(node)
+    if parameter is not None and cursor.kind is not Kind.ATTRIBUTE:
+        yield f"**`<{node.tag}>`** of the plugin\n\n{described(parameter)}"
+    elif node.tag == "plugin" and cursor.kind in {Kind.TAG, Kind.VALUE}:
+        kind = kind_of(node)
+        if kind is not None:
+            yield _plugin(kind)
+
+
+def _plugin(kind: PluginKind) -> str:
+    needed = [f"`<{each.name}>`" for each in kind.parameters if each.is_required]
+    lines = [f"**{kind.name}**: `{kind.file}`, class `{kind.class_name}`", f"Stands in: {', '.join(kind.scopes)}."]
+    lines += [f"Required: {', '.join(needed)}."] if needed else []
+    lines += [f"In {', '.join(sorted(kind.releases))}."] if kind.releases else []
+    return "\n\n".join(lines)
+
+
+def _findings(session: Session, document: Document, offset: int) -> list[str]:
+    """The pages of the rules that found something at an offset."""
+    pages: dict[str, str] = {}
+    for found in session.findings(document):
+        here = span_of(found.location, document)
+        if here.start <= offset <= here.end and found.rule.name not in pages:
+            pages[found.rule.name] = _page(found)
+    return list(pages.values())
+
+
+def _page(found: Diagnostic) -> str:
+    try:
+        known = find_rule(found.rule.name)
+    except RuleRegistryError:
+        known = None
+    rule = known.rule if known is not None else found.rule
+    return f"**{rule.name}**: {rule.finds}\n\n{rule.matters}\n\nBetter:\n\n{rule.better}"

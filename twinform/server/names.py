@@ -1,0 +1,209 @@
+"""Names in a document: what is defined, and what refers to it by its name.
+
+Which attributes and texts are references is known from the fields of the IR that they fill (`ir/references.py`); in
+plugins and other parts without a typed form, the name of the parameter shows it, as `rename` goes by.
+"""
+
+from collections.abc import Iterator
+from functools import cache
+
+from twinform.compiler.input.limits import MOST_ATTRIBUTES
+from twinform.diagnostics import Span
+from twinform.ir import Element
+from twinform.ir.references import REFERENCES, ReferenceKind
+from twinform.passes.structure.reference_words import kind_of_attribute, kind_of_text
+from twinform.server.documents import Document
+from twinform.server.mapping.rows import FormatName, Row
+from twinform.server.mapping.targets import field_of
+from twinform.server.name import Name
+from twinform.server.schema import is_of_xacro
+from twinform.server.tree import Node
+from twinform.server.xacro_names import XACRO_KINDS, meant, xacro_names
+
+DEFINED = ("link", "joint", "frame", "model", "material", "sensor")
+"""What is called by its attribute `name`, and can be found by it."""
+_SCOPES = frozenset({"model", "world", "robot"})
+_STATES = frozenset({"model", "model_state"})
+_FIELDS: dict[str, ReferenceKind] = {
+    f"{node.__name__}.{field}": kind for node, fields in REFERENCES.items() for field, kind in fields.items()
+}
+
+
+def names_of(document: Document) -> tuple[Name, ...]:
+    """All names in a document, in the order of the text."""
+    return document.once(_collected)
+
+
+def defined(document: Document, text: str) -> list[Name]:
+    """The definitions of a name, whatever of."""
+    return document.once(_by_text).get(text, [])
+
+
+def _collected(document: Document) -> tuple[Name, ...]:
+    """All names; those of models first, then those of xacro."""
+    return (*_names(document), *xacro_names(document))
+
+
+def _by_text(document: Document) -> dict[str, list[Name]]:
+    found: dict[str, list[Name]] = {}
+    for each in names_of(document):
+        if each.defines:
+            found.setdefault(each.text, []).append(each)
+    return found
+
+
+def name_at(document: Document, offset: int) -> Name | None:
+    """The name around an offset; the innermost, where one is in an expression that is in another."""
+    around = [each for each in names_of(document) if each.span.start <= offset <= each.span.end]
+    return min(around, key=lambda each: each.span.end - each.span.start, default=None)
+
+
+def _names(document: Document) -> Iterator[Name]:
+    for node in document.tree.nodes:
+        if node.tag and not is_of_xacro(node.tag) and len(node.attributes) <= MOST_ATTRIBUTES:
+            yield from _of_attributes(document, node)
+            yield from _of_text(document, node)
+
+
+def _of_attributes(document: Document, node: Node) -> Iterator[Name]:
+    for attribute, span in node.attributes.items():
+        value = node.values[attribute]
+        if not value:
+            continue
+        if attribute == "name" and _defines(document, node):
+            yield Name(value, span.value, node, node.tag, defines=True, scope=_scope(node.parent))
+            continue
+        if attribute == "name" and node.tag in _STATES and _in_state(node):
+            yield Name(value, span.value, node, "model", defines=False)
+            continue
+        kind = kind_at(document, node, attribute)
+        if kind is not None:
+            yield from _steps(value, span.value, node, kind)
+
+
+def _steps(text: str, span: Span, node: Node, kind: str) -> Iterator[Name]:
+    """A reference; of `model::part` each step on its own, known by all the steps before it."""
+    start = span.start
+    for step in text.split("::"):
+        end = start + len(step)
+        last = end == span.end
+        whole = text[: end - span.start]
+        if step:
+            scope = scope_of_reference(node)
+            yield Name(whole, Span(start, end), node, kind if last else "model", defines=False, scope=scope)
+        start = end + len("::")
+
+
+def _of_text(document: Document, node: Node) -> Iterator[Name]:
+    if node.children or node.empty or not node.closed:
+        return
+    kind = kind_at(document, node, None)
+    names_include = node.tag == "name" and node.parent is not None and node.parent.tag == "include"
+    if kind is None and not names_include:
+        return
+    span = document.tree.text_of(node)
+    text = span.of(document.text)
+    if names_include and text and node.parent is not None:
+        yield Name(text, span, node.parent, "model", defines=True, scope=_scope(node.parent))
+    elif kind is not None and text and "<" not in text:
+        yield from _steps(text, span, node, kind)
+
+
+def _defines(document: Document, node: Node) -> bool:
+    """Whether an element is what its name calls, and not something that refers to it."""
+    if node.tag not in DEFINED or (node.tag == "model" and _in_state(node)):
+        return False
+    row = document.schema.row(node)
+    if row is None:
+        return document.schema.place(node) is None and _is_misplaced(document, node)
+    if node.tag == "material":
+        return row.format == "urdf" and (row.definition == "robot" or bool(node.children))
+    return row.fact.place is not None or row.fact.reference in DEFINED
+
+
+def _is_misplaced(document: Document, node: Node) -> bool:
+    """Whether it stands where the facts have no such element, as while the element before it is not closed yet."""
+    return not document.tree.whole and any(child.tag for child in node.children)
+
+
+def kind_at(document: Document, node: Node, attribute: str | None) -> ReferenceKind | None:
+    """What an attribute, or the text of an element, names."""
+    row = document.schema.row(node, attribute)
+    if row is not None and row.fact.place is not None and row.fact.place != ".":
+        return _FIELDS.get(_field(row))
+    if _is_typed(document, node):
+        return None
+    element = Element.unchecked(name=node.tag, attributes=tuple(node.values.items()))
+    if attribute is None:
+        return kind_of_text(element, node.parent.tag if node.parent else "")
+    if attribute == "name" and node.tag in {"sensor", "plugin", "frame", "param"}:
+        return None
+    return kind_of_attribute(element, attribute)
+
+
+def _is_typed(document: Document, node: Node) -> bool:
+    """Whether the IR knows the element, so that what refers to something in it is known too."""
+    row = document.schema.row(node)
+    return row is not None and row.fact.place is not None
+
+
+@cache
+def _field(row: Row) -> str:
+    """The field of the IR that a row fills, whatever kind of node it is in."""
+    return field_of(row).partition(":")[0]
+
+
+def _scope(node: Node | None) -> Node | None:
+    """The model or world around a place."""
+    while node is not None and node.tag not in _SCOPES:
+        node = node.parent
+    return node
+
+
+def scope_of_reference(node: Node) -> Node | None:
+    """The scope of what an element refers to: for the pose of a model itself that around the model."""
+    scope = _scope(node)
+    if scope is not None and node.tag == "pose" and node.parent is scope:
+        return _scope(scope.parent)
+    return scope
+
+
+def found_in(document: Document, name: Name) -> list[Name]:
+    """The definitions that a name means in a document: of the first kind that has any, in the nearest scope."""
+    scope = _model_of_state(document, name.scope)
+    text = name.text
+    format: FormatName | None = document.schema.format
+    if format == "sdf" and "::" in text:
+        return _inside(document, name)
+    candidates = defined(document, text)
+    if name.kind in XACRO_KINDS:
+        return meant(name, candidates)
+    for kind in name.kinds:
+        own = [each for each in candidates if each.kind == kind]
+        own = [each for each in own if format == "urdf" or each.scope is scope] if scope else own
+        if own:
+            return own
+    return []
+
+
+def _in_state(node: Node) -> bool:
+    """Whether an element records the state of a world, so that its models are those of the world."""
+    return any(each.tag == "state" for each in node.above())
+
+
+def _model_of_state(document: Document, scope: Node | None) -> Node | None:
+    """The model whose state an element records; any other scope itself."""
+    if scope is None or not _in_state(scope):
+        return scope
+    called = defined(document, scope.get("name") or "")
+    return next((each.node for each in called if each.kind == "model"), scope)
+
+
+def _inside(document: Document, name: Name) -> list[Name]:
+    """What `inner::name` means: the last of its words, in models of these names in each other."""
+    *outer, last = name.text.split("::")
+    scopes: list[Node | None] = [name.scope]
+    for step in outer:
+        scopes = [each.node for each in defined(document, step) if each.kind == "model" and each.scope in scopes]
+    own = [each for each in defined(document, last) if each.scope in scopes]
+    return [each for each in own if each.kind in name.kinds][:1]

@@ -1,0 +1,133 @@
+"""One session of an editor: its documents, what was found in them, and how that is shown."""
+
+import os
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from lsprotocol import types
+
+from twinform.diagnostics import Diagnostic
+from twinform.server.checking import Checked, Job
+from twinform.server.diagnostics import as_protocol, by_file, notice
+from twinform.server.documents import Document, Documents
+from twinform.server.files import Files
+from twinform.server.includes import Neighbors
+from twinform.server.scheduling import PAUSE, Checks
+from twinform.server.settings import SettingsOf
+from twinform.server.workers import Worker
+
+Publish = Callable[[types.PublishDiagnosticsParams], None]
+_ADVICE = "it is not followed while you type; run `twinform check` on it, and open it again once it is smaller"
+
+
+class Session:
+    """Holds all state of the server. Handlers of requests ask it for documents, and it checks these as they change."""
+
+    def __init__(self, settings_of: SettingsOf, publish: Publish) -> None:
+        self.documents = Documents()
+        self.files = Files(self.documents)
+        self.neighbors = Neighbors(self.files)
+        self.folders: list[Path] = []
+        self.snippets = False
+        self.found: dict[str, tuple[Document, tuple[Diagnostic, ...]]] = {}
+        self.settings_of = settings_of
+        self._publish = publish
+        self.worker = Worker()
+        self._checks = Checks(self.worker, self.job, self._show)
+        self._shown: dict[str, dict[str, list[types.Diagnostic]]] = {}
+        self._read: dict[str, frozenset[str]] = {}
+
+    def opened(self, item: types.TextDocumentItem) -> None:
+        """A document was opened."""
+        document = self.documents.open(item.uri, item.text, item.version, item.language_id)
+        self._changed(document, pause=0)
+
+    def changed(self, params: types.DidChangeTextDocumentParams) -> None:
+        """Something was typed."""
+        item = params.text_document
+        document = self.documents.change(item.uri, params.content_changes, item.version)
+        if document is not None:
+            self._changed(document, PAUSE)
+
+    def closed(self, uri: str) -> None:
+        """A document was closed; what was found on its account is not shown any more."""
+        document = self.documents.state(uri)
+        self.documents.close(uri)
+        self._checks.forget(uri)
+        self.found.pop(uri, None)
+        self._read.pop(uri, None)
+        self._publish_for(uri, {uri: []})
+        if document is not None:
+            self._check_those_that_read(document)
+
+    def stop(self) -> None:
+        """End all that runs."""
+        self._checks.stop()
+        self.worker.stop()
+
+    def findings(self, document: Document) -> tuple[Diagnostic, ...]:
+        """What was found in this very text; nothing while it was not checked yet."""
+        found = self.found.get(document.uri)
+        return found[1] if found is not None and found[0] is document else ()
+
+    def _changed(self, document: Document, pause: float) -> None:
+        if document.excess:
+            self._checks.forget(document.uri)
+            self._publish_for(document.uri, {document.uri: [notice(f"{document.excess}: {_ADVICE}")]})
+        else:
+            self._checks.want(document.uri, pause)
+        self._check_those_that_read(document)
+
+    def _check_those_that_read(self, document: Document) -> None:
+        """Check the documents again that include one."""
+        for uri, files in self._read.items():
+            if uri != document.uri and str(document.path.absolute()) in files:
+                self._checks.want(uri)
+
+    def job(self, uri: str) -> Job | None:
+        """What a task in another process has to know of a document; None for one that is not followed."""
+        document = self.documents.get(uri)
+        if document is None:
+            return None
+        root = document.tree.root
+        is_part = document.is_xacro and root is not None and root.tag == "robot" and root.get("name") is None
+        return Job(document.path.absolute(), self._unsaved(), self.settings_of(document.path), is_part)
+
+    def _unsaved(self) -> Mapping[str, bytes]:
+        return {os.path.realpath(each.path): each.data for each in self.documents if not each.excess}
+
+    async def _show(self, uri: str, outcome: Checked | str) -> None:
+        """Show what came of a check."""
+        document = self.documents.get(uri)
+        if document is None:
+            return
+        if isinstance(outcome, str):
+            self._publish_for(uri, {uri: [notice(outcome)]})
+            return
+        self._read[uri] = outcome.files
+        self.found[uri] = (document, outcome.diagnostics)
+        made: dict[str, list[types.Diagnostic]] = {}
+        for file, found in by_file(outcome.diagnostics, document.path.absolute()).items():
+            of_file = document if file == document.path.absolute() else self.files.document(file)
+            if of_file is not None:
+                made[of_file.uri] = [as_protocol(each, of_file, self.files.document) for each in found]
+        problem = self.settings_of(document.path).problem
+        if problem:
+            made[uri].insert(0, notice(f"the configuration cannot be used: {problem}"))
+        self._publish_for(uri, made)
+
+    def _publish_for(self, uri: str, made: dict[str, list[types.Diagnostic]]) -> None:
+        """Show for each file what is found there on the account of any document that is open."""
+        touched = {*made, *self._shown.get(uri, {})}
+        self._shown[uri] = {file: found for file, found in made.items() if found}
+        for file in sorted(touched):
+            together = [each for own in self._shown.values() for each in own.get(file, ())]
+            state = self.documents.state(file)
+            version = state.version if state is not None else None
+            self._publish(types.PublishDiagnosticsParams(file, _once(together), version))
+
+
+def _once(found: list[types.Diagnostic]) -> list[types.Diagnostic]:
+    """Diagnostics without those that say the same of the same place."""
+    seen = {(each.range.start.line, each.range.start.character, str(each.code), each.message): each for each in found}
+    return list(seen.values())

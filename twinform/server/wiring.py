@@ -1,0 +1,214 @@
+"""The language server itself: which request is answered by which function, on standard input and output."""
+
+import gc
+import logging
+import threading
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from lsprotocol import types
+from pygls.exceptions import JsonRpcInvalidParams
+from pygls.lsp.server import LanguageServer
+
+from twinform import __version__
+from twinform.server.actions import FIX_ALL, RUN_PASSES, actions, edit_of, text_edits, word_of
+from twinform.server.completion import complete
+from twinform.server.documents import Document, path_of
+from twinform.server.editing import Rewritten, lay_out, run_passes
+from twinform.server.folding import folds
+from twinform.server.hover import hover, warm_up
+from twinform.server.links import links
+from twinform.server.navigation import Place, definitions, references, search_of
+from twinform.server.protocol import Protocol
+from twinform.server.renaming import RefusedError, prepare, rename
+from twinform.server.session import Session
+from twinform.server.settings import SettingsOf, no_settings
+from twinform.server.symbols import outline, search
+from twinform.server.workers import TaskError
+
+_SELDOM = (100_000, 50, 100)
+"""When the garbage collector looks: all trees, and all that was imported, take it longer than a key may."""
+Answer = TypeVar("Answer")
+
+
+def serve(settings_of: SettingsOf = no_settings) -> None:
+    """Talk to an editor until it says that it is done."""
+    logging.getLogger("pygls").setLevel(logging.CRITICAL)
+    server = make_server(settings_of)
+    gc.set_threshold(*_SELDOM)
+    server.start_io()
+
+
+def make_server(settings_of: SettingsOf = no_settings) -> LanguageServer:
+    """A server that is ready to start."""
+    server = LanguageServer("twinform", __version__, protocol_cls=Protocol)
+    session = Session(settings_of, server.text_document_publish_diagnostics)
+    _follow_documents(server, session)
+    _answer_at_places(server, session)
+    _answer_about_documents(server, session)
+    _rewrite(server, session)
+    return server
+
+
+def _follow_documents(server: LanguageServer, session: Session) -> None:
+    """Keep documents in step, from the beginning of the session to its end."""
+
+    @server.feature(types.INITIALIZE)
+    def initialize(params: types.InitializeParams) -> None:
+        session.documents.encoding = types.PositionEncodingKind(server.workspace.position_encoding)
+        session.folders = [path_of(each.uri) for each in params.workspace_folders or ()]
+        text = params.capabilities.text_document
+        item = text.completion.completion_item if text and text.completion else None
+        session.snippets = bool(item and item.snippet_support)
+
+    @server.feature(types.INITIALIZED)
+    def initialized(_: types.InitializedParams) -> None:
+        threading.Thread(target=warm_up, daemon=True).start()
+
+    @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
+    def opened(params: types.DidOpenTextDocumentParams) -> None:
+        session.opened(params.text_document)
+
+    @server.feature(types.TEXT_DOCUMENT_DID_CHANGE)
+    def changed(params: types.DidChangeTextDocumentParams) -> None:
+        session.changed(params)
+
+    @server.feature(types.TEXT_DOCUMENT_DID_CLOSE)
+    def closed(params: types.DidCloseTextDocumentParams) -> None:
+        session.closed(params.text_document.uri)
+
+    @server.feature(types.SHUTDOWN)
+    def shutdown(*_: object) -> None:
+        session.stop()
+
+
+def _answer_at_places(server: LanguageServer, session: Session) -> None:
+    """Answer what is asked about a place in a document."""
+
+    def at(params: Any, answer: Callable[[Document, int], Answer], otherwise: Answer) -> Answer:
+        document = session.documents.get(params.text_document.uri)
+        return otherwise if document is None else answer(document, document.positions.offset(params.position))
+
+    @server.feature(types.TEXT_DOCUMENT_HOVER)
+    def hovered(params: types.HoverParams) -> types.Hover | None:
+        return at(params, lambda document, offset: hover(session, document, offset), None)
+
+    @server.feature(types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=list('<"/ :{(')))
+    def completed(params: types.CompletionParams) -> types.CompletionList:
+        nothing = types.CompletionList(is_incomplete=False, items=[])
+        return at(params, lambda document, offset: complete(session, document, offset), nothing)
+
+    @server.feature(types.TEXT_DOCUMENT_DEFINITION)
+    def defined(params: types.DefinitionParams) -> list[types.Location]:
+        return _locations(at(params, lambda document, offset: definitions(session, document, offset), []))
+
+    @server.feature(types.TEXT_DOCUMENT_REFERENCES)
+    def referred(params: types.ReferenceParams) -> list[types.Location]:
+        what, found = at(params, lambda document, offset: references(session, document, offset), ([], []))
+        wanted = [*what, *found] if params.context.include_declaration else found
+        return _locations([each.place for each in wanted])
+
+    @server.feature(types.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT)
+    def highlighted(params: types.DocumentHighlightParams) -> list[types.DocumentHighlight]:
+        what, found = at(params, lambda document, offset: references(session, document, offset), ([], []))
+        own = [each for each in (*what, *found) if each.document.uri == params.text_document.uri]
+        return [types.DocumentHighlight(each.document.positions.range(each.name.span)) for each in own]
+
+    @server.feature(types.TEXT_DOCUMENT_PREPARE_RENAME)
+    def prepared(params: types.PrepareRenameParams) -> types.PrepareRenamePlaceholder | None:
+        return _or_refused(lambda: at(params, prepare, None))
+
+    @server.feature(types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True))
+    def renamed(params: types.RenameParams) -> types.WorkspaceEdit | None:
+        return _or_refused(
+            lambda: at(params, lambda document, offset: rename(session, document, offset, params.new_name), None)
+        )
+
+
+def _answer_about_documents(server: LanguageServer, session: Session) -> None:
+    """Answer what is asked about a whole document."""
+
+    def about(params: Any, answer: Callable[[Document], list[Answer]]) -> list[Answer]:
+        document = session.documents.get(params.text_document.uri)
+        return [] if document is None else answer(document)
+
+    @server.feature(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
+    def outlined(params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
+        return about(params, outline)
+
+    @server.feature(types.WORKSPACE_SYMBOL)
+    def searched(params: types.WorkspaceSymbolParams) -> list[types.WorkspaceSymbol]:
+        return search(session, params.query)
+
+    @server.feature(types.TEXT_DOCUMENT_FOLDING_RANGE)
+    def folded(params: types.FoldingRangeParams) -> list[types.FoldingRange]:
+        return about(params, folds)
+
+    @server.feature(types.TEXT_DOCUMENT_DOCUMENT_LINK)
+    def linked(params: types.DocumentLinkParams) -> list[types.DocumentLink]:
+        return about(params, lambda document: links(document, search_of(session, document)))
+
+    @server.feature(
+        types.TEXT_DOCUMENT_CODE_ACTION,
+        types.CodeActionOptions(
+            code_action_kinds=[types.CodeActionKind.QuickFix, types.CodeActionKind.RefactorRewrite, FIX_ALL]
+        ),
+    )
+    def acted(params: types.CodeActionParams) -> list[types.CodeAction]:
+        only = None if params.context.only is None else [word_of(each) for each in params.context.only]
+        return about(params, lambda document: actions(session, document, params.range, only))
+
+
+def _rewrite(server: LanguageServer, session: Session) -> None:
+    """Change documents as a whole, in the process of the worker."""
+
+    @server.feature(types.TEXT_DOCUMENT_FORMATTING)
+    async def format_document(params: types.DocumentFormattingParams) -> list[types.TextEdit]:
+        document, done = await _rewritten(session, params.text_document.uri, lay_out)
+        if document is None:
+            _tell(server, f"The document cannot be formatted: {done.problem}")
+            return []
+        return text_edits(document, done.edits)
+
+    @server.command(RUN_PASSES)
+    async def run(uri: str, pipeline: str) -> None:
+        document, done = await _rewritten(session, uri, run_passes, pipeline)
+        if document is None:
+            _tell(server, f"{pipeline} has changed nothing: {done.problem}")
+        elif not done.edits:
+            _tell(server, f"{pipeline} has nothing to change")
+        else:
+            edit = types.ApplyWorkspaceEditParams(edit_of(document, done.edits), f"twinform: {pipeline}")
+            await server.workspace_apply_edit_async(edit)
+
+
+async def _rewritten(
+    session: Session, uri: str, task: Callable[..., Rewritten], *args: str
+) -> tuple[Document | None, Rewritten]:
+    """A document and its edits; no document where there are none, and why."""
+    document, job = session.documents.get(uri), session.job(uri)
+    if document is None or job is None:
+        return None, Rewritten(problem="it is not open, or too large")
+    try:
+        done = await session.worker.run(task, job, *args)
+    except TaskError as error:
+        return None, Rewritten(problem=str(error))
+    if session.documents.get(uri) is not document:
+        return None, Rewritten(problem="the document was changed in the meantime; ask again")
+    return None if done.problem else document, done
+
+
+def _tell(server: LanguageServer, message: str) -> None:
+    server.window_show_message(types.ShowMessageParams(types.MessageType.Warning, message))
+
+
+def _locations(places: list[Place]) -> list[types.Location]:
+    return [types.Location(each.document.uri, each.document.positions.range(each.span)) for each in places]
+
+
+def _or_refused(answer: Callable[[], Answer]) -> Answer:
+    """An answer, or the error of the protocol that shows why there is none."""
+    try:
+        return answer()
+    except RefusedError as error:
+        raise JsonRpcInvalidParams(str(error)) from error

@@ -1,0 +1,58 @@
+"""The process that works for the server: what takes long, or what a document may break, is not done in the server."""
+
+import asyncio
+from collections.abc import Callable
+from concurrent.futures import BrokenExecutor, Future
+from typing import ParamSpec, TypeVar
+
+from pebble import ProcessExpired
+
+from twinform.compiler.workers.processes import ProcessExecutor
+
+Arguments = ParamSpec("Arguments")
+Result = TypeVar("Result")
+_SECONDS = 30.0
+"""The longest task; to check the largest document that is followed takes a tenth of it."""
+
+
+class TaskError(Exception):
+    """A task has no result; the message tells why."""
+
+
+class Worker:
+    """One process. A task that takes too long is ended with it, and the next one gets another."""
+
+    def __init__(self, seconds: float = _SECONDS) -> None:
+        self._seconds = seconds
+        self._executor = ProcessExecutor(1, seconds)
+
+    async def run(self, task: Callable[Arguments, Result], *args: Arguments.args, **kwargs: Arguments.kwargs) -> Result:
+        """The result of a task.
+
+        Raises:
+            TaskError: it has none.
+        """
+        try:
+            return await asyncio.wrap_future(self._submit(task, *args, **kwargs))
+        except TimeoutError as error:
+            raise TaskError(f"it took longer than {self._seconds:g} seconds and was ended") from error
+        except ProcessExpired as error:
+            raise TaskError(f"its process died (exit code {error.exitcode})") from error
+        except BrokenExecutor as error:
+            raise TaskError(f"its process cannot be started: {error}") from error
+        except Exception as error:
+            raise TaskError(f"this is a fault of twinform: {error!r}") from error
+
+    def stop(self) -> None:
+        """End the process."""
+        self._executor.shutdown()
+
+    def _submit(
+        self, task: Callable[Arguments, Result], *args: Arguments.args, **kwargs: Arguments.kwargs
+    ) -> Future[Result]:
+        try:
+            return self._executor.submit(task, *args, **kwargs)
+        except BrokenExecutor:  # the process died while it had nothing to do
+            self._executor.shutdown()
+            self._executor = ProcessExecutor(1, self._seconds)
+            return self._executor.submit(task, *args, **kwargs)

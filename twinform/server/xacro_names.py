@@ -1,0 +1,115 @@
+"""Names of xacro in a document: macros, their parameters, properties and arguments, and what refers to them."""
+
+import re
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from twinform.diagnostics import Span
+from twinform.server.documents import Document
+from twinform.server.name import Name
+from twinform.server.tree import Node
+
+PREFIX = "xacro:"
+ELEMENTS: dict[str, tuple[tuple[str, ...], tuple[str, ...], str]] = {
+    "macro": (("name", "params"), (), "A piece of the model with parameters, to be used by its name."),
+    "property": (("name", "value"), ("default", "scope", "remove", "lazy_eval"), "A value, or a block, with a name."),
+    "arg": (("name",), ("default",), "An argument of the file, which whoever reads it may give."),
+    "include": (("filename",), ("ns", "optional"), "Another file, whose content stands here."),
+    "if": (("value",), (), "What is in it stands here if the value is true."),
+    "unless": (("value",), (), "What is in it stands here if the value is false."),
+    "insert_block": (("name",), (), "The block that was given to the macro, or a property that holds one."),
+    "call": (("macro",), (), "A macro whose name is known only when it is expanded."),
+    "element": (("xacro:name",), (), "An element whose name is known only when it is expanded."),
+    "attribute": (("name", "value"), (), "An attribute of the element around it, whose name may be an expression."),
+}
+"""The elements of xacro: the attributes that each needs, those that it may have, and what it means."""
+XACRO_KINDS = frozenset({"macro", "property", "arg", "param"})
+_DEFINES = {"xacro:macro": "macro", "xacro:property": "property", "xacro:arg": "arg"}
+_EXPRESSION = re.compile(r"\$\{(?P<expression>[^}]*)\}?|\$\(arg\s+(?P<arg>[^\s)]+)")
+_WORD = re.compile(r"""'[^']*'|"[^"]*"|(?<![\w.])(?P<word>[A-Za-z_]\w*)""")
+_PARAMETER = re.compile(r"[*^|]*(?P<name>[A-Za-z_][\w.]*)(?:\s*:?=\s*(?:'[^']*'|\"[^\"]*\"|\S+))?")
+_RESERVED = frozenset(["and", "or", "not", "if", "else", "for", "in", "is", "True", "False", "None", "lambda"])
+
+
+def xacro_names(document: Document) -> Iterator[Name]:
+    """All names of xacro in a document."""
+    if "xacro" not in document.text:
+        return
+    for node in document.tree.nodes:
+        if node.tag.startswith(PREFIX):
+            yield from _of_element(node)
+        if "$" in node.start_tag.of(document.text):
+            for attribute, span in node.attributes.items():
+                yield from _in_expressions(node.values[attribute], span.value.start, node)
+        if not node.children and not node.empty and node.closed:
+            inside = node.content
+            yield from _in_expressions(inside.of(document.text), inside.start, node)
+
+
+def meant(name: Name, candidates: list[Name]) -> list[Name]:
+    """The definitions that a name of xacro means: a parameter of the macro around it, or else what is of its kind."""
+    own = [each for each in candidates if each.kind == "param" and each.scope is not None and _is_in(name, each.scope)]
+    if own and name.kind in {"property", "param"}:
+        return own[-1:]
+    return [each for each in candidates if each.kind == name.kind]
+
+
+class Parameter(NamedTuple):
+    """A parameter of a macro. One that has no default is `needed`, unless it is a `block`, which is an element."""
+
+    name: str
+    written: str
+    needed: bool
+    block: bool
+
+
+def parameter_names(macro: Node) -> list[Parameter]:
+    """The parameters of a macro, in their order."""
+    return [
+        Parameter(found["name"], found[0], "=" not in found[0] and found[0][0] != "*", found[0][0] == "*")
+        for found in _PARAMETER.finditer(macro.get("params") or "")
+    ]
+
+
+def _is_in(name: Name, node: Node) -> bool:
+    return node.start_tag.start <= name.span.start <= node.end
+
+
+def _of_element(node: Node) -> Iterator[Name]:
+    kind = _DEFINES.get(node.tag)
+    called = node.get("name")
+    if kind is not None and called:
+        yield Name(called, node.attributes["name"].value, node, kind, defines=True)
+    if node.tag == "xacro:macro" and "params" in node.attributes:
+        start = node.attributes["params"].value.start
+        for found in _PARAMETER.finditer(node.values["params"]):
+            span = Span(start + found.start("name"), start + found.end("name"))
+            yield Name(found["name"], span, node, "param", defines=True, scope=node)
+    if node.tag == "xacro:insert_block" and called:
+        yield Name(called, node.attributes["name"].value, node, "property", defines=False)
+    if node.tag == "xacro:call" and node.get("macro"):
+        yield Name(node.values["macro"], node.attributes["macro"].value, node, "macro", defines=False)
+    local = node.tag.removeprefix(PREFIX)
+    if local and local not in ELEMENTS:
+        yield from _of_call(node, local)
+
+
+def _of_call(node: Node, macro: str) -> Iterator[Name]:
+    yield Name(macro, Span(node.name.start + len(PREFIX), node.name.end), node, "macro", defines=False)
+    if node.end_tag is not None:
+        start = node.end_tag.start + len("</") + len(PREFIX)
+        yield Name(macro, Span(start, start + len(macro)), node, "macro", defines=False)
+
+
+def _in_expressions(text: str, start: int, node: Node) -> Iterator[Name]:
+    for found in _EXPRESSION.finditer(text):
+        if found["arg"]:
+            yield Name(
+                found["arg"], Span(start + found.start("arg"), start + found.end("arg")), node, "arg", defines=False
+            )
+            continue
+        inside = start + found.start("expression")
+        for word in _WORD.finditer(found["expression"]):
+            if word["word"] and word["word"] not in _RESERVED:
+                span = Span(inside + word.start("word"), inside + word.end("word"))
+                yield Name(word["word"], span, node, "property", defines=False)
