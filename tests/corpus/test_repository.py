@@ -50,7 +50,7 @@ def test_lines_may_move(repository: Path) -> None:
     [
         (str(HOUSE), "</world>", "", 2, "[not-well-formed]"),
         (str(WORLD), "twinform: allow indefinite-inertia", "allow indefinite-inertia", 1, "[indefinite-inertia]"),
-        ("robots/parts.xacro", 'link="${side}_tool"', 'link="${side}_tol"', 1, "robots/parts.xacro:7: error: "),
+        ("robots/parts.xacro", 'link="${side}_tool"', 'link="${side}_tol"', 1, "robots/parts.xacro:7:20: error: "),
         ("robots/arm.urdf.xacro", '<link name="base"/>', '<link name="base" mass="1"/>', 1, "[unknown-attribute]"),
         ("twinform.toml", "strict = true", "strict = 1", 2, "twinform.toml: files[0].strict: "),
     ],

@@ -71,7 +71,7 @@ def test_a_uri_leads_nowhere_that_it_must_not(command: tuple[str, ...], uri: str
     (folder / "robot.sdf").write_text(_model(_include(uri)))
     outcome = twinform(*command, "robot.sdf", folder=folder)
     assert (outcome.code, rules(outcome.output)) == (1, [rule]), outcome.output[:2000]
-    assert outcome.output.startswith("robot.sdf:1: ")
+    assert outcome.output.startswith("robot.sdf:1:")
     assert len(outcome.output) < 10_000
     assert outcome.opened == {str(folder / "robot.sdf")}
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
 
+from twinform.compiler.fixing import with_fixes
 from twinform.compiler.input.finding_spans import with_columns
 from twinform.compiler.input.loading import read
 from twinform.compiler.input.options import LoadOptions, LoadResult
@@ -62,4 +63,4 @@ def _is_of_whole_robot(found: Diagnostic) -> bool:
 def findings_of(loaded: LoadResult, unsaved: Mapping[str, bytes]) -> tuple[Diagnostic, ...]:
     """What was found, with columns, and with fixes where there are any: the one place where both come in."""
     files = SourceFiles({**unsaved, **SourceFiles.of(loaded).contents})
-    return with_columns(loaded.diagnostics, files)
+    return with_columns(with_fixes(loaded), files)

@@ -215,7 +215,7 @@ def test_what_changes_is_checked_again_until_ctrl_c(watching: Watching, tmp_path
     watching.wait_for("[unknown-element]")
     watching.wait_for("1 file: 0 errors, 1 warning, 0 notes\n")
     (tmp_path / "new.urdf").write_text(WRONG)
-    watching.wait_for("new.urdf:3: error: ")
+    watching.wait_for("new.urdf:3:4: error: ")
     watching.wait_for("watching 3 files; Ctrl-C ends\n")
     watching.process.send_signal(signal.SIGINT)
     assert watching.process.wait(timeout=60) == 130

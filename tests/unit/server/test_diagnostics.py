@@ -21,6 +21,7 @@ ROBOT = """<robot name="r">
   </joint>
 </robot>
 """
+LINKS = '<link name="base"/><link name="base2"/>'
 Steps = Callable[[Editor], Coroutine[Any, Any, None]]
 
 
@@ -49,6 +50,22 @@ def test_findings_stand_at_the_piece_that_is_wrong_and_go_when_it_is_right(tmp_p
         version = one.change(uri, ((2, 27, 2, 28), "ed"), ((1, 2, 1, 2), '<link name="arm"/>'))
         assert codes(await one.diagnostics(uri, version)) == []
         one.close(uri)
+
+    run(tmp_path, steps)
+
+
+def test_a_finding_is_fixed_with_one_key(tmp_path: Path) -> None:
+    async def steps(one: Editor) -> None:
+        uri = one.open(tmp_path / "robot.urdf", ROBOT.replace("arm", "base2").replace('<link name="base"/>', LINKS))
+        (found,) = await one.diagnostics(uri)
+        context = types.CodeActionContext([found], only=[types.CodeActionKind.QuickFix])
+        params = types.CodeActionParams(types.TextDocumentIdentifier(uri), found.range, context)
+        (action, *_) = await one.request(types.TEXT_DOCUMENT_CODE_ACTION, params)
+        (edit,) = action.edit.changes[uri]
+        assert (edit.new_text, edit.range) == ("fixed", found.range)
+        start, end = edit.range.start, edit.range.end
+        version = one.change(uri, ((start.line, start.character, end.line, end.character), edit.new_text))
+        assert codes(await one.diagnostics(uri, version)) == []
 
     run(tmp_path, steps)
 

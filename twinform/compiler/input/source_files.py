@@ -7,6 +7,7 @@ from pathlib import Path
 from twinform.compiler.input.limits import LARGEST
 from twinform.compiler.input.options import LoadResult
 from twinform.compiler.input.regular_files import read_regular
+from twinform.diagnostics.rules.xacro import XACRO_REFUSED
 from twinform.schemas import XmlElement
 from twinform.text import Lines, SourceText
 
@@ -27,7 +28,9 @@ class SourceFiles:
 
     @classmethod
     def of(cls, loaded: LoadResult) -> "SourceFiles":
-        """Those of a file that was read."""
+        """Those of a file that was read; what was refused unread stays so."""
+        if any(each.rule is XACRO_REFUSED for each in loaded.diagnostics):
+            return cls(_read={loaded.path: None})
         was_made = any(name.startswith(f"{loaded.path} (") for name in loaded.origins)
         if was_made or loaded.content is None:
             return cls()

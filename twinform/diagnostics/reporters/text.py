@@ -21,7 +21,7 @@ def _plain(word: str, _: Severity) -> str:
 
 
 def text(files: Sequence[Findings], paint: Paint = _plain, *, every: bool = False) -> str:
-    """`file:line:column: severity: headline [rule]`, then XML path, source line, related places, fix and help.
+    """`file:line:column: severity: headline [rule]`, then XML path, source line, related places, help and fix.
 
     Findings of one cause are one, with a count, unless `every` one is wanted. Empty without findings.
     """
@@ -51,10 +51,10 @@ def _of(group: Group, file: Findings, paint: Paint) -> Iterator[str]:
         yield f"    also at {_also(others)}"
     for other in diagnostic.related:
         yield f"    see {_place(other, file.path)}{f': {printable(other.path)}' if other.path else ''}"
-    if diagnostic.fix is not None:
-        yield f"    fix ({diagnostic.fix.safety}): {printable(diagnostic.fix.title)}"
     for number, line in enumerate((diagnostic.help or "").splitlines()):
         yield f"    {'      ' if number else 'help: '}{printable(line)}"
+    if diagnostic.fix is not None:
+        yield f"    fix ({diagnostic.fix.safety}): {printable(diagnostic.fix.title)}"
 
 
 def _headline(diagnostic: Diagnostic, file: str, paint: Paint) -> str:
