@@ -2,10 +2,14 @@
 
 import click
 
+from twinform.cli.command import Command
 from twinform.cli.failure import Unusable
 
 
-@click.command("lsp")
+EXAMPLES = {"What an editor starts; editors/ has the settings of each": "twinform lsp"}
+
+
+@click.command("lsp", cls=Command, examples=EXAMPLES)
 @click.option(
     "--stdio", is_flag=True, help="Talk on standard input and output, which is the only way; for editors that insist."
 )

@@ -250,8 +250,8 @@ def test_text_shows_the_piece_and_the_fix() -> None:
         "      |   <^^>",
         "    see a.urdf:3: /robot",
         "    see other.sdf:5",
-        "    fix (unsafe): write 2",
         "    help: write 2",
+        "    fix (unsafe): write 2",
     ]
 
 

@@ -27,6 +27,7 @@ from twinform.text.tags import Tags
 _WORD = re.compile(r"[\w:.-]+")
 _OF_ROOT = frozenset({reading.UNKNOWN_ROOT, reading.OLD_ROOT})
 """Findings about the root element whatever it is called."""
+_MOST_ON_LINE = 1000
 
 
 def located(loaded: LoadResult) -> tuple[Diagnostic, ...]:
@@ -138,13 +139,13 @@ class FindingSpans:
         return self.tags.element(self.places[element])
 
     def _begun(self, line: int) -> list[ElementSpan]:
-        """The elements that begin on a line."""
+        """The elements that begin on a line; none of them where there are too many to tell one from the others."""
         if not 0 < line <= len(self.lines):
             return []
         begin = self.lines.start(line)
         end = self.lines.start(line + 1) if line < len(self.lines) else len(self.text)
         places = range(bisect_left(self.tags.starts, begin), bisect_left(self.tags.starts, end))
-        return [self.tags.element(place) for place in places]
+        return [self.tags.element(place) for place in places] if len(places) <= _MOST_ON_LINE else []
 
     def _on_line(self, where: Location) -> ElementSpan | None:
         """The only element of this kind that begins on a line, with the attribute if it is about one."""
