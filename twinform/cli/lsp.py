@@ -5,7 +5,6 @@ import click
 from twinform.cli.command import Command
 from twinform.cli.failure import Unusable
 
-
 EXAMPLES = {"What an editor starts; editors/ has the settings of each": "twinform lsp"}
 
 

@@ -46,19 +46,19 @@ class Tags:
         return start_tag_name(self.text, self.starts[place])
 
     def element(self, place: int) -> ElementSpan:
-        """An element with all in it; of one that has very much in it, and is not the root, the start tag alone.
+        """An element with all in it; of one that has very much in it, the start tag alone.
 
         Raises:
             UnplacedError: its end is not found.
         """
         if place not in self._made:
-            self._made[place] = self._element(self._starts[place], len(self._tokens) if place == 0 else _MOST)
+            self._made[place] = self._element(self._starts[place])
         return self._made[place]
 
-    def _element(self, number: int, most: int) -> ElementSpan:
+    def _element(self, number: int) -> ElementSpan:
         open_: list[ElementSpan] = []
         for here in range(number, len(self._tokens)):
-            if here - number > most:
+            if here - number > _MOST:
                 return start_tag(self.text, self._tokens[number][1])
             kind, start, end = self._tokens[here]
             if kind == _ASIDE:

@@ -51,7 +51,7 @@ def test_of_an_element_that_holds_very_much_the_start_tag_is_known() -> None:
     text = f"<a><b c='1'>{'<d/>' * 5000}</b></a>"
     known = Tags(text).element(1)
     assert (known.start_tag, list(known.attributes), known.children) == ((3, 12), ["c"], [])
-    assert Tags(text).element(0) == spans(text)
+    assert Tags(text).element(0).start_tag == spans(text).start_tag
 
 
 @pytest.mark.parametrize("text", ["<a>", "<a><b>", "<a><b></b>"])
