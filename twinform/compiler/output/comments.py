@@ -43,12 +43,30 @@ class Comments:
     """The tree of a file with its comments, and the names that the file has as the source of parts.
 
     `partial` means that not all of it is converted. In the other format comments for twinform itself are `foreign`.
+    Where a file becomes several, only comments `inside` of a part go along, or those `outside` of these.
     """
 
     tree: XmlElement
     files: frozenset[str]
     partial: bool = False
     foreign: bool = False
+    inside: XmlElement | None = None
+    outside: frozenset[XmlElement] = frozenset()
+
+    def travels(self, comment: XmlElement) -> bool:
+        """Whether a comment goes along."""
+        if self.foreign and _OWN.match(comment.text or ""):
+            return False
+        if self.inside is None and not self.outside:
+            return True
+        around = set(comment.iterancestors())
+        return (self.inside is None or self.inside in around) and not around & self.outside
+
+    def element(self, source: Source) -> XmlElement | None:
+        """The element of a part."""
+        path = source.path.replace(_FIRST, "")
+        found = (each for each in self.tree.iter(_last_name(path)) if each.sourceline == source.line)
+        return next((each for each in found if path_of(each).replace(_FIRST, "") == path), None)
 
 
 @dataclass(slots=True)
@@ -81,6 +99,10 @@ class Placed:
         declaration, _, rest = text.partition("\n")
         bottom = "".join(f"{each}\n" for each in self.bottom)
         return "".join((f"{declaration}\n", *(f"{each}\n" for each in self.top), rest, bottom))
+
+
+def _last_name(path: str) -> str:
+    return path.rpartition("/")[2].partition("[")[0]
 
 
 def place_comments(comments: Comments, root: XmlElement, written: Written) -> Placed:
@@ -116,17 +138,14 @@ class _Placing:
             if each is None:
                 before_root = False
                 for number, comment in enumerate(tree.iter(etree.Comment)):
-                    if not self._travels(comment):
+                    if not self.comments.travels(comment):
                         continue
                     if number < _MOST:
                         self._place(comment)
                     else:
                         self.placed.bottom.append(_text(comment))
-            elif each.tag is etree.Comment and self._travels(each):
+            elif each.tag is etree.Comment and self.comments.travels(each):
                 (self.placed.top if before_root else self.placed.bottom).append(_text(each))
-
-    def _travels(self, comment: XmlElement) -> bool:
-        return not (self.comments.foreign and _OWN.match(comment.text or ""))
 
     def _place(self, comment: XmlElement) -> None:
         made = etree.Comment(_legal(comment.text or ""))

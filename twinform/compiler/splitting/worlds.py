@@ -5,7 +5,7 @@ would lose something stays SDF, and a warning gives the reason.
 """
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -13,7 +13,9 @@ from twinform.compiler.driver import has_mixed_words, mixed_words, written
 from twinform.compiler.errors import CompileError
 from twinform.compiler.includes.expanding import expand
 from twinform.compiler.includes.other_documents import OtherDocuments
+from twinform.compiler.input.comments import comments_of
 from twinform.compiler.input.loading import Input, LoadOptions, garbage_collection_paused, read
+from twinform.compiler.output.comments import Comments
 from twinform.compiler.output.emitting import emit_legal
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.search.uris import LocalAssets
@@ -29,7 +31,7 @@ from twinform.ir.transform import Transform
 from twinform.ir.verify import verify
 from twinform.passes import PassInstrumentation
 from twinform.passes.includes import detach, links_named_around
-from twinform.schemas import table
+from twinform.schemas import XmlElement, table
 
 _UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
 """What some file system or shell would not take in a name."""
@@ -96,7 +98,8 @@ def split(
             document, there = moved(document, assets, folder, sink)
             request = replace(request, assets=there)
         kept = mixed_words(checked) if checked.mixed else None
-        files = _Files(request, sink, instrumentation, kept, _name_of_world(checked.path))
+        comments = comments_of(checked, document, Format.SDF, None) if request.comments else None
+        files = _Files(request, sink, instrumentation, kept, _name_of_world(checked.path), comments)
         if not sink.has_errors:
             files.add(document)
         if sink.has_errors:
@@ -136,6 +139,7 @@ class _Files:
     instrumentation: PassInstrumentation | None
     kept: frozenset[str] | None
     name: str
+    comments: Comments | None
     texts: dict[str, str] = field(default_factory=dict[str, str])
     urdf: dict[int, _Urdf] = field(default_factory=dict[int, _Urdf])
     """The models that become URDF, by their identity."""
@@ -152,7 +156,8 @@ class _Files:
         self._choose(document, document.models, {})
         includes = (*document.includes, *(self._include(document, each, each.pose) for each in document.models))
         rest = document.model_copy(update={"worlds": tuple(worlds), "models": (), "includes": includes})
-        self.texts[self.name] = self._sdf(rest)
+        models = (*document.models, *(each for world in document.worlds for each in world.models))
+        self.texts[self.name] = self._sdf(rest, self._comments_around(models))
 
     def _bases(self, models: tuple[Model, ...]) -> Iterator[tuple[str, str]]:
         """The frame of each model in URDF that is where it was: its own, or else that of its root."""
@@ -177,7 +182,8 @@ class _Files:
         """The model as URDF, or why it cannot be."""
         alone = _alone(document, model.model_copy(update={"pose": None, "placement_frame": None}))
         sink = DiagnosticSink(self.sink.file, self.sink.strict, origins=self.sink.origins, allows=self.sink.allows)
-        made, text = emit_legal(alone, self.request.legalisation(alone), sink, self.instrumentation)
+        comments = self._comments_in(model, foreign=True)
+        made, text = emit_legal(alone, self.request.legalisation(alone), sink, self.instrumentation, comments=comments)
         wrong = [each for each in sink.diagnostics if each.is_error or each.rule is UNSAYABLE_SHAPE]
         if wrong:
             return None, wrong[0].message
@@ -196,16 +202,36 @@ class _Files:
         made = self.urdf.get(id(model))
         file = self._name(model.name, "sdf" if made is None else "urdf")
         if made is None:
-            self.texts[file] = self._sdf(_alone(document, model.model_copy(update={"pose": None})))
+            alone = _alone(document, model.model_copy(update={"pose": None}))
+            self.texts[file] = self._sdf(alone, self._comments_in(model))
             pose = pose or (Pose() if model.placement_frame else None)  # its frame is in the file, and its pose is here
             return Include(uri=file, name=model.name, pose=pose, source=model.source)
         self.texts[file] = made.text
         placed = _placed(model, pose, made.root, self.sink)
         return Include(uri=file, name=model.name, pose=placed, static=model.static, source=model.source)
 
-    def _sdf(self, document: Document) -> str:
+    def _sdf(self, document: Document, comments: Comments | None) -> str:
         """The text of what stays SDF, in the version that is asked for."""
-        return written(document, replace(self.request, to="sdf"), self.sink, self.instrumentation, kept=self.kept)[1]
+        request = replace(self.request, to="sdf")
+        return written(document, request, self.sink, self.instrumentation, kept=self.kept, comments=comments)[1]
+
+    def _comments_in(self, model: Model, *, foreign: bool = False) -> Comments | None:
+        """The comments in a model, which go into its file."""
+        inside = self._element(model)
+        if self.comments is None or inside is None:
+            return None
+        return replace(self.comments, partial=True, foreign=foreign, inside=inside)
+
+    def _comments_around(self, models: Iterable[Model]) -> Comments | None:
+        """The comments in no model."""
+        if self.comments is None:
+            return None
+        return replace(
+            self.comments, outside=frozenset(found for each in models if (found := self._element(each)) is not None)
+        )
+
+    def _element(self, model: Model) -> XmlElement | None:
+        return self.comments.element(model.source) if self.comments and model.source else None
 
     def _name(self, model: str, suffix: str) -> str:
         """A file name that every system takes, unlike the others even where case does not count."""
