@@ -7,10 +7,12 @@ import click
 
 from twinform.cli.command import Command
 from twinform.cli.completion import files, pipelines
+from twinform.cli.exclude import exclude_options, exclusion_of
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
+from twinform.cli.files.model_files import is_plain
 from twinform.cli.findings import notes_option, show
 from twinform.cli.fixing import Fixing, mended_source
-from twinform.cli.inputs import InputOptions, file_options, inputs, load_options_of
+from twinform.cli.inputs import InputOptions, file_options, load_options_of, model_inputs
 from twinform.cli.pipeline_option import pipeline_option
 from twinform.cli.policy import policy_of, policy_options
 from twinform.cli.rewriting import Rewrite, show_differences, write_back
@@ -33,7 +35,7 @@ EXAMPLES = {
 
 
 @click.command("fix", cls=Command, examples=EXAMPLES)
-@click.argument("words", metavar="FILE...", nargs=-1, required=True, shell_complete=files)
+@click.argument("words", metavar="IN...", nargs=-1, required=True, shell_complete=files)
 @click.option(
     "--passes",
     metavar="PIPELINE",
@@ -45,6 +47,7 @@ EXAMPLES = {
 @click.option("--diff", is_flag=True, help="Print what would change, and write nothing; exit code 1 if anything.")
 @notes_option
 @policy_options
+@exclude_options
 @file_options
 @click.pass_context
 def command(
@@ -57,15 +60,18 @@ def command(
     notes: bool,
     allow: tuple[str, ...],
     deny: tuple[str, ...],
+    exclude: tuple[str, ...],
+    force_exclude: bool,
     **input_options: Unpack[InputOptions],
 ) -> None:
     """Mend robot models in their files, and run passes on them.
 
-    FILE are URDF or SDF files; - is standard input, which goes to standard output. Only what a fix or a pass changes is
-    changed: comments, layout and the spelling of all else stay. All is written, or, where a pass cannot run, nothing.
-    Exit code: 0 where all went well, 1 with errors, 2 where a file could not be read or written.
+    IN are URDF or SDF files, folders of them, or globs in quotes; - is standard input, which goes to standard output.
+    Only what a fix or a pass changes is changed: comments, layout and the spelling of all else stay. All is written,
+    or, where a pass cannot run, nothing. Exit code: 0 where all went well, 1 with errors, 2 where a file could not be
+    read or written.
     """
-    sources, arguments = inputs(words)
+    sources, arguments = model_inputs(words, exclusion_of(ctx, exclude, force=force_exclude), is_plain)
     policy, load_options = policy_of(ctx, allow, deny), load_options_of(arguments, input_options)
 
     def look(content: str | bytes, name: str) -> LoadResult:

@@ -10,10 +10,12 @@ import click
 from twinform.cli.command import Command
 from twinform.cli.completion import files as files_of
 from twinform.cli.config import config_options
+from twinform.cli.exclude import exclude_options, exclusion_of
 from twinform.cli.failure import FINDINGS, UNUSABLE
+from twinform.cli.files.model_files import is_text
 from twinform.cli.findings import show
-from twinform.cli.inputs import size_option
-from twinform.cli.source import Source, open_source
+from twinform.cli.inputs import model_inputs, size_option
+from twinform.cli.source import Source
 from twinform.compiler import CompileError, write_all_atomically
 from twinform.compiler.formatting import formatted
 from twinform.compiler.input.limits import Limits
@@ -44,13 +46,14 @@ class _Indent(click.ParamType[str]):
 EXAMPLES = {
     "Format a file": "twinform format robot.urdf",
     "Show what would change": "twinform format robot.urdf robot.sdf --diff",
+    "All below a folder": "twinform format .",
     "Fail where a file is not formatted, as in CI": "twinform format robot.sdf --check",
     "Write numbers as short as they can be": "twinform format robot.urdf --numbers shortest",
 }
 
 
 @click.command("format", cls=Command, examples=EXAMPLES)
-@click.argument("files", metavar="FILE...", nargs=-1, required=True, shell_complete=files_of)
+@click.argument("files", metavar="IN...", nargs=-1, required=True, shell_complete=files_of)
 @click.option("--check", is_flag=True, help="Write nothing; list the files that are not formatted, and exit with 1.")
 @click.option("--diff", is_flag=True, help="Write nothing; print what would change, and exit with 1 if anything would.")
 @click.option(
@@ -63,6 +66,7 @@ EXAMPLES = {
     help="Whether numbers keep their spelling, or get the shortest one of the same value.",
 )
 @click.option("--sort-attributes/--no-sort-attributes", help="Put attributes into their usual order.")
+@exclude_options
 @size_option
 @config_options
 @click.pass_context
@@ -75,17 +79,21 @@ def command(
     indent: str,
     numbers: Literal["kept", "shortest"],
     sort_attributes: bool,
+    exclude: tuple[str, ...],
+    force_exclude: bool,
     max_size: int,
 ) -> None:
     """Lay out the text of models, and change nothing else.
 
-    FILE is URDF, SDF, xacro or other XML, and is written anew where it changes; - is standard input, which goes to
-    standard output. Comments and texts, and what they mean, stay as they are. Exit code: 0 formatted, 1 with --check or
-    --diff where something would change, 2 where a file could not be read or written, or is no XML.
+    IN are URDF, SDF, xacro and other XML files, folders of them, or globs in quotes, and are written anew where they
+    change; - is standard input, which goes to standard output. Comments and texts, and what they mean, stay as they
+    are. Exit code: 0 formatted, 1 with --check or --diff where something would change, 2 where a file could not be read
+    or written, or is no XML.
     """
     options, limits = FormatOptions(indent, numbers, sort_attributes), Limits(max_size)
     run = _Run(options, limits, check=check, diff=diff)
-    found = Counter[Outcome](run.file(open_source(name, max_size)) for name in files)
+    sources, _ = model_inputs(files, exclusion_of(ctx, exclude, force=force_exclude), is_text)
+    found = Counter[Outcome](map(run.file, sources))
     click.echo(run.summary(found), err=True)
     would_change = (check or diff) and found["changed"]
     ctx.exit(UNUSABLE if found["unusable"] else FINDINGS if would_change else 0)

@@ -9,6 +9,7 @@ import click
 
 from twinform.cli.config import config_options, settings_of
 from twinform.cli.files import Exclusion, NothingFoundError, PatternError, discover
+from twinform.cli.files.model_files import Kind, is_model
 from twinform.cli.source import Source, open_source
 from twinform.compiler import LoadOptions, SearchPath
 from twinform.compiler.input.limits import LARGEST, MOST_TAGS, Limits, parse_size
@@ -121,15 +122,17 @@ def inputs(words: Sequence[str]) -> tuple[list[Source], dict[str, str]]:
     return _opened(files, arguments), arguments
 
 
-def model_inputs(words: Sequence[str], exclusion: Exclusion) -> tuple[list[Source], dict[str, str]]:
-    """The same, where the files may be folders and globs too: all models there that the exclusion leaves.
+def model_inputs(
+    words: Sequence[str], exclusion: Exclusion, kind: Kind = is_model
+) -> tuple[list[Source], dict[str, str]]:
+    """The same, where the files may be folders and globs too: all of a kind that the exclusion leaves.
 
     Raises:
         click.UsageError: as above, or there is no model.
     """
     files, arguments = _split(words)
     try:
-        return _opened(discover(files, exclusion), arguments), arguments
+        return _opened(discover(files, exclusion, kind), arguments), arguments
     except (NothingFoundError, PatternError) as error:
         raise click.UsageError(str(error)) from error
 

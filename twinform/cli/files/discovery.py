@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from twinform.cli.files.exclusion import Exclusion
+from twinform.cli.files.model_files import XACRO, Kind, is_model
 
 if TYPE_CHECKING:
     from twinform.cli.files.walking import Walk
@@ -17,8 +18,10 @@ class NothingFoundError(ValueError):
     """A folder or pattern leads to no model."""
 
 
-def discover(words: Sequence[str], exclusion: Exclusion) -> list[str]:
-    """What files, folders and globs mean. Named files are always meant, unless the exclusion is enforced.
+def discover(words: Sequence[str], exclusion: Exclusion, kind: Kind = is_model) -> list[str]:
+    """What files, folders and globs mean, where folders hold files of this kind.
+
+    Named files are always meant, unless the exclusion is enforced.
 
     A folder that cannot be listed is among the files: whoever reads it says why.
 
@@ -28,26 +31,24 @@ def discover(words: Sequence[str], exclusion: Exclusion) -> list[str]:
     """
     found: dict[str, str] = {}
     for word in words:
-        for name in _meant(word, exclusion):
+        for name in _meant(word, exclusion, kind):
             found.setdefault(name if name == "-" else os.path.abspath(name), name)  # noqa: PTH100 - links stay links
     return list(found.values())
 
 
-def _meant(word: str, exclusion: Exclusion) -> Iterator[str]:
+def _meant(word: str, exclusion: Exclusion, kind: Kind) -> Iterator[str]:
     if os.path.isdir(word):  # noqa: PTH112 - Path.is_dir raises where a name is too long
         if not (exclusion.force and _is_excluded(word, exclusion, is_folder=True)):
-            yield from _below(word, exclusion)
+            yield from _below(word, exclusion, kind)
     elif _MAGIC & set(word) and not os.path.lexists(word):
-        yield from _fitting(word, exclusion)
-    elif word == "-" or not (exclusion.force and _is_unwanted(word, exclusion)):
+        yield from _fitting(word, exclusion, kind)
+    elif word == "-" or not (exclusion.force and _is_unwanted(word, exclusion, kind)):
         yield word
 
 
-def _is_unwanted(word: str, exclusion: Exclusion) -> bool:
+def _is_unwanted(word: str, exclusion: Exclusion, kind: Kind) -> bool:
     """Whether a file that is named is excluded, or has macros for others and no model."""
-    from twinform.cli.files.model_files import XACRO, is_model  # noqa: PLC0415 - most runs take what is named
-
-    is_part = word.lower().endswith(XACRO) and not is_model(Path(word))
+    is_part = word.lower().endswith(XACRO) and not kind(Path(word))
     return is_part or _is_excluded(word, exclusion)
 
 
@@ -55,13 +56,13 @@ def _is_excluded(word: str, exclusion: Exclusion, *, is_folder: bool = False) ->
     return exclusion.compiled().match(os.path.abspath(word), is_folder=is_folder)  # noqa: PTH100 - links stay links
 
 
-def _below(folder: str, exclusion: Exclusion) -> list[str]:
+def _below(folder: str, exclusion: Exclusion, kind: Kind) -> list[str]:
     from twinform.cli.files.walking import Walk  # noqa: PLC0415 - most runs name their files
 
-    return _some(Walk(folder, exclusion), f"there is no model in {folder}")
+    return _some(Walk(folder, exclusion, kind=kind), f"there is no model in {folder}")
 
 
-def _fitting(pattern: str, exclusion: Exclusion) -> list[str]:
+def _fitting(pattern: str, exclusion: Exclusion, kind: Kind) -> list[str]:
     """What fits a glob, from the last folder on that it names."""
     from twinform.cli.files.patterns import PathPatterns  # noqa: PLC0415 - as above
     from twinform.cli.files.walking import Walk  # noqa: PLC0415 - as above
@@ -70,7 +71,7 @@ def _fitting(pattern: str, exclusion: Exclusion) -> list[str]:
     fixed = next(place for place, part in enumerate(parts) if _MAGIC & set(part))
     top = os.path.join(*parts[:fixed]) if fixed else "."  # noqa: PTH118 - `.` stays
     wanted = PathPatterns.of(top, [f"/{'/'.join(parts[fixed:])}"])
-    return _some(Walk(top, exclusion, wanted, named=not set(parts[-1]) <= {"*"}), f"no model fits {pattern}")
+    return _some(Walk(top, exclusion, wanted, named=not set(parts[-1]) <= {"*"}, kind=kind), f"no model fits {pattern}")
 
 
 def _some(walk: "Walk", problem: str) -> list[str]:

@@ -1,6 +1,7 @@
 """Which files of a folder are models: by their names, and where these leave it open, by a look."""
 
 from pathlib import Path
+from typing import Protocol
 
 XACRO = ".xacro"
 _MODELS = (".urdf", ".sdf", ".world")
@@ -15,8 +16,16 @@ _SHARED = frozenset({"material", "xacro:if", "xacro:unless"})
 """What files of definitions have as well."""
 
 
+class Kind(Protocol):
+    """Whether a file of a folder is meant; `named` means that a pattern was given for its kind of names."""
+
+    def __call__(self, path: Path, /, *, named: bool = False) -> bool:
+        """Look at the name, and at the file where that leaves it open."""
+        ...
+
+
 def is_model(path: Path, *, named: bool = False) -> bool:
-    """Whether a file is a model; `named` means that a pattern was given for its kind of names.
+    """Whether a file is a model.
 
     Not to be read is no reason to leave it out: whoever reads it says so.
     """
@@ -26,6 +35,16 @@ def is_model(path: Path, *, named: bool = False) -> bool:
     if name.endswith(".json"):
         return _JSON_MARK in _start(path, _ENOUGH)
     return named or name.endswith(_MODELS)
+
+
+def is_text(path: Path, *, named: bool = False) -> bool:
+    """Whether a file is laid out as XML: a model, or a file of macros."""
+    return named or path.name.lower().endswith((*_MODELS, XACRO))
+
+
+def is_plain(path: Path, *, named: bool = False) -> bool:
+    """Whether a file is a model whose text is read as it stands, without xacro."""
+    return is_text(path, named=named) and not path.name.lower().endswith((XACRO, ".json"))
 
 
 def _start(path: Path, size: int) -> bytes:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from twinform.cli.files.exclusion import Exclusion
 from twinform.cli.files.gitignore import GitIgnore
-from twinform.cli.files.model_files import is_model
+from twinform.cli.files.model_files import Kind, is_model
 from twinform.cli.files.patterns import PathPatterns
 
 _HIDDEN = "."
@@ -15,12 +15,13 @@ _HIDDEN = "."
 
 @dataclass(slots=True)
 class Walk:
-    """One run through a folder; `wanted` are the files that count, all models without it."""
+    """One run through a folder; `wanted` are the files that count, all of the `kind` without it."""
 
     top: str
     exclusion: Exclusion
     wanted: PathPatterns | None = None
     named: bool = False
+    kind: Kind = is_model
     left_out: int = 0
     excluded: PathPatterns = field(init=False)
 
@@ -64,4 +65,4 @@ class Walk:
         if self.wanted is not None and not self.wanted.match(os.path.abspath(entry.path)):  # noqa: PTH100 - as above
             return False
         is_link_to_folder = entry.is_symlink() and os.path.isdir(entry.path)  # noqa: PTH112 - a circle is no folder
-        return not is_link_to_folder and is_model(Path(entry.path), named=self.named)
+        return not is_link_to_folder and self.kind(Path(entry.path), named=self.named)
