@@ -27,7 +27,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-CASES = {
+CASES: dict[tuple[str, ...], set[str]] = {
     ("format", ".", "--check"): {"a.urdf", "robots/b.urdf", "robots/parts.xacro"},
     ("format", "robots/*", "--check"): {"robots/b.urdf", "robots/parts.xacro"},
     ("format", ".", "build/c.urdf", "--check"): {"a.urdf", "robots/b.urdf", "robots/parts.xacro", "build/c.urdf"},
