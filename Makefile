@@ -125,7 +125,7 @@ bench: $(PEERS) ## how fast it is, beside its peers; writes docs/evidence/perfor
 latency: $(SYNCED) # how long an editor waits for an answer; writes docs/evidence/editor.md
 	$(BIN)/python -m benchmarks.editor docs/evidence/editor.md
 
-vsix: # the extension for Visual Studio Code, which needs npm: editors/vscode/twinform.vsix
+vsix: ## the extension for Visual Studio Code, which needs npm: editors/vscode/twinform.vsix
 	cp LICENSE editors/vscode/LICENSE
 	cd editors/vscode && npm install --silent --no-audit --no-fund && npm run package --silent
 
