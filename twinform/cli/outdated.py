@@ -1,7 +1,6 @@
 """`--check`: whether the files that a command would write are what it would write."""
 
-from collections.abc import Iterator, Sequence
-from difflib import unified_diff
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -9,6 +8,7 @@ import click
 
 from twinform.cli.failure import FINDINGS, Unusable
 from twinform.diagnostics.reporters import printable
+from twinform.text.line_diff import line_diff
 
 if TYPE_CHECKING:
     from twinform.cli.outputs import Output
@@ -45,18 +45,12 @@ def _differs(path: Path, text: str | bytes) -> bool:
         raise Unusable(f"cannot read {path}: {error.strerror}") from error
     if old == new:
         return False
-    lines = list(_difference(str(path), old, new))
+    lines = list(line_diff(str(path), old.decode(errors="replace"), new.decode(errors="replace")))
     for line in lines[:_MOST_LINES]:
-        click.echo(line)
+        click.echo(printable(line.rstrip()))
     if len(lines) > _MOST_LINES:
         click.echo(f"... and {len(lines) - _MOST_LINES} lines more")
     return True
-
-
-def _difference(name: str, old: bytes, new: bytes) -> Iterator[str]:
-    before, after = (data.decode(errors="replace").split("\n") for data in (old, new))
-    for line in unified_diff(before, after, name, f"{name} as it would be written", lineterm="", n=2):
-        yield printable(line).rstrip()
 
 
 def _count(number: int, word: str) -> str:

@@ -3,7 +3,6 @@
 import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from difflib import unified_diff
 from pathlib import Path
 
 import click
@@ -13,8 +12,7 @@ from twinform.cli.outputs import require_as_read
 from twinform.cli.source import Source
 from twinform.compiler import write_all_atomically
 from twinform.text import SourceText, UndecodableError
-
-_NO_NEW_LINE = "\\ No newline at end of file\n"
+from twinform.text.line_diff import line_diff
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,19 +43,14 @@ def show_differences(rewrites: Iterable[Rewrite]) -> bool:
 
 
 def _difference(rewrite: Rewrite) -> str:
-    name = rewrite.source.name
-    before, after = (_lines(data) for data in (rewrite.before, rewrite.after))
-    lines = unified_diff(before, after, name, name)
-    return "".join(line if line.endswith("\n") else f"{line}\n{_NO_NEW_LINE}" for line in lines)
+    return "".join(line_diff(rewrite.source.name, _text(rewrite.before), _text(rewrite.after)))
 
 
-def _lines(data: bytes) -> list[str]:
-    """The lines, which only a line feed ends: a diff has to show what becomes of the others."""
+def _text(data: bytes) -> str:
     try:
-        text = SourceText.of(data).text
+        return SourceText.of(data).text
     except UndecodableError:
-        text = data.decode(errors="replace")
-    return [line + "\n" for line in text.split("\n")[:-1]] + [text.split("\n")[-1]] * (not text.endswith("\n"))
+        return data.decode(errors="replace")
 
 
 def write_back(rewrites: Sequence[Rewrite]) -> None:
