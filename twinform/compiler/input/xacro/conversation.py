@@ -6,6 +6,7 @@ import site
 import subprocess
 import sys
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from importlib.machinery import PathFinder
 from pathlib import Path
 from threading import Timer
@@ -86,6 +87,9 @@ def _ask(path: Path, search: SearchPath, task: Mapping[str, object], folders: tu
         finally:
             timer.cancel()
             process.kill()
+            if process.stdin is not None:
+                with suppress(BrokenPipeError):  # it has died with something left to read
+                    process.stdin.close()
 
 
 def environment() -> dict[str, str]:
