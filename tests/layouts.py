@@ -52,7 +52,7 @@ def _written(document: Document) -> object:
     """What a document is written as, whatever the spelling of numbers and the order of attributes."""
     root = etree.fromstring(dumps(document).encode())
     values = [sorted((name, str(spelled_alike(value))) for name, value in node.items()) for node in root.iter()]
-    return values, [(node.tag, spelled_alike(node.text or "")) for node in root.iter()]
+    return values, [(node.tag, str(spelled_alike(node.text or ""))) for node in root.iter()]
 
 
 def scattered(text: str, chance: random.Random) -> str:

@@ -12,7 +12,7 @@ from tests.corpus.files import ROOT
 
 KNOWN = Known.beside(__file__)
 _SECONDS = 300
-_EDITS = {True: 3, False: 1}
+_EDITS = {True: 4, False: 2}
 """Edits for a URDF file, and for an SDF file."""
 _ABOUT = """\
 Every model of the corpus is converted, the result is edited at random as people edit (the edits of

@@ -1795,39 +1795,9 @@ def fill_surface_friction_ode(element: XmlElement, node: Data, reading: Reading)
     for child in element:
         tag = child.tag
         place = counts[tag] = counts.get(tag, 0) + 1
-        if (
-            tag == "mu"
-            and reading.version <= (1, 3)
-            and place == 1
-            and (value := loose_double(text_of(child))) is not None
-            and value >= 0.0
-            and value <= 1.0
-        ):
+        if tag == "mu" and place == 1 and (value := loose_double(text_of(child))) is not None and value >= 0.0:
             node["mu"] = value
-        elif (
-            tag == "mu"
-            and reading.version >= (1, 4)
-            and place == 1
-            and (value := loose_double(text_of(child))) is not None
-            and value >= 0.0
-        ):
-            node["mu"] = value
-        elif (
-            tag == "mu2"
-            and reading.version <= (1, 3)
-            and place == 1
-            and (value := loose_double(text_of(child))) is not None
-            and value >= 0.0
-            and value <= 1.0
-        ):
-            node["mu2"] = value
-        elif (
-            tag == "mu2"
-            and reading.version >= (1, 4)
-            and place == 1
-            and (value := loose_double(text_of(child))) is not None
-            and value >= 0.0
-        ):
+        elif tag == "mu2" and place == 1 and (value := loose_double(text_of(child))) is not None and value >= 0.0:
             node["mu2"] = value
         elif tag == "fdir1" and place == 1 and (value := vector3(text_of(child))) is not None:
             node["fdir1"] = value
