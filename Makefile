@@ -122,7 +122,7 @@ $(PEERS): $(SYNCED)
 bench: $(PEERS) ## how fast it is, beside its peers; writes docs/evidence/performance.md: BEFORE=../older ARGS="--quick"
 	$(BIN)/python -m benchmarks.bench $(if $(BEFORE),--before $(BEFORE)) $(ARGS)
 
-latency: $(SYNCED) # how long an editor waits for an answer; writes docs/evidence/editor.md
+latency: $(SYNCED) ## how long an editor waits for an answer; writes docs/evidence/editor.md
 	$(BIN)/python -m benchmarks.editor docs/evidence/editor.md
 
 vsix: ## the extension for Visual Studio Code, which needs npm: editors/vscode/twinform.vsix
