@@ -43,6 +43,7 @@ def run_into(source: Source, into: Path | None, base: Path | None, options: Opti
     if not options.show(source, updated.conversion.diagnostics):
         return FINDINGS
     outputs.add("--into", into, updated.data)
+    outputs.as_read[into] = updated.source
     outputs.news.extend(_line(into, change) for change in updated.changes)
     count = len(updated.changes)
     outputs.news.append(f"{into}: {count} change{'s' if count > 1 else ''}" if count else f"{into} stays as it is")

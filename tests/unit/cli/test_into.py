@@ -2,10 +2,12 @@
 
 from copy import deepcopy
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from twinform.compiler import in_place
+from twinform.compiler.into import convert_into
 from twinform.schemas import XmlElement
 from twinform.text import Merge
 
@@ -138,6 +140,21 @@ def test_a_file_that_would_be_another_robot_is_not_written(
     done = run("convert", "r.sdf", "--into", "r.urdf")
     assert (done.exit_code, Path("r.urdf").read_text()) == (1, HAND_WRITTEN)
     assert "cannot be changed in place: inertial/mass of link 'arm' is 7" in done.stderr
+
+
+def test_a_file_that_somebody_changes_meanwhile_is_not_written(
+    run: Run, twins: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def slow(*arguments: Any, **options: Any) -> Any:
+        made = convert_into(*arguments, **options)
+        _edit("r.urdf", "turns", "turns on")
+        return made
+
+    monkeypatch.setattr("twinform.cli.into.convert_into", slow)
+    _edit("r.sdf", "<mass>1.5</mass>", "<mass>2.5</mass>")
+    done = run("convert", "r.sdf", "--into", "r.urdf")
+    assert (done.exit_code, Path("r.urdf").read_text()) == (2, HAND_WRITTEN.replace("turns", "turns on"))
+    assert "r.urdf" in done.stderr
 
 
 @pytest.mark.parametrize(
