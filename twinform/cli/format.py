@@ -1,6 +1,5 @@
 """`twinform format`."""
 
-import stat
 from collections import Counter
 from pathlib import Path
 from typing import Literal
@@ -15,8 +14,9 @@ from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.files.model_files import is_text
 from twinform.cli.findings import show
 from twinform.cli.inputs import model_inputs, size_option
+from twinform.cli.rewriting import is_writable
 from twinform.cli.source import Source
-from twinform.compiler import CompileError, write_all_atomically
+from twinform.compiler import CompileError, write_atomically
 from twinform.compiler.formatting import formatted
 from twinform.compiler.input.limits import Limits
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
@@ -160,9 +160,9 @@ def _data(source: Source, limits: Limits) -> bytes:
 def _write(path: Path, data: bytes) -> bool:
     """Put a file in its place; whether that could be done."""
     try:
-        if not path.stat().st_mode & (stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH):
+        if not is_writable(path):
             raise PermissionError(0, "it is read-only")
-        write_all_atomically({path: data})
+        write_atomically(path, data)
     except OSError as error:
         click.echo(f"Error: cannot write {path}: {error.strerror}", err=True)
         return False

@@ -61,7 +61,8 @@ def write_back(rewrites: Sequence[Rewrite]) -> None:
     """
     files = {Path(each.source.name): each for each in rewrites if each.is_change and not each.is_stream}
     for path, each in files.items():
-        _require_writable(path)
+        if not is_writable(path):
+            raise Unusable(f"{path} is read-only; nothing is written")
         require_as_read(path, each.before)
     try:
         write_all_atomically({path: each.after for path, each in files.items()})
@@ -72,6 +73,6 @@ def write_back(rewrites: Sequence[Rewrite]) -> None:
             click.echo(each.after, nl=False)
 
 
-def _require_writable(path: Path) -> None:
-    if not path.stat().st_mode & 0o222 or not os.access(path, os.W_OK):
-        raise Unusable(f"{path} is read-only; nothing is written")
+def is_writable(path: Path) -> bool:
+    """Whether a file may be written: its permissions count for the administrator too."""
+    return bool(path.stat().st_mode & 0o222) and os.access(path, os.W_OK)

@@ -105,7 +105,7 @@ def updated(source: bytes, before: Document, conversion: Conversion, sink: Diagn
     try:
         merged = _merged(document_tree(before), document_tree(conversion.document), own, same=same)
         if not merged.conflicts:
-            return _patched(SourceText.of(source), own, merged.tree, conversion)._replace(source=source)
+            return _patched(source, own, merged.tree, conversion)
     except (UnplacedError, UndecodableError, UnicodeEncodeError) as error:
         sink.report(EDIT_CONFLICT, f"cannot be changed in place: {error}", Location(line=1, path="/"))
     else:
@@ -122,11 +122,12 @@ def _merged(before: XmlElement, after: XmlElement, own: XmlElement, *, same: boo
     return merge(before, after, own, at=at, same=same, additive=_ADDITIVE)
 
 
-def _patched(text: SourceText, own: XmlElement, tree: XmlElement, conversion: Conversion) -> Updated:
+def _patched(source: bytes, own: XmlElement, tree: XmlElement, conversion: Conversion) -> Updated:
+    text = SourceText.of(source)
     made = sorted(edits(text, own, tree), key=lambda edit: edit.span)
     lines = Lines(text.text)
     changes = [Change(lines.place(span.start), span.of(text.text), new) for span, new in made]
-    return Updated(conversion, text.with_text(apply(text.text, made)).data, tuple(changes), b"")
+    return Updated(conversion, text.with_text(apply(text.text, made)).data, tuple(changes), source)
 
 
 def _model_in_world(before: XmlElement, own: XmlElement) -> XmlElement | None:

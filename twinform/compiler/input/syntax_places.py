@@ -6,24 +6,10 @@ that is never closed. What it calls the error tells which piece before that is m
 
 import re
 from collections.abc import Mapping
-from typing import Protocol
 
+from twinform.compiler.input.xml_recovery import XmlError
 from twinform.diagnostics import Location, Span
 from twinform.text import Lines, SourceText
-
-
-class LoggedError(Protocol):
-    """An error as libxml2 logs it; lines and columns count from 1."""
-
-    @property
-    def line(self) -> int: ...  # noqa: D102 - the names say it
-    @property
-    def column(self) -> int: ...  # noqa: D102 - as above
-    @property
-    def message(self) -> str: ...  # noqa: D102 - as above
-    @property
-    def kind(self) -> str: ...  # noqa: D102 - as above
-
 
 _WORDS: Mapping[str, str] = {
     "ERR_TAG_NAME_MISMATCH": r"and (?P<word>\S+)$",
@@ -62,7 +48,7 @@ class SyntaxPlaces:
         # libxml2 ends lines at line feeds only
         self._starts = [0, *(found.end() for found in re.finditer("\n", self._text or ""))]
 
-    def location(self, error: LoggedError, path: str = "/") -> Location:
+    def location(self, error: XmlError, path: str = "/") -> Location:
         """The location of an error; without a column where it is not known."""
         if self._text is None:
             return self._first_undecodable(error, path)
@@ -79,7 +65,7 @@ class SyntaxPlaces:
         found = _DOCTYPE.match(self._text or "")
         return self.at(Span(*found.span("piece"))) if found else Location(line=1, path="/")
 
-    def _piece(self, error: LoggedError, text: str) -> Span | None:
+    def _piece(self, error: XmlError, text: str) -> Span | None:
         if not 0 < error.line <= len(self._starts):
             return None
         offset = self._starts[error.line - 1] + max(0, error.column - 1)
@@ -100,7 +86,7 @@ class SyntaxPlaces:
         here = _HERE.match(text, offset)
         return Span(*here.span()) if here else Span(offset, offset)
 
-    def _first_undecodable(self, error: LoggedError, path: str) -> Location:
+    def _first_undecodable(self, error: XmlError, path: str) -> Location:
         """The first byte that is no character of UTF-8, where that is on the line of the error."""
         if error.kind != "ERR_INVALID_ENCODING" or b"\0" in self._data:
             return Location(line=error.line, path=path)
@@ -122,7 +108,7 @@ def _decoded(data: bytes) -> str | None:
         return None
 
 
-def _pattern(error: LoggedError) -> str | None:
+def _pattern(error: XmlError) -> str | None:
     found = re.search(_WORDS[error.kind], error.message) if error.kind in _WORDS else None
     if error.kind == "NS_ERR_UNDEFINED_NAMESPACE":
         if found is None:
