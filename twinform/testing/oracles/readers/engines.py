@@ -41,14 +41,16 @@ def mujoco(path: Path) -> Answer:
 
 
 def pinocchio(path: Path) -> Answer:
-    """Its model; a mass belongs to the joint that moves it, and here to the frame of the link or the fixed joint."""
+    """Its model; masses by the joint that moves them, that of what stands still by its first link."""
     library = _module("pinocchio")
     model = library.buildModelFromUrdf(str(path))
     kinds = library.FrameType
     frames = list(model.frames)[1:]  # after that of the universe
-    links = (frame.name for frame in frames if frame.type == kinds.BODY)
+    links = [frame.name for frame in frames if frame.type == kinds.BODY]
     joints = (frame.name for frame in frames if frame.type in {kinds.JOINT, kinds.FIXED_JOINT})
-    return Answer(str(model), kept(links, joints, ((frame.name, frame.inertia.mass) for frame in frames)))
+    still = sum(frame.inertia.mass for frame in frames if frame.parentJoint == 0)
+    moved = ((name, inertia.mass) for name, inertia in zip(list(model.names)[1:], list(model.inertias)[1:], strict=True))
+    return Answer(str(model), kept(links, joints, [(links[0], still), *moved] if links else moved))
 
 
 def pybullet(path: Path) -> Answer:

@@ -53,10 +53,10 @@ def _loader(profile: str, reader: str, remark: str) -> Loader:
 LOADERS = (
     _loader("urdfdom", "urdfdom", _URDFDOM),
     _loader("gazebo", "libsdformat", r"^(?:Error|Warning)(?: \[|: )"),
-    _loader("drake", "drake with a scene", r"\[(?:warning|error)\]"),
+    _loader("drake", "drake with a scene", r"^(?:WARNING|ERROR):drake"),
     _loader("mujoco", "mujoco", r"WARNING"),
     _loader("pinocchio", "pinocchio", _URDFDOM),
-    _loader("pybullet", "pybullet", r"^b3Warning|^b3Error|^Error|[Ww]arning"),
+    _loader("pybullet", "pybullet", r"b3Warning|b3Error"),
     _loader("yourdfpy", "yourdfpy with a scene", r"."),
     _loader("urdf-parser-py", "urdf_parser_py", r"."),
     _loader("usd", "urdf-usd-converter", r"^(?:Warning|Error)"),
