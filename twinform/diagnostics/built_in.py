@@ -17,6 +17,7 @@ BUILT_IN: Mapping[str, str] = {
     "bare-material": "bodies",
     "blank-value": "structure",
     "broken-model-config": "files",
+    "collada-mesh": "portability",
     "colours": "to_urdf",
     "computed-inertia": "to_urdf",
     "conflicting-material": "bodies",
