@@ -51,12 +51,23 @@ def _versions(*known: tuple[int, int]) -> Callable[[str], bool]:
     return reads
 
 
-def _byte_colors(text: str) -> bool:
-    """Whether the numbers fit into bytes when they are multiplied by 255, as trimesh does."""
+def fits_bytes(text: str) -> bool:
+    """Whether there are four numbers that fit into bytes when they are multiplied by 255, as trimesh does."""
     pieces = text.split()
-    if len(pieces) not in {3, 4} or not all(map(_python, pieces)):
+    if len(pieces) != 4 or not all(map(_python, pieces)):
         return False
-    return all(math.isfinite(float(piece)) and 0 <= round(float(piece) * 255) <= 255 for piece in pieces)
+    return all(math.isfinite(float(piece)) and 0 <= int(float(piece) * 255) <= 255 for piece in pieces)
+
+
+def _bounded(text: str) -> bool:
+    """Whether no number is infinite; NaN is none."""
+    return not any(_python(piece) and math.isinf(float(piece)) for piece in text.replace(",", " ").split())
+
+
+def _directed(text: str) -> bool:
+    """Whether the numbers are not all 0."""
+    pieces = text.split()
+    return not pieces or not all(_python(piece) and float(piece) == 0 for piece in pieces)
 
 
 FORMS: Mapping[str, tuple[str, Callable[[str], bool]]] = {
@@ -67,6 +78,7 @@ FORMS: Mapping[str, tuple[str, Callable[[str], bool]]] = {
     "unit": ("numbers from 0 to 1 with blanks between them", _of_unit),
     "blank4": ("four numbers with blanks between them", lambda text: len(_pieces(text)) == 4),
     "blank3": ("three numbers with blanks between them", lambda text: len(_pieces(text)) >= 3),
+    "at-least-0": ("a number that is not negative", lambda text: not _stream(text) or float(text) >= 0),
     "python": ("a number such as 0.5 or 1e-3", _python),
     "python3": ("three numbers", lambda text: _pythons(text, 3)),
     "python4": ("four numbers", lambda text: _pythons(text, 4)),
@@ -76,7 +88,8 @@ FORMS: Mapping[str, tuple[str, Callable[[str], bool]]] = {
     "python3+": ("three numbers", lambda text: _pythons(text) and len(text.split()) >= 3),
     "commas": ("numbers", lambda text: _pythons(text.replace(",", " "))),
     "commas3": ("three numbers", lambda text: _pythons(text.replace(",", " "), 3)),
-    "bytes": ("three or four numbers from 0 to 1", _byte_colors),
+    "bounded": ("finite numbers", _bounded),
+    "directed": ("a direction", _directed),
     "urdf-1.0": ("1.0", _versions((1, 0))),
     "urdf-1.2": ("1.0, 1.1 or 1.2", _versions((1, 0), (1, 1), (1, 2))),
     "exactly-1.0": ("1.0", lambda text: text == "1.0"),

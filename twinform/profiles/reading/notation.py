@@ -4,7 +4,7 @@ A line has five columns with two blanks or more between them: a place, an item, 
 consumer does then. A place is a path below the root; `*` stands for all elements of a name, without it the first one
 counts; `[revolute,prismatic]` are values of `type`, `[!fixed]` are values that it has not; `^` is an element only where
 it is the first. Items are `@attribute`, `<element>`, `#text`, or a name that `tree.py` explains. `!` after a form means
-that the item has to be there.
+that the item has to be there, and what follows ` => ` are the passes that help.
 """
 
 import re
@@ -38,6 +38,7 @@ class Demand:
     needed: bool
     effect: str
     about: str
+    pipeline: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,15 +73,17 @@ def _lines(name: str) -> Iterator[str]:
 
 
 def _demand(columns: list[str]) -> Demand:
-    place, item, form, effect, about = columns
-    return Demand(_steps(place), item, form.removesuffix("!"), form.endswith("!"), effect, about)
+    place, item, form, effect, words = columns
+    about, _, pipeline = words.partition(" => ")
+    return Demand(_steps(place), item, form.removesuffix("!"), form.endswith("!"), effect, about, pipeline)
 
 
 def _steps(place: str) -> tuple[Step, ...]:
     if place == "robot":
         return ()
     found = [_STEP.fullmatch(part) for part in place.split("/")]
-    assert all(found), place
+    if None in found:
+        raise ValueError(f"{place!r} is no place")
     return tuple(_step(each) for each in found if each)
 
 

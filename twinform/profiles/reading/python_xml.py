@@ -6,6 +6,7 @@ from xml.parsers import expat
 from lxml import etree
 
 from twinform.profiles.reading.nodes import Node, UnparsedError
+from twinform.schemas import XmlElement
 
 
 def parse_with_expat(content: bytes) -> list[Node]:
@@ -29,11 +30,7 @@ def parse_with_expat(content: bytes) -> list[Node]:
         if stack and not stack[-1].children:
             stack[-1].text += text
 
-    def refuse(*_: object) -> None:
-        raise UnparsedError("an entity is declared", parser.CurrentLineNumber)
-
     parser.StartElementHandler, parser.EndElementHandler, parser.CharacterDataHandler = start, end, words
-    parser.EntityDeclHandler = refuse  # no reader needs one, and a few lines of them can fill a machine
     try:
         parser.Parse(content, True)
     except (expat.ExpatError, ValueError, LookupError) as error:
@@ -72,7 +69,7 @@ def _recovered(content: bytes) -> Node:
     return _converted(events.root)
 
 
-def _converted(element: "etree._Element") -> Node:
+def _converted(element: XmlElement) -> Node:
     node = Node(str(element.tag), element.sourceline or 0, {str(k): str(v) for k, v in element.attrib.items()})
     node.text = element.text or ""
     node.children = [_converted(child) for child in element if child.tag is not etree.Comment]

@@ -22,6 +22,8 @@ _REFERENCE = re.compile(r"&(?:#x([0-9A-Fa-f]+)|#(\d+)|(lt|gt|amp|quot|apos));")
 _NAMED = {"lt": "<", "gt": ">", "amp": "&", "quot": '"', "apos": "'"}
 _ASIDE = (("<!--", "-->"), ("<![CDATA[", "]]>"))
 _LARGEST = 0x10FFFF
+_LONGEST_LINE = 8191
+_CUT = re.compile(rb"[\r\0]")
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +50,13 @@ def parse(content: bytes, dialect: Dialect) -> list[Node]:
     """
     text = content.split(b"\0")[0].decode("utf-8-sig", "replace").replace("\r\n", "\n").replace("\r", "\n")
     return _Parser(text, dialect).document()
+
+
+def in_lines(content: bytes) -> bytes:
+    """The text as Bullet hands it to TinyXML-2: in lines of 8191 bytes at most, each cut at an odd end of line."""
+    lines = content.split(b"\n")
+    pieces = (line[at : at + _LONGEST_LINE] for line in lines for at in range(0, max(len(line), 1), _LONGEST_LINE))
+    return b"\n".join(_CUT.split(piece, maxsplit=1)[0] for piece in pieces)
 
 
 class _Parser:

@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 
+from twinform.profiles.reading.forms import fits_bytes
 from twinform.profiles.reading.nodes import Node
 
 Fact = Iterator[tuple[Node, str]]
@@ -103,6 +104,24 @@ def _undefined_materials(root: Node) -> Fact:
             known.add(name)
 
 
+def _plain_materials(root: Node) -> Fact:
+    for material in root.all("material"):
+        if material.value("color", "rgba") is None and material.value("texture", "filename") is None:
+            yield material, f"material {material.attributes.get('name', '')!r} has no color and no texture"
+
+
+def _unpaintable(root: Node) -> Fact:
+    """Visuals with a color, of their own or by name, that makes no bytes."""
+    known = {node.attributes.get("name", ""): node for node in root.all("material")}
+    for visual in (visual for link in root.all("link") for visual in link.all("visual")):
+        material = visual.first("material")
+        if material is not None and material.first("color") is None:
+            material = known.get(material.attributes.get("name", ""))
+        color = None if material is None else material.first("color")
+        if color is not None and not fits_bytes(rgba := color.attributes.get("rgba", "1 1 1 1")):
+            yield color, f"the color of a visual is {rgba!r}"
+
+
 def _weightless(root: Node) -> Fact:
     for link in root.all("link"):
         if link.first("inertial") is None and link.attributes.get("name") != "world":
@@ -131,6 +150,8 @@ FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "two-parents": _two_parents,
     "circle": _apart,
     "undefined-material": _undefined_materials,
+    "plain-material": _plain_materials,
+    "unpaintable": _unpaintable,
     "weightless-link": _weightless,
     "idle-leader": _idle_leaders,
 }

@@ -1,7 +1,7 @@
 """What of a robot a consumer cannot read, or needs and does not find: a table of demands held against its elements."""
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 from twinform.profiles.reading import transmissions, tree
@@ -24,6 +24,7 @@ class Shortfall:
     path: str = ""
     found: str | None = None
     expected: str | None = None
+    pipeline: str = ""
 
 
 def shortfalls(root: Node, table: Reads) -> Iterator[Shortfall]:
@@ -84,7 +85,7 @@ def _value(demand: Demand, node: Node, what: str, text: str) -> Iterator[Shortfa
         yield _short(demand, "value", f"{what} is {text!r}", node, found=text, expected=words)
 
 
-def _one_of(form: str):  # noqa: ANN202 - a form, as those of the table
+def _one_of(form: str) -> tuple[str, Callable[[str], bool]]:
     choice = form.removeprefix("=").split("|")
     return " or ".join(choice), choice.__contains__
 
@@ -92,21 +93,27 @@ def _one_of(form: str):  # noqa: ANN202 - a form, as those of the table
 def _element(demand: Demand, node: Node) -> Iterator[Shortfall]:
     names = demand.item.strip("<>").split("|")
     if demand.form == "none":
-        yield from (_short(demand, "unread", f"<{node.tag}> has a <{tag.tag}>", tag) for tag in node.children if tag.tag in names)
+        yield from (
+            _short(demand, "unread", f"<{node.tag}> has a <{tag.tag}>", tag)
+            for tag in node.children
+            if tag.tag in names
+        )
     elif demand.form in {"first", "single"}:
         if demand.form == "single" and len(node.children) != 1:
             yield _short(demand, "unread", f"<{node.tag}> has {len(node.children)} elements", node, expected="one")
         elif not node.children:
             yield _short(demand, "absent", f"<{node.tag}> is empty", node, expected=" or ".join(names))
         elif (shape := node.children[0]).tag not in names:
-            yield _short(demand, "unread", f"<{node.tag}> begins with <{shape.tag}>", shape, expected=" or ".join(names))
+            yield _short(
+                demand, "unread", f"<{node.tag}> begins with <{shape.tag}>", shape, expected=" or ".join(names)
+            )
     elif demand.needed and not any(child.tag in names for child in node.children):
         wanted = " or ".join(f"<{name}>" for name in names)
         yield _short(demand, "absent", f"<{node.tag}> has no {wanted}", node, expected=wanted)
 
 
 def _unknown(demand: Demand, node: Node) -> Iterator[Shortfall]:
-    """Attributes or children that are not among those that are known, and those that are known once and are there twice."""
+    """Attributes or children that are not among those that are known, or are there twice and known once."""
     known = _ITEMS.findall(demand.item)
     names = {name.removesuffix("?") for name in known}
     if demand.item.startswith("@"):
@@ -126,4 +133,4 @@ def _short(
     demand: Demand, kind: str, message: str, node: Node, *, found: str | None = None, expected: str | None = None
 ) -> Shortfall:
     path = "/".join(step.tag for step in demand.place)
-    return Shortfall(kind, demand.effect, demand.about, message, node.line, path, found, expected)
+    return Shortfall(kind, demand.effect, demand.about, message, node.line, path, found, expected, demand.pipeline)
