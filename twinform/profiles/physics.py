@@ -21,10 +21,9 @@ def physics_changes(before: Document, after: Document, step: str) -> Iterator[En
     for key in {**old, **new}:
         values = tuple(_values(old.get(key), new.get(key)))
         if values:
-            change = PhysicsChange(step, *key, values)
-            yield Entry(
-                Fate.APPROXIMATED, CHANGED_PHYSICS, _message(change), _place(old.get(key), new.get(key)), 0, change
-            )
+            change, place = PhysicsChange(step, *key, values), _place(old.get(key), new.get(key))
+            written = sum(bool(each.path) and each.was is not None for each in values)
+            yield Entry(Fate.APPROXIMATED, CHANGED_PHYSICS, _message(change), place, written, change)
 
 
 def _parts(document: Document) -> Iterator[tuple[_Key, Part]]:
