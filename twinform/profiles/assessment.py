@@ -1,0 +1,121 @@
+"""`assess`: what consumers make of a file, by what is found in it."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Rule
+from twinform.diagnostics.rules.portability import SHORTFALLS
+from twinform.ir import Document, Format
+from twinform.passes import NO_ASSETS, Assets
+from twinform.profiles.detectors import DETECTORS
+from twinform.profiles.profile import Effect, Profile, Row
+from twinform.profiles.reading import Shortfall, read_as
+from twinform.schemas import XmlElement
+
+
+class Verdict(StrEnum):
+    """Whether a consumer takes a file."""
+
+    ACCEPTS = "accepts"
+    WARNS = "warns"
+    REFUSES = "refuses"
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """A file before consumers: its bytes, tree and document as far as it has them, and what `check` finds in it."""
+
+    path: str
+    format: Format | None
+    document: Document | None = None
+    tree: XmlElement | None = None
+    content: bytes | None = field(default=None, repr=False)
+    diagnostics: tuple[Diagnostic, ...] = ()
+    assets: Assets = field(default=NO_ASSETS, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Judgment:
+    """A finding, and the row about it."""
+
+    row: Row
+    finding: Diagnostic
+
+
+@dataclass(frozen=True, slots=True)
+class Assessment:
+    """What one consumer makes of a file. `reads` is whether it reads files of this format at all."""
+
+    profile: Profile
+    reads: bool
+    judgments: tuple[Judgment, ...] = ()
+
+    @property
+    def verdict(self) -> Verdict:
+        """Whether the consumer takes the file."""
+        effects = {each.row.effect for each in self.judgments}
+        if not self.reads or Effect.REFUSES in effects:
+            return Verdict.REFUSES
+        return Verdict.WARNS if Effect.WARNS in effects else Verdict.ACCEPTS
+
+    def by(self, effect: Effect) -> tuple[Judgment, ...]:
+        """The judgments with this effect."""
+        return tuple(each for each in self.judgments if each.row.effect is effect)
+
+
+def assess(subject: Subject, profiles: Iterable[Profile]) -> tuple[Assessment, ...]:
+    """What each consumer makes of a file; what detectors find is looked for once."""
+    wanted = tuple(profiles)
+    found = (*subject.diagnostics, *detected(subject, {row.rule for each in wanted for row in each.rows}))
+    shortfalls = Shortfalls(subject)
+    return tuple(_assessed(subject, each, found, shortfalls) for each in wanted)
+
+
+def detected(subject: Subject, rules: Iterable[str]) -> list[Diagnostic]:
+    """What the detectors of these rules find."""
+    sink, wanted = DiagnosticSink(subject.path), frozenset(rules)
+    for detector in DETECTORS:
+        if wanted.intersection(rule.name for rule in detector.rules):
+            detector.find(subject, sink)
+    return [each for each in sink.diagnostics if each.rule.name in wanted]
+
+
+def _assessed(
+    subject: Subject, profile: Profile, found: tuple[Diagnostic, ...], shortfalls: "Shortfalls"
+) -> Assessment:
+    if subject.format is not None and subject.format not in profile.formats:
+        return Assessment(profile, reads=False)
+    judgments = (*_judgments(profile, found, subject.format), *shortfalls.of(profile))
+    return Assessment(profile, reads=True, judgments=judgments)
+
+
+def _judgments(profile: Profile, found: Iterable[Diagnostic], format_: Format | None) -> Iterator[Judgment]:
+    """The first row that minds a finding is the one about it."""
+    for finding in found:
+        row = next((row for row in profile.rows if row.minds(finding, format_)), None)
+        if row is not None:
+            yield Judgment(row, finding)
+
+
+class Shortfalls:
+    """What consumers cannot read of a text, by their tables: one finding for the same thing of all of them."""
+
+    def __init__(self, subject: Subject) -> None:
+        self._subject = subject
+        self._findings: dict[tuple[str, str, int], Diagnostic] = {}
+
+    def of(self, profile: Profile) -> Iterator[Judgment]:
+        """What one of them cannot read."""
+        if not profile.reads or self._subject.content is None or self._subject.format is Format.SDF:
+            return
+        for each in read_as(profile.reads, self._subject.content):
+            rule = SHORTFALLS[each.kind]
+            words = {"rule": rule.name, "effect": each.effect, "about": each.about, "pass": each.pipeline}
+            row = Row.model_validate(words)
+            yield Judgment(row, self._finding(rule, each))
+
+    def _finding(self, rule: Rule, each: Shortfall) -> Diagnostic:
+        place = Location(self._subject.path, each.line, f"/robot/{each.path}".rstrip("/"))
+        made = Diagnostic(rule, each.message, place, rule.severity, each.found, each.expected)
+        return self._findings.setdefault((rule.name, each.message, each.line), made)

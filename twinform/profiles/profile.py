@@ -1,0 +1,198 @@
+"""`Profile`: what a consumer of models refuses, drops, reads otherwise or warns about. Read from `data/NAME.toml`."""
+
+import re
+import tomllib
+from dataclasses import dataclass
+from enum import StrEnum
+from functools import cache
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
+
+from twinform.diagnostics import Diagnostic
+from twinform.diagnostics.did_you_mean import did_you_mean
+from twinform.ir import Format
+from twinform.package_files import package_files
+
+PORTABLE = "portable"
+"""The profile of all consumers that are tested."""
+
+
+class ProfileError(ValueError):
+    """A profile is not what profiles are; the message names the file and the row."""
+
+
+class UnknownProfileError(LookupError):
+    """No profile has this name, or its consumer has no such release."""
+
+
+class Effect(StrEnum):
+    """What a consumer does with a thing in a file, from the worst to the mildest."""
+
+    REFUSES = "refuses"
+    DROPS = "drops"
+    MISREADS = "misreads"
+    WARNS = "warns"
+
+
+class Row(BaseModel):
+    """One thing that a consumer minds: the rule that finds it, and what the consumer does.
+
+    `format`, `message`, `place`, `since` and `until` narrow the findings: the format of the file, patterns that occur
+    in the message and in the XML path, and the releases, both included. `drops` are the kinds of parts that are
+    missing afterwards. `pipeline` are the passes that help, and `fix` is whether `check --fix` does.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid", populate_by_name=True)
+
+    rule: str
+    effect: Effect
+    about: str
+    format: Format | None = None
+    message: str = ""
+    place: str = ""
+    since: str = ""
+    until: str = ""
+    drops: tuple[str, ...] = ()
+    pipeline: str = Field(default="", alias="pass")
+    fix: bool = False
+    to: Format | None = None
+
+    @field_validator("message", "place")
+    @classmethod
+    def _is_pattern(cls, text: str) -> str:
+        re.compile(text)
+        return text
+
+    def minds(self, finding: Diagnostic, format_: Format | None) -> bool:
+        """Whether it is about this finding in a file of this format."""
+        return (
+            finding.rule.name == self.rule
+            and (self.format is None or format_ is None or self.format is format_)
+            and re.search(self.message, finding.message) is not None
+            and re.search(self.place, finding.location.path) is not None
+        )
+
+
+class _Table(BaseModel):
+    """The file of a profile."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    title: str
+    about: str
+    formats: tuple[Format, ...]
+    seen: str = ""
+    tested: bool = True
+    reads: str = ""
+    sdf: str = ""
+    releases: dict[str, str] = {}
+    """Its releases, oldest first, with the newest version of SDF that each reads."""
+
+    release: str = ""
+    """The release that is meant where none is named."""
+
+    row: tuple[Row, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """A consumer, perhaps in one of its releases, and the rows that hold for it.
+
+    `seen` is the version that was asked, empty where it was not `tested` but read in sources and documentation.
+    `reads` is the table in `data/reads/` of what it reads of URDF, where there is one, and `sdf` the newest version of
+    SDF that it reads, empty where that does not matter. It is `named` where somebody asks for it and not for all.
+    """
+
+    name: str
+    title: str
+    about: str
+    formats: tuple[Format, ...]
+    seen: str
+    tested: bool
+    release: str
+    rows: tuple[Row, ...]
+    reads: str = ""
+    sdf: str = ""
+    named: bool = True
+
+    @property
+    def label(self) -> str:
+        """`MuJoCo 4.0.0`: how messages call it."""
+        return f"{self.title} {self.release or self.seen}".strip()
+
+
+@cache
+def names() -> tuple[str, ...]:
+    """The names of all profiles; `portable` is that of all those that are tested."""
+    folder = package_files("twinform.profiles").joinpath("data")
+    found = [each.name.removesuffix(".toml") for each in folder.iterdir() if each.name.endswith(".toml")]
+    return (*sorted(found), PORTABLE)
+
+
+@cache
+def load(text: str) -> tuple[Profile, ...]:
+    """The profiles that a name means: one, of the release behind an `@` (`gazebo@harmonic`), or all tested ones.
+
+    Raises:
+        UnknownProfileError: there is none of this name, or no such release.
+        ProfileError: its file is at fault.
+    """
+    name, _, release = text.strip().partition("@")
+    if name not in names():
+        near = did_you_mean(name, names()) or f"there are {', '.join(names())}"
+        raise UnknownProfileError(f"there is no profile {name!r}; {near}")
+    if name == PORTABLE:
+        if release:
+            raise UnknownProfileError(f"{PORTABLE!r} has no releases")
+        every = [_read(each) for each in names() if each != PORTABLE]
+        return tuple(_of_release(each_name, table, "", named=False) for each_name, table in every if table.tested)
+    return (_of_release(*_read(name), release),)
+
+
+def parse(text: str) -> tuple[Profile, ...]:
+    """The profiles of names with commas between, each once.
+
+    Raises:
+        UnknownProfileError: there is none of one of these names.
+    """
+    found = [profile for name in text.split(",") if name.strip() for profile in load(name)]
+    if not found:
+        raise UnknownProfileError(f"name a profile: {', '.join(names())}")
+    return tuple({each.label: each for each in found}.values())
+
+
+@cache
+def _read(name: str) -> tuple[str, _Table]:
+    file = package_files("twinform.profiles").joinpath("data", f"{name}.toml")
+    try:
+        return name, _Table.model_validate(tomllib.loads(file.read_text(encoding="utf-8")))
+    except (ValidationError, tomllib.TOMLDecodeError, re.error) as error:
+        raise ProfileError(f"{name}.toml: {error}") from error
+
+
+def _of_release(name: str, table: _Table, release: str, *, named: bool = True) -> Profile:
+    known = list(table.releases)
+    if release and release not in known:
+        advice = did_you_mean(release, known) or f"there are {', '.join(known)}" if known else "it has no releases"
+        raise UnknownProfileError(f"{name!r} has no release {release!r}; {advice}")
+    chosen = release or table.release
+    rows = tuple(row for row in table.row if _holds(row, chosen, known))
+    sdf = table.releases.get(chosen, table.sdf)
+    about = (table.title, table.about, table.formats, table.seen, table.tested)
+    return Profile(name, *about, chosen, rows, table.reads, sdf, named)
+
+
+def _holds(row: Row, release: str, known: list[str]) -> bool:
+    def place(word: str) -> int:
+        if word not in known:
+            raise ProfileError(f"row {row.rule!r}: there is no release {word!r}")
+        return known.index(word)
+
+    after = not row.since or place(row.since) <= place(release)
+    return after and (not row.until or place(release) <= place(row.until))
+
+
+def explanations() -> dict[str, Any]:
+    """Each profile with what it is about, for help texts."""
+    return {name: _read(name)[1].about for name in names() if name != PORTABLE}

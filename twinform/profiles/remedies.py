@@ -1,0 +1,50 @@
+"""Remedies: the passes that make a model acceptable to its consumers, in the one order in which they run."""
+
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+from twinform.ir import Format
+from twinform.passes import Pass, parse_pipeline
+from twinform.profiles.assessment import Assessment, Judgment
+
+
+class Remedy(NamedTuple):
+    """A pass that rows name, and whether it changes the physics: masses, inertias, joints or limits."""
+
+    name: str
+    physics: bool
+
+
+REMEDIES = (
+    Remedy("replace-continuous", physics=False),
+    Remedy("fill-limits", physics=True),
+    Remedy("split-massless", physics=True),
+    Remedy("balance-inertia", physics=True),
+)
+"""Every pass that a row of a profile may name. Later ones see what earlier ones have made."""
+_ORDER = {remedy.name: number for number, remedy in enumerate(REMEDIES)}
+_PHYSICS = frozenset(remedy.name for remedy in REMEDIES if remedy.physics)
+
+
+def remedies(assessments: Iterable[Assessment], to: Format | None = None) -> tuple[Pass, ...]:
+    """The passes that help with what was found, each once, in order; those for another target are left out."""
+    wanted = dict.fromkeys(text for each in assessments for text in _pipelines(each.judgments, to))
+    return in_order(step for text in wanted for step in parse_pipeline(text))
+
+
+def in_order(steps: Iterable[Pass]) -> tuple[Pass, ...]:
+    """The passes in the order in which they run, each once."""
+    unlike = {str(step): step for step in steps}
+    return tuple(sorted(unlike.values(), key=lambda step: _ORDER[step.name]))
+
+
+def changes_physics(step: Pass) -> bool:
+    """Whether a pass of a profile changes masses, inertias, joints or limits."""
+    return step.name in _PHYSICS
+
+
+def _pipelines(judgments: Iterable[Judgment], to: Format | None) -> Iterator[str]:
+    for judgment in judgments:
+        row = judgment.row
+        if row.pipeline and (row.to is None or to is None or row.to is to):
+            yield row.pipeline
