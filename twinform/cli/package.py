@@ -9,6 +9,7 @@ from twinform.cli.command import Command
 from twinform.cli.completion import files
 from twinform.cli.details import DetailOptions, detail_options, details_of
 from twinform.cli.findings import all_option, notes_option
+from twinform.cli.gazebo_files import release_option, version_for
 from twinform.cli.inputs import inputs, reading_options
 from twinform.cli.own_options import OptionsByFile
 from twinform.cli.packaging import Packaging, run_packaging
@@ -16,11 +17,15 @@ from twinform.cli.policy import policy_options
 from twinform.cli.request import Asked, ordering_options_of_versions, request_of
 from twinform.compiler.packaging.kind_names import KIND_NAMES, kinds_of
 from twinform.compiler.packaging.order import Order
+from twinform.passes.plugins.release_names import ReleaseName
 
 EXAMPLES = {
     "Make a model folder for Gazebo": "twinform package robot.urdf -o robot --kind gazebo-model",
     "Let older Gazebo read it too": "twinform package robot.urdf -o robot --kind gazebo-model --sdf-version 1.11 "
     "--sdf-version 1.6",
+    "Make a package for ROS 2": "twinform package robot.urdf -o robot_description --kind ros2",
+    "Make one folder for both, with Fortress and Humble": "twinform package robot.urdf -o robot_description "
+    "--kind both --gazebo fortress",
     "List its files, and write nothing": "twinform package robot.urdf -o robot --kind gazebo-model --dry-run",
 }
 
@@ -45,6 +50,7 @@ EXAMPLES = {
 @click.option("--name", metavar="NAME", help="What the package is called; else as its folder.")
 @detail_options
 @ordering_options_of_versions
+@release_option
 @click.option("--model", metavar="NAME", help="The model of the file to put into the package.")
 @click.option(
     "--allow-missing", is_flag=True, help="Go on without files that are not found; their URIs stay as they are."
@@ -68,6 +74,7 @@ def command(
     name: str | None,
     *,
     sdf_versions: tuple[str, ...],
+    gazebo: ReleaseName,
     model: str | None,
     allow_missing: bool,
     thumbnail: bool,
@@ -104,7 +111,8 @@ def command(
         folder=title,
         conversion=request,
         load_options=own.load_options,
-        sdf_versions=sdf_versions,
+        sdf_versions=tuple(dict.fromkeys(version_for(gazebo, each) for each in sdf_versions or (None,))),
+        release=gazebo,
         details=details_of(cast("DetailOptions", rest)),
         allow_missing=allow_missing,
         thumbnail=thumbnail,

@@ -8,13 +8,14 @@ from twinform.compiler.packaging.gazebo_model.models import build as build_gazeb
 from twinform.compiler.packaging.kind_names import REQUIRED
 from twinform.compiler.packaging.order import Built, Order
 from twinform.compiler.packaging.package import Content, Package
+from twinform.compiler.packaging.ros2.packages import build as build_ros2
 from twinform.diagnostics import Diagnostic, DiagnosticSink
 from twinform.diagnostics.rules.packaging import PLACEHOLDER
 
 Builder = Callable[[Order, Collection], Built]
 """Makes a package of an order; the files of the model go into the collection, which several may share."""
 
-KINDS: Mapping[str, Builder] = {"gazebo-model": build_gazebo_model}
+KINDS: Mapping[str, Builder] = {"gazebo-model": build_gazebo_model, "ros2": build_ros2}
 
 
 def build(order: Order, kinds: tuple[str, ...]) -> Built:
@@ -26,10 +27,11 @@ def build(order: Order, kinds: tuple[str, ...]) -> Built:
     """
     said = replace(order, details=order.details.with_placeholders())
     collection = said.collection()
-    built = [KINDS[kind](said, collection) for kind in kinds]
+    built: list[Built] = []
     files: dict[str, Content] = {}
-    for each in built:
-        for path, content in each.package.files.items():
+    for kind in kinds:
+        built.append(KINDS[kind](replace(said, beside=tuple(files)), collection))
+        for path, content in built[-1].package.files.items():
             if files.setdefault(path, content) != content:
                 raise ValueError(f"two kinds of packages have different contents for {path}")
     found = dict.fromkeys(found for each in built for found in each.diagnostics)

@@ -13,6 +13,7 @@ from twinform.compiler.packaging.package import Package
 from twinform.compiler.request import ConversionRequest, Language
 from twinform.diagnostics import Diagnostic, Ledger
 from twinform.passes import PassInstrumentation, Pipeline
+from twinform.passes.plugins.release_names import ReleaseName
 
 PLACEHOLDERS: Mapping[str, str] = {
     "description": "TODO: Package description",
@@ -50,7 +51,8 @@ class Order:
 
     `name` is what the package is called, and `folder` what its folder is: `model://FOLDER/...` is how Gazebo finds its
     files, and `package://NAME/...` how ROS does. `conversion` is what the model becomes, but for its target and
-    version; `sdf_versions` are those that are written, the newest first.
+    version; `sdf_versions` are those that are written, the newest first. `release` is the one of Gazebo that runs the
+    model, and `beside` are the files that another kind of package has in the same folder.
     """
 
     source: Input
@@ -63,6 +65,8 @@ class Order:
     details: Details = field(default_factory=Details)
     allow_missing: bool = False
     thumbnail: bool = True
+    release: ReleaseName = "harmonic"
+    beside: tuple[str, ...] = ()
 
     def collection(self) -> Collection:
         """An empty collection of files."""
