@@ -89,9 +89,7 @@ def has_gazebo_control(document: Document, release: str, sink: DiagnosticSink) -
     systems = [system for model in document.models for system in systems_of(model, document.format)]
     for system in systems:
         if not runs_in_gazebo(system, release):
-            message = (
-                f"Gazebo {release} does not load {system.hardware!r}, the hardware of ros2_control {system.name!r}"
-            )
+            message = f"ros2_control {system.name!r} has {system.hardware!r}, which Gazebo {release} does not load"
             advice = f"for Gazebo, write {_HARDWARE[release == _FORTRESS]}"
             sink.report(rules.FOREIGN_HARDWARE, message, system.location, found=system.hardware, help=advice)
     return any(runs_in_gazebo(system, release) for system in systems)
