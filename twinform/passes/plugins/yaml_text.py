@@ -14,7 +14,10 @@ _SURROGATES = re.compile(r"\\u(d[89ab][0-9a-f]{2})\\u(d[c-f][0-9a-f]{2})")
 
 
 def yaml_text(value: Mapping[str, Value]) -> str:
-    """A document of YAML with this mapping, in block style, with an end of line."""
+    """A document of YAML with this mapping, in block style, with an end of line.
+
+    Keys are shorter than 1,000 characters, which is as long as YAML has them.
+    """
     return "".join(f"{line}\n" for line in _lines(value))
 
 

@@ -16,6 +16,7 @@ from twinform.passes.plugins.yaml_text import Value, yaml_text
 _RATE = 100
 """How often controllers run, in Hz, where nobody has said it."""
 _STRANGE = re.compile(r"[^A-Za-z0-9_]+")
+_LONGEST = 100
 _FORWARDED = ("velocity", "effort")
 """Commands that go on as they come: what a trajectory needs beside them are gains, which nobody can guess."""
 _UNMOVED = frozenset({"fixed", "floating", "planar"})
@@ -186,7 +187,7 @@ def _has(sensor: Component, begin: str) -> bool:
 
 def _ros_name(text: str) -> str:
     """Text as ROS takes it for the name of a node."""
-    name = _STRANGE.sub("_", text).strip("_") or "robot"
+    name = _STRANGE.sub("_", text).strip("_")[:_LONGEST] or "robot"
     return f"_{name}" if name[0].isdigit() else name
 
 

@@ -17,12 +17,18 @@ from twinform.compiler.packaging.ros2.texts import generated_files
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import ros2 as rules
 from twinform.passes import Pipeline
+from twinform.passes.control.carried_elements import elements
 from twinform.passes.plugins.bridge import bridges
 
 _NAME = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*")
 """Names of packages (REP 144): lower case, digits, single underscores, a letter first."""
 _WORLD = "default"
 """What the world of the package is called; names of topics contain it."""
+_PUBLISHER = "add the system that does with --passes add-plugin{system=joint-state-publisher}"
+_FROM_TRANSMISSIONS = (
+    "turn its transmissions of ROS 1 into what ROS 2 reads with --passes ros2-control-from-transmissions, "
+    "or add a system with --passes add-plugin{system=joint-state-publisher}"
+)
 _JOINT_STATE = "sensor_msgs/msg/JointState"
 
 
@@ -84,5 +90,6 @@ def _check_joint_states(contents: Contents, sink: DiagnosticSink) -> None:
     told = contents.controlled or any(each.ros_type_name == _JOINT_STATE for each in contents.bridges)
     if contents.moves and not told:
         message = f"nothing tells ROS in Gazebo where the joints of {contents.model.name!r} are"
-        advice = "add the system that does with --passes add-plugin{system=joint-state-publisher}"
+        old = any(elements(contents.model, contents.document.format, "transmission"))
+        advice = _FROM_TRANSMISSIONS if old else _PUBLISHER
         sink.report(rules.NO_JOINT_STATES, message, contents.model.location, help=advice)
