@@ -107,6 +107,7 @@ BUILT_IN: Mapping[str, str] = {
     "nested-setting": "edits",
     "no-joint": "to_sdf",
     "no-links": "model",
+    "no-thumbnail": "packaging",
     "non-positive-mass": "inertia",
     "not-for-format": "edits",
     "not-well-formed": "reading",
