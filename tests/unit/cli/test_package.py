@@ -89,9 +89,9 @@ def test_the_newest_version_is_taken_that_a_reader_knows(run: Run, tmp_path: Pat
 def test_the_model_is_the_same_robot(run: Run, tmp_path: Path) -> None:
     source = arm(tmp_path)
     _package(run, source, tmp_path / "out/arm")
-    found = run("diff", source, tmp_path / "out/arm/model.sdf", "--format", "json").stdout
-    differing = re.findall(r"difference.*?(\w+) is '", found) or re.findall(r"(\w+) is '", found)
-    assert set(differing) == {"uri", "albedo_map"}
+    found = run("diff", source, tmp_path / "out/arm/model.sdf").stdout
+    assert set(re.findall(r"difference: .*/(\w+) is '", found)) == {"uri", "albedo_map"}
+    assert found.count("difference: ") == 4
 
 
 def test_model_config_says_what_was_given(run: Run, tmp_path: Path) -> None:

@@ -129,11 +129,7 @@ class Collection:
     def _wanted(self, found: Path, kind: FileKind, origins: Origins) -> Iterator[str]:
         """Where a file would go: as it lies in its package, or else below the name of that."""
         holder, parts = origins.place(found)
-        place = self.layout.place(parts, kind)
-        yield place
-        first, _, rest = place.partition("/")
-        if holder and rest:
-            yield self.layout.place((first, holder, *rest.split("/")), kind)
+        return self.layout.places(parts, kind, holder)
 
     def _checked(self, path: Path, origins: Origins) -> Path:
         """The file itself, wherever links lead.
