@@ -56,6 +56,10 @@ class _Collected:
         del folder, kind
         return None
 
+    def address(self, file: Path) -> str | None:
+        del file
+        return None
+
 
 def _faces(model: Model, meshes: Meshes) -> Iterator[Faces]:
     """The triangles of all visuals, in the frame of the model; meshes that cannot be read are left out."""
