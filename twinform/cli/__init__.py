@@ -20,6 +20,7 @@ COMMANDS: Mapping[str, str] = {
     "stats": "Print in numbers what models are made of.",
     "package": "Put a robot model and all its files into a folder for Gazebo or ROS 2.",
     "batch": "Work on every model of a folder, on several processors or machines.",
+    "fuel": "Fill the local cache of Gazebo Fuel.",
     "reproduce": "Run a pass again that failed.",
     "passes": "List the passes, or print the page of one.",
     "explain": "Print the page of a rule, or list all rules.",

@@ -110,6 +110,7 @@ BUILT_IN: Mapping[str, str] = {
     "no-joint": "to_sdf",
     "no-joint-states": "ros2",
     "no-links": "model",
+    "no-thumbnail": "packaging",
     "non-positive-mass": "inertia",
     "not-for-format": "edits",
     "not-well-formed": "reading",

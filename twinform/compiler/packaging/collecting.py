@@ -47,12 +47,14 @@ class UncollectedError(Exception):
 class Collection:
     """The files of a package while they are found: each once by content, under a name that says where it was.
 
-    `lenient`: what a mesh names and is not there is left out of the package, and noted in `problems`.
+    `sources` are the files that they were, of those too whose names of other files are written anew. `lenient`: what a
+    mesh names and is not there is left out of the package, and noted in `problems`.
     """
 
     layout: Layout
     lenient: bool = False
     files: dict[str, Content] = field(default_factory=dict[str, Content])
+    sources: dict[str, Path] = field(default_factory=dict[str, Path])
     problems: list[UncollectedError] = field(default_factory=list[UncollectedError])
     _places: Places = field(default_factory=Places)
     _by_source: dict[Path, str] = field(default_factory=dict[Path, str])
@@ -97,7 +99,7 @@ class Collection:
         place = self._places.take(folder_of(path) for path in self._wanted(inside[0], kind, origins))
         for each in inside:
             self._places.take([f"{place}/{each.name}"])
-            self.files[f"{place}/{each.name}"] = self._checked(each, origins)
+            self.files[f"{place}/{each.name}"] = self.sources[f"{place}/{each.name}"] = self._checked(each, origins)
         return place
 
     def _file(self, found: Path, origins: Origins) -> str:
@@ -111,7 +113,7 @@ class Collection:
         key = (hashlib.sha256(data).hexdigest(), *sorted(named.items()))
         place = self._placed(found, kind, content, key, origins)
         names = {name: _as_seen(target, place, format_) for name, target in named.items()}
-        if self.files[place] == content and any(name != written for written, name in names.items()):
+        if self.sources[place] == content and any(name != written for written, name in names.items()):
             self.files[place] = format_.rewritten(data, names)
         return place
 
@@ -121,17 +123,13 @@ class Collection:
         if key not in self._by_content:
             place = self._places.take(self._wanted(found, kind, origins))
             self._by_content[key] = place
-            self.files[place] = content
+            self.files[place] = self.sources[place] = content
         return self._by_content[key]
 
     def _wanted(self, found: Path, kind: FileKind, origins: Origins) -> Iterator[str]:
         """Where a file would go: as it lies in its package, or else below the name of that."""
         holder, parts = origins.place(found)
-        place = self.layout.place(parts, kind)
-        yield place
-        first, _, rest = place.partition("/")
-        if holder and rest:
-            yield self.layout.place((first, holder, *rest.split("/")), kind)
+        return self.layout.places(parts, kind, holder)
 
     def _checked(self, path: Path, origins: Origins) -> Path:
         """The file itself, wherever links lead.

@@ -1,10 +1,12 @@
 """The kinds of packages, and what builds each."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from twinform.compiler.packaging.collecting import Collection
 from twinform.compiler.packaging.gazebo_model.models import build as build_gazebo_model
+from twinform.compiler.packaging.gazebo_model.worlds import build as build_world
+from twinform.compiler.packaging.gazebo_model.worlds import is_world
 from twinform.compiler.packaging.kind_names import REQUIRED
 from twinform.compiler.packaging.order import Built, Order
 from twinform.compiler.packaging.package import Content, Package
@@ -26,17 +28,26 @@ def build(order: Order, kinds: tuple[str, ...]) -> Built:
         ValueError: two kinds have different contents for one file.
     """
     said = replace(order, details=order.details.with_placeholders())
-    collection = said.collection()
-    built: list[Built] = []
+    whole_world = tuple(kinds) == ("gazebo-model",) and is_world(order)
+    built = [build_world(said)] if whole_world else list(_built(said, kinds))
     files: dict[str, Content] = {}
-    for kind in kinds:
-        built.append(KINDS[kind](replace(said, beside=tuple(files)), collection))
-        for path, content in built[-1].package.files.items():
+    for each in built:
+        for path, content in each.package.files.items():
             if files.setdefault(path, content) != content:
                 raise ValueError(f"two kinds of packages have different contents for {path}")
     found = dict.fromkeys(found for each in built for found in each.diagnostics)
     ledgers = {path: ledger for each in built for path, ledger in each.ledgers.items()}
     return Built(Package(order.name, files), (*found, *_unsaid(order, kinds)), ledgers)
+
+
+def _built(order: Order, kinds: Iterable[str]) -> Iterator[Built]:
+    """A package of each kind; each knows the files of those before it."""
+    collection = order.collection()
+    beside: tuple[str, ...] = ()
+    for kind in kinds:
+        made = KINDS[kind](replace(order, beside=beside), collection)
+        beside = (*beside, *made.package.files)
+        yield made
 
 
 def _unsaid(order: Order, kinds: Iterable[str]) -> tuple[Diagnostic, ...]:

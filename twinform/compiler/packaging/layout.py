@@ -34,25 +34,28 @@ class Layout:
         """The URI of a file of the package."""
         return f"{scheme}://{self.names[scheme]}/{path}" if scheme in self.names else path
 
-    def place(self, parts: Sequence[str], kind: FileKind) -> str:
-        """Where a file goes that is known by its path in its own package or model.
+    def places(self, parts: Sequence[str], kind: FileKind, holder: str = "") -> Iterator[str]:
+        """Where a file may go that is known by its path in its own package or model, the shortest path first.
 
-        What lies beside meshes stays there, so that most meshes find their textures as before.
+        What lies among meshes stays there, so that most meshes find their textures as before.
         """
         parts = tuple(map(safe_name, parts))
-        if parts[0].lower() in _FOLDERS["meshes"] or kind in {"mesh", "data"}:
-            return _below(self.meshes, parts, _FOLDERS["meshes"])
-        if kind == "script":
-            return _below(self.scripts, parts, _FOLDERS["scripts"])
-        return _below(self.textures, parts, _FOLDERS["textures"])
+        among_meshes = any(part.lower() in _FOLDERS["meshes"] for part in parts[:-1])
+        role = "meshes" if among_meshes or kind in {"mesh", "data"} else "scripts" if kind == "script" else "textures"
+        folder = {"meshes": self.meshes, "scripts": self.scripts, "textures": self.textures}[role]
+        above, inner = _around(parts, _FOLDERS[role])
+        named = (*((safe_name(holder),) if holder else ()), *above)[-1:]
+        for path in dict.fromkeys((inner, (*named, *inner), parts)):
+            yield "/".join((folder, *path))
 
 
-def _below(folder: str, parts: Sequence[str], called: tuple[str, ...]) -> str:
-    """A path in a folder, without the folders at its beginning that are called as this one may be."""
-    *above, name = parts
-    while above and above[0].lower() in called:
-        del above[0]
-    return "/".join((folder, *above, name))
+def _around(parts: tuple[str, ...], called: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """A path before and after the last of its folders that are called so; all is after where none is."""
+    found = [place for place, part in enumerate(parts[:-1]) if part.lower() in called]
+    if not found:
+        return (), parts
+    before = tuple(part for part in parts[: found[-1]] if part.lower() not in called)
+    return before, parts[found[-1] + 1 :]
 
 
 def safe_name(name: str) -> str:

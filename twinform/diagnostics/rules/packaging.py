@@ -41,3 +41,12 @@ PLACEHOLDER = Rule(
     example="`<license>TODO: License declaration</license>`",
     better="Give them: `--maintainer NAME --email ADDRESS --license Apache-2.0 --description TEXT`.",
 )
+NO_THUMBNAIL = Rule(
+    name="no-thumbnail",
+    severity=Severity.INFO,
+    finds="A model folder without a picture of its model: nothing of it can be drawn, or the libraries for that are "
+    "not installed.",
+    matters="Gazebo and Fuel show the model without a picture.",
+    example="A model without visuals; `twinform package` without the extra `thumbnails`.",
+    better="Install `twinform[thumbnails]`, or put a picture into `thumbnails/`. `--no-thumbnail` asks for none.",
+)
