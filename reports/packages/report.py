@@ -23,9 +23,9 @@ _KIND = "gazebo-model"
 _VERSIONS = ("1.11", "1.9")
 _ABOUT = """\
 `twinform package --kind gazebo-model` is run on every robot with meshes in the packages `example-robot-data` and
-`pybullet_data` (extra `robots`). Each folder is then shown to the judges below; the source is not in any of their search
-paths. A robot that is refused, or with which a judge is not content, has its cause in `reports/packages/known.toml`;
-without one, the command fails."""
+`pybullet_data` (extra `robots`). Each folder is then shown to the judges below; the source is not in any of their
+search paths. A robot that is refused, or with which a judge is not content, has its cause in
+`reports/packages/known.toml`; without one, the command fails."""
 KNOWN = Known.beside(__file__)
 
 

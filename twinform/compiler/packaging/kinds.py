@@ -5,8 +5,6 @@ from dataclasses import replace
 
 from twinform.compiler.packaging.collecting import Collection
 from twinform.compiler.packaging.gazebo_model.models import build as build_gazebo_model
-from twinform.compiler.packaging.gazebo_model.worlds import build as build_world
-from twinform.compiler.packaging.gazebo_model.worlds import is_world
 from twinform.compiler.packaging.kind_names import REQUIRED
 from twinform.compiler.packaging.order import Built, Order
 from twinform.compiler.packaging.package import Content, Package
@@ -28,8 +26,7 @@ def build(order: Order, kinds: tuple[str, ...]) -> Built:
         ValueError: two kinds have different contents for one file.
     """
     said = replace(order, details=order.details.with_placeholders())
-    whole_world = tuple(kinds) == ("gazebo-model",) and is_world(order)
-    built = [build_world(said)] if whole_world else list(_built(said, kinds))
+    built = list(_built(said, kinds))
     files: dict[str, Content] = {}
     for each in built:
         for path, content in each.package.files.items():

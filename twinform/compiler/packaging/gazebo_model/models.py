@@ -1,9 +1,11 @@
-"""Builds the package of one model: its SDF in each version that is asked for, its files and its model.config."""
+"""Builds the package of a model: its SDF in each version that is asked for, its files and its model.config."""
 
 from dataclasses import replace
 
 from twinform.compiler.packaging.collecting import Collection
 from twinform.compiler.packaging.gazebo_model.folder import folder_files, reserve_names, sdf_names
+from twinform.compiler.packaging.gazebo_model.worlds import build as build_world
+from twinform.compiler.packaging.gazebo_model.worlds import is_world
 from twinform.compiler.packaging.order import Built, Order
 from twinform.compiler.packaging.package import Package
 from twinform.diagnostics import DiagnosticSink
@@ -12,11 +14,13 @@ from twinform.passes.legalise.to_urdf.select_model import SelectModel
 
 
 def build(order: Order, collection: Collection) -> Built:
-    """The folder of a model.
+    """The folder of a model, or those of the models of a world.
 
     Raises:
         CompileError: the model or a file of it has an error, or there are several models.
     """
+    if is_world(order):
+        return build_world(order)
     order = _of_one_model(order)
     reserve_names(collection)
     made = [order.convert(collection, "sdf", version) for version in order.sdf_versions or (None,)]
