@@ -1,5 +1,6 @@
 """The packages that judges look at, made by the installed command from the examples, and installed by CMake."""
 
+import shlex
 import shutil
 import subprocess
 from dataclasses import dataclass
@@ -20,11 +21,27 @@ _DRIVE = (
     "right-joint=[front_right_wheel_joint,rear_right_wheel_joint] frame-id=odom child-frame-id=base_link},"
     "add-plugin{system=joint-state-publisher}"
 )
+TUTORIAL = (ROOT / "docs/tutorial/ros2-package.md").read_text(encoding="utf-8")
+_COURIER = next(
+    line for line in TUTORIAL.splitlines() if line.startswith("$ ") and "-o out/courier --kind ros2 --lic" in line
+)
+_COURIERS_PASSES = shlex.split(_COURIER)[-1]
+
 ROBOTS: dict[str, tuple[str, ...]] = {
     "arm_description": ("arm.urdf", "--kind", "both"),
     "four_wheels": ("four_wheels.urdf.xacro", "--kind", "ros2"),
     "standard_robot": ("standard_robot.urdf", "--kind", "ros2", "--passes", _DRIVE),
-    "fortress_robot": ("standard_robot.urdf", "--kind", "both", "--gazebo", "fortress", "--passes", _DRIVE),
+    "fortress_robot": (
+        "standard_robot.urdf",
+        "--kind",
+        "both",
+        "--no-thumbnail",
+        "--gazebo",
+        "fortress",
+        "--passes",
+        _DRIVE,
+    ),
+    "courier": ("courier_description/urdf/courier.urdf.xacro", "--kind", "ros2", "--passes", _COURIERS_PASSES),
     "gripper": ("gripper.urdf", "--kind", "ros2"),
     "crate": ("crate/model.sdf", "--kind", "ros2"),
 }

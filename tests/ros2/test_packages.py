@@ -14,7 +14,7 @@ from lxml import etree
 
 from tests.ros2.judges import manifest, yaml_problems
 from tests.ros2.launch_stubs import IncludeLaunchDescription, LaunchDescription, ParameterValue, described
-from tests.ros2.packages import ROBOTS, ROOT, SAID, Made, install, make
+from tests.ros2.packages import ROBOTS, ROOT, SAID, TUTORIAL, Made, install, make
 from twinform.testing.oracles import libsdformat
 
 _URI = re.compile(r"(?:package|model)://[^\s\"'<>]+")
@@ -131,6 +131,12 @@ def test_rviz_shows_what_the_bridge_carries(installed: Made):
     assert topics <= published
     if installed.name == "standard_robot":
         assert topics == {"/camera/image", "/scan", "/scan/points", "/odom"}
+
+
+def test_the_controllers_are_those_of_the_tutorial(tmp_path: Path):
+    shown = re.findall(r"^```yaml\n(.*?)^```$", TUTORIAL, re.MULTILINE | re.DOTALL)
+    written = (make("courier", tmp_path).folder / "config/controllers.yaml").read_text(encoding="utf-8")
+    assert [each in written for each in shown] == [True]
 
 
 def test_yamllint_has_nothing_to_say(made: Made):

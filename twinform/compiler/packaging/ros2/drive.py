@@ -34,7 +34,7 @@ def differential_drive(model: Model, joints: Sequence[str], others: Sequence[str
     for name, each in wheels.items():
         if each.axle[1] < _ALONG:
             raise NotMeasuredError(f"the axle of joint {name!r} does not point to the left, along y")
-        turning = _turning_above(model, name)
+        turning = _turning_above(model, name, others)
         if turning:
             raise NotMeasuredError(f"joint {turning!r} moves the wheel of joint {name!r}")
     radius = radius_of(wheels.values())
@@ -63,7 +63,7 @@ def _steered(model: Model, ground: float, commanded: Sequence[str], format_: For
             joint.name
             for joint in model.joints
             if joint.type == "continuous"
-            and _turning_above(model, joint.name) in commanded
+            and _turning_above(model, joint.name, commanded) in commanded
             and _stands(model, joint.name, ground, format_)
         ),
         None,
@@ -78,14 +78,14 @@ def _stands(model: Model, joint: str, ground: float, format_: Format) -> bool:
     return found.radius is not None and abs(found.center[2] - found.radius - ground) < _SAME_GROUND * found.radius
 
 
-def _turning_above(model: Model, name: str) -> str | None:
-    """The nearest joint between the root and a joint that can move."""
+def _turning_above(model: Model, name: str, commanded: Sequence[str]) -> str | None:
+    """The nearest joint between the root and a joint that can move, but for suspensions, which nobody commands."""
     by_child = {joint.child: joint for joint in model.joints}
     at, seen = next(joint for joint in model.joints if joint.name == name).parent, set[str | None]()
     while at in by_child and at not in seen:
         seen.add(at)
         joint = by_child[at]
-        if joint.type != "fixed":
+        if joint.type != "fixed" and (joint.type != "prismatic" or joint.name in commanded):
             return joint.name
         at = joint.parent
     return None

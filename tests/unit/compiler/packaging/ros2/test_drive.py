@@ -7,6 +7,7 @@ from twinform.passes.plugins.wheels import NotMeasuredError
 from .robots import joint, link, robot, rover
 
 WHEELS = ("left_joint", "right_joint")
+SIDES = (("left", 0.3), ("right", -0.3))
 STEERED = (
     link("knuckle"),
     link("front"),
@@ -41,6 +42,17 @@ def test_four_wheels_are_a_drive() -> None:
 
 def test_a_caster_that_nobody_steers_is_in_order() -> None:
     assert drive(rover(*STEERED)).separation == 0.6
+
+
+def test_wheels_may_be_sprung() -> None:
+    sprung = robot(
+        *(link(each) for each in ("left", "right", "left_arm", "right_arm")),
+        *(joint(f"{side}_spring", f"{side}_arm", "prismatic", y=y, axis="0 0 1") for side, y in SIDES),
+        *(joint(f"{side}_joint", side, "continuous", parent=f"{side}_arm") for side, _ in SIDES),
+    )
+    assert drive(sprung).separation == 0.6
+    reason = "joint 'left_spring' moves the wheel of joint 'left_joint'"
+    assert refused(sprung, others=("left_spring", "right_spring")) == reason
 
 
 def test_a_car_is_no_differential_drive() -> None:
