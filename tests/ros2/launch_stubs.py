@@ -6,8 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import ModuleType
-
-import pytest
+from unittest.mock import patch
 
 
 @dataclass
@@ -120,13 +119,25 @@ _MODULES: Mapping[str, Sequence[type]] = {
 }
 
 
-def described(launch_file: Path, prefix: Path, monkeypatch: pytest.MonkeyPatch) -> LaunchDescription:
+def described(launch_file: Path, prefix: Path) -> LaunchDescription:
     """What a launch file describes, where packages are installed below a folder."""
-    for name, module in _modules(prefix):
-        monkeypatch.setitem(sys.modules, name, module)
-    made = runpy.run_path(str(launch_file))["generate_launch_description"]()
+    with patch.dict(sys.modules, dict(_modules(prefix))):
+        made = runpy.run_path(str(launch_file))["generate_launch_description"]()
     assert isinstance(made, LaunchDescription)
     return made
+
+
+def texts(description: LaunchDescription) -> Iterator[str]:
+    """All texts of a description, as they are when it runs."""
+    yield from description.arguments.values()
+    for node in description.nodes:
+        yield from map(description.perform, node.arguments)
+        for parameters in node.parameters:
+            given = [each for each in parameters.values() if isinstance(each, ParameterValue)]
+            yield from (description.perform(each.value) for each in given)
+    for each in description.initial_entities:
+        if isinstance(each, IncludeLaunchDescription):
+            yield each.launch_description_source.launch_file_path
 
 
 def _modules(prefix: Path) -> Iterator[tuple[str, ModuleType]]:

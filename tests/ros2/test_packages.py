@@ -1,11 +1,9 @@
 """Each package is one to catkin, CMake, launch, yamllint, urdfdom, libsdformat and a shell."""
 
-import io
 import re
 import shutil
 import subprocess
 from collections.abc import Iterator
-from contextlib import redirect_stdout
 from pathlib import Path
 
 import pytest
@@ -13,7 +11,7 @@ import yaml
 from lxml import etree
 
 from tests.ros2.judges import manifest, yaml_problems
-from tests.ros2.launch_stubs import IncludeLaunchDescription, LaunchDescription, ParameterValue, described
+from tests.ros2.launch_stubs import IncludeLaunchDescription, LaunchDescription, ParameterValue, described, texts
 from tests.ros2.packages import ROBOTS, ROOT, SAID, TUTORIAL, Made, install, make
 from twinform.testing.oracles import libsdformat
 
@@ -40,9 +38,9 @@ def test_catkin_reads_the_manifest_without_a_warning(made: Made):
     assert (found.description, found.maintainers, found.licenses) == (SAID[1], ((SAID[3], SAID[5]),), ("Apache-2.0",))
 
 
-def test_what_launch_files_start_is_what_the_package_depends_on(installed: Made, monkeypatch: pytest.MonkeyPatch):
+def test_what_launch_files_start_is_what_the_package_depends_on(installed: Made):
     depends = manifest(installed.folder).exec_depends
-    for description in _launched(installed, monkeypatch):
+    for description in _launched(installed):
         assert {node.package for node in description.nodes} <= depends
     for each in _controllers(installed).values():
         assert each["type"].partition("/")[0] in depends
@@ -82,16 +80,16 @@ def test_the_environment_leads_gazebo_to_every_file(installed: Made):
         assert (Path(done.stdout) / uri.partition("://")[2]).is_file(), uri
 
 
-def test_the_launch_files_name_files_that_are_there(installed: Made, monkeypatch: pytest.MonkeyPatch):
-    for description in _launched(installed, monkeypatch):
-        paths = [text for text in _texts(description) if text.startswith(str(installed.prefix)) and "\n" not in text]
+def test_the_launch_files_name_files_that_are_there(installed: Made):
+    for description in _launched(installed):
+        paths = [text for text in texts(description) if text.startswith(str(installed.prefix)) and "\n" not in text]
         assert paths
         for path in paths:
             assert Path(path).is_file() or "ros_gz_sim" in path, path
 
 
-def test_display_publishes_the_robot_and_its_joints(installed: Made, monkeypatch: pytest.MonkeyPatch):
-    description = described(installed.share / "launch/display.launch.py", installed.prefix, monkeypatch)
+def test_display_publishes_the_robot_and_its_joints(installed: Made):
+    description = described(installed.share / "launch/display.launch.py", installed.prefix)
     urdf = installed.share / f"urdf/{installed.name}.urdf"
     published = description.node("robot_state_publisher").parameters[0]["robot_description"]
     assert published == ParameterValue(urdf.read_text(encoding="utf-8"), value_type=str)
@@ -100,8 +98,8 @@ def test_display_publishes_the_robot_and_its_joints(installed: Made, monkeypatch
     assert sliders == ({"joint_state_publisher", "joint_state_publisher_gui"} if moves else set())
 
 
-def test_gazebo_gets_the_world_the_robot_and_its_controllers(installed: Made, monkeypatch: pytest.MonkeyPatch):
-    description = described(installed.share / "launch/gazebo.launch.py", installed.prefix, monkeypatch)
+def test_gazebo_gets_the_world_the_robot_and_its_controllers(installed: Made):
+    description = described(installed.share / "launch/gazebo.launch.py", installed.prefix)
     (gazebo,) = [each for each in description.initial_entities if isinstance(each, IncludeLaunchDescription)]
     arguments = {name: description.perform(text) for name, text in gazebo.launch_arguments}
     assert arguments == {"gz_args": f"-r '{installed.share}/worlds/{installed.name}.sdf'"}
@@ -184,22 +182,6 @@ def _controllers(made: Made) -> dict[str, dict[str, str]]:
     return {name: each for name, each in manager.items() if isinstance(each, dict)}
 
 
-def _launched(made: Made, monkeypatch: pytest.MonkeyPatch) -> Iterator[LaunchDescription]:
+def _launched(made: Made) -> Iterator[LaunchDescription]:
     for file in sorted(made.share.glob("launch/*.launch.py")):
-        with redirect_stdout(io.StringIO()) as printed:
-            yield described(file, made.prefix, monkeypatch)
-        assert not printed.getvalue()
-
-
-def _texts(description: LaunchDescription) -> Iterator[str]:
-    """All texts of a description, as they are when it runs."""
-    yield from description.arguments.values()
-    for node in description.nodes:
-        yield from map(description.perform, node.arguments)
-        for parameters in node.parameters:
-            yield from (
-                description.perform(each.value) for each in parameters.values() if isinstance(each, ParameterValue)
-            )
-    for each in description.initial_entities:
-        if isinstance(each, IncludeLaunchDescription):
-            yield each.launch_description_source.launch_file_path
+        yield described(file, made.prefix)
