@@ -62,6 +62,8 @@ def _placed(graph: FrameGraph, joint: Joint, position: float) -> Transform:
     assert joint.parent
     assert joint.child
     rest = graph.pose(joint.child, joint.parent)
+    if not position:
+        return rest
     axis = direction(joint.axis, Format.URDF)
     length = math.hypot(*axis)
     x, y, z = (each / length for each in axis)
