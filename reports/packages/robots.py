@@ -8,7 +8,7 @@ from pathlib import Path
 MISSING = "no robots with meshes are here: pip install '.[robots]'"
 _SITE = Path(sysconfig.get_path("purelib"))
 _SHARE = _SITE / "cmeel.prefix/share"
-_MESH = b"<mesh"
+_MESH, _JOINT = b"<mesh", b"<joint "
 _LEFT_OUT = ("random_urdfs", "objects", "testdata")
 """Folders of things that are no robots: nine hundred shapes for picking, cups, what tests need."""
 
@@ -42,4 +42,8 @@ def _pybullet_data() -> Iterator[Robot]:
 
 
 def _with_meshes(folder: Path) -> Iterator[Path]:
-    return (file for file in sorted(folder.rglob("*.urdf")) if _MESH in file.read_bytes())
+    """The files with meshes and at least two joints: one body alone is no robot."""
+    for file in sorted(folder.rglob("*.urdf")):
+        text = file.read_bytes()
+        if _MESH in text and text.count(_JOINT) > 1:
+            yield file

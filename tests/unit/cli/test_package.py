@@ -362,6 +362,27 @@ def test_includes_by_paths_are_refused(run: Run, tmp_path: Path) -> None:
     assert b"'hand'" not in _package(run, source, tmp_path / "out", "--expand-includes")["model.sdf"]
 
 
+_PARAMETER = "<parameters>package://control/a.yaml</parameters>"
+_PLUGIN = f'<plugin name="control" filename="x.so"><group>{_PARAMETER}</group></plugin>'
+_WITH_PLUGIN = (
+    f'<robot name="r"><link name="l">{INERTIAL}</link><gazebo>{_PLUGIN}</gazebo></robot>',
+    f'<sdf version="1.9"><model name="r"><link name="l"/>{_PLUGIN}</model></sdf>',
+)
+
+
+@pytest.mark.parametrize("text", _WITH_PLUGIN)
+def test_parameters_of_plugins_stay_with_a_warning(run: Run, tmp_path: Path, text: str) -> None:
+    source = write(tmp_path, {"r.urdf" if text.startswith("<robot") else "r.sdf": text.encode()})
+    source = next(source.glob("r.*"))
+    done = run("package", source, "-o", tmp_path / "out", "--kind", "gazebo-model", *SAID)
+    assert done.exit_code == 0
+    message = (
+        "plugin 'control' names 'package://control/a.yaml', which is not put into the package [unpackaged-parameter]"
+    )
+    assert done.stderr.count(message) == 1
+    assert "package://control/a.yaml" in (tmp_path / "out/model.sdf").read_text()
+
+
 def test_several_models_need_a_name(run: Run, tmp_path: Path) -> None:
     text = '<sdf version="1.6"><model name="a"><link name="l"/></model><model name="b"><link name="l"/></model></sdf>'
     source = write(tmp_path, {"m.sdf": text.encode()}) / "m.sdf"

@@ -6,6 +6,7 @@ from pydantic import PrivateAttr
 
 from twinform.compiler.packaging.collecting import Collection, UncollectedError
 from twinform.compiler.packaging.file_kinds import FileKind
+from twinform.compiler.packaging.plugin_files import report_plugin_files
 from twinform.compiler.search.uris import LocalAssets
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Severity
 from twinform.diagnostics.rules.packaging import UNPACKAGED_FILE, UNPACKAGED_INCLUDE
@@ -29,7 +30,7 @@ class CollectFiles(AssetPass):
 
     Changes: URIs of meshes, textures and scripts.
     Never touches: includes by `model://` or of Fuel, names such as `__default__`, and the parameters of plugins.
-    Diagnostics: `unpackaged-file`, `unpackaged-include`, `uri-leaves-folder`.
+    Diagnostics: `unpackaged-file`, `unpackaged-include`, `unpackaged-parameter`, `uri-leaves-folder`.
     """
 
     name: ClassVar[str] = "collect-files"
@@ -66,6 +67,7 @@ class CollectFiles(AssetPass):
             self._report_problems(written, where, sink)
             return self._collection.layout.uri(place, scheme)
 
+        report_plugin_files(document, sink)
         return map_uris(document, change)
 
     def _collected(self, uri: str, kinds: frozenset[FileKind]) -> str:
