@@ -24,13 +24,18 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 def companion_options(command: Command) -> Command:
     """The options for files beside the model."""
     path = click.Path(path_type=Path)
-    names = click.Choice(get_args(ReleaseName))
     bridge = "Write the file of ros_gz_bridge for the topics of the result."
     world = "Write a world with the model in it, ground, light, and the systems that its sensors need."
-    release = "The release of Gazebo that all is for: SDF is written in the newest version that it reads."
     command = click.option("--bridge", type=path, metavar="FILE", help=bridge)(command)
     command = click.option("--world", type=path, metavar="FILE", help=world)(command)
-    return click.option("--gazebo", type=names, default="harmonic", help=release)(command)
+    return release_option(command)
+
+
+def release_option(command: Command) -> Command:
+    """The option for the release of Gazebo."""
+    names = click.Choice(get_args(ReleaseName))
+    text = "The release of Gazebo that all is for: SDF is written in the newest version that it reads."
+    return click.option("--gazebo", type=names, default="harmonic", help=text)(command)
 
 
 def version_for(gazebo: str, asked: str | None) -> str:

@@ -46,13 +46,24 @@ def world_text(document: Document, release: str, sink: DiagnosticSink, name: str
         message = "a world is written around one model of SDF"
         sink.report(rules.NOTHING_TO_ADD_TO, message, document.location)
         return ""
-    template = loads(resources.files("twinform.compiler").joinpath("world.sdf").read_bytes())
-    needed = _needed(document, release)
-    world = with_systems(with_defaults(template.worlds[0].model_copy(update={"name": name})), needed.systems)
-    world = _with_place(world) if "spherical_coordinates" in needed.elements else world
+    template, world = _world(document, release, name)
     world = world.model_copy(update={"models": (*world.models, _on_the_ground(document.models[0]))})
     namespaces, version = document.namespaces, document.version
     return emit(template.model_copy(update={"worlds": (world,), "version": version, "namespaces": namespaces}), sink)
+
+
+def world_without_text(document: Document, release: str, sink: DiagnosticSink, name: str) -> str:
+    """An SDF file with such a world for the models of a document, URDF or SDF, which are put there by somebody else."""
+    template, world = _world(document, release, name)
+    return emit(template.model_copy(update={"worlds": (world,)}), sink)
+
+
+def _world(document: Document, release: str, name: str) -> tuple[Document, World]:
+    """A file with a world, and the world with light, ground, and what the models of a document need."""
+    template = loads(resources.files("twinform.compiler").joinpath("world.sdf").read_bytes())
+    needed = _needed(document, release)
+    world = with_systems(with_defaults(template.worlds[0].model_copy(update={"name": name})), needed.systems)
+    return template, _with_place(world) if "spherical_coordinates" in needed.elements else world
 
 
 def _on_the_ground(model: Model) -> Model:

@@ -18,6 +18,7 @@ from twinform.profiles import Profile
 
 EXAMPLES = {
     "Convert a folder of models, with four processes": "twinform batch convert models out --to sdf --jobs 4",
+    "Bring model.config and meshes along": "twinform batch convert models out --to sdf --model-folders",
     "A quarter of them, on each of four machines": "twinform batch convert models out --to sdf --shard 1/4",
 }
 
@@ -31,6 +32,11 @@ EXAMPLES = {
 @ordering_options
 @click.option(
     "--split", is_flag=True, help="Write each world into a folder: its models, and an SDF that includes them."
+)
+@click.option(
+    "--model-folders",
+    is_flag=True,
+    help="Bring along what lies beside a model that a model.config names: that file, meshes, textures.",
 )
 @click.option("--ledgers", is_flag=True, help="Write beside each result what was not expressed.")
 @click.option("--fresh", is_flag=True, help="Work on every model again, also where nothing has changed.")
@@ -48,6 +54,7 @@ def command(
     profiles: tuple[Profile, ...],
     keep_physics: bool,
     split: bool,
+    model_folders: bool,
     ledgers: bool,
     fresh: bool,
     allow: tuple[str, ...],
@@ -65,7 +72,7 @@ def command(
     asked["sdf_version"] = asked["sdf_version"] if target == "sdf" else None
     policy = policy_of(ctx, allow, deny)
     request = replace(request_of(asked, target), keep_physics=keep_physics)
-    job = Convert(to=request, policy=policy, split=split, ledgers=ledgers)
+    job = Convert(to=request, policy=policy, split=split, ledgers=ledgers, model_folders=model_folders)
     with models(source, cast("ModelOptions", rest), dest) as found:
         whole = Batch(
             source=found.folder,

@@ -79,7 +79,7 @@ class Recorder:
         if problem is not None:
             return replace(record, outcome=Outcome.UNWRITTEN, message=f"it cannot be written: {problem}")
         places.take(done.texts)
-        results = tuple(stamp(places.dest / name, name, digest(text.encode())) for name, text in done.texts.items())
+        results = tuple(stamp(places.dest / name, name, _digest(text)) for name, text in done.texts.items())
         return replace(record, results=results)
 
     def _clear(self, task: Task, record: Record) -> None:
@@ -99,7 +99,7 @@ def _remove(dest: Path, results: Iterable[Dependency]) -> None:
                 path.unlink()
 
 
-def _written(dest: Path, texts: Mapping[str, str]) -> str | None:
+def _written(dest: Path, texts: Mapping[str, str | bytes]) -> str | None:
     """Write results; gives the reason where that cannot be done.
 
     Raises:
@@ -113,6 +113,10 @@ def _written(dest: Path, texts: Mapping[str, str]) -> str | None:
             raise
         return error.strerror or str(error)
     return None
+
+
+def _digest(text: str | bytes) -> str:
+    return digest(text if isinstance(text, bytes) else text.encode())
 
 
 def _again(dest: str, result: Dependency) -> Dependency:

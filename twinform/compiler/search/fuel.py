@@ -1,14 +1,72 @@
-"""Gazebo Fuel models in the local cache."""
+"""Gazebo Fuel: addresses of models and worlds, and the local cache in which the programs of Gazebo keep them.
+
+https://fuel.gazebosim.org/1.0/OpenRobotics/models/Sun/3/files/meshes/sun.dae
+~/.gz/fuel/fuel.gazebosim.org/openrobotics/models/sun/3/meshes/sun.dae
+"""
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from urllib.parse import unquote, urlsplit
+from typing import Literal, Self
+from urllib.parse import quote, unquote, urlsplit
 
-_TWINS = {"fuel.gazebosim.org": "fuel.ignitionrobotics.org", "fuel.ignitionrobotics.org": "fuel.gazebosim.org"}
+from twinform.passes.transforms.uri_schemes import FUEL_SERVERS
+
+SERVER = FUEL_SERVERS[0]
+"""The server that addresses are written for."""
+TIP = "tip"
+"""What stands for the newest version in an address."""
+_TWINS = {SERVER: FUEL_SERVERS[1], FUEL_SERVERS[1]: SERVER}
 """One server under two names."""
-_ADDRESS = re.compile(r"/(?:\d+\.\d+/)?(?P<owner>[^/]+)/models/(?P<name>[^/]+)(?:/(?P<rest>.*))?")
+_ADDRESS = re.compile(r"/(?:\d+\.\d+/)?(?P<owner>[^/]+)/(?P<kind>models|worlds)/(?P<name>[^/]+)(?:/(?P<rest>.*))?")
+_FIRST_OWNER = "openrobotics"
+"""Whose models are taken first where several owners have one of a name."""
+Kind = Literal["models", "worlds"]
+_TO_VERSION = 5
+"""So many folders lead from a cache to a version: server, owner, kind, name, version."""
+
+
+@dataclass(frozen=True, slots=True)
+class FuelName:
+    """A model or world on a server, or a file of it; without a `version` the newest one, without a `file` all of it."""
+
+    server: str
+    owner: str
+    kind: Kind
+    name: str
+    version: str = ""
+    file: str = ""
+
+    @classmethod
+    def parse(cls, uri: str) -> Self | None:
+        """What an address names; None where it is no address of a model or world."""
+        try:
+            parts = urlsplit(uri.strip())
+        except ValueError:  # such as a bracket without its like
+            return None
+        path = unquote(parts.path).rstrip("/")
+        match = _ADDRESS.fullmatch(path)
+        if match is None or not {".", "..", ""}.isdisjoint(path.split("/")[1:]):
+            return None
+        version, _, rest = (match["rest"] or "").partition("/")
+        file = "" if rest == "files" else rest.removeprefix("files/")
+        kind: Kind = "models" if match["kind"] == "models" else "worlds"
+        return cls(parts.hostname or "", match["owner"], kind, match["name"], "" if version == TIP else version, file)
+
+    @property
+    def uri(self) -> str:
+        """Its address."""
+        version = self.version or (TIP if self.file else "")
+        parts = (self.owner, self.kind, self.name, version, f"files/{self.file}" if self.file else "")
+        return f"https://{self.server}/1.0/" + "/".join(quote(part) for part in parts if part)
+
+    def folders(self, cache: Path) -> Iterator[Path]:
+        """The folders of its versions in a cache: names are in lower case there; older caches kept them."""
+        for server in dict.fromkeys((self.server, _TWINS.get(self.server, self.server))):
+            yield cache / server / self.owner.lower() / self.kind / self.name.lower()
+            yield cache / server / self.owner / self.kind / self.name
 
 
 def caches(environment: Mapping[str, str]) -> tuple[Path, ...]:
@@ -23,41 +81,52 @@ def _caches(named: str | None, home: str) -> tuple[Path, ...]:
 
 
 def cached(uri: str, folders: Iterable[Path]) -> Path | None:
-    """The folder or file of a model that a Fuel address names; None where it is not on this machine."""
-    parts = urlsplit(uri)
-    match = _ADDRESS.fullmatch(unquote(parts.path).rstrip("/"))
-    host = parts.hostname or ""
-    if match is None or ".." in unquote(parts.path).split("/"):
+    """The folder or file of a model or world that an address names; None where it is not on this machine."""
+    name = FuelName.parse(uri)
+    if name is None:
         return None
-    version, inner = _version_and_file(match["rest"] or "")
     for cache in folders:
-        for server in (host, _TWINS.get(host, host)):
-            for model in _spellings(cache / server, match["owner"], match["name"]):
-                found = _inside(model, version, inner)
-                if found is not None and found.resolve().is_relative_to(cache.resolve()):
-                    return found
+        for versions in name.folders(cache):
+            found = _inside(versions, name)
+            if found is not None and found.resolve().is_relative_to(cache.resolve()):
+                return found
     return None
 
 
-def _spellings(server: Path, owner: str, name: str) -> Iterator[Path]:
-    """The cache has names in lower case; older ones kept them."""
-    yield server / owner.lower() / "models" / name.lower()
-    yield server / owner / "models" / name
+def models_named(name: str, folders: Iterable[Path]) -> Iterator[Path]:
+    """The models of a name in the caches, of any owner, each in its newest version."""
+    for cache in folders:
+        owners = [owner for server in _folders(cache) for owner in _folders(server)]
+        for owner in sorted(owners, key=lambda path: (path.name != _FIRST_OWNER, path)):
+            for called in dict.fromkeys((name.lower(), name)):
+                model = owner / "models" / called
+                yield from (model / version for version in newest_first(model)[:1])
 
 
-def _version_and_file(rest: str) -> tuple[str, str]:
-    """What follows the name: `3`, `tip`, `tip/files/meshes/box.dae`."""
-    version, _, more = rest.partition("/")
-    return ("" if version == "tip" else version), more.removeprefix("files/") if more != "files" else ""
-
-
-def _inside(model: Path, version: str, inner: str) -> Path | None:
-    versions = [version] if version else _newest_first(model)
-    return next((model / each / inner for each in versions if (model / each / inner).exists()), None)
-
-
-def _newest_first(model: Path) -> list[str]:
-    if not model.is_dir():
+def _folders(folder: Path) -> list[Path]:
+    try:
+        return [each for each in folder.iterdir() if each.is_dir()]
+    except OSError:
         return []
-    numbers = [folder.name for folder in model.iterdir() if folder.name.isdecimal() and folder.is_dir()]
+
+
+def name_of(path: Path, folders: Iterable[Path]) -> FuelName | None:
+    """What a file or folder in a cache is called on its server; None where it is in none."""
+    for cache in folders:
+        if path.is_relative_to(cache):
+            parts = path.relative_to(cache).parts
+            if len(parts) >= _TO_VERSION and parts[2] in {"models", "worlds"} and parts[4].isdecimal():
+                kind: Kind = "models" if parts[2] == "models" else "worlds"
+                return FuelName(parts[0], parts[1], kind, parts[3], parts[4], "/".join(parts[5:]))
+    return None
+
+
+def newest_first(model: Path) -> list[str]:
+    """The versions of a model or world that are in a cache."""
+    numbers = [folder.name for folder in _folders(model) if folder.name.isdecimal()]
     return sorted(numbers, key=int, reverse=True)
+
+
+def _inside(model: Path, name: FuelName) -> Path | None:
+    versions = [name.version] if name.version else newest_first(model)
+    return next((model / each / name.file for each in versions if (model / each / name.file).exists()), None)

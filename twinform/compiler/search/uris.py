@@ -99,7 +99,7 @@ class SearchPath:
         around = folders_around(beside)
         for folder in self._candidates(name, around):
             if exists(folder / inner):
-                self._require_inside(uri, folder / inner, around)
+                self._require_inside(uri, folder / inner, (*around, *self.fuel))
                 return folder / inner
         raise self._missing(uri, (*self._roots(), *around))
 
@@ -119,6 +119,7 @@ class SearchPath:
             yield from self.index.named(name, root)
         for folder in around:
             yield from self.index.directly_in(name, folder)
+        yield from fuel.models_named(name, self.fuel)
 
     def _roots(self) -> tuple[Path, ...]:
         return (*self.own, *self.models, *self.packages, *self.workspaces)
@@ -143,7 +144,8 @@ class SearchPath:
         if found is None:
             host = urlsplit(uri).hostname or "the network"
             message = f"{uri!r} is not in the local cache of Fuel, and nothing is fetched from {host}"
-            raise UriError(rules.UNRESOLVED_URI, message, _searched(self.fuel, f"run `gz fuel download -u '{uri}'`"))
+            advice = f"run `gz fuel download -u '{uri}'`, or `twinform fuel add FOLDER --owner NAME` where you have it"
+            raise UriError(rules.UNRESOLVED_URI, message, _searched(self.fuel, advice))
         return found
 
     def _missing(self, uri: str, roots: Iterable[Path]) -> UriError:
@@ -194,4 +196,12 @@ class LocalAssets:
         """What the package of ROS or the model of Gazebo is called that a folder is; None where it is none."""
         if kind == "package":
             return package_name(folder)
-        return folder.name if exists(folder / _MODEL_CONFIG) else None
+        if not exists(folder / _MODEL_CONFIG):
+            return None
+        name = fuel.name_of(folder, self.search.fuel)
+        return name.name if name else folder.name
+
+    def address(self, file: Path) -> str | None:
+        """The address on Fuel of a file or folder in its local cache; None for all others."""
+        name = fuel.name_of(file, self.search.fuel)
+        return name.uri if name else None

@@ -44,6 +44,10 @@ class MovedAssets:
         """What the package of ROS or the model of Gazebo is called that a folder is; None where it is none."""
         return self.source.holder(folder, kind)
 
+    def address(self, file: Path) -> str | None:
+        """The address on Fuel of a file or folder in its local cache; None for all others."""
+        return self.source.address(file)
+
 
 def moved(document: Document, source: LocalAssets, folder: Path, sink: DiagnosticSink) -> tuple[Document, MovedAssets]:
     """The document with paths that lead to the same files from another folder, and the files as it names them now.

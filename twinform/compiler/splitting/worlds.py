@@ -53,6 +53,18 @@ class Split:
     side_files: tuple[SideFile, ...] = ()
 
 
+@dataclass(frozen=True, slots=True)
+class Placement:
+    """Where the files of a world go: by what URI each is included, and what its document has to be there."""
+
+    uri: Callable[[str], str] = str
+    adapted: Callable[[Document, str, DiagnosticSink], Document] = lambda document, _file, _sink: document
+
+
+_BESIDE = Placement()
+"""All in one folder."""
+
+
 def split(
     request: ConversionRequest,
     source: Input,
@@ -61,11 +73,13 @@ def split(
     name: str = "",
     instrumentation: PassInstrumentation | None = None,
     folder: Path | None = None,
+    placement: Placement = _BESIDE,
 ) -> Split:
     """Every model of an SDF file in a file of its own, and the file with includes in their place under its own name.
 
     Models become URDF where Gazebo reads that as the same robot, or stay SDF if the order is for SDF. `folder` is where
-    the files go, so that relative paths lead from there to the same files; without it they stay as they are.
+    the files go, so that relative paths lead from there to the same files; without it they stay as they are. What is
+    put elsewhere has a `placement`.
 
     Raises:
         CompileError: the source, a pass or one of the results has an error.
@@ -99,7 +113,7 @@ def split(
             request = replace(request, assets=there)
         kept = mixed_words(checked) if checked.mixed else None
         comments = comments_of(checked, document, Format.SDF, None) if request.comments else None
-        files = _Files(request, sink, instrumentation, kept, _name_of_world(checked.path), comments)
+        files = _Files(request, sink, instrumentation, kept, _name_of_world(checked.path), comments, placement)
         if not sink.has_errors:
             files.add(document)
         if sink.has_errors:
@@ -140,6 +154,7 @@ class _Files:
     kept: frozenset[str] | None
     name: str
     comments: Comments | None
+    placement: Placement
     texts: dict[str, str] = field(default_factory=dict[str, str])
     urdf: dict[int, _Urdf] = field(default_factory=dict[int, _Urdf])
     """The models that become URDF, by their identity."""
@@ -157,7 +172,7 @@ class _Files:
         includes = (*document.includes, *(self._include(document, each, each.pose) for each in document.models))
         rest = document.model_copy(update={"worlds": tuple(worlds), "models": (), "includes": includes})
         models = (*document.models, *(each for world in document.worlds for each in world.models))
-        self.texts[self.name] = self._sdf(rest, self._comments_around(models))
+        self.texts[self.name] = self._sdf(rest, self.name, self._comments_around(models))
 
     def _bases(self, models: tuple[Model, ...]) -> Iterator[tuple[str, str]]:
         """The frame of each model in URDF that is where it was: its own, or else that of its root."""
@@ -203,15 +218,17 @@ class _Files:
         file = self._name(model.name, "sdf" if made is None else "urdf")
         if made is None:
             alone = _alone(document, model.model_copy(update={"pose": None}))
-            self.texts[file] = self._sdf(alone, self._comments_in(model))
+            self.texts[file] = self._sdf(alone, file, self._comments_in(model))
             pose = pose or (Pose() if model.placement_frame else None)  # its frame is in the file, and its pose is here
-            return Include(uri=file, name=model.name, pose=pose, source=model.source)
+            return Include(uri=self.placement.uri(file), name=model.name, pose=pose, source=model.source)
         self.texts[file] = made.text
         placed = _placed(model, pose, made.root, self.sink)
-        return Include(uri=file, name=model.name, pose=placed, static=model.static, source=model.source)
+        uri = self.placement.uri(file)
+        return Include(uri=uri, name=model.name, pose=placed, static=model.static, source=model.source)
 
-    def _sdf(self, document: Document, comments: Comments | None) -> str:
+    def _sdf(self, document: Document, file: str, comments: Comments | None) -> str:
         """The text of what stays SDF, in the version that is asked for."""
+        document = self.placement.adapted(document, file, self.sink)
         request = replace(self.request, to="sdf")
         return written(document, request, self.sink, self.instrumentation, kept=self.kept, comments=comments)[1]
 

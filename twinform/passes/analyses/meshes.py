@@ -68,6 +68,14 @@ class Meshes:
         least, greatest = self._scaled(mesh).bounds.tolist()
         return (least[0], least[1], least[2]), (greatest[0], greatest[1], greatest[2])
 
+    def triangles(self, mesh: Mesh) -> _Triangles:
+        """The triangles of the mesh, in the frame of the shape.
+
+        Raises:
+            MeshError: the file is not there, or cannot be read.
+        """
+        return self._scaled(mesh)
+
     def _scaled(self, mesh: Mesh) -> _Triangles:
         try:
             path = self.assets.find(mesh.uri or "")

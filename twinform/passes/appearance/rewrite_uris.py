@@ -7,7 +7,7 @@ from pydantic import Field, field_validator
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules.appearance import UNMAPPED_URI
 from twinform.ir import Document
-from twinform.passes.appearance.uri_schemes import Roots, Scheme, UnmappedError, rewritten, scheme_of
+from twinform.passes.appearance.uri_schemes import Known, Roots, Scheme, UnmappedError, rewritten, scheme_of
 from twinform.passes.framework.asset_access import AssetError
 from twinform.passes.framework.assets import AssetPass
 from twinform.passes.transforms.uris import Kind, map_uris
@@ -22,7 +22,8 @@ class RewriteUris(AssetPass):
     2. to `file` and `relative`, they are looked up, in `roots` first, then as `--path` and the variables of ROS and
        Gazebo say; a relative path is relative to the folder of the document;
     3. to `package` and `model`, files and paths are relative to the folder around them that is in `roots`, has a
-       package.xml, or a model.config.
+       package.xml, or a model.config;
+    4. to `fuel`, those of the local cache of Fuel get the address that they have on its server.
 
     Never touches: URIs that are in the scheme already, names such as `__default__`, and the parameters of plugins.
     Diagnostics: `unmapped-uri` for each URI that cannot be written so; it stays.
@@ -32,9 +33,10 @@ class RewriteUris(AssetPass):
     example: ClassVar[str] = "rewrite-uris{to=model kinds=[mesh,texture]}"
 
     to: Scheme = Field(description="The scheme in which URIs are written.")
-    from_schemes: frozenset[Literal["package", "model", "file", "relative", "http"]] = Field(
+    from_schemes: frozenset[Literal["package", "model", "file", "relative", "http", "fuel"]] = Field(
         default=frozenset({"package", "model", "file", "relative", "http"}),
-        description="Which URIs are rewritten; a path that begins with `/` counts as a file, `https` and Fuel as http.",
+        description="Which URIs are rewritten; a path that begins with `/` counts as a file, `https` and Fuel as http; "
+        "`fuel` means addresses of Fuel alone.",
     )
     kinds: frozenset[Kind] = Field(
         default=frozenset({"mesh", "texture", "include"}),
@@ -59,7 +61,7 @@ class RewriteUris(AssetPass):
 
         def change(uri: str, kind: Kind, where: Location) -> str:
             scheme = scheme_of(uri)
-            if kind not in self.kinds or scheme is None or scheme == self.to or scheme not in self.from_schemes:
+            if kind not in self.kinds or scheme is None or scheme == self.to or not self._takes(scheme):
                 return uri
             try:
                 return rewritten(uri.strip(), scheme, self.to, roots)
@@ -70,3 +72,7 @@ class RewriteUris(AssetPass):
             return uri
 
         return map_uris(document, change)
+
+    def _takes(self, scheme: Known) -> bool:
+        """Whether URIs of a scheme are rewritten."""
+        return scheme in self.from_schemes or (scheme == "fuel" and "http" in self.from_schemes)

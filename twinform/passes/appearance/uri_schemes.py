@@ -10,9 +10,10 @@ from typing import Literal, Self
 from urllib.parse import unquote
 
 from twinform.passes.framework.asset_access import Assets
+from twinform.passes.transforms.uri_schemes import FUEL_SERVERS
 
-Scheme = Literal["package", "model", "file", "relative"]
-Known = Literal["package", "model", "file", "relative", "http"]
+Scheme = Literal["package", "model", "file", "relative", "fuel"]
+Known = Literal["package", "model", "file", "relative", "http", "fuel"]
 
 _SCHEME = re.compile(r"([A-Za-z][\w+.-]*):")
 _SCHEMES: dict[str, Known] = {"package": "package", "model": "model", "file": "file", "http": "http", "https": "http"}
@@ -31,7 +32,9 @@ def scheme_of(uri: str) -> Known | None:
     uri = uri.strip()
     found = _SCHEME.match(uri)
     if found:
-        return _SCHEMES.get(found[1].lower())
+        scheme = _SCHEMES.get(found[1].lower())
+        server = uri.partition("://")[2].partition("/")[0].lower()
+        return "fuel" if scheme == "http" and server in FUEL_SERVERS else scheme
     if not uri or uri.startswith("__"):
         return None
     return "file" if uri.startswith("/") else "relative"
@@ -79,7 +82,7 @@ class Roots:
         return ((name, _absolute(folder)) for name, folder in self.named)
 
     def _around(self, file: Path, kind: Literal["package", "model"]) -> Iterator[tuple[str, Path]]:
-        for folder in file.parents:
+        for folder in (file, *file.parents):
             name = self.assets.holder(folder, kind)
             if name is not None:
                 yield name, folder
@@ -102,6 +105,11 @@ def rewritten(uri: str, scheme: Known, to: Scheme, roots: Roots) -> str:
         if folder is None:
             raise UnmappedError("the document lies in no folder")
         return Path(os.path.relpath(file, _absolute(folder))).as_posix()
+    if to == "fuel":
+        address = roots.assets.address(file)
+        if address is None:
+            raise UnmappedError(f"{str(file)!r} is in no local cache of Fuel", "put it there with `twinform fuel add`")
+        return address
     name, inner = roots.holder(file, to)
     return f"{to}://{name}" if inner == "." else f"{to}://{name}/{inner}"
 

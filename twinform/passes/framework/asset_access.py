@@ -37,6 +37,10 @@ class Assets(Protocol):
         """What the package of ROS or the model of Gazebo is called that a folder is; None where it is none."""
         ...
 
+    def address(self, file: Path) -> str | None:
+        """The address on Fuel of a file or folder in its local cache; None for all others."""
+        ...
+
 
 class _NoAssets:
     """A document by itself, of which the origin is not known."""
@@ -48,6 +52,10 @@ class _NoAssets:
 
     def holder(self, folder: Path, kind: Literal["package", "model"]) -> str | None:
         del folder, kind
+        return None
+
+    def address(self, file: Path) -> str | None:
+        del file
         return None
 
 

@@ -1,6 +1,5 @@
 """Configuration of ros_gz_bridge: which topics of Gazebo map to which topics of ROS."""
 
-import json
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
@@ -11,6 +10,7 @@ from twinform.diagnostics.rules import plugins as rules
 from twinform.ir import Document, Format
 from twinform.passes.plugins.catalog import ros_message
 from twinform.passes.plugins.topics import Topic, topics_of
+from twinform.passes.plugins.yaml_text import quoted
 
 _USUAL = {"odometry": "odom", "joint_state": "joint_states"}
 """What ROS usually calls the last part of a topic."""
@@ -52,13 +52,13 @@ def bridges(document: Document, release: str, sink: DiagnosticSink, world: str |
 
 
 def bridge_yaml(entries: Iterable[Bridge]) -> str:
-    """The file of ros_gz_bridge; text in JSON's quotes is text in YAML too."""
+    """The file of ros_gz_bridge."""
     return _HEAD + "".join(_entry(each) for each in entries)
 
 
 def _entry(bridge: Bridge) -> str:
     keys = ("ros_topic_name", "gz_topic_name", "ros_type_name", "gz_type_name")
-    lines = [f"{key}: {json.dumps(getattr(bridge, key))}" for key in keys]
+    lines = [f"{key}: {quoted(getattr(bridge, key))}" for key in keys]
     lines.append(f"direction: {bridge.direction}")
     return "- " + "\n  ".join(lines) + "\n"
 

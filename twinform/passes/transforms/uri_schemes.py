@@ -6,6 +6,8 @@ An annotation records which scheme a URI had where the reverse conversion would 
 """
 
 ROS, GAZEBO = "package", "model"
+FUEL_SERVERS = ("fuel.gazebosim.org", "fuel.ignitionrobotics.org")
+"""Where Gazebo fetches models: one server under its name of today and the older one."""
 MESH_SCHEME, TEXTURE_SCHEME = "mesh", "texture"
 """The annotations on a visual or collision."""
 

@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
+import yaml
 
 import twinform
 from twinform.diagnostics import DiagnosticSink
@@ -328,3 +329,9 @@ def test_a_doppler_log_publishes_below_its_name() -> None:
     sensor = '<sensor name="s" type="custom" gz:type="dvl"/>'
     assert list(topics(alone(sensor), "harmonic", "w")) == ["/world/w/model/r/link/base/sensor/s/dvl/velocity"]
     assert not topics(alone(sensor), "garden", "w")
+
+
+def test_a_topic_may_have_any_character() -> None:
+    document = alone('<sensor name="s" type="imu"><topic>\U0001f916 "\u540d"</topic></sensor>')
+    read = yaml.safe_load(bridge_yaml(bridges(document, "harmonic", DiagnosticSink())))
+    assert read[1]["gz_topic_name"] == '/\U0001f916 "\u540d"'

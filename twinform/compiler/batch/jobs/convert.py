@@ -6,6 +6,7 @@ from pathlib import Path, PurePosixPath
 
 from twinform.compiler.batch.entries import stem
 from twinform.compiler.batch.jobs.findings import refused, rows
+from twinform.compiler.batch.model_folders import FolderTooLargeError, folder_files
 from twinform.compiler.batch.places import LEDGER
 from twinform.compiler.batch.record import Outcome
 from twinform.compiler.batch.task import Done, Task
@@ -20,40 +21,46 @@ from twinform.passes import registered_passes
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Convert:
-    """Compile a model; with `split` a world into a folder of files, and with `ledgers` a ledger beside each result."""
+    """Compile a model; with `split` a world into a folder of files, and with `ledgers` a ledger beside each result.
+
+    With `model_folders`, what lies in the folder of a model comes along.
+    """
 
     to: ConversionRequest
     policy: Policy = field(default_factory=Policy)
     split: bool = False
     ledgers: bool = False
+    model_folders: bool = False
 
     @property
     def request(self) -> list[object]:
         """The options that the outcome depends on."""
         to = self.to
         asked: list[object] = [to.to, to.sdf_version, to.urdf_version, to.carriers, str(to.passes), to.expand_includes]
-        asked += [
-            to.comments,
-            to.keep_physics,
-            self.split,
-            self.ledgers,
-            sorted(self.policy.allow),
-            sorted(self.policy.deny),
-        ]
+        asked += [to.comments, to.keep_physics, self.split, self.ledgers]
+        asked += [sorted(self.policy.allow), sorted(self.policy.deny)]
+        asked += ["model folders"] if self.model_folders else []
         return ["convert", *asked, sorted(_packages(to))]
 
     def work(self, task: Task, content: bytes) -> Done:
         """Convert it."""
         name = str(task.path)
+        texts: dict[str, str | bytes]
         try:
             if self.split and _is_world(task):
-                texts, found, ledger = self._split(task)
+                made_of_world, found, ledger = self._split(task)
+                texts = dict(made_of_world)
             else:
                 source = task.path if task.path.suffix.lower() == XACRO or task.load_options.xacro else content
                 made = run_conversion(self.to, source, task.load_options, name=name)
-                texts, found, ledger = {task.output: made.text}, made.diagnostics, made.ledger
+                texts = {task.output: made.text}
+                found, ledger = made.diagnostics, made.ledger
+                if self.model_folders:
+                    texts |= folder_files(task.path, task.output, self.to, made.document.version)
         except CompileError as error:
             return refused(error, self.policy, name)
+        except FolderTooLargeError as error:
+            return Done(outcome=Outcome.UNWRITTEN, message=str(error))
         seen = self.policy.apply(found)
         if any(each.is_error for each in seen):
             return Done(outcome=Outcome.REFUSED, message=str(CompileError(seen)), diagnostics=rows(seen, name))

@@ -1,0 +1,82 @@
+"""Rules: no-joint-states, package-name."""
+
+import pytest
+
+from twinform.compiler import CompileError
+from twinform.compiler.input.loading import LoadOptions
+from twinform.compiler.packaging.kinds import build
+from twinform.compiler.packaging.order import Built, Details, Order
+from twinform.compiler.request import ConversionRequest
+from twinform.passes.framework.text import parse_pipeline
+
+from .robots import joint, link
+
+ROBOT = f'<robot name="r">{link("base")}{link("a")}{joint("j", "a")}</robot>'
+
+
+def packaged(name: str = "robot", passes: str = "", text: str = ROBOT) -> Built:
+    order = Order(
+        source=text.encode(),
+        source_name="robot.urdf",
+        name=name,
+        folder=name,
+        conversion=ConversionRequest(to="urdf", passes=parse_pipeline(passes)),
+        load_options=LoadOptions(),
+        details=Details(description="A robot", maintainer="Ann", email="ann@example.org", license="MIT"),
+    )
+    return build(order, ("ros2",))
+
+
+def rules(built: Built) -> list[str]:
+    return [each.rule.name for each in built.diagnostics]
+
+
+@pytest.mark.parametrize("name", ["ab", "robot2", "my_robot_description", "r2d2"])
+def test_names_of_packages_are_taken(name: str) -> None:
+    assert f"urdf/{name}.urdf" in packaged(name).package.files
+
+
+@pytest.mark.parametrize(
+    ("name", "suggested"),
+    [
+        ("My-Robot", "my_robot"),
+        ("a", "a"),
+        ("2wheels", "robot_2wheels"),
+        ("a__b_", "a_b"),
+        ('"; rm -rf ~', "rm_rf"),
+        ("名", "robot"),
+        ("a\nb", "a_b"),
+    ],
+)
+def test_other_names_are_an_error_with_a_name_to_take(name: str, suggested: str) -> None:
+    with pytest.raises(CompileError) as caught:
+        packaged(name)
+    (found,) = caught.value.diagnostics
+    assert found.rule.name == "package-name"
+    assert found.help
+    assert suggested in found.help.split()
+
+
+def test_a_robot_whose_joints_nobody_publishes_is_reported() -> None:
+    assert rules(packaged()) == ["no-joint-states"]
+    assert rules(packaged(passes="add-plugin{system=joint-state-publisher}")) == []
+
+
+def test_a_robot_that_does_not_move_needs_no_sliders() -> None:
+    built = packaged(text=f'<robot name="r">{link("base")}</robot>')
+    assert rules(built) == []
+    for path in ("launch/display.launch.py", "package.xml"):
+        content = built.package.files[path]
+        assert isinstance(content, bytes)
+        assert b"joint_state_publisher" not in content
+
+
+@pytest.mark.parametrize(("base", "height"), [("base", b"0.2"), ("world", b"0")])
+def test_a_robot_begins_on_the_ground_unless_the_world_holds_it(base: str, height: bytes) -> None:
+    held = (
+        f'<joint name="w" type="fixed"><parent link="world"/><child link="b"/></joint>{link("b")}<link name="world"/>'
+    )
+    built = packaged(text=f'<robot name="r">{held if base == "world" else link("base")}</robot>')
+    content = built.package.files["launch/gazebo.launch.py"]
+    assert isinstance(content, bytes)
+    assert b"DeclareLaunchArgument('z', default_value='" + height + b"'" in content

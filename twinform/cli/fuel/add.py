@@ -1,0 +1,46 @@
+"""`twinform fuel add`."""
+
+import os
+from pathlib import Path
+
+import click
+
+from twinform.cli.command import Command
+from twinform.cli.failure import Unusable
+from twinform.compiler.packaging.fuel_cache import FuelError, add, resources
+from twinform.compiler.search.fuel import SERVER, caches
+
+EXAMPLES = {
+    "Put a model into the cache": "twinform fuel add crate --owner OpenRobotics",
+    "Put all models of a folder there": "twinform fuel add models --owner OpenRobotics",
+}
+
+
+@click.command("add", cls=Command, examples=EXAMPLES)
+@click.argument("folder", type=click.Path(exists=True, file_okay=False, path_type=Path))
+@click.option("--owner", metavar="NAME", required=True, help="Whose models they are on the server.")
+@click.option("--name", metavar="NAME", help="What the model is called there; else as its model.config says.")
+@click.option("--resource-version", type=click.IntRange(min=1), metavar="N", help="Its version; else the next one.")
+@click.option("--server", metavar="HOST", default=SERVER, help=f"The server; by default {SERVER}.")
+@click.option(
+    "--cache", type=click.Path(file_okay=False, path_type=Path), metavar="DIR", help="The cache; else that of Gazebo."
+)
+def command(
+    folder: Path, owner: str, name: str | None, resource_version: int | None, server: str, cache: Path | None
+) -> None:
+    """Put model folders and worlds into the cache.
+
+    FOLDER has a model.config, or is a folder of such folders; a folder with SDF files and no model.config is a world.
+    Printed are the addresses by which they can be included. What is there already with the same files stays.
+    """
+    place = cache or caches(os.environ)[0]
+    try:
+        found = resources(folder)
+        if name is not None and len(found) > 1:
+            raise click.UsageError(f"--name is for one model, and {folder} has {len(found)}")
+        for each in found:
+            click.echo(add(each, place, server, owner, name or each.name, resource_version).uri)
+    except FuelError as error:
+        raise click.UsageError(str(error)) from error
+    except OSError as error:
+        raise Unusable(f"cannot write {error.filename or place}: {error.strerror}") from error

@@ -1,0 +1,101 @@
+"""The pass that puts the files of a document into a package, and writes the URIs that they have there."""
+
+from typing import ClassVar, Self
+
+from pydantic import PrivateAttr
+
+from twinform.compiler.packaging.collecting import Collection, UncollectedError
+from twinform.compiler.packaging.file_kinds import FileKind
+from twinform.compiler.packaging.plugin_files import report_plugin_files
+from twinform.compiler.search.uris import LocalAssets
+from twinform.diagnostics import DiagnosticSink, Fate, Location, Severity
+from twinform.diagnostics.rules.packaging import UNPACKAGED_FILE, UNPACKAGED_INCLUDE
+from twinform.ir import Document, Format
+from twinform.passes.framework.asset_access import AssetError
+from twinform.passes.framework.assets import AssetPass
+from twinform.passes.transforms.uris import Kind, map_uris
+
+_STANDARD = "file://media/"
+"""What Gazebo Classic brings itself begins so."""
+_KINDS: dict[Kind, frozenset[FileKind]] = {
+    "mesh": frozenset({"mesh"}),
+    "texture": frozenset({"image", "script"}),
+}
+_KEPT_INCLUDES = ("model://", "http://", "https://")
+"""Includes that lead to the same model from everywhere."""
+
+
+class CollectFiles(AssetPass):
+    """Put the files that the document names into a package, and write the URIs that they have there.
+
+    Changes: URIs of meshes, textures and scripts.
+    Never touches: includes by `model://` or of Fuel, names such as `__default__`, and the parameters of plugins.
+    Diagnostics: `unpackaged-file`, `unpackaged-include`, `unpackaged-parameter`, `uri-leaves-folder`.
+    """
+
+    name: ClassVar[str] = "collect-files"
+
+    lenient: bool = False
+    _collection: Collection = PrivateAttr()
+
+    @classmethod
+    def into(cls, collection: Collection) -> Self:
+        """A pass that puts files into this collection."""
+        made = cls.unchecked(lenient=collection.lenient)
+        made._collection = collection  # noqa: SLF001 - its own
+        return made
+
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
+        """The document with the URIs of the package."""
+        scheme = "package" if document.format is Format.URDF else "model"
+        missing: dict[str, AssetError | UncollectedError] = {}
+
+        def change(uri: str, kind: Kind, where: Location) -> str:
+            written = uri.strip()
+            if kind == "include":
+                self._check_include(written, where, sink)
+                return uri
+            if written.startswith(("__", _STANDARD)):
+                return uri
+            try:
+                place = self._collected(written, _KINDS[kind])
+            except (AssetError, UncollectedError) as error:
+                if written not in missing:
+                    self._report(written, error, where, sink)
+                missing.setdefault(written, error)
+                return uri
+            self._report_problems(written, where, sink)
+            return self._collection.layout.uri(place, scheme)
+
+        report_plugin_files(document, sink)
+        return map_uris(document, change)
+
+    def _collected(self, uri: str, kinds: frozenset[FileKind]) -> str:
+        assets = self._assets
+        if not isinstance(assets, LocalAssets):
+            raise UncollectedError(f"{uri!r} cannot be looked up: only the text of the model is known")
+        return self._collection.add(assets.find(uri), kinds, assets)
+
+    def _report(self, uri: str, error: AssetError | UncollectedError, where: Location, sink: DiagnosticSink) -> None:
+        """Report a file that is not in the package; an error, unless one goes on without it."""
+        if error.rule.fatal:
+            sink.report(error.rule, error.message, where, found=uri, help=error.help)
+            return
+        goes_on = self.lenient
+        rest = ", so it is not in the package, and its URI stays" if goes_on else ""
+        severity = Severity.WARNING if goes_on else None
+        sink.report(UNPACKAGED_FILE, f"{error.message}{rest}", where, found=uri, help=error.help, severity=severity)
+        if goes_on:
+            sink.account(Fate.APPROXIMATED, UNPACKAGED_FILE, f"{uri!r} is not in the package", where, 0)
+
+    def _report_problems(self, uri: str, where: Location, sink: DiagnosticSink) -> None:
+        """Report what a file that is in the package names and that is not."""
+        for problem in self._collection.problems:
+            self._report(uri, problem, where, sink)
+        self._collection.problems.clear()
+
+    def _check_include(self, uri: str, where: Location, sink: DiagnosticSink) -> None:
+        if not uri.startswith(_KEPT_INCLUDES):
+            message = f"{uri!r} is a path, which leads nowhere from the package"
+            advice = "put it in its place with --expand-includes, or include it as model://NAME"
+            sink.report(UNPACKAGED_INCLUDE, message, where, found=uri, help=advice)

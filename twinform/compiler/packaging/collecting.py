@@ -1,0 +1,220 @@
+"""Collects the files that a model names, and what these name themselves, for a package."""
+
+import hashlib
+import stat
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from posixpath import basename, relpath
+from posixpath import dirname as folder_of
+from urllib.parse import unquote
+
+from twinform.compiler.packaging.file_kinds import FileKind, kind_of, suffix_of
+from twinform.compiler.packaging.layout import Layout, Places
+from twinform.compiler.packaging.origins import Origins
+from twinform.compiler.packaging.package import Content
+from twinform.compiler.packaging.references import FORMATS, ReferenceFormat
+from twinform.compiler.search.uris import LocalAssets
+from twinform.diagnostics import Rule
+from twinform.diagnostics.rules.files import URI_LEAVES_FOLDER
+from twinform.diagnostics.rules.packaging import UNPACKAGED_FILE
+from twinform.passes.framework.asset_access import AssetError
+
+_LARGEST_READ = 2**28
+"""A file is only looked into up to this size."""
+_MOST_IN_FOLDER = 2000
+_TEXTURE_FOLDERS = ("", "../materials/textures", "../textures", "../../materials/textures")
+"""Where an image may lie that is named without a folder, seen from the file that names it, as Gazebo looks."""
+_NAMED: dict[FileKind, frozenset[FileKind]] = {
+    "mesh": frozenset({"image", "data"}),
+    "data": frozenset({"image"}),
+    "script": frozenset({"image"}),
+}
+"""What kinds of files a file may name."""
+
+
+class UncollectedError(Exception):
+    """Why a file is not put into the package."""
+
+    def __init__(self, message: str, help: str | None = None, rule: Rule = UNPACKAGED_FILE) -> None:
+        super().__init__(message)
+        self.message = message
+        self.help = help
+        self.rule = rule
+
+
+@dataclass(slots=True)
+class Collection:
+    """The files of a package while they are found: each once by content, under a name that says where it was.
+
+    `sources` are the files that they were, of those too whose names of other files are written anew. `lenient`: what a
+    mesh names and is not there is left out of the package, and noted in `problems`.
+    """
+
+    layout: Layout
+    lenient: bool = False
+    files: dict[str, Content] = field(default_factory=dict[str, Content])
+    sources: dict[str, Path] = field(default_factory=dict[str, Path])
+    problems: list[UncollectedError] = field(default_factory=list[UncollectedError])
+    _places: Places = field(default_factory=Places)
+    _by_source: dict[Path, str] = field(default_factory=dict[Path, str])
+    _by_content: dict[tuple[object, ...], str] = field(default_factory=dict[tuple[object, ...], str])
+
+    def reserve(self, path: str) -> None:
+        """Keep a place free for a file that is written by somebody else."""
+        self._places.take([path])
+
+    def add(self, found: Path, kinds: frozenset[FileKind], assets: LocalAssets) -> str:
+        """Put a file of one of these kinds into the package, or a folder of scripts or images; gives its place there.
+
+        Raises:
+            UncollectedError: it does not belong there, or cannot be read.
+        """
+        origins = Origins(assets)
+        try:
+            real = found.resolve()
+            if real in self._by_source:
+                return self._by_source[real]
+            if real.is_dir() and "script" in kinds:
+                place = self._folder(found, origins)
+            elif kind_of(found) in kinds:
+                place = self._file(found, origins)
+            else:
+                wanted = " or ".join(sorted(kinds))
+                raise UncollectedError(f"{str(found)!r} is no {wanted} by its name, so it is put into no package")
+        except OSError as error:
+            raise UncollectedError(f"{str(found)!r} cannot be read: {error.strerror or error}") from error
+        self._by_source[real] = place
+        return place
+
+    def _folder(self, folder: Path, origins: Origins) -> str:
+        """The scripts or images in a folder, which are found by their names, so that they stay together."""
+        inside = sorted(each for each in folder.iterdir() if kind_of(each) in {"image", "script"} and each.is_file())
+        if len(inside) > _MOST_IN_FOLDER:
+            raise UncollectedError(f"{str(folder)!r} has more than {_MOST_IN_FOLDER} files")
+        if not inside:
+            raise UncollectedError(f"{str(folder)!r} is a folder without images and scripts")
+        kinds = {kind_of(each) for each in inside}
+        kind: FileKind = "script" if "script" in kinds else "image"
+        place = self._places.take(folder_of(path) for path in self._wanted(inside[0], kind, origins))
+        for each in inside:
+            self._places.take([f"{place}/{each.name}"])
+            self.files[f"{place}/{each.name}"] = self.sources[f"{place}/{each.name}"] = self._checked(each, origins)
+        return place
+
+    def _file(self, found: Path, origins: Origins) -> str:
+        kind = kind_of(found) or "data"
+        content = self._checked(found, origins)
+        format_ = FORMATS.get(suffix_of(found))
+        if format_ is None or content.stat().st_size > _LARGEST_READ:
+            return self._placed(found, kind, content, (_digest(content),), origins)
+        data = content.read_bytes()
+        named = self._named(found, kind, data, format_, origins)
+        key = (hashlib.sha256(data).hexdigest(), *sorted(named.items()))
+        place = self._placed(found, kind, content, key, origins)
+        names = {name: _as_seen(target, place, format_) for name, target in named.items()}
+        if self.sources[place] == content and any(name != written for written, name in names.items()):
+            self.files[place] = format_.rewritten(data, names)
+        return place
+
+    def _placed(self, found: Path, kind: FileKind, content: Path, key: tuple[object, ...], origins: Origins) -> str:
+        """The place of a file: that of one of the same content, or a new one."""
+        key = (suffix_of(found), *key)
+        if key not in self._by_content:
+            place = self._places.take(self._wanted(found, kind, origins))
+            self._by_content[key] = place
+            self.files[place] = self.sources[place] = content
+        return self._by_content[key]
+
+    def _wanted(self, found: Path, kind: FileKind, origins: Origins) -> Iterator[str]:
+        """Where a file would go: as it lies in its package, or else below the name of that."""
+        holder, parts = origins.place(found)
+        return self.layout.places(parts, kind, holder)
+
+    def _checked(self, path: Path, origins: Origins) -> Path:
+        """The file itself, wherever links lead.
+
+        Raises:
+            UncollectedError: it is none, or the link leads out of all folders that are known.
+        """
+        real = path.resolve()
+        if not stat.S_ISREG(real.stat().st_mode):
+            raise UncollectedError(f"{str(path)!r} is no file")
+        if real != path and not origins.is_inside(real, path):
+            message = f"{str(path)!r} leads to {str(real)!r}, outside of its package and of the folders that are known"
+            raise UncollectedError(message, "name the folder with --path DIR if this is meant", URI_LEAVES_FOLDER)
+        if kind_of(real) != kind_of(path):
+            raise UncollectedError(f"{str(path)!r} leads to {str(real)!r}, which is another kind of file")
+        return real
+
+    def _named(
+        self, found: Path, kind: FileKind, data: bytes, format_: ReferenceFormat, origins: Origins
+    ) -> dict[str, str]:
+        """The places of the files that a file names."""
+        try:
+            names = format_.references(data)
+        except ValueError as error:
+            raise UncollectedError(f"{str(found)!r} cannot be read: {error}") from error
+        places: dict[str, str] = {}
+        for name in names:
+            try:
+                places[name] = self._companion(name, found, kind, origins)
+            except UncollectedError as error:
+                if not self.lenient or error.rule.fatal:
+                    raise
+                self.problems.append(error)
+        return places
+
+    def _companion(self, name: str, by: Path, kind: FileKind, origins: Origins) -> str:
+        path = _companion_path(name, by, origins)
+        if path is None:
+            raise UncollectedError(f"{str(by)!r} names {name!r}, which is not there", _advice(name))
+        if kind_of(path) not in _NAMED.get(kind, ()):
+            raise UncollectedError(f"{str(by)!r} names {name!r}, which is no kind of file that it may need")
+        if not origins.is_inside(path.resolve(), by):
+            message = f"{str(by)!r} names {name!r}, outside of its package and of the folders that are known"
+            raise UncollectedError(message, "name the folder with --path DIR if this is meant", URI_LEAVES_FOLDER)
+        real = path.resolve()
+        if real not in self._by_source:
+            self._by_source[real] = self._file(path, origins)
+        return self._by_source[real]
+
+
+def _companion_path(name: str, by: Path, origins: Origins) -> Path | None:
+    """The file that another one names: by a URI, a path from its own folder, or a bare name."""
+    for written in dict.fromkeys((name, unquote(name), unquote(name).replace("\\", "/"))):
+        if "://" in written and not written.startswith("file://"):
+            try:
+                return origins.assets.find(written)
+            except AssetError:
+                continue
+        path = written.removeprefix("file://")
+        folders = _TEXTURE_FOLDERS if "/" not in path else ("",)
+        for folder in folders:
+            candidate = by.parent / folder / path
+            if _is_file(candidate):
+                return candidate
+    return None
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except (OSError, ValueError):  # a name that is too long, or has a zero in it
+        return False
+
+
+def _advice(name: str) -> str | None:
+    if name[1:2] == ":" or name.startswith(("/", "file:///")):
+        return "it is a path on the machine that made the file: copy the file beside it, and write its name alone"
+    return "put the file there, or correct the name; --allow-missing goes on without it"
+
+
+def _as_seen(target: str, place: str, format_: ReferenceFormat) -> str:
+    """A file of the package as another one names it."""
+    return basename(target) if format_.by_name else relpath(target, folder_of(place))
+
+
+def _digest(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()

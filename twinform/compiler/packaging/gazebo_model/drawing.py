@@ -1,0 +1,94 @@
+"""Draws colored triangles without perspective: samples of each go into a depth buffer, and Pillow makes the PNG."""
+
+import importlib
+import io
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
+_SIZE = 512
+"""Pixels along each side of the picture."""
+_FINER = 2
+"""So many samples are drawn along each side of a pixel, and averaged."""
+_MARGIN = 0.06
+_BEHIND = (245, 246, 248)
+_AMBIENT, _LIGHT = 0.45, 0.55
+_FORWARD, _UP = (-0.75, 0.5, -0.43), (0.0, 0.0, 1.0)
+"""Where the camera looks, x of the model being its front."""
+_TO_LAMP = (0.6, -0.35, 0.72)
+_MOST_SAMPLES = 2**22
+"""So many points are worked on at once, which bounds the memory."""
+
+_Array = Any
+"""A `numpy.ndarray`."""
+
+
+class Faces(NamedTuple):
+    """Triangles of one color: an array of n by 3 corners by 3 coordinates."""
+
+    points: _Array
+    color: tuple[float, float, float]
+
+
+def picture(faces: Sequence[Faces]) -> bytes:
+    """The triangles as a PNG that shows all of them.
+
+    Raises:
+        ImportError: the extra is not installed.
+    """
+    numpy: Any = importlib.import_module("numpy")
+    image: Any = importlib.import_module("PIL.Image")
+    side = _SIZE * _FINER
+    corners = _on_screen(numpy, numpy.concatenate([each.points for each in faces]), side)
+    colors = numpy.concatenate([_shaded(numpy, each) for each in faces])
+    depth = numpy.full(side * side, -numpy.inf)
+    canvas = numpy.tile(numpy.array(_BEHIND, dtype=numpy.uint8), (side * side, 1))
+    for points, which in _samples(numpy, corners):
+        column, row = (numpy.clip(points[:, axis].astype(int), 0, side - 1) for axis in (0, 1))
+        place = row * side + column
+        nearest = numpy.lexsort((points[:, 2], place))
+        last = numpy.append(place[nearest][1:] != place[nearest][:-1], True)
+        front = nearest[last]
+        front = front[points[front, 2] > depth[place[front]]]
+        depth[place[front]] = points[front, 2]
+        canvas[place[front]] = colors[which[front]]
+    shown = image.fromarray(canvas.reshape(side, side, 3)).resize((_SIZE, _SIZE), image.Resampling.BOX)
+    out = io.BytesIO()
+    shown.save(out, "PNG", optimize=True)
+    return out.getvalue()
+
+
+def _on_screen(numpy: Any, points: _Array, side: int) -> _Array:
+    """The corners as columns, rows and nearness, so that all are in the picture."""
+    forward = numpy.array(_FORWARD) / numpy.linalg.norm(_FORWARD)
+    right = numpy.cross(forward, _UP)
+    right = right / numpy.linalg.norm(right)
+    axes = numpy.stack([right, -numpy.cross(right, forward), -forward])
+    seen = points @ axes.T
+    least, most = seen.min(axis=(0, 1)), seen.max(axis=(0, 1))
+    extent = max(float((most - least)[:2].max()), 1e-12)
+    return (seen - (least + most) / 2) * (side * (1 - 2 * _MARGIN) / extent) + (side / 2, side / 2, 0)
+
+
+def _shaded(numpy: Any, faces: Faces) -> _Array:
+    """The color of each triangle in the light, as bytes; both of its sides are lit alike."""
+    normals = numpy.cross(faces.points[:, 1] - faces.points[:, 0], faces.points[:, 2] - faces.points[:, 0])
+    lengths = numpy.maximum(numpy.linalg.norm(normals, axis=1), 1e-300)
+    lamp = numpy.array(_TO_LAMP) / numpy.linalg.norm(_TO_LAMP)
+    lit = _AMBIENT + _LIGHT * numpy.abs(normals @ lamp) / lengths
+    return numpy.clip(255 * lit[:, None] * numpy.clip(faces.color, 0, 1), 0, 255).astype(numpy.uint8)
+
+
+def _samples(numpy: Any, corners: _Array) -> Iterator[tuple[_Array, _Array]]:
+    """Points of the triangles, at least one for each pixel that these cover, and the triangle that each is of."""
+    edges = corners[:, :, :2] - numpy.roll(corners[:, :, :2], 1, axis=1)
+    steps = numpy.ceil(numpy.linalg.norm(edges, axis=2).max(axis=1) * 1.25).astype(int) + 1
+    for count in numpy.unique(steps):
+        i, j = (each.ravel() for each in numpy.meshgrid(numpy.arange(count + 1), numpy.arange(count + 1)))
+        inside = i + j <= count
+        weights = numpy.stack([i[inside], j[inside], count - i[inside] - j[inside]], axis=1) / count
+        which = numpy.flatnonzero(steps == count)
+        at_once = max(1, _MOST_SAMPLES // len(weights))
+        for start in range(0, len(which), at_once):
+            some = which[start : start + at_once]
+            points = numpy.einsum("sc,tcx->tsx", weights, corners[some]).reshape(-1, 3)
+            yield points, numpy.repeat(some, len(weights))

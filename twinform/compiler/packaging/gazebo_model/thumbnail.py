@@ -1,0 +1,121 @@
+"""Draws the thumbnail of a model: its visuals from the front, from the right and from above, without any GPU."""
+
+import importlib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Literal
+
+from twinform.compiler.packaging.collecting import Collection
+from twinform.compiler.packaging.gazebo_model.drawing import Faces, picture
+from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.rules.files import UNRESOLVED_URI
+from twinform.diagnostics.rules.packaging import NO_THUMBNAIL
+from twinform.ir import Box, Capsule, Cone, Cylinder, Document, Ellipsoid, Link, Material, Mesh, Model, Shape, Sphere
+from twinform.ir.defaults import sizes
+from twinform.ir.frames import MODEL, FrameError, FrameGraph
+from twinform.ir.transform import Transform
+from twinform.passes.analyses.meshes import MeshError, Meshes
+from twinform.passes.framework.asset_access import AssetError
+
+_GREY = (0.72, 0.72, 0.75)
+_MOST_FACES = 4_000_000
+
+
+def thumbnail(document: Document, collection: Collection, sink: DiagnosticSink) -> bytes | None:
+    """A picture of a document's model as PNG; None, and a note, where there is nothing to be drawn."""
+    if not document.models:
+        return None
+    model = document.models[0]
+    try:
+        faces = list(_faces(model, Meshes(_Collected(collection))))
+        if faces and sum(len(each.points) for each in faces) <= _MOST_FACES:
+            return picture(faces)
+        why = "there are too many triangles" if faces else "nothing of it can be drawn"
+    except ImportError as error:
+        why = f"{error.name} is not installed: pip install 'twinform[thumbnails]'"
+    except FrameError as error:
+        why = str(error)
+    sink.report(NO_THUMBNAIL, f"model {model.name!r} has no thumbnail: {why}", model.location, found=model.name)
+    return None
+
+
+class _Collected:
+    """The files of a package by their URIs in it, wherever they still lie."""
+
+    folder: Path | None = None
+
+    def __init__(self, collection: Collection) -> None:
+        self._sources = {collection.layout.uri(path, "model"): source for path, source in collection.sources.items()}
+
+    def find(self, uri: str) -> Path:
+        if uri.strip() not in self._sources:
+            raise AssetError(UNRESOLVED_URI, f"{uri!r} is not in the package")
+        return self._sources[uri.strip()]
+
+    def holder(self, folder: Path, kind: Literal["package", "model"]) -> str | None:
+        del folder, kind
+        return None
+
+    def address(self, file: Path) -> str | None:
+        del file
+        return None
+
+
+def _faces(model: Model, meshes: Meshes) -> Iterator[Faces]:
+    """The triangles of all visuals, in the frame of the model; meshes that cannot be read are left out."""
+    graph = FrameGraph(model)
+    for name, link in _links(model):
+        for visual in link.visuals:
+            shape = visual.geometry.shape if visual.geometry else None
+            made = _triangles(shape, meshes) if shape else None
+            if made is not None and len(made.faces):
+                at = graph.resolve(visual.pose, name, MODEL, base="model")
+                yield Faces(_placed(made, at), _color(visual.material))
+
+
+def _links(model: Model) -> Iterator[tuple[str, Link]]:
+    stack = [("", model)]
+    while stack:
+        scope, each = stack.pop()
+        yield from ((f"{scope}{link.name}", link) for link in each.links)
+        stack.extend((f"{scope}{inner.name}::", inner) for inner in each.models)
+
+
+def _triangles(shape: Shape, meshes: Meshes) -> Any:
+    """The surface of a shape as a `trimesh.Trimesh`; None where it has none, or is a plane."""
+    creation: Any = importlib.import_module("trimesh.creation")
+    match shape:
+        case Mesh():
+            try:
+                return meshes.triangles(shape)
+            except MeshError:
+                return None
+        case Box():
+            return creation.box(extents=sizes(shape))
+        case Sphere():
+            return creation.icosphere(subdivisions=3, radius=sizes(shape)[0])
+        case Cylinder() | Capsule() | Cone():
+            radius, length = sizes(shape)
+            make = {"cylinder": creation.cylinder, "capsule": creation.capsule, "cone": creation.cone}[shape.kind]
+            made = make(radius=radius, height=length)
+            if shape.kind != "cylinder":  # which alone is made about its middle
+                made.apply_translation((0, 0, -made.bounds.mean(axis=0)[2]))
+            return made
+        case Ellipsoid():
+            made = creation.icosphere(subdivisions=3, radius=1.0)
+            made.vertices = made.vertices * sizes(shape)
+            return made
+        case _:
+            return None
+
+
+def _placed(triangles: Any, at: Transform) -> Any:
+    """The corners of each triangle in the frame of the model: an array of n by 3 by 3 numbers."""
+    numpy: Any = importlib.import_module("numpy")
+    turn = numpy.array(at.rotation).reshape(3, 3)
+    return (triangles.vertices @ turn.T + numpy.array(at.translation))[triangles.faces]
+
+
+def _color(material: Material | None) -> tuple[float, float, float]:
+    color = (material.diffuse or material.color or material.ambient) if material else None
+    return (color[0], color[1], color[2]) if color else _GREY

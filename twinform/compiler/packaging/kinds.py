@@ -1,0 +1,58 @@
+"""The kinds of packages, and what builds each."""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
+
+from twinform.compiler.packaging.collecting import Collection
+from twinform.compiler.packaging.gazebo_model.models import build as build_gazebo_model
+from twinform.compiler.packaging.kind_names import REQUIRED
+from twinform.compiler.packaging.order import Built, Order
+from twinform.compiler.packaging.package import Content, Package
+from twinform.compiler.packaging.ros2.packages import build as build_ros2
+from twinform.diagnostics import Diagnostic, DiagnosticSink
+from twinform.diagnostics.rules.packaging import PLACEHOLDER
+
+Builder = Callable[[Order, Collection], Built]
+"""Makes a package of an order; the files of the model go into the collection, which several may share."""
+
+KINDS: Mapping[str, Builder] = {"gazebo-model": build_gazebo_model, "ros2": build_ros2}
+
+
+def build(order: Order, kinds: tuple[str, ...]) -> Built:
+    """One folder that is a package of each of these kinds; meshes and textures are in it once.
+
+    Raises:
+        CompileError: the model or a file of it has an error.
+        ValueError: two kinds have different contents for one file.
+    """
+    said = replace(order, details=order.details.with_placeholders())
+    built = list(_built(said, kinds))
+    files: dict[str, Content] = {}
+    for each in built:
+        for path, content in each.package.files.items():
+            if files.setdefault(path, content) != content:
+                raise ValueError(f"two kinds of packages have different contents for {path}")
+    found = dict.fromkeys(found for each in built for found in each.diagnostics)
+    ledgers = {path: ledger for each in built for path, ledger in each.ledgers.items()}
+    return Built(Package(order.name, files), (*found, *_unsaid(order, kinds)), ledgers)
+
+
+def _built(order: Order, kinds: Iterable[str]) -> Iterator[Built]:
+    """A package of each kind; each knows the files of those before it."""
+    collection = order.collection()
+    beside: tuple[str, ...] = ()
+    for kind in kinds:
+        made = KINDS[kind](replace(order, beside=beside), collection)
+        beside = (*beside, *made.package.files)
+        yield made
+
+
+def _unsaid(order: Order, kinds: Iterable[str]) -> tuple[Diagnostic, ...]:
+    """A warning about what the package has to say about itself, and nobody has said."""
+    missing = [name for name in order.details.missing if any(name in REQUIRED[kind] for kind in kinds)]
+    if not missing:
+        return ()
+    sink = DiagnosticSink(order.source_name)
+    message = f"the package says TODO for {', '.join(missing)}"
+    sink.report(PLACEHOLDER, message, help=f"give {' '.join(f'--{name} ...' for name in missing)}")
+    return tuple(sink.diagnostics)

@@ -1,0 +1,92 @@
+"""Where each file of a model goes in a package, and what it is called there."""
+
+import re
+import unicodedata
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from twinform.compiler.packaging.file_kinds import FileKind, kind_of
+
+_UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
+"""What some reader of URIs, some file system or some build tool would not take in a name."""
+_FOLDERS: dict[str, tuple[str, ...]] = {
+    "meshes": ("meshes", "mesh"),
+    "textures": ("materials", "textures", "texture", "media"),
+    "scripts": ("materials", "scripts"),
+}
+"""What folders are called that the ones of a package stand for."""
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """The folders of a package, and how its files are named from outside: `model://arm/meshes/base.stl`.
+
+    `names` has what the package is called in URIs of each scheme; without one, files are named by
+    paths from its folder.
+    """
+
+    names: Mapping[str, str]
+    meshes: str = "meshes"
+    textures: str = "materials/textures"
+    scripts: str = "materials/scripts"
+
+    def uri(self, path: str, scheme: str) -> str:
+        """The URI of a file of the package."""
+        return f"{scheme}://{self.names[scheme]}/{path}" if scheme in self.names else path
+
+    def places(self, parts: Sequence[str], kind: FileKind, holder: str = "") -> Iterator[str]:
+        """Where a file may go that is known by its path in its own package or model, the shortest path first.
+
+        What lies among meshes stays there, so that most meshes find their textures as before.
+        """
+        parts = tuple(map(safe_name, parts))
+        among_meshes = any(part.lower() in _FOLDERS["meshes"] for part in parts[:-1])
+        role = "meshes" if among_meshes or kind in {"mesh", "data"} else "scripts" if kind == "script" else "textures"
+        folder = {"meshes": self.meshes, "scripts": self.scripts, "textures": self.textures}[role]
+        above, inner = _around(parts, _FOLDERS[role])
+        named = (*((safe_name(holder),) if holder else ()), *above)[-1:]
+        for path in dict.fromkeys((inner, (*named, *inner), parts)):
+            yield "/".join((folder, *path))
+
+
+def _around(parts: tuple[str, ...], called: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """A path before and after the last of its folders that are called so; all is after where none is."""
+    found = [place for place, part in enumerate(parts[:-1]) if part.lower() in called]
+    if not found:
+        return (), parts
+    before = tuple(part for part in parts[: found[-1]] if part.lower() not in called)
+    return before, parts[found[-1] + 1 :]
+
+
+def safe_name(name: str) -> str:
+    """A name of a file or folder that every system takes, and every reader of URIs finds."""
+    plain = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode() if not name.isascii() else name
+    return _UNSAFE.sub("_", plain).lstrip(".-") or "_"
+
+
+@dataclass(slots=True)
+class Places:
+    """The places in a package that are taken, where capitals do not count."""
+
+    taken: set[str] = field(default_factory=set[str])
+
+    def take(self, wanted: Iterable[str]) -> str:
+        """The first of several places that is free, or else the last one with a number."""
+        place = ""
+        for place in _tries(wanted):
+            if place.casefold() not in self.taken:
+                break
+        self.taken.add(place.casefold())
+        return place
+
+
+def _tries(wanted: Iterable[str]) -> Iterator[str]:
+    last = ""
+    for place in wanted:
+        last = place
+        yield place
+    stem, dot, suffix = last.rpartition(".")
+    number = 2
+    while True:
+        yield f"{stem}_{number}.{suffix}" if dot and kind_of(last) else f"{last}_{number}"
+        number += 1

@@ -1,0 +1,100 @@
+"""The order of a package: what is put into it, what it is called, and who made it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Self
+
+from twinform.compiler.driver import Conversion, run_conversion
+from twinform.compiler.input.loading import Input, LoadOptions
+from twinform.compiler.packaging.collect_files import CollectFiles
+from twinform.compiler.packaging.collecting import Collection
+from twinform.compiler.packaging.layout import Layout
+from twinform.compiler.packaging.package import Package
+from twinform.compiler.request import ConversionRequest, Language
+from twinform.diagnostics import Diagnostic, Ledger
+from twinform.passes import PassInstrumentation, Pipeline
+from twinform.passes.plugins.release_names import ReleaseName
+
+PLACEHOLDERS: Mapping[str, str] = {
+    "description": "TODO: Package description",
+    "maintainer": "TODO",
+    "email": "todo@todo.todo",
+    "license": "TODO: License declaration",
+}
+"""What stands where nobody has said it; tools for packages of ROS know these words."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Details:
+    """What a package says about itself; empty where nobody has said it."""
+
+    description: str = ""
+    version: str = "0.1.0"
+    author: str = ""
+    maintainer: str = ""
+    email: str = ""
+    license: str = ""
+
+    @property
+    def missing(self) -> tuple[str, ...]:
+        """What nobody has said and a package needs, by the names of the fields."""
+        return tuple(name for name in PLACEHOLDERS if not getattr(self, name))
+
+    def with_placeholders(self) -> Self:
+        """The same, where what is missing says so."""
+        return replace(self, **{name: PLACEHOLDERS[name] for name in self.missing})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Order:
+    """A model, and the package that is asked for.
+
+    `name` is what the package is called, and `folder` what its folder is: `model://FOLDER/...` is how Gazebo finds its
+    files, and `package://NAME/...` how ROS does. `conversion` is what the model becomes, but for its target and
+    version; `sdf_versions` are those that are written, the newest first. `release` is the one of Gazebo that runs the
+    model, and `beside` are the files that another kind of package has in the same folder.
+    """
+
+    source: Input
+    source_name: str
+    name: str
+    folder: str
+    conversion: ConversionRequest
+    load_options: LoadOptions
+    sdf_versions: tuple[str, ...] = ()
+    details: Details = field(default_factory=Details)
+    allow_missing: bool = False
+    thumbnail: bool = True
+    release: ReleaseName = "harmonic"
+    beside: tuple[str, ...] = ()
+
+    def collection(self) -> Collection:
+        """An empty collection of files."""
+        return Collection(Layout({"model": self.folder, "package": self.name}), self.allow_missing)
+
+    def convert(
+        self,
+        collection: Collection,
+        to: Language,
+        sdf_version: str | None = None,
+        instrumentation: PassInstrumentation | None = None,
+    ) -> Conversion:
+        """The model in one format, with the URIs of its files in the package, which go into the collection.
+
+        Raises:
+            CompileError: the model or a file of it has an error.
+        """
+        passes = Pipeline((*self.conversion.passes, CollectFiles.into(collection)))
+        request = replace(self.conversion, to=to, sdf_version=sdf_version, passes=passes)
+        return run_conversion(
+            request, self.source, self.load_options, name=self.source_name, instrumentation=instrumentation
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Built:
+    """A package, what was found while it was made, and the ledger of each text in it by its path."""
+
+    package: Package
+    diagnostics: tuple[Diagnostic, ...] = ()
+    ledgers: dict[str, Ledger] = field(default_factory=dict[str, Ledger])

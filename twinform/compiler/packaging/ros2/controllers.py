@@ -1,0 +1,202 @@
+"""The controllers that the interfaces of a model call for, with the parameters of ros2_controllers."""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from twinform.compiler.packaging.ros2.drive import differential_drive
+from twinform.compiler.packaging.ros2.systems import Component, System, systems_of
+from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.rules import ros2 as rules
+from twinform.ir import Document, Model
+from twinform.passes.plugins.base_link import base_link
+from twinform.passes.plugins.wheels import NotMeasuredError
+from twinform.passes.plugins.yaml_text import Value, yaml_text
+
+_RATE = 100
+"""How often controllers run, in Hz, where nobody has said it."""
+_STRANGE = re.compile(r"[^A-Za-z0-9_]+")
+_LONGEST = 100
+_FORWARDED = ("velocity", "effort")
+"""Commands that go on as they come: what a trajectory needs beside them are gains, which nobody can guess."""
+_UNMOVED = frozenset({"fixed", "floating", "planar"})
+_BROADCASTERS: Mapping[str, str] = {
+    "orientation.": "imu_sensor_broadcaster/IMUSensorBroadcaster",
+    "angular_velocity.": "imu_sensor_broadcaster/IMUSensorBroadcaster",
+    "force.": "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",
+    "torque.": "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",
+}
+"""What publishes the values of a sensor, by how the names of its interfaces begin."""
+
+_HEAD = """\
+# Controllers for the interfaces in the <ros2_control> of the robot.
+# launch/gazebo.launch.py starts those that its list names.
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Controller:
+    """A controller: its name, its class as pluginlib has it, and its parameters."""
+
+    name: str
+    type: str
+    parameters: Mapping[str, Value] = field(default_factory=dict[str, Value])
+
+    @property
+    def package(self) -> str:
+        """The ROS package that it comes in."""
+        return self.type.partition("/")[0]
+
+
+def controllers_of(document: Document, sink: DiagnosticSink) -> tuple[Controller, ...]:
+    """A broadcaster of joint states, and what commands the joints and publishes the sensors of a document of one model.
+
+    1. wheels that are a differential drive: `diff_drive_controller`;
+    2. positions: one `joint_trajectory_controller` for each system;
+    3. other velocities and efforts: one `forward_command_controller` for each system and interface;
+    4. sensors for motion and for forces: a broadcaster for each.
+    """
+    model = document.models[0]
+    systems = systems_of(model, document.format)
+    if not systems:
+        return ()
+    groups = _by_group(model, systems, sink)
+    found = [Controller("joint_state_broadcaster", "joint_state_broadcaster/JointStateBroadcaster")]
+    drive, wheels = _drive(document, groups, sink)
+    found += drive
+    for group, joints in groups.items():
+        found += _commanding(group, [joint for joint in joints if joint.name not in wheels])
+    found += [each for system in systems for each in _broadcasters(model, system, sink)]
+    return tuple(_with_own_names(found))
+
+
+def controllers_yaml(controllers: Sequence[Controller]) -> str:
+    """The file of parameters for the controller manager and its controllers."""
+    types: dict[str, Value] = {each.name: {"type": each.type} for each in controllers}
+    parts: list[Mapping[str, Value]] = [{"controller_manager": {"ros__parameters": {"update_rate": _RATE, **types}}}]
+    parts += [{each.name: {"ros__parameters": each.parameters}} for each in controllers if each.parameters]
+    return _HEAD + "\n".join(map(yaml_text, parts))
+
+
+def _by_group(model: Model, systems: Iterable[System], sink: DiagnosticSink) -> dict[str, list[Component]]:
+    """The joints that can be commanded by the name of their system; those of single actuators are one group."""
+    moving = {joint.name for joint in model.joints if joint.type not in _UNMOVED}
+    groups: dict[str, list[Component]] = {}
+    several = sum(system.kind == "system" for system in systems) > 1
+    for system in systems:
+        group = groups.setdefault(system.name if several and system.kind == "system" else "", [])
+        for each in system.joints:
+            reason = _obstacle(each, moving)
+            if reason:
+                message = f"no controller is written for joint {each.name!r}: {reason}"
+                sink.report(rules.UNCONTROLLED_JOINT, message, system.location, found=each.name)
+            elif each.commands:
+                group.append(each)
+        for gpio in system.gpios:
+            message = f"no controller is written for gpio {gpio.name!r}: what its values mean is not known"
+            sink.report(rules.UNCONTROLLED_JOINT, message, system.location, found=gpio.name)
+    return groups
+
+
+def _obstacle(joint: Component, moving: set[str]) -> str:
+    if joint.name not in moving:
+        return "the robot has no joint of this name that moves"
+    if joint.commands and not {"position", *_FORWARDED} & set(joint.commands):
+        return f"its commands are {', '.join(joint.commands)}, none of position, velocity and effort"
+    return ""
+
+
+def _drive(
+    document: Document, groups: Mapping[str, Sequence[Component]], sink: DiagnosticSink
+) -> tuple[list[Controller], frozenset[str]]:
+    """The controller of a differential drive, where there is one, and the joints that it commands."""
+    model = document.models[0]
+    endless = {joint.name for joint in model.joints if joint.type == "continuous"}
+    commanded = [each for group in groups.values() for each in group]
+    joints = [each.name for each in commanded if _is_spun(each) and each.name in endless]
+    if len(joints) < 2:
+        return [], frozenset()
+    others = [each.name for each in commanded if each.name not in joints]
+    try:
+        drive = differential_drive(model, joints, others, document.format)
+    except NotMeasuredError as error:
+        message = f"joints {', '.join(map(repr, joints))} get no differential drive: {error}"
+        sink.report(rules.NO_DIFFERENTIAL_DRIVE, message, model.location)
+        return [], frozenset()
+    parameters: dict[str, Value] = {
+        "left_wheel_names": drive.left,
+        "right_wheel_names": drive.right,
+        "wheel_separation": drive.separation,
+        "wheel_radius": drive.radius,
+        "odom_frame_id": "odom",
+        "base_frame_id": base_link(model, document.format),
+    }
+    if not all("position" in each.states for each in commanded if each.name in joints):
+        parameters["position_feedback"] = False
+    kind = "diff_drive_controller"
+    return [Controller(kind, f"{kind}/DiffDriveController", parameters)], frozenset(joints)
+
+
+def _is_spun(joint: Component) -> bool:
+    return "velocity" in joint.commands and "position" not in joint.commands
+
+
+def _commanding(group: str, joints: Sequence[Component]) -> Iterator[Controller]:
+    prefix = f"{_ros_name(group)}_" if group else ""
+    led = [each for each in joints if "position" in each.commands and "position" in each.states]
+    if led:
+        speeds = all("velocity" in each.states for each in led)
+        parameters: dict[str, Value] = {
+            "joints": [each.name for each in led],
+            "command_interfaces": ["position"],
+            "state_interfaces": ["position", "velocity"] if speeds else ["position"],
+        }
+        kind = "joint_trajectory_controller"
+        yield Controller(f"{prefix}{kind}", f"{kind}/JointTrajectoryController", parameters)
+    rest = [each for each in joints if each not in led]
+    for interface in ("position", *_FORWARDED):
+        names = [each.name for each in rest if _interface(each) == interface]
+        if names:
+            parameters = {"joints": names, "interface_name": interface}
+            kind = "forward_command_controller"
+            yield Controller(f"{prefix}forward_{interface}_controller", f"{kind}/ForwardCommandController", parameters)
+
+
+def _interface(joint: Component) -> str:
+    """The interface that a joint is commanded by: one of several."""
+    return next(each for each in ("position", *_FORWARDED) if each in joint.commands)
+
+
+def _broadcasters(model: Model, system: System, sink: DiagnosticSink) -> Iterator[Controller]:
+    links = {link.name for link in model.links}
+    for sensor in system.sensors:
+        types = [type_ for begin, type_ in _BROADCASTERS.items() if _has(sensor, begin)]
+        frame = sensor.parameter("frame_id") or (sensor.name if sensor.name in links else None)
+        if types and frame:
+            name = f"{_ros_name(sensor.name)}_broadcaster"
+            yield Controller(name, types[0], {"sensor_name": sensor.name, "frame_id": frame})
+        else:
+            reason = "its values are those of no sensor known" if not types else "it names no frame"
+            message = f"no broadcaster is written for sensor {sensor.name!r}: {reason}"
+            sink.report(rules.UNCONTROLLED_JOINT, message, system.location, found=sensor.name)
+
+
+def _has(sensor: Component, begin: str) -> bool:
+    return any(state.startswith(begin) for state in sensor.states)
+
+
+def _ros_name(text: str) -> str:
+    """Text as ROS takes it for the name of a node."""
+    name = _STRANGE.sub("_", text).strip("_")[:_LONGEST] or "robot"
+    return f"_{name}" if name[0].isdigit() else name
+
+
+def _with_own_names(controllers: Iterable[Controller]) -> Iterator[Controller]:
+    """The controllers, each with a name of its own."""
+    taken = {"controller_manager"}
+    for each in controllers:
+        name, number = each.name, 2
+        while name in taken:
+            name, number = f"{each.name}_{number}", number + 1
+        taken.add(name)
+        yield each if name == each.name else Controller(name, each.type, each.parameters)

@@ -1,0 +1,99 @@
+"""Gazebo's plugin for ros2_control in a model: its names in each release, and the file of controllers that it reads."""
+
+from collections.abc import Iterable
+from typing import ClassVar
+
+from pydantic import Field
+
+from twinform.compiler.packaging.ros2.systems import System, systems_of
+from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.rules import ros2 as rules
+from twinform.ir import Document, Element, Format, GazeboExtension, Model, Plugin, rewrite
+from twinform.passes.framework.base import Pass
+from twinform.passes.plugins.release_names import ReleaseName
+from twinform.passes.plugins.sites import Site, map_plugins, plugins_of
+
+_FORTRESS = "fortress"
+_PARAMETERS = "parameters"
+_CLASSES = ("::GazeboSimROS2ControlPlugin", "::IgnitionROS2ControlPlugin")
+_HARDWARE = ("gz_ros2_control/GazeboSimSystem", "ign_ros2_control/IgnitionSystem")
+_OLD, _NEW = "ign_ros2_control", "gz_ros2_control"
+
+
+def control_package(release: str) -> str:
+    """The ROS package with Gazebo's plugin for ros2_control."""
+    return _OLD if release == _FORTRESS else _NEW
+
+
+def runs_in_gazebo(system: System, release: str) -> bool:
+    """Whether the hardware of a system is a plugin of a release of Gazebo; later ones know the old name too."""
+    package = system.hardware.partition("/")[0]
+    return package == _OLD or (package == _NEW and release != _FORTRESS)
+
+
+def controllers_uri(package: str) -> str:
+    """What the plugin has for the path of its file, which the launch file puts in its place."""
+    return f"package://{package}/config/controllers.yaml"
+
+
+class ConnectControllers(Pass):
+    """Have Gazebo run the controllers of the package, where the model has a `<ros2_control>` for Gazebo.
+
+    Changes: the plugin of gz_ros2_control, which is added where there is none, and the file that it names.
+    Never touches: `<ros2_control>` itself.
+    Diagnostics: `foreign-hardware`, `replaced-controllers-file`.
+    """
+
+    name: ClassVar[str] = "connect-controllers"
+
+    package: str = Field(description="The name of the package.")
+    release: ReleaseName = Field(default="harmonic", description="The release of Gazebo that runs the model.")
+
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
+        """The document with the plugin."""
+        if not has_gazebo_control(document, self.release, sink):
+            return document
+        if any(_is_control(plugin) for plugin, _ in plugins_of(document)):
+            return map_plugins(document, lambda plugin, site: self._with_file(plugin, site, sink))
+        return rewrite(document, Model, lambda model: self._with_plugin(model, document.format))
+
+    def _with_file(self, plugin: Plugin, site: Site, sink: DiagnosticSink) -> Iterable[Plugin]:
+        if not _is_control(plugin):
+            return (plugin,)
+        wanted = controllers_uri(self.package)
+        for each in plugin.content:
+            if each.name == _PARAMETERS and each.text != wanted:
+                message = f"the controllers' file {each.text!r} gives way to config/controllers.yaml of the package"
+                sink.report(rules.REPLACED_CONTROLLERS_FILE, message, plugin.location, found=each.text)
+        rest = tuple(each for each in plugin.content if each.name != _PARAMETERS)
+        return (plugin.model_copy(update={"content": (self._parameters(), *rest)}),)
+
+    def _with_plugin(self, model: Model, format_: Format) -> Model:
+        if not any(runs_in_gazebo(system, self.release) for system in systems_of(model, format_)):
+            return model
+        package = control_package(self.release)
+        class_ = f"{package}{_CLASSES[self.release == _FORTRESS]}"
+        plugin = Plugin(name=class_, filename=f"{package}-system", content=(self._parameters(),))
+        if format_ is Format.SDF:
+            return model.model_copy(update={"plugins": (*model.plugins, plugin)})
+        attributes = (("filename", plugin.filename or ""), ("name", class_))
+        element = Element(name="plugin", attributes=attributes, children=plugin.content)
+        return model.model_copy(update={"extensions": (*model.extensions, GazeboExtension(content=(element,)))})
+
+    def _parameters(self) -> Element:
+        return Element(name=_PARAMETERS, text=controllers_uri(self.package))
+
+
+def has_gazebo_control(document: Document, release: str, sink: DiagnosticSink) -> bool:
+    """Whether a document has a `<ros2_control>` for Gazebo; those for other hardware are reported."""
+    systems = [system for model in document.models for system in systems_of(model, document.format)]
+    for system in systems:
+        if not runs_in_gazebo(system, release):
+            message = f"ros2_control {system.name!r} has {system.hardware!r}, which Gazebo {release} does not load"
+            advice = f"for Gazebo, write {_HARDWARE[release == _FORTRESS]}"
+            sink.report(rules.FOREIGN_HARDWARE, message, system.location, found=system.hardware, help=advice)
+    return any(runs_in_gazebo(system, release) for system in systems)
+
+
+def _is_control(plugin: Plugin) -> bool:
+    return (plugin.name or "").endswith(_CLASSES)

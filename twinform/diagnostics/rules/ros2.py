@@ -1,0 +1,65 @@
+"""Rules about packages of ROS 2: what their controllers, and Gazebo behind them, cannot do for a model."""
+
+from twinform.diagnostics.rule import Rule, Severity
+
+UNCONTROLLED_JOINT = Rule(
+    name="uncontrolled-joint",
+    severity=Severity.WARNING,
+    finds="A joint, sensor or GPIO of `<ros2_control>` that no controller of the package commands or publishes, with "
+    "the reason: the robot has no such joint, or its interfaces mean nothing that is known.",
+    matters="It stays where it is, or its values are not published, until somebody writes a controller for it.",
+    example="`<joint name='elbow'><command_interface name='stiffness'/></joint>`",
+    better="Correct the name of the joint, or add a controller for it to config/controllers.yaml. A sensor says by "
+    "`<param name='frame_id'>` which link its values are for.",
+    references="ros2_control, `hardware_interface`; ros2_controllers.",
+)
+NO_DIFFERENTIAL_DRIVE = Rule(
+    name="no-differential-drive",
+    severity=Severity.INFO,
+    finds="Joints that turn without end and take velocities as wheels do, but are no differential drive, with the "
+    "reason.",
+    matters="Each gets its velocity as it is commanded; there is no controller that takes one for the robot.",
+    example="Wheels whose axles do not point to the left, or that a steering joint turns.",
+    better="Nothing needs doing for other kinds of drives: write their controller to config/controllers.yaml. An axle "
+    "of a differential drive has `<axis xyz='0 1 0'/>` in the frame of the base, so that wheels turn forward.",
+    references="ros2_controllers, `diff_drive_controller`.",
+)
+FOREIGN_HARDWARE = Rule(
+    name="foreign-hardware",
+    severity=Severity.WARNING,
+    finds="A `<ros2_control>` whose hardware is not a plugin of the release of Gazebo that the package is for.",
+    matters="Gazebo does not load it, so nothing moves its joints there. The package starts no controllers for it in "
+    "Gazebo; they are written, and run with the hardware.",
+    example="`<hardware><plugin>mock_components/GenericSystem</plugin></hardware>`",
+    better="For Gazebo, write `gz_ros2_control/GazeboSimSystem`, or with Fortress `ign_ros2_control/IgnitionSystem`.",
+    references="gz_ros2_control.",
+)
+REPLACED_CONTROLLERS_FILE = Rule(
+    name="replaced-controllers-file",
+    severity=Severity.WARNING,
+    finds="A plugin of gz_ros2_control that names a file with the parameters of controllers. The package has such a "
+    "file of its own, and the plugin gets that.",
+    matters="What was set in the other file is not set in the package.",
+    example="`<parameters>/home/me/arm/config/controllers.yaml</parameters>`",
+    better="Copy what you need of the other file into config/controllers.yaml of the package.",
+)
+NO_JOINT_STATES = Rule(
+    name="no-joint-states",
+    severity=Severity.WARNING,
+    finds="A robot with joints that move, in a package whose Gazebo publishes no positions of joints: the model has "
+    "neither a `<ros2_control>` for Gazebo nor the system that publishes them.",
+    matters="robot_state_publisher waits for them; until then, the links that move have no place in RViz and tf.",
+    example="A URDF without a word about simulators.",
+    better="Add the system with `--passes add-plugin{system=joint-state-publisher}`, or turn transmissions of ROS 1 "
+    "into a `<ros2_control>` with `--passes ros2-control-from-transmissions`.",
+)
+PACKAGE_NAME = Rule(
+    name="package-name",
+    severity=Severity.ERROR,
+    finds="A package of ROS whose name is not one: it has lower case letters, digits and single underscores, begins "
+    "with a letter and has at least two characters.",
+    matters="catkin and colcon refuse other names, or warn about them, and nothing finds the package by another name.",
+    example="`twinform package arm.urdf -o My-Arm --kind ros2`",
+    better="Choose another folder, or `--name my_arm`.",
+    references="REP 144.",
+)
