@@ -30,7 +30,6 @@ WITHOUT_CASE = {
     "schema-disagreement": "unit/schemas/test_validator.py",
     "too-many-includes": "unit/compiler/includes/test_expanding.py",
     "unbridged-topic": "unit/passes/plugins/test_bridge.py",
-    "unreadable-mesh": "unit/passes/analyses/test_meshes.py",
     "unused-argument": "unit/compiler/input/xacro/test_expansion.py",
     "wheels-not-measured": "unit/passes/plugins/test_add_plugin.py",
     "wide-encoding": "unit/compiler/input/test_parsing.py",

@@ -79,7 +79,10 @@ class Recorder:
         if problem is not None:
             return replace(record, outcome=Outcome.UNWRITTEN, message=f"it cannot be written: {problem}")
         places.take(done.texts)
-        results = tuple(stamp(places.dest / name, name, digest(text.encode())) for name, text in done.texts.items())
+        results = tuple(
+            stamp(places.dest / name, name, digest(text if isinstance(text, bytes) else text.encode()))
+            for name, text in done.texts.items()
+        )
         return replace(record, results=results)
 
     def _clear(self, task: Task, record: Record) -> None:
@@ -99,7 +102,7 @@ def _remove(dest: Path, results: Iterable[Dependency]) -> None:
                 path.unlink()
 
 
-def _written(dest: Path, texts: Mapping[str, str]) -> str | None:
+def _written(dest: Path, texts: Mapping[str, str | bytes]) -> str | None:
     """Write results; gives the reason where that cannot be done.
 
     Raises:

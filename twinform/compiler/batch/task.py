@@ -57,7 +57,7 @@ class Done:
     """
 
     outcome: Outcome
-    texts: Mapping[str, str] = field(default_factory=dict[str, str])
+    texts: Mapping[str, str | bytes] = field(default_factory=dict[str, str | bytes])
     message: str = ""
     diagnostics: list[Row] = field(default_factory=list[Row])
     ledger: dict[str, int] = field(default_factory=dict[str, int])
