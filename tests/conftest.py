@@ -14,6 +14,16 @@ pytest.register_assert_rewrite("tests.expected")  # so that it shows what differ
 _SELDOM = (20_000, 20, 100)
 
 
+@pytest.fixture(scope="session", autouse=True)
+def mesh_cache(tmp_path_factory: pytest.TempPathFactory) -> Generator[None]:
+    """Keep what passes make of meshes out of the cache of whoever runs the tests; their workers share one."""
+    base = tmp_path_factory.getbasetemp()
+    shared = base.parent if base.name.startswith("popen-") else base
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("TWINFORM_MESH_CACHE", str(shared / "mesh-results"))
+        yield
+
+
 @pytest.fixture(scope="session")
 def corpus() -> Path:
     """The folder of real models; tests that need it are skipped where it is missing."""

@@ -44,7 +44,6 @@ WITHOUT_CASE = {
     "unpackaged-file": "unit/cli/test_package.py",
     "unpackaged-include": "unit/cli/test_package.py",
     "unpackaged-parameter": "unit/cli/test_package.py",
-    "unreadable-mesh": "unit/passes/analyses/test_meshes.py",
     "untaken-tree": "unit/profiles/reading/test_reading.py",
     "unused-argument": "unit/compiler/input/xacro/test_expansion.py",
     "unwritten-part": "unit/profiles/reading/test_reading.py",

@@ -11,6 +11,7 @@ from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
 from twinform.cli.gazebo_files import GazeboFiles
 from twinform.cli.instrumentation import InstrumentationOptions
+from twinform.cli.mesh_progress import mesh_progress
 from twinform.cli.outputs import Output, Outputs, beside
 from twinform.cli.own_options import FileOptions
 from twinform.cli.source import Source
@@ -18,7 +19,7 @@ from twinform.cli.targets import Job
 from twinform.compiler import CompileError, Conversion, ConversionRequest, LoadOptions, read, run_conversion
 from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
 from twinform.diagnostics.reporters import Findings
-from twinform.passes import PassError, PassInstrumentation, Pipeline, SideFilePass
+from twinform.passes import FilesPass, PassError, PassInstrumentation, Pipeline, SideFilePass
 
 if TYPE_CHECKING:
     from twinform.compiler.input.source_files import SourceFiles
@@ -68,6 +69,7 @@ class Options:
         if self.ledger:
             yield Output("--ledger", self.ledger)
         yield from self.gazebo_files.places()
+        beside(job.path, [step.place for step in self.request.passes if isinstance(step, FilesPass)])  # raises early
         yield from beside(job.path, self.beside)
 
     def show(self, source: Source, diagnostics: tuple[Diagnostic, ...]) -> bool:
@@ -88,7 +90,8 @@ def run_job(job: Job, options: Options, label: str, outputs: Outputs) -> int:
     """Run one conversion, and add what it makes to what is written; gives its exit code."""
     instrumented = options.watching.begin(job.source.name)
     try:
-        conversion, updated = _converted(job, options, instrumented.instrumentation)
+        with mesh_progress(options.request.passes):
+            conversion, updated = _converted(job, options, instrumented.instrumentation)
     except CompileError as error:
         instrumented.report()
         options.show(job.source, error.diagnostics)

@@ -13,6 +13,7 @@ from twinform.cli.files.model_files import is_plain
 from twinform.cli.findings import notes_option, show
 from twinform.cli.fixing import Fixing, mended_source
 from twinform.cli.inputs import InputOptions, file_options, load_options_of, model_inputs
+from twinform.cli.mesh_progress import mesh_progress
 from twinform.cli.pipeline_option import pipeline_option
 from twinform.cli.policy import policy_of, policy_options
 from twinform.cli.rewriting import Rewrite, show_differences, write_back
@@ -118,14 +119,15 @@ def _run(source: Source, passes: Pipeline | None, fixing: Fixing, report: Report
     if passes:
         try:
             request = ConversionRequest(to=_format_of(rewrite), passes=passes)
-            updated = convert_bytes_in_place(request, rewrite.after, source.name, fixing.load_options)
+            with mesh_progress(passes):
+                updated = convert_bytes_in_place(request, rewrite.after, source.name, fixing.load_options)
         except CompileError as error:
             report(source.name, error.diagnostics)
             return UNUSABLE if error.unreadable else FINDINGS
         except PassError as error:
             raise Unusable(str(error)) from error
         report(source.name, updated.conversion.diagnostics)
-        rewrite = Rewrite(source, rewrite.before, updated.data)
+        rewrite = Rewrite(source, rewrite.before, updated.data, updated.conversion.side_files)
         count = len(updated.changes)
         news = [*news, f"{source.name}: {count} change{'' if count == 1 else 's'} by passes"]
     for line in news:

@@ -11,9 +11,7 @@ import click
 from twinform.cli.failure import Unusable
 from twinform.compiler import write_all_atomically
 from twinform.compiler.output.same_files import folded, identities, is_below, is_nothing, is_stream
-from twinform.diagnostics import SideFile
-
-_LONGEST_LINE = 2**12
+from twinform.diagnostics import HEAD, SideFile
 
 
 class Output(NamedTuple):
@@ -96,7 +94,8 @@ class Outputs:
         places = beside(result, [each.path for each in side_files])
         for place, side_file in zip(places, side_files, strict=True):
             _require_ours(place.path, side_file)
-            self.texts.append((place, side_file.text))
+            if (place, side_file.content) not in self.texts:  # several models may share what was made of one mesh
+                self.texts.append((place, side_file.content))
 
     def write(self, read: Iterable[Path] = ()) -> int:
         """Write all, or compare, and print the news; `read` are files that were read on the way. Gives the exit code.
@@ -142,9 +141,8 @@ def require_as_read(path: Path, before: bytes) -> None:
 
 
 def _require_ours(path: Path, side_file: SideFile) -> None:
-    """Raise where a file is in the place of a side_file that does not begin as it does."""
-    own, _, _ = side_file.text.partition("\n")
+    """Raise where somebody else's file is in the place of a side file."""
     with suppress(OSError), path.open("rb") as file:  # writing it will say what is wrong
-        if file.readline(_LONGEST_LINE).rstrip() != own.encode().rstrip():
+        if not side_file.is_earlier(file.read(HEAD)) and path.read_bytes() != side_file.data:
             message = f"{path} is there, and twinform has not written it: remove it, or have another name"
             raise click.UsageError(message)

@@ -8,9 +8,10 @@ from pathlib import Path
 import click
 
 from twinform.cli.failure import Unusable
-from twinform.cli.outputs import require_as_read
+from twinform.cli.outputs import Outputs, require_as_read
 from twinform.cli.source import Source
 from twinform.compiler import write_all_atomically
+from twinform.diagnostics import SideFile
 from twinform.text import SourceText, UndecodableError
 from twinform.text.line_diff import line_diff
 
@@ -22,11 +23,12 @@ class Rewrite:
     source: Source
     before: bytes
     after: bytes
+    side_files: tuple[SideFile, ...] = ()
 
     @property
     def is_change(self) -> bool:
         """Whether there is anything to write."""
-        return self.before != self.after
+        return self.before != self.after or bool(self.side_files)
 
     @property
     def is_stream(self) -> bool:
@@ -39,6 +41,8 @@ def show_differences(rewrites: Iterable[Rewrite]) -> bool:
     changed = [each for each in rewrites if each.is_change]
     for each in changed:
         click.echo(_difference(each), nl=False)
+        for file in each.side_files:
+            click.echo(f"{Path(each.source.name).parent / file.path} would be written")
     return bool(changed)
 
 
@@ -64,13 +68,23 @@ def write_back(rewrites: Sequence[Rewrite]) -> None:
         if not is_writable(path):
             raise Unusable(f"{path} is read-only; nothing is written")
         require_as_read(path, each.before)
+    texts = {path: each.after for path, each in files.items() if each.before != each.after}
     try:
-        write_all_atomically({path: each.after for path, each in files.items()})
+        write_all_atomically({**_beside(rewrites), **texts})
     except OSError as error:
         raise Unusable(f"cannot write {error.filename}: {error.strerror}") from error
     for each in rewrites:
         if each.is_stream:
             click.echo(each.after, nl=False)
+
+
+def _beside(rewrites: Sequence[Rewrite]) -> dict[Path, str | bytes]:
+    """The files that passes have made, by their places."""
+    outputs = Outputs([Path(each.source.name) for each in rewrites if not each.is_stream])
+    for each in rewrites:
+        outputs.add_beside(None if each.is_stream else Path(each.source.name), each.side_files)
+    outputs.require_apart([place for place, _ in outputs.texts])
+    return {place.path: content for place, content in outputs.texts}
 
 
 def is_writable(path: Path) -> bool:

@@ -8,10 +8,11 @@ from twinform.diagnostics.ledger import Entry, Fate, Ledger, PhysicsChange, Valu
 from twinform.diagnostics.location import NOWHERE, Location, Origins, Source
 from twinform.diagnostics.policy import Policy
 from twinform.diagnostics.rule import Rule, Severity
-from twinform.diagnostics.sink import DiagnosticSink, SideFile
+from twinform.diagnostics.sink import HEAD, DiagnosticSink, SideFile
 from twinform.diagnostics.text_edit import Span, TextEdit
 
 __all__ = [
+    "HEAD",
     "NOWHERE",
     "Diagnostic",
     "DiagnosticSink",

@@ -11,10 +11,30 @@ from twinform.diagnostics.rule import Rule, Severity
 
 
 class SideFile(NamedTuple):
-    """The path of such a file below the folder of the result, and its text. Whoever writes the result writes it."""
+    """A file that a pass made: its path below the folder of the result, and its text or bytes.
+
+    Whoever writes the result writes it. It may be written over a file that begins with the same line or, where it has a
+    `mark`, over one that has this among its first bytes; over any other file it is not.
+    """
 
     path: str
-    text: str
+    content: str | bytes
+    mark: bytes | None = None
+
+    @property
+    def data(self) -> bytes:
+        """What is written: a text in UTF-8."""
+        return self.content if isinstance(self.content, bytes) else self.content.encode()
+
+    def is_earlier(self, head: bytes) -> bool:
+        """Whether a file that begins so was written by us before, so that this one may take its place."""
+        if self.mark is not None:
+            return self.mark in head
+        return head.partition(b"\n")[0].rstrip() == self.data.partition(b"\n")[0].rstrip()
+
+
+HEAD = 2**12
+"""So many bytes of a file are looked at for the question who wrote it."""
 
 
 MOST = 1000  # a hostile file can hold a hundred thousand mistakes; nobody reads past the first thousand

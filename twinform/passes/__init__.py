@@ -21,7 +21,7 @@ if TYPE_CHECKING:
         find_pass,
         registered_passes,
     )
-    from twinform.passes.framework.side_files import CompanionPath, SideFilePass
+    from twinform.passes.framework.side_files import CompanionPath, FilesPass, SideFilePass
     from twinform.passes.framework.syntax import PipelineError
     from twinform.passes.framework.text import Names, UnknownPipelineError, parse_pipeline
 else:
@@ -37,7 +37,7 @@ else:
             "twinform.passes.framework.pipeline": "Pipeline Verifier",
             "twinform.passes.framework.registry": "GROUP Registered RegistryError UnknownPassError "
             "collect find_pass registered_passes",
-            "twinform.passes.framework.side_files": "CompanionPath SideFilePass",
+            "twinform.passes.framework.side_files": "CompanionPath FilesPass SideFilePass",
             "twinform.passes.framework.syntax": "PipelineError",
             "twinform.passes.framework.text": "Names UnknownPipelineError parse_pipeline",
         },
@@ -55,6 +55,7 @@ __all__ = [
     "DocumentPass",
     "DocumentReader",
     "FailedPassError",
+    "FilesPass",
     "Names",
     "Pass",
     "PassError",

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from twinform.cli.config.errors import ConfigError
 from twinform.compiler.output.same_files import is_below
-from twinform.passes import DocumentPass, Pass, Pipeline, SideFilePass
+from twinform.passes import DocumentPass, FilesPass, Pass, Pipeline
 
 _ADMINISTRATOR = 0
 _ADVICE = "give --trust-config if this is meant"
@@ -38,7 +38,7 @@ def confined(config: Path, pipeline: Pipeline, key: str) -> Pipeline:
 
 
 def _confined(config: Path, step: Pass, key: str) -> Pass:
-    if isinstance(step, SideFilePass) and not is_own(config):
+    if isinstance(step, FilesPass) and not is_own(config):
         typed = f"type --passes '{Pipeline((step,))}' yourself"
         problem = f"{step.name} writes a file, and the configuration is somebody else's: {typed}, or {_ADVICE}"
         raise ConfigError(config, problem, key=key)

@@ -8,7 +8,7 @@ from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.search.uris import LocalAssets
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
-from twinform.passes import Pass, Pipeline, SideFilePass
+from twinform.passes import FilesPass, Pass, Pipeline
 
 
 def run_read_only(
@@ -22,7 +22,7 @@ def run_read_only(
     """
     lent = passes.with_files(LocalAssets(load_options.search, path), OtherDocuments(load_options, str(path)).read)
     for step in lent:
-        if isinstance(step, SideFilePass):
+        if isinstance(step, FilesPass):
             raise _refusal(step, "writes a file")
         if Pipeline((step,)).run(document, sink) != document:
             raise _refusal(step, "changes the model")

@@ -29,3 +29,21 @@ MESH_READER_MISSING = Rule(
     example="`fill-inertia` on a robot with meshes, after `pip install twinform`.",
     better="`pip install 'twinform[meshes]'`",
 )
+CHANGED_MESH = Rule(
+    name="changed-mesh",
+    severity=Severity.INFO,
+    finds="A shape whose mesh a pass has replaced: a collision by a simpler shape or convex parts, a visual by one of "
+    "fewer triangles, or a file by one of another format.",
+    matters="It says how many triangles there were and are, and how far the new surface is from the old one at most.",
+    example="`simplify-collisions` on an arm whose collisions are the meshes of its visuals.",
+    better="Nothing has to be done. Look at the result where the distance matters, or ask for a smaller one.",
+)
+KEPT_MESH = Rule(
+    name="kept-mesh",
+    severity=Severity.WARNING,
+    finds="A shape whose mesh a pass was asked to replace, and leaves as it is: nothing cheaper is within the distance "
+    "that was asked for, something of it would be lost, or a mass would change with it.",
+    matters="It costs what it cost before.",
+    example="`simplify-collisions{how=hull max-relative-error=0.01}` on a ring.",
+    better="Allow a larger distance (`max-error`, `max-relative-error`) or more ways (`how`), or make a mesh by hand.",
+)

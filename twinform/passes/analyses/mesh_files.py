@@ -2,7 +2,8 @@
 
 import importlib
 import io
-from pathlib import Path
+from collections.abc import Iterable, Mapping
+from pathlib import Path, PurePath
 from typing import Any
 
 READ = frozenset({"stl", "obj", "dae", "ply", "off", "glb"})
@@ -10,7 +11,7 @@ READ = frozenset({"stl", "obj", "dae", "ply", "off", "glb"})
 EXTRA = "pip install 'twinform[meshes]'"
 READERS = frozenset({"trimesh", "collada"})
 """What the extra brings."""
-_LARGEST = 2**28
+LARGEST = 2**28
 """A file of a quarter of a gigabyte has five million triangles."""
 
 Scene = Any
@@ -21,7 +22,7 @@ class RefusedMeshError(ValueError):
     """A mesh file that is not given to any reader; the message has the reason."""
 
 
-def kind_of(path: Path) -> str:
+def kind_of(path: PurePath) -> str:
     """The format of a file, by its name."""
     return path.suffix.lower().removeprefix(".")
 
@@ -37,11 +38,49 @@ def open_scene(path: Path, *, process: bool = True) -> Scene:
     """
     if path.exists() and not path.is_file():
         raise RefusedMeshError("it is no file")  # whoever opens a pipe may wait for ever
-    if path.stat().st_size > _LARGEST:
-        raise RefusedMeshError(f"it is larger than {_LARGEST >> 20} MiB")
-    content, kind = path.read_bytes(), kind_of(path)
+    if path.stat().st_size > LARGEST:
+        raise RefusedMeshError(f"it is larger than {LARGEST >> 20} MiB")
+    return scene_of(path.read_bytes(), kind_of(path), process=process)
+
+
+def scene_of(
+    content: bytes,
+    kind: str,
+    *,
+    process: bool = True,
+    companions: Mapping[str, bytes] | None = None,
+    appearance: bool = False,
+) -> Scene:
+    """The scene in the bytes of a file; with `appearance` also its materials. Only these `companions` are read besides.
+
+    Raises:
+        ImportError: the extra is not installed.
+        RefusedMeshError: it declares a document type.
+        Exception: what the reader of the format raises.
+    """
+    if kind == "dae" and b"\0" in content:
+        raise RefusedMeshError("it is not in UTF-8")  # where the next line would not see what it looks for
     if kind == "dae" and b"<!" in content.replace(b"<!--", b"").replace(b"<![CDATA[", b""):
         raise RefusedMeshError("it declares a document type, which may name other files")
     trimesh: Any = importlib.import_module("trimesh")
-    # without a resolver nothing is read but this file
-    return trimesh.load_scene(io.BytesIO(content), file_type=kind, resolver=None, skip_materials=True, process=process)
+    resolver = _Companions(companions) if companions else None  # without one nothing is read but these bytes
+    return trimesh.load_scene(
+        io.BytesIO(content), file_type=kind, resolver=resolver, skip_materials=not appearance, process=process
+    )
+
+
+class _Companions:
+    """Files that a mesh names, for `trimesh`: they are in memory, and there are no others."""
+
+    def __init__(self, files: Mapping[str, bytes]) -> None:
+        self._files = files
+
+    def get(self, name: str) -> bytes:
+        """The bytes of one; raises KeyError where it is not there."""
+        return self._files[name]
+
+    __getitem__ = get
+
+    def keys(self) -> Iterable[str]:
+        """The names of all."""
+        return self._files.keys()

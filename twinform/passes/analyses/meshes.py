@@ -81,9 +81,9 @@ class Meshes:
             path = self.assets.find(mesh.uri or "")
         except AssetError as error:
             raise MeshError(error.rule, error.message, error.help) from error
-        key = (path, *_submesh(mesh))
+        key = (path, *submesh_of(mesh))
         if key not in self._read:
-            self._read[key] = _read(path, mesh.uri or "", *_submesh(mesh))
+            self._read[key] = _read(path, mesh.uri or "", *submesh_of(mesh))
         triangles = self._read[key].copy()
         if mesh.scale:
             triangles.vertices = triangles.vertices * mesh.scale  # `apply_scale` leaves out what is nearly one
@@ -138,7 +138,7 @@ def _hull(mesh: Mesh, triangles: _Triangles) -> _Triangles:
     return hull
 
 
-def _submesh(mesh: Mesh) -> tuple[str | None, bool]:
+def submesh_of(mesh: Mesh) -> tuple[str | None, bool]:
     """The part of the file that `<submesh>` names, and whether it is moved to the origin."""
     found = next((part.element for part in mesh.opaque if part.element and part.element.name == "submesh"), None)
     if found is None:

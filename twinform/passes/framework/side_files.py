@@ -6,7 +6,7 @@ the result: a pipeline may come from a configuration or a reproducer, which have
 
 import re
 from abc import abstractmethod
-from typing import Annotated
+from typing import Annotated, Self
 
 from pydantic import AfterValidator, Field
 
@@ -29,8 +29,27 @@ CompanionPath = Annotated[str, AfterValidator(_below)]
 """A path that cannot leave the folder that it is relative to, as long as there are no symbolic links."""
 
 
-class SideFilePass(Pass):
+class FilesPass(Pass):
+    """A pass that makes files beside the result, so that the result needs a folder and the pass somebody's trust."""
+
+    @property
+    def place(self) -> str:
+        """The file, or the folder of the files, below the folder of the result."""
+        raise NotImplementedError
+
+    def below(self, folder: str) -> Self:
+        """The same pass with its files in a folder of this name; itself where it has one place and no other."""
+        del folder
+        return self
+
+
+class SideFilePass(FilesPass):
     """A pass whose purpose is a file beside the result; the document stays as it is."""
+
+    @property
+    def place(self) -> str:
+        """The file."""
+        return self.file
 
     file: CompanionPath = Field(description="Where to write it, below the folder of the result.")
 

@@ -301,7 +301,7 @@ def test_the_pass_makes_the_text_and_writes_and_changes_nothing(
     document, sink = alone(plugins=plugin("diff-drive")), DiagnosticSink()
     assert BridgeConfig(file="config/bridge.yaml").run(document, sink) is document
     assert [each.path for each in sink.side_files] == ["config/bridge.yaml"]
-    assert sink.side_files[0].text.count("ros_topic_name") == 5
+    assert str(sink.side_files[0].content).count("ros_topic_name") == 5
     assert not any(tmp_path.iterdir())
 
 

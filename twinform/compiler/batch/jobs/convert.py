@@ -1,6 +1,7 @@
 """Converts each model of a batch, and splits worlds if that is asked for."""
 
-from dataclasses import dataclass, field
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
 from importlib.metadata import version
 from pathlib import Path, PurePosixPath
 
@@ -15,8 +16,8 @@ from twinform.compiler.errors import CompileError
 from twinform.compiler.input.loading import XACRO, read
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.splitting import split
-from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
-from twinform.passes import registered_passes
+from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy, SideFile
+from twinform.passes import FilesPass, Pipeline, registered_passes
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,8 +53,8 @@ class Convert:
                 texts = dict(made_of_world)
             else:
                 source = task.path if task.path.suffix.lower() == XACRO or task.load_options.xacro else content
-                made = run_conversion(self.to, source, task.load_options, name=name)
-                texts = {task.output: made.text}
+                made = run_conversion(_apart(self.to, task.output), source, task.load_options, name=name)
+                texts = {task.output: made.text, **_beside(PurePosixPath(task.output).parent, made.side_files)}
                 found, ledger = made.diagnostics, made.ledger
                 if self.model_folders:
                     texts |= folder_files(task.path, task.output, self.to, made.document.version)
@@ -68,7 +69,7 @@ class Convert:
             texts[task.output + LEDGER] = ledger.to_json()
         return Done(outcome=Outcome.CONVERTED, texts=texts, diagnostics=rows(seen, name), ledger=_counts(ledger))
 
-    def _split(self, task: Task) -> tuple[dict[str, str], tuple[Diagnostic, ...], Ledger]:
+    def _split(self, task: Task) -> tuple[dict[str, str | bytes], tuple[Diagnostic, ...], Ledger]:
         folder = PurePosixPath(stem(task.entry.name))
         made = split(
             self.to,
@@ -77,7 +78,22 @@ class Convert:
             name=str(task.path),
             folder=Path(task.dest, folder) if task.dest else None,
         )
-        return {str(folder / name): text for name, text in made.files.items()}, made.diagnostics, made.ledger
+        texts: dict[str, str | bytes] = {str(folder / name): text for name, text in made.files.items()}
+        texts |= _beside((folder / next(iter(made.files))).parent, made.side_files)
+        return texts, made.diagnostics, made.ledger
+
+
+def _apart(request: ConversionRequest, output: str) -> ConversionRequest:
+    """The same, with a folder of its own for what passes make of the meshes of this model: others lie beside it."""
+    if not any(isinstance(step, FilesPass) for step in request.passes):
+        return request
+    own = PurePosixPath(output).name.partition(".")[0] or "model"
+    steps = (step.below(own) if isinstance(step, FilesPass) else step for step in request.passes)
+    return replace(request, passes=Pipeline(tuple(steps)))
+
+
+def _beside(folder: PurePosixPath, files: Iterable[SideFile]) -> dict[str, str | bytes]:
+    return {str(folder / each.path): each.content for each in files}
 
 
 def _is_world(task: Task) -> bool:

@@ -1,0 +1,104 @@
+"""What sensors cost a simulator: pixels and rays in a second, from the parameters that SDF has for them."""
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from twinform.diagnostics import Source
+from twinform.ir import Element, GazeboExtension, Node, Opaque, Sensor, walk
+
+ALWAYS = 1000.0
+"""Hz of a sensor without an update rate: it runs with every step of the physics, by default of a millisecond."""
+_IMAGE = (320, 240)
+_PARTS = frozenset({"camera", "ray", "lidar"})
+_SAMPLES = {"horizontal": 640, "vertical": 1}
+
+
+class SensorCost(NamedTuple):
+    """How often a sensor works, in Hz, and how many pixels and rays it makes each time; `assumed` is the rate if so."""
+
+    rate: float
+    pixels: int
+    rays: int
+    assumed: bool
+
+    @property
+    def pixels_per_second(self) -> float:
+        """Of all cameras of the sensor."""
+        return self.rate * self.pixels
+
+    @property
+    def rays_per_second(self) -> float:
+        """In all layers."""
+        return self.rate * self.rays
+
+
+def sensors_in(node: Node) -> Iterator[Sensor]:
+    """All sensors of a document or model, those in `<gazebo>` extensions of URDF too, in its order."""
+    for each in walk(node):
+        if isinstance(each, Sensor):
+            yield each
+        elif isinstance(each, GazeboExtension):
+            found = (inner for element in each.content for inner in element.walk() if inner.name == "sensor")
+            yield from (sensor_of(element, each.source) for element in found)
+
+
+def sensor_of(element: Element, around: Source | None) -> Sensor:
+    """What counts for the cost of a sensor that is kept as an element."""
+    rate = element.find("update_rate")
+    try:
+        update_rate = float((rate.text or "").strip()) if rate else None
+    except ValueError:
+        update_rate = None
+    return Sensor(
+        name=element.get("name"),
+        type=element.get("type"),
+        update_rate=update_rate,
+        opaque=tuple(Opaque(element=child) for child in element.children if child.name in _PARTS),
+        source=element.source or around,
+    )
+
+
+def sensor_cost(sensor: Sensor) -> SensorCost:
+    """What a sensor costs; nothing where it has neither images nor rays."""
+    rate = sensor.update_rate
+    assumed = rate is None or not rate > 0 or not math.isfinite(rate)
+    pixels = sum(width * height for width, height in images(sensor))
+    return SensorCost(ALWAYS if assumed or rate is None else rate, pixels, _rays(sensor), assumed)
+
+
+def images(sensor: Sensor) -> Iterator[tuple[int, int]]:
+    """Width and height of each image that a sensor renders, in pixels."""
+    for part in sensor.opaque:
+        if part.element and part.element.name == "camera":
+            yield image_size(part.element.find("image"))
+
+
+def image_size(image: Element | None) -> tuple[int, int]:
+    """Width and height that an `<image>` says, in pixels."""
+    return _count(image, "width", _IMAGE[0]), _count(image, "height", _IMAGE[1])
+
+
+def _rays(sensor: Sensor) -> int:
+    total = 0
+    for part in sensor.opaque:
+        if part.element and part.element.name in {"ray", "lidar"}:
+            total += math.prod(samples(part.element).values())
+    return total
+
+
+def samples(element: Element) -> dict[str, int]:
+    """Of a lidar, how many rays there are along each direction of its scan."""
+    scan = element.find("scan")
+    found = {name: scan.find(name) if scan else None for name in _SAMPLES}
+    return {
+        name: _count(found[name], "samples", usual if name == "horizontal" else 1) for name, usual in _SAMPLES.items()
+    }
+
+
+def _count(element: Element | None, name: str, usual: int) -> int:
+    child = element.find(name) if element else None
+    try:
+        return max(0, int(float((child.text or "").strip()))) if child else usual
+    except (ValueError, OverflowError):
+        return usual

@@ -1,0 +1,1 @@
+"""Passes that make meshes and sensors cheaper, and meshes readable; another process works on the triangles."""

@@ -1,0 +1,92 @@
+"""Hands jobs on mesh files to a child process, which is started once and ends with this one."""
+
+import atexit
+import os
+import subprocess
+import sys
+import threading
+from dataclasses import dataclass, field
+from typing import BinaryIO, cast
+
+from twinform.passes.meshes.job import BadMessageError, Job, Result
+
+MEMORY = 4 * 2**30
+"""Bytes of address space that the child may have."""
+SECONDS = 600.0
+"""What takes longer is given up."""
+_ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS"), "1")
+"""A pool of threads reserves memory for each processor, which counts."""
+
+
+@dataclass(slots=True)
+class MeshProcess:
+    """A process that does one job after the other; one that dies takes only its job along."""
+
+    memory: int = MEMORY
+    seconds: float = SECONDS
+    _child: "subprocess.Popen[bytes] | None" = None
+    _lock: threading.Lock = field(default_factory=threading.Lock)
+
+    def do(self, job: Job) -> Result:
+        """What comes of a job."""
+        with self._lock:
+            child = self._running()
+            late = threading.Event()
+            timer = threading.Timer(self.seconds, _give_up, (child, late))
+            timer.daemon = True
+            timer.start()
+            try:
+                return _asked(child, job)
+            except (OSError, BadMessageError):
+                self.end()
+                why = f"it takes longer than {self.seconds:g} seconds" if late.is_set() else _DEATH
+                return Result({}, trouble="unreadable", message=why)
+            except BaseException:  # interrupted: what it would still answer is for nobody
+                self.end()
+                raise
+            finally:
+                timer.cancel()
+
+    def end(self) -> None:
+        """End the process, if there is one."""
+        if self._child is not None:
+            self._child.kill()
+            self._child.communicate()
+            self._child = None
+
+    def _running(self) -> "subprocess.Popen[bytes]":
+        if self._child is None or self._child.poll() is not None:
+            command = [sys.executable, "-P", "-m", "twinform.passes.meshes.child", str(self.memory)]
+            self._child = subprocess.Popen(  # noqa: S603 - our own module
+                command,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.DEVNULL,
+                env={**os.environ, **_ONE_THREAD},
+            )
+        return self._child
+
+
+_DEATH = "the process that looks into it died, as it does where it needs too much memory"
+
+
+def _give_up(child: "subprocess.Popen[bytes]", late: threading.Event) -> None:
+    late.set()
+    child.kill()
+
+
+def _asked(child: "subprocess.Popen[bytes]", job: Job) -> Result:
+    if child.stdin is None or child.stdout is None:
+        raise OSError("it has no pipes")
+    child.stdin.write(job.to_bytes())
+    child.stdin.flush()
+    return Result.read(cast("BinaryIO", child.stdout))
+
+
+_usual = MeshProcess()
+atexit.register(_usual.end)
+
+
+def do(job: Job) -> Result:
+    """What comes of a job, by the process that all passes share."""
+    return _usual.do(job)

@@ -1,0 +1,84 @@
+"""Files that a mesh file names itself: materials, textures and buffers, as far as they may be read.
+
+Whoever made the mesh may be a stranger, and what it names is copied into results. So only images, materials and buffers
+are taken, from the folder of the mesh and those beside it, and not too much of them.
+"""
+
+import json
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple, cast
+from urllib.parse import unquote
+
+_IMAGES = frozenset({".png", ".jpg", ".jpeg", ".tga", ".bmp", ".tif", ".tiff", ".webp"})
+_OTHERS = frozenset({".mtl", ".bin"})
+_MOST_BYTES = 2**27
+_MOST = 256
+_LIBRARY = re.compile(rb"(?m)^\s*mtllib\s+(.+?)\s*$")
+_MAP = re.compile(rb"(?m)^\s*(?:map_\w+|bump|norm|disp|decal)\s+(?:-\S+\s+(?:[-\d.]+\s+)*)*(.+?)\s*$")
+_IMAGE = re.compile(rb"<init_from>\s*([^<]+?)\s*</init_from>")
+_GLTF = re.compile(rb"^glTF")
+
+
+class Companions(NamedTuple):
+    """Contents by the names that the mesh has for them, and which of these are not there or may not be read."""
+
+    files: dict[str, bytes]
+    missing: tuple[str, ...]
+
+
+def companions_of(path: Path, kind: str, content: bytes) -> Companions:
+    """What a mesh file names."""
+    files, missing, left = dict[str, bytes](), list[str](), _MOST_BYTES
+    todo = list(_named(kind, content))
+    for name in todo:
+        if name in files or name in missing:
+            continue
+        data = _read(path, name, left) if len(files) < _MOST else None
+        if data is None:
+            missing.append(name)
+            continue
+        files[name], left = data, left - len(data)
+        if name.lower().endswith(".mtl"):
+            todo += _texts(_MAP, data)
+    return Companions(files, tuple(missing))
+
+
+def _named(kind: str, content: bytes) -> Iterator[str]:
+    if kind == "obj":
+        yield from _texts(_LIBRARY, content)
+    elif kind == "dae":
+        yield from (name for name in _texts(_IMAGE, content) if Path(name).suffix.lower() in _IMAGES)
+    elif kind == "gltf":
+        yield from _of_gltf(content)
+
+
+def _texts(pattern: re.Pattern[bytes], content: bytes) -> Iterator[str]:
+    return (found.decode(errors="replace") for found in pattern.findall(content))
+
+
+def _of_gltf(content: bytes) -> Iterator[str]:
+    try:
+        tree = cast("object", json.loads(content))
+    except (ValueError, RecursionError):
+        return  # the reader will say what is wrong
+    for key in ("buffers", "images"):
+        entries = cast("dict[str, object]", tree).get(key) if isinstance(tree, dict) else None
+        for entry in cast("list[object]", entries) if isinstance(entries, list) else []:
+            uri = cast("dict[str, object]", entry).get("uri") if isinstance(entry, dict) else None
+            if isinstance(uri, str) and not uri.startswith("data:"):
+                yield uri
+
+
+def _read(mesh: Path, name: str, most: int) -> bytes | None:
+    relative = Path(unquote(name.removeprefix("file://").replace("\\", "/")))
+    if relative.is_absolute() or relative.suffix.lower() not in _IMAGES | _OTHERS or "\0" in name:
+        return None
+    try:
+        real = (mesh.parent / relative).resolve()
+        if not real.is_relative_to(mesh.parent.resolve().parent) or not real.is_file() or real.stat().st_size > most:
+            return None
+        return real.read_bytes()
+    except (OSError, RuntimeError):
+        return None

@@ -1,0 +1,132 @@
+"""Write the meshes of a model in a format that a program reads."""
+
+from pathlib import PurePosixPath
+from typing import ClassVar, Literal, Self, cast
+
+from pydantic import Field, model_validator
+
+from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.rules.meshes import CHANGED_MESH, KEPT_MESH
+from twinform.ir import Collision, Document, Geometry, Link, Mesh, Visual, rewrite
+from twinform.passes.analyses.mesh_files import kind_of
+from twinform.passes.analyses.meshes import MeshError
+from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
+from twinform.passes.meshes.consumers import ConsumerName, consumers
+from twinform.passes.meshes.formats import MeshFormat
+from twinform.passes.meshes.mesh_pass import MeshPass, Workbench, stays
+from twinform.passes.meshes.mesh_shapes import without_submesh
+from twinform.passes.meshes.mesh_source import MeshSource
+
+Shapes = Literal["visual", "collision", "all"]
+AnyShape = Visual | Collision
+
+
+class ConvertMeshes(MeshPass):
+    """Write the meshes of shapes in another format, with the same surface in meters.
+
+    Changes the shapes of `shapes` on links whose name matches `links`, whose mesh is in a format that is not:
+
+    1. with `to`, this one;
+    2. with `for`, one that this program reads; it is then written in the one that it reads best.
+
+    A COLLADA file names its unit, and the new file has meters. Which of its axes is up it says too, and neither Gazebo
+    nor RViz nor PyBullet turns it: it stays as it is. In a glTF file it depends on the reader, see `gltf-up`.
+    Materials, textures and the coordinates of these go along to OBJ and glTF; STL has none.
+    (`pip install 'twinform[meshes]'`)
+
+    Never touches: poses, scales and masses. A shape stays where a file that its mesh names is missing, or where colors
+    would be lost: give `drop-appearance=true` if they may be.
+    Diagnostics: `changed-mesh` for each file, `kept-mesh`, `unreadable-mesh`, and `mesh-reader-missing`.
+    """
+
+    name = "convert-meshes"
+    example: ClassVar[str] = "convert-meshes{for=mujoco}"
+
+    to: MeshFormat | None = Field(default=None, description="The format to write; `obj`, binary `stl` or binary `glb`.")
+    consumer: ConsumerName | None = Field(default=None, alias="for", description="The program that is to read them.")
+    links: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only links"))
+    shapes: Shapes = Field(default="all", description="Meshes of which shapes.")
+    drop_appearance: bool = Field(default=False, description="Whether colors may be lost, as in STL.")
+
+    @model_validator(mode="after")
+    def _check_target(self) -> Self:
+        if (self.to is None) == (self.consumer is None):
+            raise ValueError("give one of to and for")
+        return self
+
+    @property
+    def _kinds(self) -> tuple[frozenset[str], MeshFormat, str]:
+        """Formats that stay, the one to write, and which axis is up in a glTF file."""
+        if self.consumer is None:
+            kind = cast("MeshFormat", self.to)
+            return frozenset({kind}), kind, self.gltf_up
+        found = consumers()[self.consumer]
+        return frozenset(found.formats), found.written, found.gltf_up
+
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
+        """The document with other mesh files."""
+        bench, told = self.workbench(sink), set[str]()
+
+        def change(link: Link) -> Link:
+            if not matches(link.name, self.links):
+                return link
+            update: dict[str, tuple[AnyShape, ...]] = {}
+            if self.shapes != "collision":
+                update["visuals"] = tuple(self._shape(each, bench, told) for each in link.visuals)
+            if self.shapes != "visual":
+                update["collisions"] = tuple(self._shape(each, bench, told) for each in link.collisions)
+            changed = {name: new for name, new in update.items() if new != getattr(link, name)}
+            return link.model_copy(update=changed) if changed else link
+
+        return rewrite(document, Link, change)
+
+    def _shape(self, shape: AnyShape, bench: Workbench, told: set[str]) -> AnyShape:
+        mesh = shape.geometry.shape if shape.geometry else None
+        uri = (mesh.uri or "").strip() if isinstance(mesh, Mesh) else ""
+        if not isinstance(mesh, Mesh) or not uri or uri.startswith("__"):
+            return shape
+        try:
+            changed = self._converted(shape, mesh, bench, told)
+        except MeshError as error:
+            if uri not in told:
+                stays(bench.sink, error, f"mesh {uri!r}", shape.location)
+            told.add(uri)
+            return shape
+        geometry = (shape.geometry or Geometry()).model_copy(update={"shape": changed})
+        return shape if changed is mesh else shape.model_copy(update={"geometry": geometry})
+
+    def _converted(self, shape: AnyShape, mesh: Mesh, bench: Workbench, told: set[str]) -> Mesh:
+        """The mesh with another file; itself where it needs none.
+
+        Raises:
+            MeshError: it has to stay.
+        """
+        uri = (mesh.uri or "").strip()
+        kept, kind, gltf_up = self._kinds
+        if kind_of(PurePosixPath(uri)) in kept:
+            return mesh
+        source = bench.sources.find(uri)
+        _require_whole(source, uri, isinstance(shape, Visual) and not self.drop_appearance and kind != "stl")
+        up = gltf_up if self.consumer else self.gltf_up
+        outcome = bench.outcome("convert", mesh, {"gltf_up": up, "to": kind})
+        lost = cast("list[str]", outcome.result.facts["lost"])
+        if lost and isinstance(shape, Visual) and not self.drop_appearance:
+            message = f"{kind} has no {' and '.join(lost)}, which {uri!r} has"
+            raise MeshError(KEPT_MESH, message, "choose another format, or give drop-appearance=true")
+        new = bench.add(outcome.stem, outcome.result.files)
+        if uri not in told:
+            bench.sink.report(CHANGED_MESH, f"mesh {uri!r} is written as {new!r}", shape.location, found=source.kind)
+        told.add(uri)
+        return without_submesh(mesh).model_copy(update={"uri": new})
+
+
+def _require_whole(source: MeshSource, uri: str, looks_count: bool) -> None:
+    """Raise where a file that a mesh names is not there.
+
+    Raises:
+        MeshError: its textures, its materials, or the buffers that it is made of.
+    """
+    missing = [name for name in source.missing if looks_count or name.endswith(".bin")]
+    if missing:
+        message = f"{missing[0]!r}, which {uri!r} names, is not found, or leads out of the folder of the mesh"
+        raise MeshError(KEPT_MESH, message, "put it there, or give drop-appearance=true")

@@ -1,0 +1,163 @@
+"""Distances between surfaces with a guarantee: no point of one is farther from the other than what is found.
+
+Samples alone would say how far at least. Here every triangle is closed by a bound for all of its points, and split in
+four where the bound is not good enough: the distance of a point to a triangle is convex, so that over a triangle it is
+greatest at a corner; and it changes by no more than one moves, so that near its middle it is that of the middle.
+Triangles to measure to are found as those of the nearest samples of the other surface; where that misses the nearest
+one the distance comes out larger, never smaller. Nothing is drawn at random.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+
+from twinform.passes.meshes.geometry.libraries import Array, np, spatial
+from twinform.passes.meshes.geometry.surface import Surface
+
+_SAMPLES = 60_000
+"""About so many samples of a surface are kept to find triangles by."""
+_FINEST = 24
+"""A side of a triangle has so many samples at most."""
+_NEAREST, _NEAREST_TO_CORNER = 4, 2
+_CHUNK = 20_000
+_MOST_OPEN = 300_000
+"""Where so many triangles are to be split, what is known so far has to do."""
+_DEEPEST = 14
+_TINY = 1e-3
+
+Covered = Callable[[Array], Array]
+"""Which of some triangles (by their corners) lie inside of a solid, and do not count."""
+
+
+class Nearest:
+    """A surface to which distances are measured."""
+
+    def __init__(self, surface: Surface) -> None:
+        self.triangles = surface.triangles
+        samples, self._owners = _samples(self.triangles)
+        self._tree = spatial.cKDTree(samples)
+
+    def owners(self, points: Array, count: int) -> Array:
+        """The triangles of the samples that are nearest to each point."""
+        _, found = self._tree.query(points, k=min(count, len(self._owners)))
+        return self._owners[found.reshape(len(points), -1)]
+
+    def distances(self, points: Array) -> Array:
+        """How far points are from it, at most; nearly always exactly."""
+        parts = [self._distances(points[at : at + _CHUNK]) for at in range(0, len(points), _CHUNK)]
+        return np.concatenate(parts) if parts else np.zeros(0)
+
+    def _distances(self, points: Array) -> Array:
+        corners = self.triangles[self.owners(points, 2 * _NEAREST)]
+        return to_triangles(points[:, None], corners).min(axis=1)
+
+
+def farthest(
+    surface: Surface,
+    nearest: Nearest,
+    tolerance: float,
+    covered: Covered | None = None,
+    limit: float = math.inf,
+) -> float:
+    """A distance that no point of a surface exceeds, and at most about a tolerance more than one of them has.
+
+    Once a point is farther than the limit, nobody looks for the farthest one: infinity says that it is exceeded.
+    """
+    found, bound, triangles = 0.0, 0.0, surface.triangles
+    for depth in range(_DEEPEST + 1):
+        if covered is not None and len(triangles):
+            triangles = triangles[~covered(triangles)]
+        still: list[Array] = []
+        for part in _chunks(triangles):
+            middles, corners, bounds = _bounds(part, nearest)
+            counted = np.maximum(middles, corners) if covered is None else middles[~covered(_shrunk(part))]
+            found = max(found, float(counted.max(initial=0.0)))
+            if found > limit:
+                return math.inf
+            closed = bounds <= found + tolerance
+            if depth == _DEEPEST or len(triangles) > _MOST_OPEN:
+                closed[:] = True
+            bound = max(bound, float(bounds[closed].max(initial=0.0)))
+            still.append(_split(part[~closed]))
+        triangles = np.concatenate(still) if still else np.zeros((0, 3, 3))
+        if not len(triangles):
+            break
+    return bound
+
+
+def _chunks(triangles: Array) -> Iterator[Array]:
+    return (triangles[at : at + _CHUNK] for at in range(0, len(triangles), _CHUNK))
+
+
+def _shrunk(triangles: Array) -> Array:
+    """Triangles that look the same way, about as large as the middles of these."""
+    middles = triangles.mean(axis=1, keepdims=True)
+    return middles + _TINY * (triangles - middles)
+
+
+def _bounds(triangles: Array, nearest: Nearest) -> tuple[Array, Array, Array]:
+    """Of each triangle the distance of its middle, the greatest of a corner, and one that no point of it exceeds."""
+    middles = triangles.mean(axis=1)
+    own = nearest.owners(middles, _NEAREST)
+    at_corners = [nearest.owners(triangles[:, corner], _NEAREST_TO_CORNER) for corner in range(3)]
+    others = nearest.triangles[np.concatenate([own, *at_corners], axis=1)]
+    of_corners = np.stack([to_triangles(triangles[:, corner, None], others) for corner in range(3)], axis=1)
+    of_middles = to_triangles(middles[:, None], others).min(axis=1)
+    radius = np.linalg.norm(triangles - middles[:, None], axis=2).max(axis=1)
+    return (
+        of_middles,
+        of_corners.min(axis=2).max(axis=1),
+        np.minimum(of_corners.max(axis=1).min(axis=1), of_middles + radius),
+    )
+
+
+def _split(triangles: Array) -> Array:
+    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
+    ab, bc, ca = (a + b) / 2, (b + c) / 2, (c + a) / 2
+    quarters = ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))
+    return np.concatenate([np.stack(each, axis=1) for each in quarters])
+
+
+def to_triangles(points: Array, corners: Array) -> Array:
+    """The distance of each point to the triangle of the same place."""
+    a, b, c = corners[..., 0, :], corners[..., 1, :], corners[..., 2, :]
+    normal = np.cross(b - a, c - a)
+    area = np.einsum("...i,...i", normal, normal)
+    beside = np.minimum(np.minimum(_to_side(points, a, b), _to_side(points, b, c)), _to_side(points, c, a))
+    above = (
+        (area > 0) & _is_left(points, a, b, normal) & _is_left(points, b, c, normal) & _is_left(points, c, a, normal)
+    )
+    height = np.abs(np.einsum("...i,...i", points - a, normal)) / np.sqrt(np.where(area > 0, area, 1.0))
+    return np.where(above, height, beside)
+
+
+def _is_left(points: Array, start: Array, end: Array, normal: Array) -> Array:
+    return np.einsum("...i,...i", np.cross(end - start, points - start), normal) >= 0
+
+
+def _to_side(points: Array, start: Array, end: Array) -> Array:
+    side = end - start
+    length = np.einsum("...i,...i", side, side)
+    along = np.einsum("...i,...i", points - start, side) / np.where(length > 0, length, 1.0)
+    return np.linalg.norm(points - start - np.clip(along, 0.0, 1.0)[..., None] * side, axis=-1)
+
+
+def _samples(triangles: Array) -> tuple[Array, Array]:
+    """Points spread over triangles, and which triangle each is of."""
+    sides = np.linalg.norm(triangles - np.roll(triangles, 1, axis=1), axis=2).max(axis=1)
+    areas = np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1) / 2
+    apart = float(np.sqrt(areas.sum() / _SAMPLES)) or 1.0
+    steps = np.clip(np.ceil(sides / (2 * apart)), 1, _FINEST).astype(int)
+    points, owners = list[Array](), list[Array]()
+    for count in np.unique(steps):
+        of = np.flatnonzero(steps == count)
+        weights = _grid(int(count))
+        points.append(np.einsum("wk,tki->twi", weights, triangles[of]).reshape(-1, 3))
+        owners.append(np.repeat(of, len(weights)))
+    return np.concatenate(points), np.concatenate(owners)
+
+
+def _grid(count: int) -> Array:
+    """The middles of the equal triangles that a triangle is cut into, so many along a side, as weights of corners."""
+    upward = [(i + 1 / 3, j + 1 / 3) for i in range(count) for j in range(count - i)]
+    downward = [(i + 2 / 3, j + 2 / 3) for i in range(count - 1) for j in range(count - 1 - i)]
+    return np.array([(x, y, count - x - y) for x, y in (*upward, *downward)]) / count

@@ -1,0 +1,181 @@
+"""The jobs that the child process knows: simplify a collision, decimate a visual, convert a file."""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, cast
+
+from twinform.passes.meshes.geometry import convex, primitives
+from twinform.passes.meshes.geometry.decimation import decimated
+from twinform.passes.meshes.geometry.formats import appearance_of, upright, written
+from twinform.passes.meshes.geometry.libraries import np, trimesh
+from twinform.passes.meshes.geometry.surface import (
+    Surface,
+    UnusableMeshError,
+    joined,
+    placed_parts,
+    read_scene,
+    scaled,
+    selected,
+)
+from twinform.passes.meshes.job import Job, Result
+
+_ACCURACY = 0.05
+"""How much more than the greatest distance that was seen may be said, as part of what is allowed."""
+
+
+def _parts(job: Job, *, appearance: bool = False) -> list[tuple[str, Any]]:
+    """The meshes that a shape uses, in meters."""
+    scene = read_scene(job.content, job.kind, job.companions, appearance=appearance)
+    parts = selected(
+        placed_parts(scene), cast("str | None", job.options["submesh"]), center=bool(job.options["center"])
+    )
+    meter = _meter(parts) if job.kind == "dae" else 1.0
+    if meter != 1.0:
+        for _, part in parts:
+            part.apply_scale(meter)
+    return upright(parts) if job.kind in {"glb", "gltf"} and job.options["gltf_up"] == "y" else parts
+
+
+def _meter(parts: Sequence[tuple[str, Any]]) -> float:
+    """The unit of a COLLADA file in meters, which the reader leaves in the notes of its meshes."""
+    words = next((str(part.metadata["units"]) for _, part in parts if part.metadata.get("units")), "meters")
+    try:
+        factor = float(words.partition("*")[0]) if "*" in words else 1.0
+    except ValueError:
+        factor = math.nan
+    if not (math.isfinite(factor) and factor > 0):
+        raise UnusableMeshError(f"its unit is {words!r}")
+    return factor
+
+
+def _limit(job: Job, surface: Surface) -> float:
+    """How far the new surface may be from the old one, in the frame of the shape."""
+    limits = [cast("float | None", job.options["max_error"])]
+    relative = cast("float | None", job.options["max_relative_error"])
+    limits.append(None if relative is None else relative * surface.diagonal)
+    return min((each for each in limits if each is not None), default=math.inf)
+
+
+def _tolerance(limit: float, surface: Surface) -> float:
+    return _ACCURACY * min(limit, 0.05 * surface.diagonal) or 1e-9 * surface.diagonal
+
+
+def simplify(job: Job) -> Result:
+    """The cheapest stand-in for a collision, of those asked for, that is within the limit."""
+    parts = _parts(job)
+    surface = scaled(joined(parts), job.options["scale"])
+    limit, tried = _limit(job, surface), list[str]()
+    facts: dict[str, object] = {"before": len(surface.faces), "limit": limit if math.isfinite(limit) else None}
+    for how in cast("Sequence[str]", job.options["how"]):
+        found = _WAYS[how](job, surface, limit)
+        if isinstance(found, Result):
+            return Result({**facts, **found.facts}, found.files)
+        tried.append(found)
+    return Result({**facts, "kept": ", ".join(tried)})
+
+
+def _primitive(job: Job, surface: Surface, limit: float) -> Result | str:
+    found = primitives.best(surface, cast("Sequence[str]", job.options["shapes"]), _tolerance(limit, surface), limit)
+    if found is None or found[1] > limit:
+        return "no primitive is near enough"
+    primitive, error = found
+    facts = {
+        "how": "primitive", "error": error, "after": 0, "kind": primitive.kind, "sizes": list(primitive.sizes),
+        "center": list(primitive.center), "rotation": np.asarray(primitive.rotation, dtype=float).ravel().tolist(),
+    }  # fmt: skip
+    return Result(facts)
+
+
+def _hull(job: Job, surface: Surface, limit: float) -> Result | str:
+    budget = cast("int | None", job.options["triangles"])
+    found = convex.hull(surface.points[np.unique(surface.faces)])
+    found = found if budget is None else convex.within_budget(found, budget)
+    if budget is not None and len(found.faces) > budget:
+        return f"its hull needs {len(found.faces)} triangles"
+    if len(found.faces) >= len(surface.faces):
+        return "it has no more triangles than its convex hull"
+    error = convex.error_of(surface, [found], _tolerance(limit, surface), limit)
+    return _convex("hull", [found], error) if error <= limit else "its convex hull is farther off"
+
+
+def _decomposition(job: Job, surface: Surface, limit: float) -> Result | str:
+    budget = cast("int | None", job.options["triangles"])
+    best = math.inf
+    for parts in convex.decompositions(surface, cast("int", job.options["parts"])):
+        each = None if budget is None else max(4, budget // len(parts))
+        made = parts if each is None else [convex.within_budget(part, each) for part in parts]
+        total = sum(len(part.faces) for part in made)
+        if (budget is not None and total > budget) or (len(made) == 1 and total >= len(surface.faces)):
+            continue
+        error = convex.error_of(surface, made, _tolerance(limit, surface), limit)
+        if error <= limit:
+            return _convex("parts", made, error)
+        best = min(best, error)
+    return (
+        f"{job.options['parts']} convex parts are farther off"
+        if budget is None
+        else "nor are parts with so few triangles"
+    )
+
+
+def _convex(how: str, parts: Sequence[Surface], error: float) -> Result:
+    meshes = [trimesh.Trimesh(vertices=part.points, faces=part.faces, process=False) for part in parts]
+    files = {f"{index}": written([("convex", mesh)], "obj")[".obj"] for index, mesh in enumerate(meshes)}
+    after = sum(len(part.faces) for part in parts)
+    return Result({"how": how, "error": error, "after": after, "each": [len(part.faces) for part in parts]}, files)
+
+
+_WAYS: Mapping[str, Callable[[Job, Surface, float], Result | str]] = {
+    "primitive": _primitive, "hull": _hull, "parts": _decomposition,
+}  # fmt: skip
+
+
+def decimate(job: Job) -> Result:
+    """Levels of detail of a visual, each with a share of the triangles of the one before."""
+    parts = _parts(job, appearance=True)
+    surface = joined(parts)
+    before = sum(len(part.faces) for _, part in parts)
+    facts: dict[str, object] = {"before": before, "appearance": sorted(appearance_of(parts))}
+    if appearance_of(parts) & {"textures", "vertex colors"}:
+        return Result({**facts, "kept": f"it has {' and '.join(sorted(appearance_of(parts) - {'colors'}))}"})
+    stretch = max(abs(float(each)) for each in cast("Sequence[float]", job.options["scale"]))
+    limit = _limit(job, scaled(surface, job.options["scale"])) / stretch
+    files: dict[str, bytes] = {}
+    levels: list[dict[str, object]] = []
+    kind = "stl" if job.kind == "stl" else "obj"
+    for level in range(1, cast("int", job.options["levels"]) + 1):
+        share = _share(job, before) ** level
+        found = decimated(parts, max(share, 4 / before), _tolerance(limit, surface), limit)
+        if found is None:
+            break
+        levels.append({"triangles": found.triangles, "error": found.error * stretch})
+        for suffix, data in written(found.parts, kind, stem=f"{job.options['stem']}_lod{level}").items():
+            files[f"_lod{level}{suffix}"] = data
+    if not levels:
+        return Result({**facts, "kept": "no fewer triangles are within the distance"})
+    return Result({**facts, "levels": levels, "kind": kind}, files)
+
+
+def _share(job: Job, before: int) -> float:
+    count = cast("int | None", job.options["triangles"])
+    return min(1.0, cast("float", job.options["share"]) if count is None else count / before)
+
+
+def convert(job: Job) -> Result:
+    """A file in another format."""
+    parts = _parts(job, appearance=True)
+    kind = str(job.options["to"])
+    appearance = appearance_of(parts)
+    if not appearance:
+        parts = [(name, _welded(name, part)) for name, part in parts]
+    files = written(parts, kind, stem=str(job.options["stem"]), y_up=job.options["gltf_up"] == "y")
+    lost = appearance if kind == "stl" else set[str]()
+    return Result({"before": sum(len(part.faces) for _, part in parts), "lost": sorted(lost)}, files)
+
+
+def _welded(name: str, part: Any) -> Any:
+    surface = joined([(name, part)])
+    return type(part)(vertices=surface.points, faces=surface.faces, process=False)
+
+
+JOBS: Mapping[str, Callable[[Job], Result]] = {"simplify": simplify, "decimate": decimate, "convert": convert}

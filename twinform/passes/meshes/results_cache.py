@@ -1,0 +1,98 @@
+"""A folder of the user's in which the results of jobs on meshes stay, by the digest of all that they depend on.
+
+It is `$XDG_CACHE_HOME/twinform/meshes`, or what `TWINFORM_MESH_CACHE` names; the word `off` there is for none. A result
+appears all at once, under a name that says what is in it, so that several processes may use the folder at a time.
+"""
+
+import hashlib
+import io
+import os
+import tempfile
+from contextlib import suppress
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Self
+
+from twinform.passes.meshes.job import BadMessageError, Job, Result
+
+VARIABLE = "TWINFORM_MESH_CACHE"
+_LIBRARIES = ("twinform", "coacd", "fast-simplification", "numpy", "pycollada", "scipy", "trimesh")
+_MOST = 2**30
+"""Bytes that are kept; beyond them, what was used longest ago goes."""
+_DIGEST = hashlib.sha256().digest_size
+FORMAT = "1"
+"""Changes where what a job makes changes otherwise than by a version."""
+
+
+@dataclass(frozen=True, slots=True)
+class ResultsCache:
+    """Results in a folder; none are kept where it is None."""
+
+    folder: Path | None
+
+    @classmethod
+    def usual(cls) -> Self:
+        """The one of the user."""
+        chosen = os.environ.get(VARIABLE, "")
+        if chosen == "off":
+            return cls(None)
+        if chosen:
+            return cls(Path(chosen))
+        base = os.environ.get("XDG_CACHE_HOME", "")
+        try:
+            home = Path(base) if Path(base).is_absolute() else Path.home() / ".cache"
+        except RuntimeError:  # the user has no home
+            return cls(None)
+        return cls(home / "twinform" / "meshes")
+
+    def get(self, job: Job) -> Result | None:
+        """What came of a job before; None where it is not known, or what is there is damaged."""
+        path = self._path(job)
+        if path is None:
+            return None
+        with suppress(OSError, BadMessageError, ValueError, KeyError):
+            data = path.read_bytes()
+            if hashlib.sha256(data[_DIGEST:]).digest() == data[:_DIGEST]:
+                os.utime(path)
+                return Result.read(io.BytesIO(data[_DIGEST:]))
+        return None
+
+    def put(self, job: Job, result: Result) -> None:
+        """Keep a result; a folder that cannot be written to is no reason to fail."""
+        path = self._path(job)
+        if path is None or result.trouble:
+            return
+        data = result.to_bytes()
+        with suppress(OSError):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            descriptor, name = tempfile.mkstemp(dir=path.parent)
+            with os.fdopen(descriptor, "wb") as file:
+                file.write(hashlib.sha256(data).digest() + data)
+            Path(name).replace(path)
+            _prune(path.parent)
+
+    def _path(self, job: Job) -> Path | None:
+        return self.folder / f"{job.digest(_versions())}.result" if self.folder is not None else None
+
+
+def _versions() -> dict[str, str]:
+    return {"format": FORMAT, **{name: _version(name) for name in _LIBRARIES}}
+
+
+def _version(name: str) -> str:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return ""
+
+
+def _prune(folder: Path) -> None:
+    found = [(status.st_mtime, status.st_size, path) for path in folder.iterdir() for status in [path.stat()]]
+    total = sum(size for _, size, _ in found)
+    for _, size, path in sorted(found):
+        if total <= _MOST:
+            return
+        with suppress(OSError):
+            path.unlink()
+            total -= size

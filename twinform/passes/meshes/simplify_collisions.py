@@ -1,0 +1,186 @@
+"""Replace the meshes of collisions by primitives, convex hulls or convex parts, within a distance."""
+
+import re
+from collections.abc import Sequence
+from typing import ClassVar, Literal, cast
+
+from pydantic import Field
+
+from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.rules.appearance import NOTHING_MATCHED
+from twinform.diagnostics.rules.meshes import CHANGED_MESH, KEPT_MESH
+from twinform.ir import Collision, Document, Format, Geometry, Link, Mesh, Shape, rewrite
+from twinform.ir.geometry import Box, Capsule, Cylinder, Sphere
+from twinform.ir.transform import Transform
+from twinform.passes.analyses.meshes import MeshError
+from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
+from twinform.passes.meshes.job import Options
+from twinform.passes.meshes.mesh_pass import MeshPass, Outcome, Workbench, length, number, stays
+
+Way = Literal["primitive", "hull", "parts"]
+Kind = Literal["box", "sphere", "cylinder", "capsule"]
+_MADE = re.compile(r"_(hull|part\d+)$")
+_CAPSULES: dict[Format, tuple[int, ...]] = {Format.URDF: (1, 1), Format.SDF: (1, 8)}
+"""The versions since which a format has capsules."""
+
+
+class SimplifyCollisions(MeshPass):
+    """Replace the meshes of collisions by shapes that are cheap to touch, within a distance that is guaranteed.
+
+    Changes the collisions with a mesh whose name matches `collisions`, on links whose name matches `links`. The ways of
+    `how` are tried in their order, and the first one that is within both `max-error` and `max-relative-error` is taken:
+
+    1. `primitive`: the nearest of `shapes`, turned and moved as it has to be; nothing has to be written for it;
+    2. `hull`: the convex hull of the mesh, as an OBJ file;
+    3. `parts`: convex parts by CoACD, an OBJ file and a collision each, of which the first keeps the name.
+
+    The distance is the greatest between the outsides of mesh and shape, both ways; what is inside of the shape, such as
+    the motor in a housing, touches nothing and does not count. It is bounded triangle by triangle, not sampled, so that
+    no point is farther off than is said. Files are written together with the result, below its folder.
+    (`pip install 'twinform[meshes]'`)
+
+    Never touches: masses, inertias, frames and joints. A collision stays where its link has an inertia that is computed
+    from collisions (`auto`), where nothing is within the distance, and where its mesh cannot be read.
+    Diagnostics: `changed-mesh` for each collision with its triangles and distance, `kept-mesh`, `unreadable-mesh`,
+    `mesh-reader-missing`, and `nothing-matched`.
+    """
+
+    name = "simplify-collisions"
+    example: ClassVar[str] = "simplify-collisions{how=[primitive,hull] max-relative-error=0.02}"
+
+    links: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only links"))
+    collisions: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only collisions"))
+    how: tuple[Way, ...] = Field(
+        default=("primitive", "hull", "parts"), min_length=1, description="What is tried, in this order; see above."
+    )
+    shapes: tuple[Kind, ...] = Field(
+        default=("box", "sphere", "cylinder", "capsule"),
+        min_length=1,
+        description="Primitives to choose from; capsules only where the version of the format has them.",
+    )
+    max_error: float | None = Field(
+        default=None, gt=0, allow_inf_nan=False, description="The distance that is allowed, in m."
+    )
+    max_relative_error: float | None = Field(
+        default=0.05, gt=0, allow_inf_nan=False, description="The same as a share of the diagonal of the mesh."
+    )
+    triangles: int | None = Field(
+        default=None, ge=4, description="The most triangles of a collision, of all its parts together."
+    )
+    parts: int = Field(default=16, ge=1, le=256, description="The most parts of a collision.")
+
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
+        """The document with other collisions."""
+        bench, matched = self.workbench(sink), list[Collision]()
+        made = rewrite(document, Link, lambda link: self._link(link, self._options(document), bench, matched))
+        if not matched:
+            message = f"no collision {', '.join(self.collisions)!r} on a link {', '.join(self.links)!r} has a mesh"
+            sink.report(NOTHING_MATCHED, message, document.location, found=", ".join(self.collisions))
+        return made
+
+    def _options(self, document: Document) -> Options:
+        version = tuple(int(part) for part in (document.version or "1.0").split(".") if part.isdigit())
+        shapes = [each for each in self.shapes if each != "capsule" or version >= _CAPSULES[document.format]]
+        return {
+            **self.read_options, "how": list(self.how), "shapes": shapes, "max_error": self.max_error,
+            "max_relative_error": self.max_relative_error, "triangles": self.triangles, "parts": self.parts,
+        }  # fmt: skip
+
+    def _link(self, link: Link, options: Options, bench: Workbench, matched: list[Collision]) -> Link:
+        if not matches(link.name, self.links):
+            return link
+        found: list[Collision] = []
+        for one in link.collisions:
+            mesh = one.geometry.shape if one.geometry else None
+            if not isinstance(mesh, Mesh) or not matches(one.name, self.collisions):
+                found.append(one)
+                continue
+            matched.append(one)
+            taken = {each.name for each in (*link.collisions, *found) if each.name}
+            found += _simplified(link, one, mesh, options, bench, taken)
+        same = len(found) == len(link.collisions) and all(a is b for a, b in zip(found, link.collisions, strict=True))
+        return link if same else link.model_copy(update={"collisions": tuple(found)})
+
+
+def _simplified(
+    link: Link, collision: Collision, mesh: Mesh, options: Options, bench: Workbench, taken: set[str]
+) -> list[Collision]:
+    """What a collision becomes: itself where it stays."""
+    what = f"{f'collision {collision.name!r}' if collision.name else 'a collision'} of link {link.name!r}"
+    if link.inertial and link.inertial.auto:
+        message = f"{what} stays as it is: the inertia of the link is computed from it"
+        bench.sink.report(KEPT_MESH, message, collision.location, help="write the inertia out with fill-inertia first")
+        return [collision]
+    try:
+        if bench.sources.find((mesh.uri or "").strip()).is_made(_MADE):
+            return [collision]
+        outcome = bench.outcome("simplify", mesh, {**options, "scale": list(mesh.scale or (1.0, 1.0, 1.0))})
+        facts = outcome.result.facts
+        if "kept" in facts:
+            limit = facts["limit"]
+            within = f"within {length(number(limit))} " if limit is not None else ""
+            message = f"{what} stays as it is: nothing cheaper was found {within}({facts['kept']})"
+            bench.sink.report(KEPT_MESH, message, collision.location, found=f"{number(facts['before']):.0f} triangles")
+            return [collision]
+        is_primitive = facts["how"] == "primitive"
+        made = _primitive(collision, outcome) if is_primitive else _parts(collision, outcome, bench, taken)
+    except MeshError as error:
+        stays(bench.sink, error, what, collision.location)
+        return [collision]
+    became = f"a {facts['kind']}" if is_primitive else _convex(made, number(facts["after"]))
+    off = length(number(facts["error"]))
+    message = f"{what}: {number(facts['before']):.0f} triangles became {became}, at most {off} off"
+    bench.sink.report(CHANGED_MESH, message, collision.location)
+    return made
+
+
+def _convex(made: Sequence[Collision], triangles: float) -> str:
+    what = "a convex hull" if len(made) == 1 else f"{len(made)} convex parts"
+    return f"{what} of {triangles:.0f}"
+
+
+def _primitive(collision: Collision, outcome: Outcome) -> list[Collision]:
+    facts = outcome.result.facts
+    sizes, center, rows = (cast("list[float]", facts[key]) for key in ("sizes", "center", "rotation"))
+    a, b, c, d, e, f, g, h, i = rows
+    inner = Transform((center[0], center[1], center[2]), (a, b, c, d, e, f, g, h, i))
+    pose = collision.pose
+    placed = Transform.from_pose(pose).compose(inner)
+    named = pose.relative_to if pose else None
+    return [_with(collision, _shape(str(facts["kind"]), sizes), pose=placed.to_pose(named))]
+
+
+def _shape(kind: str, sizes: Sequence[float]) -> Shape:
+    if kind == "box":
+        return Box(size=(sizes[0], sizes[1], sizes[2]))
+    if kind == "sphere":
+        return Sphere(radius=sizes[0])
+    made = Capsule if kind == "capsule" else Cylinder
+    return made(radius=sizes[0], length=sizes[1])
+
+
+def _parts(collision: Collision, outcome: Outcome, bench: Workbench, taken: set[str]) -> list[Collision]:
+    """A collision for each file; the first keeps the name."""
+    files = [*outcome.result.files.values()]
+    found: list[Collision] = []
+    for index, data in enumerate(files, 1):
+        suffix = "_hull.obj" if len(files) == 1 else f"_part{index}.obj"
+        uri = bench.add(outcome.stem, {suffix: data})
+        one = _with(collision, Mesh(uri=uri))
+        if index > 1 and collision.name:
+            one = one.model_copy(update={"name": _free(collision.name, index, taken)})
+        found.append(one)
+    return found
+
+
+def _free(name: str, index: int, taken: set[str]) -> str:
+    free = f"{name}_part{index}"
+    while free in taken:
+        free += "_"
+    taken.add(free)
+    return free
+
+
+def _with(collision: Collision, shape: Shape, **fields: object) -> Collision:
+    geometry = (collision.geometry or Geometry()).model_copy(update={"shape": shape})
+    return collision.model_copy(update={"geometry": geometry, **fields})
