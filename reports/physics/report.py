@@ -14,7 +14,8 @@ from twinform.profiles import names
 
 KNOWN = Known.beside(__file__)
 _ABOUT = """\
-Every file of the corpus, with small boxes for its meshes, is converted for each profile (`twinform convert --for NAME`): into its own format where the
+Every file of the corpus, with small boxes for its meshes, is converted for each profile
+(`twinform convert --for NAME`): into its own format where the
 consumer reads that, into URDF where it does not, and into SDF for Gazebo. Where a pass has changed something, Drake is
 asked. What it compares the result with is the source with the values that the ledger lists written into it, one by
 one, by a few lines of code that know nothing of any pass (`reports/physics/applying.py`): so it finds both what was
