@@ -46,9 +46,8 @@ def test_without_consumers_it_is_what_it_was(run: Run, robot: Path) -> None:
 
 
 def test_a_comment_allows_it(run: Run, robot: Path) -> None:
-    marked = IMPOSSIBLE.replace(
-        "    <inertial>", "    <!-- twinform: allow impossible-inertia - as it was weighed -->\n    <inertial>"
-    )
+    comment = "<!-- twinform: allow impossible-inertia - as it was weighed -->"
+    marked = IMPOSSIBLE.replace("    <inertial>", f"    {comment}\n    <inertial>")
     robot.write_text(marked, encoding="utf-8")
     done = run("check", robot, "--for", "mujoco", "--format", "json")
     assert not [
