@@ -50,6 +50,7 @@ generate: $(SYNCED) ## write the files that are made from tables: schemas and re
 	$(BIN)/python -m twinform.passes.framework.pages docs/reference/passes.md
 	$(BIN)/python -m twinform.passes.legalise.page docs/explanation/pipeline.md
 	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md
+	$(BIN)/python -m twinform.profiles.page docs/reference/profiles.md
 	$(BIN)/python -m reports libsdformat_codes
 	$(BIN)/python -m reports mapping
 	$(BIN)/python -m reports.mapping.destinations twinform/server/mapping/destinations.json
@@ -67,6 +68,7 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/python -m twinform.passes.framework.pages docs/reference/passes.md --check
 	$(BIN)/python -m twinform.passes.legalise.page docs/explanation/pipeline.md --check
 	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md --check
+	$(BIN)/python -m twinform.profiles.page docs/reference/profiles.md --check
 	$(BIN)/python -m reports libsdformat_codes --check
 	$(BIN)/python -m reports mapping --check
 	$(BIN)/python -m reports.mapping.destinations twinform/server/mapping/destinations.json --check

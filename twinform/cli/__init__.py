@@ -17,7 +17,7 @@ COMMANDS: Mapping[str, str] = {
     "fix": "Mend robot models in their files, and run passes on them.",
     "diff": "Say whether two files describe the same robot.",
     "format": "Lay out the text of models, and change nothing else.",
-    "advise": "Say which format to keep a robot in, and what each consumer makes of it.",
+    "advise": "Say which format to keep a robot in, and who takes it.",
     "stats": "Print in numbers what models are made of.",
     "package": "Put a robot model and all its files into a folder for Gazebo or ROS 2.",
     "batch": "Work on every model of a folder, on several processors or machines.",

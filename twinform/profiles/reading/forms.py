@@ -9,6 +9,12 @@ import re
 from collections.abc import Callable, Mapping
 
 _STREAM = re.compile(r"[ \t\n\v\f\r]*[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", re.ASCII)
+_LEADING = re.compile(r"[ \t\n\v\f\r]*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)", re.ASCII)
+_HEXADECIMAL = re.compile(r"[-+]?0[xX](?:[0-9a-fA-F]+\.?[0-9a-fA-F]*|\.[0-9a-fA-F]+)(?:[pP][-+]?\d+)?", re.ASCII)
+_WORDS = re.compile(r"[-+]?(?:inf|infinity|nan(?:\(\w*\))?)", re.ASCII | re.IGNORECASE)
+_ASCII_BLANKS = re.compile(r"[ \t\n\v\f\r]+")
+_SHORTEST = 1e-8
+_LONGEST_NAME = 240
 _VERSION = re.compile(r"\s*[-+]?0*(\d+)\.\s*[-+]?0*(\d+)", re.ASCII)
 
 
@@ -22,6 +28,62 @@ def _python(text: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+def _streamed(text: str) -> int:
+    """How many numbers a C++ stream reads one after the other, until something is none."""
+    count, at = 0, 0
+    while (found := _LEADING.match(text, at)) is not None and math.isfinite(float(found[1])):
+        count, at = count + 1, found.end()
+        if text[at : at + 1] in {"e", "E"}:
+            return count - 1  # the stream takes the letter for an exponent, and then there is none
+    return count
+
+
+def _strtods(text: str, *counts: int) -> bool:
+    """Whether the text is so many numbers as C reads them: also in hexadecimal, infinite, or none."""
+    pieces = _ASCII_BLANKS.sub(" ", text).split(" ")
+    pieces = [piece for piece in pieces if piece]
+    return len(pieces) in counts and all(map(_strtod, pieces))
+
+
+def _strtod(piece: str) -> bool:
+    if _HEXADECIMAL.fullmatch(piece) or _WORDS.fullmatch(piece):
+        return True
+    return _STREAM.fullmatch(piece) is not None and math.isfinite(float(piece))
+
+
+def _numbers(text: str) -> list[float]:
+    """The numbers in a text, by the beginning of each piece, as C reads them; what begins with none is left out."""
+    found = (_beginning(piece) for piece in text.split())
+    return [number for number in found if number is not None]
+
+
+def number_in(text: str) -> float | None:
+    """The number that a text begins with, or None."""
+    return _beginning(text.strip())
+
+
+def _beginning(piece: str) -> float | None:
+    if found := _HEXADECIMAL.match(piece):
+        return float.fromhex(found[0])
+    if found := _WORDS.match(piece) or _LEADING.match(piece):
+        return float(found[0].split("(")[0])
+    return None
+
+
+def _positive(text: str) -> bool:
+    return all(number > 0 for number in _numbers(text))
+
+
+def _long(text: str) -> bool:
+    """Whether it is the direction of something, and not of nothing."""
+    numbers = _numbers(text)
+    return not numbers or any(math.isnan(number) for number in numbers) or math.hypot(*numbers) >= _SHORTEST
+
+
+def _finite(text: str) -> bool:
+    return not _python(text) or math.isfinite(float(text))
 
 
 def _pieces(text: str) -> list[str]:
@@ -79,6 +141,23 @@ FORMS: Mapping[str, tuple[str, Callable[[str], bool]]] = {
     "blank4": ("four numbers with blanks between them", lambda text: len(_pieces(text)) == 4),
     "blank3": ("three numbers with blanks between them", lambda text: len(_pieces(text)) >= 3),
     "at-least-0": ("a number that is not negative", lambda text: not _stream(text) or float(text) >= 0),
+    "streams1": ("one number such as 0.5 or 1e-3", lambda text: _streamed(text) == 1),
+    "streams3": ("three numbers", lambda text: _streamed(text) == 3),
+    "streams4": ("four numbers", lambda text: _streamed(text) == 4),
+    "strtod": ("a number such as 0.5 or 1e-3", lambda text: _strtods(text, 0, 1)),
+    "strtod+": ("a number such as 0.5 or 1e-3", lambda text: _strtods(text, 1)),
+    "strtods3": ("three numbers", lambda text: _strtods(text, 0, 3)),
+    "strtods3+": ("three numbers", lambda text: _strtods(text, 3)),
+    "strtods4+": ("four numbers", lambda text: _strtods(text, 4)),
+    "share": ("numbers from 0 to 1", lambda text: all(0 <= number <= 1 for number in _numbers(text))),
+    "one": ("1", lambda text: text in {"", "1"}),
+    "positive": ("more than 0", _positive),
+    "long": ("a direction", _long),
+    "finite": ("a finite number", _finite),
+    "finites": ("finite numbers", lambda text: all(map(_finite, text.split()))),
+    "printable": ("a short name in one line", lambda text: text.isprintable() and len(text) < _LONGEST_NAME),
+    "strtods3?": ("three numbers", lambda text: not text or _strtods(text, 3)),
+    "unblank": ("a name", lambda text: not text or bool(text.strip())),
     "python": ("a number such as 0.5 or 1e-3", _python),
     "python3": ("three numbers", lambda text: _pythons(text, 3)),
     "python4": ("four numbers", lambda text: _pythons(text, 4)),

@@ -72,6 +72,9 @@ def _held(demand: Demand, node: Node) -> Iterator[Shortfall]:
 def _attribute(demand: Demand, node: Node) -> Iterator[Shortfall]:
     names = demand.item[1:].split("|")
     given = [name for name in names if name in node.attributes]
+    if demand.form == "none":
+        yield from (_short(demand, "unread", f"<{node.tag}> has an attribute {name!r}", node) for name in given)
+        return
     if not given and demand.needed:
         wanted = " or ".join(map(repr, names))
         yield _short(demand, "absent", f"<{node.tag}> has no attribute {wanted}", node, expected=wanted)
@@ -98,6 +101,8 @@ def _element(demand: Demand, node: Node) -> Iterator[Shortfall]:
             for tag in node.children
             if tag.tag in names
         )
+    elif demand.form == "once" and (again := [tag for tag in node.children if tag.tag in names][1:]):
+        yield _short(demand, "unread", f"<{node.tag}> has a second <{again[0].tag}>", again[0])
     elif demand.form in {"first", "single"}:
         if demand.form == "single" and len(node.children) != 1:
             yield _short(demand, "unread", f"<{node.tag}> has {len(node.children)} elements", node, expected="one")

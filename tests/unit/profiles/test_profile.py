@@ -1,0 +1,99 @@
+"""Profiles: their names, releases and rows, and what holds for all data."""
+
+import re
+from dataclasses import replace
+
+import pytest
+
+from twinform.diagnostics import Diagnostic, Location, Severity, catalog
+from twinform.diagnostics.rules.inertia import IMPOSSIBLE_INERTIA
+from twinform.ir import Format
+from twinform.passes import parse_pipeline
+from twinform.profiles import Effect, Profile, Row, UnknownProfileError, load, names, parse
+from twinform.profiles.profile import PORTABLE
+from twinform.profiles.reading.notation import reads
+from twinform.profiles.remedies import REMEDIES
+
+_EVERY = [profile for name in names() if name != PORTABLE for profile in load(name)]
+_FINDING = Diagnostic(
+    IMPOSSIBLE_INERTIA, "of link 'a'", Location("a.urdf", 3, "/robot/link/inertial"), Severity.WARNING
+)
+
+
+def _pipelines(profile: Profile) -> set[str]:
+    demands = reads(profile.reads).demands if profile.reads else ()
+    return {each.pipeline for each in (*profile.rows, *demands) if each.pipeline}
+
+
+@pytest.mark.parametrize("profile", _EVERY, ids=lambda each: each.name)
+def test_every_row_names_a_rule_and_passes_that_there_are(profile: Profile) -> None:
+    known, remedies = set(catalog()), {each.name for each in REMEDIES}
+    assert {row.rule for row in profile.rows} <= known
+    assert {step.name for text in _pipelines(profile) for step in parse_pipeline(text)} <= remedies
+
+
+@pytest.mark.parametrize("profile", _EVERY, ids=lambda each: each.name)
+def test_what_was_tested_says_in_which_version(profile: Profile) -> None:
+    assert bool(profile.seen) or not profile.tested
+    assert profile.formats
+    assert profile.label.startswith(profile.title)
+
+
+def test_every_remedy_is_needed_by_a_profile() -> None:
+    needed = {step.name for profile in _EVERY for text in _pipelines(profile) for step in parse_pipeline(text)}
+    assert {each.name for each in REMEDIES} == needed
+
+
+def test_portable_is_all_that_are_tested() -> None:
+    assert {each.name for each in load(PORTABLE)} == {each.name for each in _EVERY if each.tested}
+    assert not any(each.named for each in load(PORTABLE))
+
+
+def test_a_release_is_named_behind_an_at_sign() -> None:
+    (fortress,), (harmonic,) = load("gazebo@fortress"), load("gazebo@harmonic")
+    assert (fortress.sdf, harmonic.sdf) == ("1.9", "1.11")
+    assert load("gazebo") == load("gazebo@harmonic")
+
+
+def test_names_with_commas_between_each_once() -> None:
+    assert [each.name for each in parse("mujoco, drake,mujoco")] == ["mujoco", "drake"]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("mujocco", "there is no profile 'mujocco'; did you mean 'mujoco'?"),
+        ("gazebo@harmonics", "has no release 'harmonics'; did you mean 'harmonic'?"),
+        ("drake@1", "'drake' has no release '1'; it has no releases"),
+        ("portable@1", "'portable' has no releases"),
+        (",", "name a profile"),
+        ("", "name a profile"),
+        ("../../etc/passwd", "there is no profile"),
+    ],
+)
+def test_names_that_there_are_not(text: str, message: str) -> None:
+    with pytest.raises(UnknownProfileError, match=re.escape(message)):
+        parse(text)
+
+
+@pytest.mark.parametrize(
+    ("conditions", "minded"),
+    [
+        ({}, True),
+        ({"format": Format.URDF}, True),
+        ({"format": Format.SDF}, False),
+        ({"message": r"link 'a'$"}, True),
+        ({"message": "joint"}, False),
+        ({"place": "/inertial$"}, True),
+        ({"place": "/joint"}, False),
+    ],
+)
+def test_conditions_narrow_a_row(conditions: dict[str, object], minded: bool) -> None:
+    row = Row.model_validate({"rule": "impossible-inertia", "effect": Effect.REFUSES, "about": "", **conditions})
+    assert row.minds(_FINDING, Format.URDF) is minded
+    assert not row.minds(replace(_FINDING, rule=next(iter(catalog().values()))), Format.URDF)
+
+
+def test_a_pattern_that_is_none_is_refused() -> None:
+    with pytest.raises(re.error):
+        Row.model_validate({"rule": "a", "effect": "refuses", "about": "", "message": "("})

@@ -1,0 +1,92 @@
+"""Generator of the reference page of profiles: `python -m twinform.profiles.page FILE [--check]`."""
+
+import sys
+from collections.abc import Iterator
+
+from twinform.diagnostics.generated_files import main
+from twinform.profiles.profile import PORTABLE, Profile, Row, load, names
+from twinform.profiles.reading.notation import Demand, Step, reads
+from twinform.profiles.remedies import REMEDIES
+
+_INTRODUCTION = """\
+# Profiles
+
+What programs that read models refuse, drop, read otherwise or warn about: `twinform check --for NAME` reports it about
+a file, `twinform convert --for NAME` runs the passes that help, and `twinform advise` compares all programs. `portable`
+is all that are tested. How to use them:
+[Write a model for several consumers](../how-to/write-for-several-consumers.md). Whether they are right is [measured](../evidence/loaders.md).
+
+*Refuses* is an error under `--for`, *drops* and *misreads* are warnings, *warns* is a note. This file is made by
+`python -m twinform.profiles.page docs/reference/profiles.md`; do not edit it.
+"""
+_REMEDIES = """\
+## Passes that help
+
+In the order in which they run. Those with a star change the physics; each change is in the ledger, and `--keep-physics`
+refuses them.
+"""
+
+
+def page() -> str:
+    """The whole page."""
+    physics = {each.name: "\\*" if each.physics else "" for each in REMEDIES}
+    steps = "\n".join(f"1. [{name}](passes.md#{name}){star}" for name, star in physics.items())
+    profiles = [each for name in names() if name != PORTABLE for each in load(name)]
+    return "\n".join([_INTRODUCTION, *map(_profile, profiles), _REMEDIES, steps, ""])
+
+
+def _profile(profile: Profile) -> str:
+    seen = f"Seen in {profile.seen}." if profile.tested else "Not tested: read in its sources and documentation."
+    reads_ = " and ".join(each.upper() for each in profile.formats)
+    lines = [f"## {profile.name}\n", f"{_sentence(profile.about)} It reads {reads_}. {seen}\n"]
+    if profile.rows:
+        lines += [
+            "| what is found | format | effect | what it does | passes that help |",
+            "| --- | --- | --- | --- | --- |",
+        ]
+        lines += [_row(each) for each in profile.rows] + [""]
+    if profile.reads:
+        lines += [
+            "| what it reads of URDF | effect otherwise | what it does | passes that help |",
+            "| --- | --- | --- | --- |",
+        ]
+        lines += [*_demands(profile.reads), ""]
+    return "\n".join(lines)
+
+
+def _row(row: Row) -> str:
+    narrowed = f", `{row.message}`" if row.message else ""
+    format_ = row.format.upper() if row.format else ""
+    passes = f"`{row.pipeline}`" if row.pipeline else ""
+    cells = (f"[{row.rule}](rules.md#{row.rule}){_escaped(narrowed)}", format_, row.effect, row.about, passes)
+    return f"| {' | '.join(cells)} |"
+
+
+def _demands(name: str) -> Iterator[str]:
+    for each in reads(name).demands:
+        passes = f"`{each.pipeline}`" if each.pipeline else ""
+        yield f"| {_escaped(_place(each))} | {each.effect} | {_escaped(each.about)} | {passes} |"
+
+
+def _place(demand: Demand) -> str:
+    """`link/inertial/mass` `@value`, as a number; which has to be there."""
+    path = "/".join(["robot", *map(_step, demand.place)])
+    needed = ", needed" if demand.needed else ""
+    return f"`{path}` `{demand.item}`: {demand.form}{needed}" if demand.form else f"`{path}` `{demand.item}`{needed}"
+
+
+def _step(step: Step) -> str:
+    types = f"[{'!' if step.other else ''}{','.join(sorted(step.types))}]" if step.types else ""
+    return f"{step.tag}{types}"
+
+
+def _sentence(text: str) -> str:
+    return f"{text[0].upper()}{text[1:].rstrip('.')}."
+
+
+def _escaped(text: str) -> str:
+    return text.replace("|", "\\|")
+
+
+if __name__ == "__main__":
+    sys.exit(main(page(), sys.argv[1:]))

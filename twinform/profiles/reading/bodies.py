@@ -1,0 +1,113 @@
+"""Facts about masses and inertias, as the engines want them that build a robot of them."""
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from twinform.ir.principal_moments import principal_moments
+from twinform.profiles.reading.forms import number_in
+from twinform.profiles.reading.nodes import Node
+
+Fact = Iterator[tuple[Node, str]]
+_LIGHTEST = 1e-15
+"""What counts as no mass, in kg, and as no moment, in kg m2."""
+_SLACK = 1e-9
+"""By so much of it the largest moment may be more than the sum of the others."""
+_MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+
+
+class Body(NamedTuple):
+    """The mass and the moments of a link, and the principal ones; None where they are no numbers."""
+
+    node: Node
+    mass: float | None
+    moments: tuple[float, ...]
+    principal: tuple[float, ...] | None
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether all moments are 0."""
+        return not any(self.moments)
+
+
+def bodies(root: Node) -> Iterator[Body]:
+    """The links with an inertial."""
+    for link in root.all("link"):
+        inertial = link.first("inertial")
+        if inertial is None:
+            continue
+        inertia = inertial.first("inertia")
+        texts = [inertia.attributes.get(name, "0") if inertia else "0" for name in _MOMENTS]
+        found = [number_in(text) for text in texts]
+        mass = number_in(inertial.value("mass", "value") or "0")
+        moments = tuple(0.0 if number is None else number for number in found)
+        yield Body(link, mass, moments, _principal(moments))
+
+
+def _principal(moments: tuple[float, ...]) -> tuple[float, ...] | None:
+    if not all(map(math.isfinite, moments)):
+        return None
+    xx, xy, xz, yy, yz, zz = moments
+    return tuple(sorted(principal_moments((xx, yy, zz, xy, xz, yz))))
+
+
+def indefinite(root: Node) -> Fact:
+    """Inertias with a moment that is not positive, where there is one at all."""
+    for body in bodies(root):
+        if not body.is_empty and (body.principal is None or body.principal[0] <= 0):
+            yield body.node, f"link {_name(body.node)!r} has a moment that is not positive"
+
+
+def unbalanced(root: Node) -> Fact:
+    """Inertias of which the largest moment is more than the other two together."""
+    for body in bodies(root):
+        if body.principal is not None and body.principal[0] > 0 and _is_unbalanced(body.principal):
+            yield body.node, f"link {_name(body.node)!r} has a moment above the sum of the other two"
+
+
+def _is_unbalanced(principal: tuple[float, ...]) -> bool:
+    low, middle, high = principal
+    return low + middle < high * (1 - _SLACK)
+
+
+def unphysical(root: Node) -> Fact:
+    """Inertias that no body has: with a moment above the sum of the others, a negative one, or without a mass."""
+    for body in bodies(root):
+        principal, mass = body.principal, body.mass or 0.0
+        wrong = principal is None or principal[0] < -_SLACK * abs(principal[2]) or _is_unbalanced(principal)
+        if wrong or mass < 0 or (mass == 0 and not body.is_empty):
+            yield body.node, f"link {_name(body.node)!r} has an inertia that no body has"
+
+
+def weightless(root: Node) -> Fact:
+    """Links that move, with nothing that has a mass and an inertia in what is fixed to them."""
+    heavy = {_name(body.node) for body in bodies(root) if _weighs(body)}
+    heavy |= {_name(link) for link in root.all("link") if not link.first("inertial") and link.first("collision")}
+    fixed: dict[str, list[str]] = {}
+    for joint in root.all("joint"):
+        if joint.attributes.get("type") == "fixed":
+            fixed.setdefault(joint.value("parent", "link") or "", []).append(joint.value("child", "link") or "")
+    links = {_name(link): link for link in root.all("link")}
+    for joint in root.all("joint"):
+        child = joint.value("child", "link") or ""
+        if joint.attributes.get("type") != "fixed" and child in links and not heavy & _together(child, fixed):
+            yield links[child], f"link {child!r} moves and has no mass or no inertia, nor has what is fixed to it"
+
+
+def _weighs(body: Body) -> bool:
+    mass = body.mass or 0.0
+    return mass > _LIGHTEST and body.principal is not None and body.principal[2] > _LIGHTEST
+
+
+def _together(name: str, fixed: dict[str, list[str]]) -> set[str]:
+    found, waiting = set[str](), [name]
+    while waiting:
+        one = waiting.pop()
+        if one not in found:
+            found.add(one)
+            waiting += fixed.get(one, ())
+    return found
+
+
+def _name(node: Node) -> str:
+    return node.attributes.get("name", "")
