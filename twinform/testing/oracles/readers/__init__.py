@@ -1,8 +1,10 @@
-"""Other programs' readers of URDF and SDF: whether they accept a file, and their messages on it.
+"""Other programs' readers of URDF and SDF: whether they accept a file, their messages on it, and what they keep of it.
 
-They are asked whether something changes for them: a file with carriers has to be for each what it is without them.
+They are asked whether something changes for them, such as carriers, and whether a profile says what they do.
 """
 
+from twinform.testing.oracles.readers.answers import Kept
 from twinform.testing.oracles.readers.library import READERS, Reader, Reading
+from twinform.testing.oracles.readers.loaders import LOADERS, Loader, Verdict
 
-__all__ = ["READERS", "Reader", "Reading"]
+__all__ = ["LOADERS", "READERS", "Kept", "Loader", "Reader", "Reading", "Verdict"]
