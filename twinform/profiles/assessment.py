@@ -4,11 +4,13 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-from twinform.diagnostics import Diagnostic, DiagnosticSink
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Rule
+from twinform.diagnostics.rules.portability import SHORTFALLS
 from twinform.ir import Document, Format
 from twinform.passes import NO_ASSETS, Assets
 from twinform.profiles.detectors import DETECTORS
 from twinform.profiles.profile import Effect, Profile, Row
+from twinform.profiles.reading import Shortfall, read_as
 from twinform.schemas import XmlElement
 
 
@@ -66,7 +68,8 @@ def assess(subject: Subject, profiles: Iterable[Profile]) -> tuple[Assessment, .
     """What each consumer makes of a file; what detectors find is looked for once."""
     wanted = tuple(profiles)
     found = (*subject.diagnostics, *detected(subject, {row.rule for each in wanted for row in each.rows}))
-    return tuple(_assessed(subject, each, found) for each in wanted)
+    shortfalls = Shortfalls(subject)
+    return tuple(_assessed(subject, each, found, shortfalls) for each in wanted)
 
 
 def detected(subject: Subject, rules: Iterable[str]) -> list[Diagnostic]:
@@ -78,9 +81,13 @@ def detected(subject: Subject, rules: Iterable[str]) -> list[Diagnostic]:
     return [each for each in sink.diagnostics if each.rule.name in wanted]
 
 
-def _assessed(subject: Subject, profile: Profile, found: tuple[Diagnostic, ...]) -> Assessment:
-    reads = subject.format is None or subject.format in profile.formats
-    return Assessment(profile, reads, tuple(_judgments(profile, found, subject.format)) if reads else ())
+def _assessed(
+    subject: Subject, profile: Profile, found: tuple[Diagnostic, ...], shortfalls: "Shortfalls"
+) -> Assessment:
+    if subject.format is not None and subject.format not in profile.formats:
+        return Assessment(profile, reads=False)
+    judgments = (*_judgments(profile, found, subject.format), *shortfalls.of(profile))
+    return Assessment(profile, reads=True, judgments=judgments)
 
 
 def _judgments(profile: Profile, found: Iterable[Diagnostic], format_: Format | None) -> Iterator[Judgment]:
@@ -89,3 +96,26 @@ def _judgments(profile: Profile, found: Iterable[Diagnostic], format_: Format | 
         row = next((row for row in profile.rows if row.minds(finding, format_)), None)
         if row is not None:
             yield Judgment(row, finding)
+
+
+class Shortfalls:
+    """What consumers cannot read of a text, by their tables: one finding for the same thing of all of them."""
+
+    def __init__(self, subject: Subject) -> None:
+        self._subject = subject
+        self._findings: dict[tuple[str, str, int], Diagnostic] = {}
+
+    def of(self, profile: Profile) -> Iterator[Judgment]:
+        """What one of them cannot read."""
+        if not profile.reads or self._subject.content is None or self._subject.format is Format.SDF:
+            return
+        for each in read_as(profile.reads, self._subject.content):
+            rule = SHORTFALLS[each.kind]
+            words = {"rule": rule.name, "effect": each.effect, "about": each.about, "pass": each.pipeline}
+            row = Row.model_validate(words)
+            yield Judgment(row, self._finding(rule, each))
+
+    def _finding(self, rule: Rule, each: Shortfall) -> Diagnostic:
+        place = Location(self._subject.path, each.line, f"/robot/{each.path}".rstrip("/"))
+        made = Diagnostic(rule, each.message, place, rule.severity, each.found, each.expected)
+        return self._findings.setdefault((rule.name, each.message, each.line), made)

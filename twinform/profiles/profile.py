@@ -84,6 +84,7 @@ class _Table(BaseModel):
     formats: tuple[Format, ...]
     seen: str = ""
     tested: bool = True
+    reads: str = ""
     releases: dict[str, str] = {}
     release: str = ""
     row: tuple[Row, ...] = ()
@@ -94,6 +95,7 @@ class Profile:
     """A consumer, perhaps in one of its releases, and the rows that hold for it.
 
     `seen` is the version that was asked, empty where it was not `tested` but read in sources and documentation.
+    `reads` is the table in `data/reads/` of what it reads of URDF, where there is one.
     """
 
     name: str
@@ -104,6 +106,7 @@ class Profile:
     tested: bool
     release: str
     rows: tuple[Row, ...]
+    reads: str = ""
 
     @property
     def label(self) -> str:
@@ -167,7 +170,7 @@ def _of_release(name: str, table: _Table, release: str) -> Profile:
         raise UnknownProfileError(f"{name!r} has no release {release!r}; {advice}")
     chosen = release or table.release
     rows = tuple(row for row in table.row if _holds(row, chosen, known))
-    return Profile(name, table.title, table.about, table.formats, table.seen, table.tested, chosen, rows)
+    return Profile(name, table.title, table.about, table.formats, table.seen, table.tested, chosen, rows, table.reads)
 
 
 def _holds(row: Row, release: str, known: list[str]) -> bool:

@@ -11,3 +11,56 @@ COLLADA_MESH = Rule(
     example="`<mesh filename='package://arm/meshes/base.dae'/>` under `--for mujoco`.",
     better="Convert the file to OBJ, STL or glTF.",
 )
+
+UNREAD_VALUE = Rule(
+    name="unread-value",
+    severity=Severity.INFO,
+    finds="A value in a form that a consumer does not read.",
+    matters="What is a number to one reader is none to another: urdfdom refuses `inf`, a tab between numbers and a "
+    "blank behind one, Python reads `1_0`, Bullet reads the beginning and makes 0 of the rest.",
+    example="`<limit effort='inf' velocity='1'/>` under `--for urdfdom`.",
+    better="Write plain numbers, with single blanks between them.",
+)
+UNWRITTEN_PART = Rule(
+    name="unwritten-part",
+    severity=Severity.INFO,
+    finds="An attribute or element that is not written, and that a consumer needs.",
+    matters="What one reader has a default for, another refuses: a limit without an effort, an inertia without its "
+    "products, a material without a name.",
+    example="`<limit lower='0' upper='1'/>` under `--for urdfdom`.",
+    better="Write it.",
+)
+UNREAD_PART = Rule(
+    name="unread-part",
+    severity=Severity.INFO,
+    finds="An element or attribute that a consumer does not know.",
+    matters="Some skip it with a line on the terminal, some without one, and some refuse the file: a capsule, a second "
+    "`<limit>`, a tag of a simulator.",
+    example="`<geometry><capsule radius='1' length='2'/></geometry>` under `--for urdfdom`.",
+    better="Leave it out for this consumer, or write what it knows.",
+)
+UNTAKEN_TREE = Rule(
+    name="untaken-tree",
+    severity=Severity.INFO,
+    finds="Names, references or a tree of links that a consumer does not take.",
+    matters="Most want every name once and all links in one tree; some read the rest of it, and some crash.",
+    example="A robot with two links that have no joint above them, under `--for pybullet`.",
+    better="Give every part a name of its own, and join all links into one tree.",
+)
+UNREAD_TEXT = Rule(
+    name="unread-text",
+    severity=Severity.INFO,
+    finds="A text that the XML parser of a consumer does not read, though others do.",
+    matters="TinyXML-2 refuses `<?...?>` inside of the robot and a comment before the declaration, Python refuses a "
+    "prefix that is not declared and `--` in a comment, and Bullet breaks lines of more than 8191 characters.",
+    example="`<!-- made by hand --><?xml version='1.0'?><robot name='arm'/>` under `--for pinocchio`.",
+    better="`twinform convert --to urdf` writes plain XML that all of them read.",
+)
+SHORTFALLS = {
+    "value": UNREAD_VALUE,
+    "absent": UNWRITTEN_PART,
+    "unread": UNREAD_PART,
+    "tree": UNTAKEN_TREE,
+    "text": UNREAD_TEXT,
+}
+"""The rules about what a consumer's table of reads demands, by the kind of shortfall."""

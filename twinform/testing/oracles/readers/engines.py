@@ -49,7 +49,9 @@ def pinocchio(path: Path) -> Answer:
     links = [frame.name for frame in frames if frame.type == kinds.BODY]
     joints = (frame.name for frame in frames if frame.type in {kinds.JOINT, kinds.FIXED_JOINT})
     still = sum(frame.inertia.mass for frame in frames if frame.parentJoint == 0)
-    moved = ((name, inertia.mass) for name, inertia in zip(list(model.names)[1:], list(model.inertias)[1:], strict=True))
+    moved = (
+        (name, inertia.mass) for name, inertia in zip(list(model.names)[1:], list(model.inertias)[1:], strict=True)
+    )
     return Answer(str(model), kept(links, joints, [(links[0], still), *moved] if links else moved))
 
 

@@ -118,11 +118,12 @@ def _released(package: str) -> str:
 
 
 def _packaged(package: str) -> str:
-    """The version of a library that pkg-config knows; empty where it is not here."""
-    if shutil.which("pkg-config") is None:
+    """The version of a package of Debian, as its authors count; empty where it is not here."""
+    if shutil.which("dpkg-query") is None:
         return ""
-    done = subprocess.run(["pkg-config", "--modversion", package], capture_output=True, text=True, check=False)
-    return done.stdout.strip()
+    command = ["dpkg-query", "--show", "--showformat=${Version}", package]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    return done.stdout.partition("-")[0].partition("+")[0]
 
 
 def _npm() -> bool:
@@ -143,9 +144,9 @@ READERS = (
         _BOTH,
         libsdformat.MISSING,
         parsers.available_libsdformat,
-        partial(_packaged, "sdformat12"),
+        partial(_packaged, "libsdformat-dev"),
     ),
-    Reader("urdfdom", _URDF, _TOOL, parsers.available_urdfdom, partial(_packaged, "urdfdom")),
+    Reader("urdfdom", _URDF, _TOOL, parsers.available_urdfdom, partial(_packaged, "liburdfdom-dev")),
     _python("drake", _BOTH, "pydrake", "drake"),
     _python("mujoco", _URDF, "mujoco", "mujoco"),
     _python("pinocchio", _URDF, "pinocchio", "pin"),

@@ -1,0 +1,122 @@
+"""One file before every loader and its profile: what each does with it, and where the two differ."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+from functools import cache
+from pathlib import Path
+
+from lxml import etree
+
+from reports.harness.files import OUT
+from twinform.compiler.input.options import LoadOptions
+from twinform.compiler.profiling import assess_file
+from twinform.profiles import Assessment, Effect, Judgment, names, parse
+from twinform.testing.oracles.readers import LOADERS, Kept, Loader, Reading, Verdict
+from twinform.testing.oracles.readers.recalled import Recalled
+
+_MOVING = frozenset({"revolute", "continuous", "prismatic"})
+_LOSING = frozenset({Effect.DROPS, Effect.MISREADS})
+_LIGHT = 1e-6
+"""Masses that differ by less than this part of them are the same: some loaders keep single precision."""
+
+
+class Difference(StrEnum):
+    """How a loader and its profile differ about a file."""
+
+    THEY_REFUSE = "it refuses, the profile does not"
+    WE_REFUSE = "the profile refuses, it does not"
+    THEY_REMARK = "it warns, the profile has nothing"
+    WE_REMARK = "the profile warns, it does not"
+    KEPT = "it keeps less, the profile has nothing"
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """A file, and a name for it."""
+
+    name: str
+    path: Path
+
+
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """A file before one loader: its verdict, what it says, what the profile says, and how the two differ."""
+
+    name: str
+    loader: str
+    verdict: Verdict
+    theirs: str
+    ours: str
+    difference: Difference | None
+
+
+@cache
+def recalled() -> Recalled:
+    """The readings that are known already."""
+    return Recalled(OUT / "loaders" / "readings.sqlite")
+
+
+def asked() -> tuple[Loader, ...]:
+    """The loaders that are here and have a profile."""
+    return tuple(loader for loader in LOADERS if loader.reader.present() and loader.profile in names())
+
+
+def pairs(job: Job) -> list[Pair]:
+    """The file before every loader that reads its format."""
+    loaders = [loader for loader in asked() if job.path.suffix in loader.reader.formats]
+    profiles = parse(",".join(loader.profile for loader in loaders))
+    assessed = {each.profile.name: each for each in assess_file(job.path, profiles, LoadOptions())}
+    return [_pair(job, loader, assessed[loader.profile]) for loader in loaders]
+
+
+def _pair(job: Job, loader: Loader, assessment: Assessment) -> Pair:
+    reading = recalled().ask(loader.reader, job.path)
+    verdict = loader.verdict(reading)
+    theirs = reading.error or " / ".join(loader.remarks(reading))
+    ours = " / ".join(
+        f"{each.row.effect}: {each.finding.rule.name}: {each.finding.message}" for each in _worst(assessment)
+    )
+    return Pair(job.name, loader.profile, verdict, theirs, ours, _difference(job, loader, reading, assessment))
+
+
+def _worst(assessment: Assessment) -> Iterator[Judgment]:
+    for effect in Effect:
+        yield from assessment.by(effect)
+
+
+def _difference(job: Job, loader: Loader, reading: Reading, assessment: Assessment) -> Difference | None:
+    verdict, effects = loader.verdict(reading), {each.row.effect for each in assessment.judgments}
+    refused = not assessment.reads or Effect.REFUSES in effects
+    if refused != (verdict is Verdict.REFUSES):
+        return Difference.WE_REFUSE if refused else Difference.THEY_REFUSE
+    if refused:
+        return None
+    if verdict is Verdict.WARNS and not effects:
+        return Difference.THEY_REMARK
+    if verdict is Verdict.ACCEPTS and effects == {Effect.WARNS}:
+        return Difference.WE_REMARK
+    if reading.kept is not None and not effects & _LOSING and not _is_whole(job.path, reading.kept):
+        return Difference.KEPT
+    return None
+
+
+def _is_whole(path: Path, kept: Kept) -> bool:
+    """Whether all joints that move are there, and all of the mass where the file has one for every link."""
+    if path.suffix != ".urdf":
+        return True
+    joints, mass = _contents(path)
+    return joints <= set(kept.joints) and (mass is None or abs(kept.mass - mass) <= _LIGHT * abs(mass))
+
+
+@cache
+def _contents(path: Path) -> tuple[frozenset[str], float | None]:
+    """The joints of a file that turn or slide, and its mass; None where that cannot be read."""
+    root = etree.parse(path, etree.XMLParser(recover=True)).getroot()
+    joints = (joint.get("name", "") for joint in root.findall("joint") if joint.get("type") in _MOVING)
+    masses = [link.find("inertial/mass") for link in root.findall("link")]
+    try:
+        mass = sum(float(each.get("value", "")) for each in masses if each is not None)
+    except ValueError:
+        return frozenset(joints), None
+    return frozenset(joints), mass

@@ -1,0 +1,119 @@
+"""All loaders over the corpus and mutated files, beside their profiles."""
+
+import re
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from reports.harness.files import OUT
+from reports.harness.known import Known
+from reports.harness.pages import listing, section, table
+from reports.harness.report import UNEXPLAINED, Findings, Report
+from reports.harness.sample import Sample
+from reports.loaders.judging import Difference, Job, Pair, asked, pairs
+from tests.corpus.files import Kind
+from tests.differential.mutated import mutated
+from twinform.testing.oracles.readers import LOADERS, Verdict
+from twinform.testing.oracles.readers.meshless import without_meshes
+
+KNOWN = Known(Path(__file__).with_name("known.toml"), lambda text, pattern: re.search(pattern, text))
+MUTATED = 2000
+_SECONDS = 600
+_ABOUT = """\
+Every URDF of the corpus, and 2,000 mutated ones (files of the corpus with one to four mistakes each, as in
+[verdicts](verdicts.md)), are read by every loader in a process of its own, and assessed by its profile, as
+`twinform check --for` does it. A box of 0.1 m stands for each mesh, in the text, so that broken files stay broken: no
+loader is asked for meshes that are not there.
+
+A loader *refuses* a file where it throws, returns nothing, crashes or comes to no end; it *warns* where it writes a
+warning or an error on the terminal and goes on. A pair of a file and a loader *agrees* where both refuse; or neither
+does and the loader writes warnings only if the profile has something for it, and the profile has more than a warning
+if it writes none; and where the profile says of nothing that it is dropped or read otherwise, all joints that turn or
+slide and all of the mass are there.
+
+Every disagreement has its cause, by what the loader or the profile says and not by file (`reports/loaders/known.toml`).
+One without a cause is a failure of the command."""
+
+
+def measure(sample: Sample) -> Findings:
+    """Ask all loaders, and hold their answers against the profiles."""
+    corpus = [
+        Job(f"corpus/{file.name}", _boxed(file.path, Path("corpus", file.name))) for file in sample.models(Kind.URDF)
+    ]
+    seeds = range(0, MUTATED, sample.every) if not sample.files else ()
+    made = [Job(f"mutated/{seed}", _mutated(seed)) for seed in seeds]
+    found, failures = sample.lists(pairs, [*corpus, *made], seconds=_SECONDS)
+    found.sort(key=lambda pair: (pair.loader, pair.name))
+    causes = {pair: _cause(pair) for pair in found if pair.difference}
+    faults = [
+        f"{pair.loader}: {pair.name}: {pair.difference}: {pair.theirs or pair.ours}"[:400]
+        for pair, why in causes.items()
+        if not why
+    ]
+    counts = _counts(found)
+    return Findings([counts, *_causes(causes), _absent()], counts, [*failures, *faults])
+
+
+def _boxed(path: Path, name: Path) -> Path:
+    """A copy of a file without its meshes, under a name that no two files share."""
+    return _kept(OUT / "loaders" / name.parent / f"{name.stem}.urdf", without_meshes(path.read_bytes()))
+
+
+def _mutated(seed: int) -> Path:
+    return _kept(OUT / "loaders" / "mutated" / f"{seed}.urdf", without_meshes(mutated(Kind.URDF, seed).text))
+
+
+def _kept(path: Path, text: bytes) -> Path:
+    if not path.is_file() or path.read_bytes() != text:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(text)
+    return path
+
+
+def _cause(pair: Pair) -> str:
+    assert pair.difference is not None
+    return KNOWN.why("disagreement", loader=pair.loader, what=pair.difference, theirs=pair.theirs, ours=pair.ours)
+
+
+def _counts(found: Sequence[Pair]) -> str:
+    rows = [
+        _row(loader.profile, loader.reader.version(), [one for one in found if one.loader == loader.profile])
+        for loader in asked()
+    ]
+    head = ["loader", "version", "files", *Verdict, "agree", "of them"]
+    return section("Verdicts", table(head, [*rows, _row("all", "", found)]))
+
+
+def _row(name: str, version: str, found: Sequence[Pair]) -> tuple[object, ...]:
+    verdicts = Counter(one.verdict for one in found)
+    agree = sum(one.difference is None for one in found)
+    return (
+        name,
+        version,
+        len(found),
+        *(verdicts[each] for each in Verdict),
+        agree,
+        f"{100 * agree / max(1, len(found)):.2f}%",
+    )
+
+
+def _causes(causes: dict[Pair, str]) -> Iterator[str]:
+    kinds = Counter((pair.loader, pair.difference) for pair in causes)
+    head = ["loader", *Difference]
+    names = dict.fromkeys(pair.loader for pair in causes)
+    yield section(
+        "Disagreements", listing(head, ((name, *(kinds[name, each] for each in Difference)) for name in names))
+    )
+    counts = Counter((pair.loader, str(pair.difference), why or UNEXPLAINED) for pair, why in causes.items())
+    rows = ((count, *key) for key, count in sorted(counts.items(), key=lambda item: (-item[1], item[0])))
+    yield section("By cause", listing(["files", "loader", "what", "cause"], rows))
+
+
+def _absent() -> str:
+    missing = [
+        f"`{loader.profile}` is not here: it needs {loader.reader.needs}" for loader in LOADERS if loader not in asked()
+    ]
+    return section("Not asked", *missing) if missing else ""
+
+
+REPORT = Report("loaders", "What loaders do, and what their profiles say", _ABOUT, measure, known=KNOWN)

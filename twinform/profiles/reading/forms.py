@@ -1,0 +1,97 @@
+"""Forms of values: whether a reader understands a text as a number, as so many numbers, or as one of some words.
+
+`stream` is a number as a C++ stream reads it in full, `python` as Python does, `atof` as C does, which takes the
+beginning and never fails. A digit after the name is how many there have to be, separated as that reader does it.
+"""
+
+import math
+import re
+from collections.abc import Callable, Mapping
+
+_STREAM = re.compile(r"[ \t\n\v\f\r]*[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", re.ASCII)
+_VERSION = re.compile(r"\s*[-+]?0*(\d+)\.\s*[-+]?0*(\d+)", re.ASCII)
+
+
+def _stream(text: str) -> bool:
+    return _STREAM.fullmatch(text) is not None and math.isfinite(float(text))
+
+
+def _python(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _pieces(text: str) -> list[str]:
+    """At blanks alone: a tab or a new line belongs to the number."""
+    return [piece for piece in text.split(" ") if piece]
+
+
+def _streams(text: str) -> list[bool]:
+    return [_stream(piece) for piece in _pieces(text)]
+
+
+def _of_unit(text: str) -> bool:
+    """Whether every number is one from 0 to 1, as urdfdom wants them in colors."""
+    return all(_stream(piece) and 0 <= float(piece) <= 1 for piece in _pieces(text))
+
+
+def _pythons(text: str, *counts: int) -> bool:
+    pieces = text.split()
+    return all(map(_python, pieces)) and (not counts or len(pieces) in counts)
+
+
+def _versions(*known: tuple[int, int]) -> Callable[[str], bool]:
+    def reads(text: str) -> bool:
+        found = _VERSION.fullmatch(text)
+        return found is not None and (int(found[1]), int(found[2])) in known
+
+    return reads
+
+
+def fits_bytes(text: str) -> bool:
+    """Whether there are four numbers that fit into bytes when they are multiplied by 255, as trimesh does."""
+    pieces = text.split()
+    if len(pieces) != 4 or not all(map(_python, pieces)):
+        return False
+    return all(math.isfinite(float(piece)) and 0 <= int(float(piece) * 255) <= 255 for piece in pieces)
+
+
+def _bounded(text: str) -> bool:
+    """Whether no number is infinite; NaN is none."""
+    return not any(_python(piece) and math.isinf(float(piece)) for piece in text.replace(",", " ").split())
+
+
+def _directed(text: str) -> bool:
+    """Whether the numbers are not all 0."""
+    pieces = text.split()
+    return not pieces or not all(_python(piece) and float(piece) == 0 for piece in pieces)
+
+
+FORMS: Mapping[str, tuple[str, Callable[[str], bool]]] = {
+    "text": ("any text", lambda _: True),
+    "words": ("a text that is not empty", bool),
+    "stream": ("a number such as 0.5 or 1e-3", _stream),
+    "stream3": ("three numbers with blanks between them", lambda text: _streams(text) == [True] * 3),
+    "unit": ("numbers from 0 to 1 with blanks between them", _of_unit),
+    "blank4": ("four numbers with blanks between them", lambda text: len(_pieces(text)) == 4),
+    "blank3": ("three numbers with blanks between them", lambda text: len(_pieces(text)) >= 3),
+    "at-least-0": ("a number that is not negative", lambda text: not _stream(text) or float(text) >= 0),
+    "python": ("a number such as 0.5 or 1e-3", _python),
+    "python3": ("three numbers", lambda text: _pythons(text, 3)),
+    "python4": ("four numbers", lambda text: _pythons(text, 4)),
+    "python34": ("three or four numbers", lambda text: _pythons(text, 3, 4)),
+    "pythons": ("numbers", _pythons),
+    "python1or3+": ("three numbers", lambda text: _pythons(text) and len(text.split()) not in {0, 2}),
+    "python3+": ("three numbers", lambda text: _pythons(text) and len(text.split()) >= 3),
+    "commas": ("numbers", lambda text: _pythons(text.replace(",", " "))),
+    "commas3": ("three numbers", lambda text: _pythons(text.replace(",", " "), 3)),
+    "bounded": ("finite numbers", _bounded),
+    "directed": ("a direction", _directed),
+    "urdf-1.0": ("1.0", _versions((1, 0))),
+    "urdf-1.2": ("1.0, 1.1 or 1.2", _versions((1, 0), (1, 1), (1, 2))),
+    "exactly-1.0": ("1.0", lambda text: text == "1.0"),
+}
+"""What is expected, in words, and whether a text is of the form."""
