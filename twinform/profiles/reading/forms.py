@@ -52,9 +52,9 @@ def _versions(*known: tuple[int, int]) -> Callable[[str], bool]:
 
 
 def fits_bytes(text: str) -> bool:
-    """Whether there are four numbers that fit into bytes when they are multiplied by 255, as trimesh does."""
+    """Whether there are four numbers, or one, that fit into bytes when they are multiplied by 255."""
     pieces = text.split()
-    if len(pieces) != 4 or not all(map(_python, pieces)):
+    if len(pieces) not in {1, 4} or not all(map(_python, pieces)):
         return False
     return all(math.isfinite(float(piece)) and 0 <= int(float(piece) * 255) <= 255 for piece in pieces)
 

@@ -8,7 +8,8 @@ from twinform.profiles.reading.nodes import Node
 
 Fact = Iterator[tuple[Node, str]]
 """Elements that it is about, and what is so."""
-_MOVING = frozenset({"revolute", "continuous", "prismatic", "planar", "floating"})
+_ONE_WAY = frozenset({"revolute", "continuous", "prismatic"})
+_KNOWN = _ONE_WAY | {"planar", "floating", "fixed"}
 
 
 def _names(nodes: Iterator[Node]) -> list[str]:
@@ -137,6 +138,21 @@ def _idle_leaders(root: Node) -> Fact:
             yield mimic, f"{mimic.attributes.get('joint', '')!r} is no joint that moves by itself"
 
 
+def _foreign_joints(root: Node) -> Fact:
+    """Joints of an unknown kind before one that turns or slides."""
+    foreign: Node | None = None
+    for joint in root.all("joint"):
+        kind = joint.attributes.get("type")
+        if joint.first("mimic") is None and kind not in _KNOWN:
+            foreign = foreign or joint
+        elif foreign is not None and joint.first("mimic") is None and kind in _ONE_WAY:
+            yield (
+                foreign,
+                f"joint {foreign.attributes.get('name', '')!r} is of the type {foreign.attributes.get('type')!r}",
+            )
+            return
+
+
 FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "repeated-link": _repeated("link"),
     "repeated-joint": _repeated("joint"),
@@ -153,6 +169,7 @@ FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "plain-material": _plain_materials,
     "unpaintable": _unpaintable,
     "weightless-link": _weightless,
+    "foreign-joint": _foreign_joints,
     "idle-leader": _idle_leaders,
 }
 """By the names that a table calls them."""

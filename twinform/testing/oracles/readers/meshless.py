@@ -8,13 +8,20 @@ import re
 _ATTRIBUTES = rb"""(?:[^<>"']|"[^"<]*"|'[^'<]*')*?"""
 _REST = rb"(?:/>|>(?P<inside>(?:(?!<mesh[\s/>]).)*?)</mesh\s*>)"
 _MESH = re.compile(rb"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<mesh(?=[\s/>])" + _ATTRIBUTES + _REST, re.DOTALL)
+_DEEPEST = 4
+"""Meshes in meshes, which are there in broken files."""
 _URDF = b'<box size="0.1 0.1 0.1"/>'
 _SDF = b"<box><size>0.1 0.1 0.1</size></box>"
 
 
 def without_meshes(text: bytes) -> bytes:
     """The text with boxes of 0.1 m for meshes; what is in comments stays."""
-    return _MESH.sub(_boxed, text)
+    for _ in range(_DEEPEST):
+        changed = _MESH.sub(_boxed, text)
+        if changed == text:
+            break
+        text = changed
+    return text
 
 
 def _boxed(found: re.Match[bytes]) -> bytes:
