@@ -9,6 +9,11 @@ import re
 from collections.abc import Callable, Mapping
 
 _STREAM = re.compile(r"[ \t\n\v\f\r]*[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", re.ASCII)
+_C = re.compile(
+    r"[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|0[xX][0-9a-fA-F]+|inf(?:inity)?|nan)", re.ASCII | re.IGNORECASE
+)
+_SHORTEST = 1e-6
+"""Engines take no direction from a shorter vector."""
 _VERSION = re.compile(r"\s*[-+]?0*(\d+)\.\s*[-+]?0*(\d+)", re.ASCII)
 
 
@@ -70,6 +75,42 @@ def _directed(text: str) -> bool:
     return not pieces or not all(_python(piece) and float(piece) == 0 for piece in pieces)
 
 
+def _begun(*counts: int) -> Callable[[str], bool]:
+    """So many numbers at the beginning, whatever follows: a C++ stream that is read until it fails."""
+    return lambda text: len(_beginning(text)) in counts
+
+
+def _beginning(text: str) -> list[str]:
+    found, at = list[str](), 0
+    while number := _STREAM.match(text, at):
+        found.append(number[0])
+        at = number.end()
+    return found if all(math.isfinite(float(each)) for each in found) else []
+
+
+def _c_numbers(text: str) -> list[bool]:
+    """Whether `strtod` takes each piece in full; it knows hexadecimal ones, `inf` and `nan`, and MuJoCo no overflow."""
+    return [_C.fullmatch(piece) is not None and not _overflows(piece) for piece in text.split()]
+
+
+def _overflows(piece: str) -> bool:
+    return _python(piece) and math.isinf(float(piece)) and "inf" not in piece.lower()
+
+
+def _c(*counts: int) -> Callable[[str], bool]:
+    return lambda text: all(found := _c_numbers(text)) and len(found) in counts
+
+
+def _all_of(text: str, holds: Callable[[float], bool]) -> bool:
+    """Whether all numbers at the beginning are such."""
+    return all(holds(float(each)) for each in _beginning(text))
+
+
+def _has_length(text: str) -> bool:
+    numbers = [float(each) for each in _beginning(text)]
+    return len(numbers) != 3 or math.hypot(*numbers) > _SHORTEST
+
+
 FORMS: Mapping[str, tuple[str, Callable[[str], bool]]] = {
     "text": ("any text", lambda _: True),
     "words": ("a text that is not empty", bool),
@@ -90,6 +131,21 @@ FORMS: Mapping[str, tuple[str, Callable[[str], bool]]] = {
     "commas3": ("three numbers", lambda text: _pythons(text.replace(",", " "), 3)),
     "bounded": ("finite numbers", _bounded),
     "directed": ("a direction", _directed),
+    "begun1": ("a number such as 0.5 or 1e-3", _begun(1)),
+    "begun3": ("three numbers", _begun(3)),
+    "begun1or3": ("one number, or three", _begun(1, 3)),
+    "begun4": ("four numbers", _begun(4)),
+    "begins": ("a number such as 0.5 or 1e-3", lambda text: bool(_beginning(text))),
+    "c1": ("a number such as 0.5 or 1e-3", _c(1)),
+    "c3": ("three numbers", _c(0, 3)),
+    "c4": ("four numbers", _c(4)),
+    "not-nan": ("numbers", lambda text: "nan" not in text.lower()),
+    "positive": ("numbers above 0", lambda text: _all_of(text, lambda number: number > 0)),
+    "not-negative": ("numbers that are not negative", lambda text: _all_of(text, lambda number: number >= 0)),
+    "not-0": ("numbers other than 0", lambda text: _all_of(text, lambda number: abs(number) >= 1e-8)),
+    "zero": ("0", lambda text: _all_of(text, lambda number: number == 0)),
+    "of-unit": ("numbers from 0 to 1", lambda text: _all_of(text, lambda number: 0 <= number <= 1)),
+    "long": ("a direction", _has_length),
     "urdf-1.0": ("1.0", _versions((1, 0))),
     "urdf-1.2": ("1.0, 1.1 or 1.2", _versions((1, 0), (1, 1), (1, 2))),
     "exactly-1.0": ("1.0", lambda text: text == "1.0"),

@@ -4,11 +4,12 @@ import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
-from twinform.profiles.reading import transmissions, tree
+from twinform.profiles.reading import bodies, clashes, drives, transmissions, tree
 from twinform.profiles.reading.forms import FORMS
 from twinform.profiles.reading.nodes import Node
 from twinform.profiles.reading.notation import Demand, Reads, Step
 
+_FACTS = {**tree.FACTS, **bodies.FACTS, **clashes.FACTS, **drives.FACTS}
 _ITEMS = re.compile(r"[\w:.-]+\??")
 
 
@@ -30,8 +31,8 @@ class Shortfall:
 def shortfalls(root: Node, table: Reads) -> Iterator[Shortfall]:
     """All demands that are not met, in the order of the table."""
     for demand in table.demands:
-        if demand.item in tree.FACTS:
-            for node, message in tree.FACTS[demand.item](root):
+        if demand.item in _FACTS:
+            for node, message in _FACTS[demand.item](root):
                 yield _short(demand, "tree", message, node)
             continue
         for node in _found(root, demand.place):
@@ -76,6 +77,9 @@ def _attribute(demand: Demand, node: Node) -> Iterator[Shortfall]:
         wanted = " or ".join(map(repr, names))
         yield _short(demand, "absent", f"<{node.tag}> has no attribute {wanted}", node, expected=wanted)
     for name in given:
+        if demand.form == "none":
+            yield _short(demand, "unread", f"<{node.tag}> has an attribute {name!r}", node)
+            continue
         yield from _value(demand, node, f"{name!r} of <{node.tag}>", node.attributes[name])
 
 
@@ -92,7 +96,10 @@ def _one_of(form: str) -> tuple[str, Callable[[str], bool]]:
 
 def _element(demand: Demand, node: Node) -> Iterator[Shortfall]:
     names = demand.item.strip("<>").split("|")
-    if demand.form == "none":
+    if demand.form == "once":
+        for child in [child for child in node.children if child.tag in names][1:]:
+            yield _short(demand, "unread", f"<{node.tag}> has a second <{child.tag}>", child)
+    elif demand.form == "none":
         yield from (
             _short(demand, "unread", f"<{node.tag}> has a <{tag.tag}>", tag)
             for tag in node.children
