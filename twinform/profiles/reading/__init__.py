@@ -5,6 +5,7 @@ parsed here as the consumer does it (`tinyxml.py`, `python_xml.py`), and held ag
 (`data/reads/`, explained in `notation.py`).
 """
 
+import re
 from collections.abc import Iterator
 
 from twinform.profiles.reading.nodes import Node, UnparsedError
@@ -15,8 +16,10 @@ from twinform.profiles.reading.walking import Shortfall, shortfalls
 
 __all__ = ["Shortfall", "read_as"]
 
-_LENIENT = frozenset({"tinyxml", "tinyxml2", "bullet"})
-"""Parsers that may have several elements at the top: the first robot counts."""
+_ROBOTS = frozenset({"tinyxml", "tinyxml2", "bullet", "sax"})
+"""Parsers after which the first robot at the top counts, and not whatever is there."""
+_DECLARATIONS = re.compile(rb"^[^\S\n]*<\?xml[^\n]*\?>[^\S\n]*$", re.MULTILINE)
+"""Lines that are left out before the text is parsed."""
 _NOT_XML = "its XML parser does not read the file"
 _RECOVERED = "it reads as much of the file as it can"
 
@@ -31,7 +34,7 @@ def read_as(consumer: str, content: bytes) -> Iterator[Shortfall]:
         return
     if message:
         yield Shortfall("text", "misreads", _RECOVERED, message, 0)
-    root = next((node for node in top if node.tag == "robot"), None) if table.parser in _LENIENT else top[0]
+    root = next((node for node in top if node.tag == "robot"), None) if table.parser in _ROBOTS else top[0]
     if root is None:
         yield Shortfall("text", "refuses", _NOT_XML, "there is no <robot>", top[0].line)
         return
@@ -41,6 +44,8 @@ def read_as(consumer: str, content: bytes) -> Iterator[Shortfall]:
 def _parsed(parser: str, content: bytes) -> tuple[list[Node], str]:
     if parser == "expat":
         return parse_with_expat(content), ""
+    if parser == "sax":
+        return parse_with_expat(_DECLARATIONS.sub(b"", content)), ""
     if parser == "lxml":
         return parse_with_lxml(content)
     if parser == "bullet":

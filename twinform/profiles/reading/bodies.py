@@ -1,187 +1,113 @@
-"""Facts about the masses and inertias of a robot: what physics engines cannot move, or leave out."""
+"""Facts about masses and inertias, as the engines want them that build a robot of them."""
 
 import math
-import re
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
-from functools import lru_cache
+from collections.abc import Iterator
+from typing import NamedTuple
 
-from twinform.ir import Pose
-from twinform.ir.principal_moments import Symmetric, principal_moments
-from twinform.ir.solids import ORIGIN, Solid, combined, placed
-from twinform.ir.transform import Transform
+from twinform.ir.principal_moments import principal_moments
+from twinform.profiles.reading.forms import number_in
 from twinform.profiles.reading.nodes import Node
 
 Fact = Iterator[tuple[Node, str]]
-"""Elements that it is about, and what is so."""
-
-_NUMBER = re.compile(r"[-+]?(?:0[xX][0-9a-fA-F]+|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|inf)", re.ASCII | re.IGNORECASE)
-_ELEMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
-_NOTHING: Symmetric = (0.0,) * 6
-_ROUNDING = 1e-12
-"""How much of the greatest moment the digits of a file may lack."""
-_FAINT = 1e-14
-"""In kg m^2: MuJoCo takes no smaller moments (`mjEPS`)."""
-_WEIGHTLESS = 1e-15
-"""In kg and kg m^2: what moves has more in MuJoCo (`mjMINVAL`)."""
-_DROPPED = 1e-6
-"""In kg: libsdformat before 12.7.2 leaves out links that do not weigh more."""
+_LIGHTEST = 1e-15
+"""What counts as no mass, in kg, and as no moment, in kg m2."""
+_SLACK = 1e-9
+"""By so much of it the largest moment may be more than the sum of the others."""
+_MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
-@dataclass(frozen=True, slots=True)
-class _Body:
-    """A link with what fixed joints hang on it, and the joint that moves it; none above a root."""
+class Body(NamedTuple):
+    """The mass and the moments of a link, and the principal ones; None where they are no numbers."""
 
-    joint: Node | None
-    links: tuple[Node, ...]
-    places: tuple[Transform, ...]
+    node: Node
+    mass: float | None
+    moments: tuple[float, ...]
+    principal: tuple[float, ...] | None
 
     @property
-    def link(self) -> Node:
-        return self.links[0]
-
-    @property
-    def name(self) -> str:
-        return self.link.attributes.get("name", "")
-
-    def solid(self) -> Solid:
-        """All of it as one, in the frame of its first link."""
-        return combined([placed(_solid(link), at) for link, at in zip(self.links, self.places, strict=True)])
+    def is_empty(self) -> bool:
+        """Whether all moments are 0."""
+        return not any(self.moments)
 
 
-def _number(text: str) -> float:
-    return float.fromhex(text) if "x" in text.lower() else float(text)
+def bodies(root: Node) -> Iterator[Body]:
+    """The links with an inertial."""
+    for link in root.all("link"):
+        inertial = link.first("inertial")
+        if inertial is None:
+            continue
+        inertia = inertial.first("inertia")
+        texts = [inertia.attributes.get(name, "0") if inertia else "0" for name in _MOMENTS]
+        found = [number_in(text) for text in texts]
+        mass = number_in(inertial.value("mass", "value") or "0")
+        moments = tuple(0.0 if number is None else number for number in found)
+        yield Body(link, mass, moments, _principal(moments))
 
 
-def _numbers(text: str | None, count: int) -> tuple[float, ...]:
-    found = [_number(text) for text in _NUMBER.findall(text or "")]
-    return tuple(found) if len(found) == count else (0.0,) * count
+def _principal(moments: tuple[float, ...]) -> tuple[float, ...] | None:
+    if not all(map(math.isfinite, moments)):
+        return None
+    xx, xy, xz, yy, yz, zz = moments
+    return tuple(sorted(principal_moments((xx, yy, zz, xy, xz, yz))))
 
 
-def _place(node: Node | None) -> Transform:
-    origin = node.first("origin") if node is not None else None
-    if origin is None:
-        return Transform.from_pose(None)
-    x, y, z = _numbers(origin.attributes.get("xyz"), 3)
-    roll, pitch, yaw = _numbers(origin.attributes.get("rpy"), 3)
-    return Transform.from_pose(Pose(xyz=(x, y, z), rpy=(roll, pitch, yaw)))
+def indefinite(root: Node) -> Fact:
+    """Inertias with a moment that is not positive, where there is one at all."""
+    for body in bodies(root):
+        if not body.is_empty and (body.principal is None or body.principal[0] <= 0):
+            yield body.node, f"link {_name(body.node)!r} has a moment that is not positive"
 
 
-def _inertia(inertial: Node) -> Symmetric:
-    given = inertial.first("inertia")
-    if given is None:
-        return _NOTHING
-    xx, yy, zz, xy, xz, yz = (_numbers(given.attributes.get(name), 1)[0] for name in _ELEMENTS)
-    return xx, yy, zz, xy, xz, yz
+def unbalanced(root: Node) -> Fact:
+    """Inertias of which the largest moment is more than the other two together."""
+    for body in bodies(root):
+        if body.principal is not None and body.principal[0] > 0 and _is_unbalanced(body.principal):
+            yield body.node, f"link {_name(body.node)!r} has a moment above the sum of the other two"
 
 
-def _solid(link: Node) -> Solid:
-    inertial = link.first("inertial")
-    if inertial is None:
-        return Solid(0.0, ORIGIN, _NOTHING)
-    mass = _numbers(inertial.value("mass", "value"), 1)[0]
-    return placed(Solid(mass, ORIGIN, _inertia(inertial)), _place(inertial))
+def _is_unbalanced(principal: tuple[float, ...]) -> bool:
+    low, middle, high = principal
+    return low + middle < high * (1 - _SLACK)
 
 
-def _is_finite(one: Solid) -> bool:
-    return all(map(math.isfinite, (one.mass, *one.center, *one.inertia)))
+def unphysical(root: Node) -> Fact:
+    """Inertias that no body has: with a moment above the sum of the others, a negative one, or without a mass."""
+    for body in bodies(root):
+        principal, mass = body.principal, body.mass or 0.0
+        wrong = principal is None or principal[0] < -_SLACK * abs(principal[2]) or _is_unbalanced(principal)
+        if wrong or mass < 0 or (mass == 0 and not body.is_empty):
+            yield body.node, f"link {_name(body.node)!r} has an inertia that no body has"
 
 
-@lru_cache(maxsize=4)
-def _bodies(root: Node) -> tuple[_Body, ...]:
-    """The bodies from the roots to the leaves, without what is in a circle."""
-    links = {link.attributes.get("name", ""): link for link in reversed(list(root.all("link")))}
-    below: dict[str, list[Node]] = {}
-    children = set[str]()
+def weightless(root: Node) -> Fact:
+    """Links that move, with nothing that has a mass and an inertia in what is fixed to them."""
+    heavy = {_name(body.node) for body in bodies(root) if _weighs(body)}
+    heavy |= {_name(link) for link in root.all("link") if not link.first("inertial") and link.first("collision")}
+    fixed: dict[str, list[str]] = {}
     for joint in root.all("joint"):
-        parent, child = joint.value("parent", "link") or "", joint.value("child", "link") or ""
-        if parent in links and child in links and child not in children and parent != child:
-            below.setdefault(parent, []).append(joint)
-            children.add(child)
-    heads: list[tuple[Node | None, str]] = [(None, name) for name in links if name not in children]
-    found = list[_Body]()
-    for joint, name in heads:  # grows while it is walked
-        names, places = [name], [Transform.from_pose(None)]
-        for index, inside in enumerate(names):  # grows, too
-            for each in below.get(inside, ()):
-                child = each.value("child", "link") or ""
-                if each.attributes.get("type") == "fixed" and inside != "world":
-                    names.append(child)
-                    places.append(places[index].compose(_place(each)))
-                else:
-                    heads.append((each, child))
-        found.append(_Body(joint, tuple(links[each] for each in names), tuple(places)))
-    return tuple(found)
+        if joint.attributes.get("type") == "fixed":
+            fixed.setdefault(joint.value("parent", "link") or "", []).append(joint.value("child", "link") or "")
+    links = {_name(link): link for link in root.all("link")}
+    for joint in root.all("joint"):
+        child = joint.value("child", "link") or ""
+        if joint.attributes.get("type") != "fixed" and child in links and not heavy & _together(child, fixed):
+            yield links[child], f"link {child!r} moves and has no mass or no inertia, nor has what is fixed to it"
 
 
-def _is_possible(inertia: Symmetric) -> bool:
-    least, middle, greatest = sorted(principal_moments(inertia))
-    slack = _ROUNDING * abs(greatest)
-    return least >= -slack and least + middle >= greatest - slack
+def _weighs(body: Body) -> bool:
+    mass = body.mass or 0.0
+    return mass > _LIGHTEST and body.principal is not None and body.principal[2] > _LIGHTEST
 
 
-def _impossible(root: Node) -> Fact:
-    """Links with an inertia that no body has."""
-    for link in root.all("link"):
-        one = _solid(link)
-        if _is_finite(one) and any(one.inertia) and not _is_possible(one.inertia):
-            yield link, f"no body has the inertia of link {link.attributes.get('name', '')!r}"
+def _together(name: str, fixed: dict[str, list[str]]) -> set[str]:
+    found, waiting = set[str](), [name]
+    while waiting:
+        one = waiting.pop()
+        if one not in found:
+            found.add(one)
+            waiting += fixed.get(one, ())
+    return found
 
 
-def _faint(root: Node) -> Fact:
-    """Links with a moment of inertia that is next to nothing, beside others that are not."""
-    for link in root.all("link"):
-        one = _solid(link)
-        if _is_finite(one) and any(one.inertia) and min(principal_moments(one.inertia)) < _FAINT:
-            yield link, f"link {link.attributes.get('name', '')!r} has a moment of inertia below {_FAINT:g} kg m^2"
-
-
-def _impossible_when_lumped(root: Node) -> Fact:
-    """Bodies with an impossible inertia after what is fixed to them became a part of them."""
-    for body in _bodies(root):
-        one = body.solid()
-        if body.name != "world" and _is_finite(one) and one.mass > _DROPPED and not _is_possible(one.inertia):
-            yield body.link, f"no body has the inertia of link {body.name!r} with what is fixed to it"
-        elif one.mass < 0:
-            yield body.link, f"link {body.name!r} has the mass {one.mass:g} kg with what is fixed to it"
-
-
-def _mass_of_nothing(root: Node) -> Fact:
-    """Links without a positive mass that have an inertia."""
-    for link in root.all("link"):
-        one = _solid(link)
-        if one.mass <= 0 and any(one.inertia):
-            yield link, f"link {link.attributes.get('name', '')!r} has an inertia and the mass {one.mass:g} kg"
-
-
-def _unmoved(root: Node) -> Fact:
-    """Bodies that joints move and that have no mass or no inertia; collisions weigh where there is no inertial."""
-    for body in _bodies(root):
-        if body.joint is None or body.joint.attributes.get("type") == "fixed":
-            continue
-        if any(link.first("inertial") is None and link.first("collision") is not None for link in body.links):
-            continue
-        one = body.solid()
-        if _is_finite(one) and (one.mass < _WEIGHTLESS or max(map(abs, one.inertia)) < _WEIGHTLESS):
-            yield body.link, f"link {body.name!r} is moved and has no mass, or no inertia, with what is fixed to it"
-
-
-def _dropped(wanted: Callable[[_Body], bool]) -> Callable[[Node], Fact]:
-    def fact(root: Node) -> Fact:
-        for body in _bodies(root):
-            if body.name != "world" and wanted(body) and 0 <= body.solid().mass <= _DROPPED:
-                yield body.link, f"link {body.name!r} weighs no more than {_DROPPED:g} kg with what is fixed to it"
-
-    return fact
-
-
-FACTS: Mapping[str, Callable[[Node], Fact]] = {
-    "impossible-inertia": _impossible,
-    "impossible-lumped-inertia": _impossible_when_lumped,
-    "faint-inertia": _faint,
-    "inertia-without-mass": _mass_of_nothing,
-    "unmoved-body": _unmoved,
-    "weightless-branch": _dropped(lambda body: body.joint is not None),
-    "weightless-root": _dropped(lambda body: body.joint is None),
-}
-"""Facts by their names in tables."""
+def _name(node: Node) -> str:
+    return node.attributes.get("name", "")

@@ -1,8 +1,9 @@
-"""Facts about names of one kind that mean something else to a consumer: links, joints, shapes, materials."""
+"""Facts about names that a consumer keeps for something else, and names with a prefix."""
 
 from collections.abc import Callable, Iterator, Mapping
 
-from twinform.profiles.reading.bodies import Fact
+from twinform.profiles.reading.forms import number_in
+from twinform.profiles.reading.lumping import Fact
 from twinform.profiles.reading.nodes import Node
 
 
@@ -42,49 +43,6 @@ def _shared(root: Node) -> Fact:
             yield joint, f"joint {_name(joint)!r} has the name of a link"
 
 
-def _repeated_shapes(tag: str, *, anywhere: bool) -> Callable[[Node], Fact]:
-    def fact(root: Node) -> Fact:
-        met = set[str]()
-        for link in root.all("link"):
-            if not anywhere:
-                met.clear()
-            for shape in link.all(tag):
-                if _name(shape) and _name(shape) in met:
-                    yield shape, f"two of the <{tag}> elements are called {_name(shape)!r}"
-                met.add(_name(shape))
-
-    return fact
-
-
-def _several_nameless_shapes(root: Node) -> Fact:
-    for link in root.all("link"):
-        for shape in (*link.all("visual"), *link.all("collision")):
-            if shape.attributes.get("name") == "":
-                yield shape, f"a <{shape.tag}> of link {_name(link)!r} has an empty name"
-
-
-def _redefined_materials(root: Node) -> Fact:
-    """Materials that get another color or texture than they have."""
-    looks = dict[str, tuple[str | None, str | None]]()
-    visuals = [visual for link in root.all("link") for visual in link.all("visual")]
-    for node in (*root.all("material"), *(each for visual in visuals for each in visual.all("material"))):
-        look = (_spaced(node.value("color", "rgba")), node.value("texture", "filename"))
-        if not _name(node) or look == (None, None):
-            continue
-        if looks.setdefault(_name(node), look) != look:
-            yield node, f"material {_name(node)!r} is defined otherwise before"
-
-
-def _spaced(text: str | None) -> str | None:
-    """Numbers as they are compared: `1.0` is `1`."""
-    if text is None:
-        return None
-    try:
-        return " ".join(f"{float(each):g}" for each in text.split())
-    except ValueError:
-        return text
-
-
 def _with_prefixes(root: Node) -> Fact:
     """Elements that have an attribute of a namespace."""
     nodes = [root]
@@ -101,14 +59,28 @@ def _weighing_world(root: Node) -> Fact:
             yield link, "link 'world' has an <inertial>"
 
 
+def _swapped_limits(root: Node) -> Fact:
+    """Limits where the lower one is above the upper one; one that is not written is zero."""
+    for joint in root.all("joint"):
+        limit = joint.first("limit")
+        if limit is not None and joint.attributes.get("type") in {"revolute", "prismatic"}:
+            lower, upper = (number_in(limit.attributes.get(end, "")) or 0.0 for end in ("lower", "upper"))
+            if lower > upper:
+                yield limit, f"the limits of joint {_name(joint)!r} are {lower:g} and {upper:g}"
+
+
+def _empty_names(root: Node) -> Fact:
+    for link in root.all("link"):
+        for shape in (*link.all("visual"), *link.all("collision")):
+            if shape.attributes.get("name") == "":
+                yield shape, f"a <{shape.tag}> of link {_name(link)!r} has an empty name"
+
+
 FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "reserved-name": _reserved,
+    "swapped-limits": _swapped_limits,
+    "empty-name": _empty_names,
     "shared-name": _shared,
-    "repeated-visual": _repeated_shapes("visual", anywhere=False),
-    "repeated-collision": _repeated_shapes("collision", anywhere=False),
-    "repeated-collision-anywhere": _repeated_shapes("collision", anywhere=True),
-    "nameless-shape": _several_nameless_shapes,
-    "redefined-material": _redefined_materials,
     "weighing-world": _weighing_world,
     "prefixed-attribute": _with_prefixes,
 }

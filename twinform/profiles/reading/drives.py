@@ -1,156 +1,136 @@
-"""Facts about joints that follow others, limits, and the transmissions that Drake reads."""
+"""Facts about what moves joints: limits, joints that follow others, and transmissions."""
 
-from collections.abc import Callable, Iterator, Mapping
+import math
+from collections.abc import Iterator
 
-from twinform.profiles.reading.bodies import Fact
+from twinform.profiles.reading.forms import number_in
 from twinform.profiles.reading.nodes import Node
 
-_SINGLE = frozenset({"revolute", "continuous", "prismatic"})
-"""The types with one degree of freedom."""
+Fact = Iterator[tuple[Node, str]]
+_ONE_WAY = frozenset({"revolute", "continuous", "prismatic"})
+_READ = frozenset({"inertial", "mass", "inertia", "origin", "axis", "limit", "dynamics", "mimic", "color"})
 
 
-def _joints(root: Node) -> dict[str, Node]:
-    return {joint.attributes.get("name", ""): joint for joint in root.all("joint")}
+def _name(node: Node) -> str:
+    return node.attributes.get("name", "")
 
 
-def _kind(joint: Node | None) -> str:
-    return "" if joint is None else joint.attributes.get("type", "")
+def _limits(joint: Node) -> tuple[Node | None, float, float]:
+    limit = joint.first("limit")
+    lower = number_in(limit.attributes.get("lower", "")) if limit else None
+    upper = number_in(limit.attributes.get("upper", "")) if limit else None
+    return limit, -math.inf if lower is None else lower, math.inf if upper is None else upper
 
 
-def _mimics(root: Node) -> Iterator[tuple[Node, Node, str]]:
-    """Each joint that follows another, its `<mimic>`, and the name of the other."""
+def reversed_limits(root: Node) -> Fact:
+    """Lower limits above the upper ones."""
     for joint in root.all("joint"):
-        if (mimic := joint.first("mimic")) is not None:
-            yield joint, mimic, mimic.attributes.get("joint", "")
+        limit, lower, upper = _limits(joint)
+        if limit is not None and joint.attributes.get("type") in _ONE_WAY and lower > upper:
+            yield limit, f"joint {_name(joint)!r} has the lower limit {lower:g} above the upper one, {upper:g}"
 
 
-def _follows_itself(root: Node) -> Fact:
-    for joint, mimic, leader in _mimics(root):
-        if leader == joint.attributes.get("name", "") and _kind(joint) != "fixed":
-            yield mimic, f"joint {leader!r} follows itself"
-
-
-def _follows_nothing(root: Node) -> Fact:
-    known = _joints(root)
-    for _, mimic, leader in _mimics(root):
-        if leader not in known:
-            yield mimic, f"{leader!r} is no joint that can be followed"
-
-
-def _unlike_leader(root: Node) -> Fact:
-    """Joints that follow one of another number of degrees of freedom, as Drake counts them."""
-    known = _joints(root)
-    for joint, mimic, leader in _mimics(root):
-        if _kind(joint) == "floating" or leader not in known:
-            continue
-        if _kind(joint) not in _SINGLE or _kind(known[leader]) not in _SINGLE:
-            yield mimic, f"joint {joint.attributes.get('name', '')!r} cannot follow {leader!r}"
-
-
-def _follower_of_many(root: Node) -> Fact:
-    """Joints that follow, or are to follow, one that does not turn or slide along one axis."""
-    known = _joints(root)
-    for joint, mimic, leader in _mimics(root):
-        if _kind(joint) != "fixed" and not {_kind(joint), _kind(known.get(leader))} <= _SINGLE:
-            yield mimic, f"joint {joint.attributes.get('name', '')!r} cannot follow {leader!r}"
-
-
-def _number(text: str | None) -> float:
-    try:
-        return float(text or 0)
-    except ValueError:
-        return 0.0
-
-
-def _limited(root: Node, types: frozenset[str]) -> Iterator[tuple[Node, float | None, float | None]]:
+def equal_limits(root: Node) -> Fact:
+    """Limits that leave no room; one that is not written is 0."""
     for joint in root.all("joint"):
         limit = joint.first("limit")
-        if limit is not None and _kind(joint) in types:
-            lower, upper = limit.attributes.get("lower"), limit.attributes.get("upper")
-            yield limit, None if lower is None else _number(lower), None if upper is None else _number(upper)
+        if (
+            limit is None
+            or joint.attributes.get("type") not in _ONE_WAY
+            or not {"lower", "upper"} <= limit.attributes.keys()
+        ):
+            continue
+        _, lower, upper = _limits(joint)
+        if lower == upper != 0:
+            yield limit, f"joint {_name(joint)!r} has equal limits"
+        elif lower == upper and _is_written(limit):
+            yield limit, f"joint {_name(joint)!r} has limits of 0"
 
 
-def _swapped(root: Node) -> Fact:
-    """Limits where the lower one is above the upper one; one that is not written is zero."""
-    for limit, lower, upper in _limited(root, frozenset({"revolute", "prismatic"})):
-        if (lower or 0.0) > (upper or 0.0):
-            yield limit, f"the limits are {lower or 0.0:g} and {upper or 0.0:g}"
+def _is_written(limit: Node) -> bool:
+    return all(limit.attributes[end].strip() for end in ("lower", "upper"))
 
 
-def _crossed(root: Node) -> Fact:
-    """The same for who reads only limits that are written, of `continuous` joints, too."""
-    for limit, lower, upper in _limited(root, _SINGLE):
-        if lower is not None and upper is not None and lower > upper:
-            yield limit, f"the limits are {lower:g} and {upper:g}"
+def self_mimics(root: Node) -> Fact:
+    """Joints that follow themselves."""
+    for joint in root.all("joint"):
+        if joint.value("mimic", "joint") == _name(joint) and joint.attributes.get("type") in _ONE_WAY:
+            yield joint, f"joint {_name(joint)!r} follows itself"
 
 
-def _equal(root: Node) -> Fact:
-    for limit, lower, upper in _limited(root, frozenset({"revolute", "prismatic", "planar"})):
-        if lower is not None and lower == upper:
-            yield limit, f"both limits are {lower:g}"
+def idle_mimics(root: Node) -> Fact:
+    """Joints that follow one that is not there, or that does not turn or slide."""
+    moving = {_name(joint) for joint in root.all("joint") if joint.attributes.get("type") in _ONE_WAY}
+    for joint in root.all("joint"):
+        leader = joint.value("mimic", "joint")
+        if leader is not None and leader not in moving and joint.attributes.get("type") in _ONE_WAY:
+            yield joint, f"joint {_name(joint)!r} follows {leader!r}, which does not turn or slide"
 
 
-def _bad_transmissions(root: Node) -> Fact:
-    known, actuators = _joints(root), set[str]()
+def unknown_numbers(root: Node) -> Fact:
+    """NaN, in what an engine reads."""
+    waiting = [*root.all("link"), *root.all("joint")]
+    while waiting:
+        node = waiting.pop()
+        waiting += [child for child in node.children if child.tag != "visual"]
+        for name, text in node.attributes.items() if node.tag in _READ else ():
+            if any("nan" in piece.lower() and _is_nan(piece) for piece in text.split()):
+                yield node, f"{name!r} of <{node.tag}> is {text!r}"
+
+
+def _is_nan(piece: str) -> bool:
+    number = number_in(piece)
+    return number is not None and math.isnan(number)
+
+
+def foreign_transmissions(root: Node) -> Fact:
+    """Simple transmissions without an actuator or a joint with a name that is there, and those without a type."""
+    joints = {_name(joint) for joint in root.all("joint")}
     for node in root.all("transmission"):
-        message = _refusal(node, known, actuators)
-        if message:
-            yield node, message
+        kind = _kind(node)
+        if kind is None:
+            yield node, "<transmission> has no type"
+        elif "SimpleTransmission" in kind and (
+            node.value("actuator", "name") is None or node.value("joint", "name") not in joints
+        ):
+            yield node, "<transmission> has no actuator with a name, or no joint that is there"
 
 
-def _refusal(node: Node, known: dict[str, Node], actuators: set[str]) -> str:
-    """Why Drake refuses a transmission; empty where it does not. The names of actuators that it makes are kept."""
-    kind = _transmission_type(node)
-    if kind is None:
-        return "<transmission> has no type"
-    if "SimpleTransmission" not in kind:
-        return ""
-    actuator, name = node.value("actuator", "name"), node.value("joint", "name")
-    if actuator is None or name is None:
-        return f"<transmission> has no <{'joint' if actuator is not None else 'actuator'}> with a name"
-    joint = known.get(name)
-    if joint is None or _kind(joint) == "floating":
-        return f"<transmission> is about joint {name!r}, which is not there"
-    if _kind(joint) == "fixed" or _effort(joint) == 0:
-        return ""
-    if _effort(joint) < 0 or _kind(joint) not in _SINGLE:
-        return f"<transmission> is about joint {name!r}, which nothing can drive"
-    if actuator in actuators:
-        return f"two actuators are called {actuator!r}"
-    actuators.add(actuator)
-    return ""
+def _kind(node: Node) -> str | None:
+    type_ = node.first("type")
+    return node.attributes.get("type") if type_ is None else type_.text
 
 
-def _transmission_type(node: Node) -> str | None:
-    written = node.first("type")
-    return node.attributes.get("type") if written is None else written.text
+def _driven(root: Node) -> Iterator[tuple[Node, Node | None]]:
+    joints = {_name(joint): joint for joint in root.all("joint")}
+    for node in root.all("transmission"):
+        if "SimpleTransmission" in (_kind(node) or ""):
+            yield node, joints.get(node.value("joint", "name") or "")
 
 
 def _effort(joint: Node) -> float:
-    written = joint.value("limit", "effort")
-    return float("inf") if written is None else _number(written)
+    text = joint.value("limit", "effort")
+    number = None if text is None else number_in(text)
+    return math.inf if number is None else number
 
 
-def _idle_transmissions(root: Node) -> Fact:
-    known = _joints(root)
+def repeated_actuators(root: Node) -> Fact:
+    """Actuators of two transmissions, and efforts below 0 of joints that have one."""
+    met = set[str]()
+    for node, joint in _driven(root):
+        if joint is None or joint.attributes.get("type") not in _ONE_WAY or _effort(joint) == 0:
+            continue
+        name = node.value("actuator", "name") or ""
+        if name in met or _effort(joint) < 0:
+            yield node, f"actuator {name!r} is of two transmissions, or its joint has an effort below 0"
+        met.add(name)
+
+
+def idle_transmissions(root: Node) -> Fact:
+    """Transmissions of another kind, of a fixed joint, or of one without an effort."""
     for node in root.all("transmission"):
-        kind, name = _transmission_type(node), node.value("joint", "name") or ""
-        joint = known.get(name)
-        if kind is not None and "SimpleTransmission" not in kind:
-            yield node, f"{kind.strip()!r} is no simple transmission"
-        elif joint is not None and (_kind(joint) == "fixed" or _effort(joint) == 0):
-            yield node, f"<transmission> is about joint {name!r}, which is fixed or has no effort"
-
-
-FACTS: Mapping[str, Callable[[Node], Fact]] = {
-    "follows-itself": _follows_itself,
-    "follows-nothing": _follows_nothing,
-    "unlike-leader": _unlike_leader,
-    "follower-of-many": _follower_of_many,
-    "swapped-limits": _swapped,
-    "crossed-limits": _crossed,
-    "equal-limits": _equal,
-    "bad-transmission": _bad_transmissions,
-    "idle-transmission": _idle_transmissions,
-}
-"""Facts by their names in tables."""
+        if "SimpleTransmission" not in (_kind(node) or "SimpleTransmission"):
+            yield node, "<transmission> is not a SimpleTransmission"
+    for node, joint in _driven(root):
+        if joint is not None and (joint.attributes.get("type") == "fixed" or _effort(joint) == 0):
+            yield node, f"<transmission> is of {_name(joint)!r}, which does not move or has no effort"

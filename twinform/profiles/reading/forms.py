@@ -9,11 +9,12 @@ import re
 from collections.abc import Callable, Mapping
 
 _STREAM = re.compile(r"[ \t\n\v\f\r]*[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", re.ASCII)
-_C = re.compile(
-    r"[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|0[xX][0-9a-fA-F]+|inf(?:inity)?|nan)", re.ASCII | re.IGNORECASE
-)
-_SHORTEST = 1e-6
-"""Engines take no direction from a shorter vector."""
+_LEADING = re.compile(r"[ \t\n\v\f\r]*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)", re.ASCII)
+_HEXADECIMAL = re.compile(r"[-+]?0[xX](?:[0-9a-fA-F]+\.?[0-9a-fA-F]*|\.[0-9a-fA-F]+)(?:[pP][-+]?\d+)?", re.ASCII)
+_WORDS = re.compile(r"[-+]?(?:inf|infinity|nan(?:\(\w*\))?)", re.ASCII | re.IGNORECASE)
+_ASCII_BLANKS = re.compile(r"[ \t\n\v\f\r]+")
+_SHORTEST = 1e-8
+_LONGEST_NAME = 240
 _VERSION = re.compile(r"\s*[-+]?0*(\d+)\.\s*[-+]?0*(\d+)", re.ASCII)
 
 
@@ -27,6 +28,62 @@ def _python(text: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+def _streamed(text: str) -> int:
+    """How many numbers a C++ stream reads one after the other, until something is none."""
+    count, at = 0, 0
+    while (found := _LEADING.match(text, at)) is not None and math.isfinite(float(found[1])):
+        count, at = count + 1, found.end()
+        if text[at : at + 1] in {"e", "E"}:
+            return count - 1  # the stream takes the letter for an exponent, and then there is none
+    return count
+
+
+def _strtods(text: str, *counts: int) -> bool:
+    """Whether the text is so many numbers as C reads them: also in hexadecimal, infinite, or none."""
+    pieces = _ASCII_BLANKS.sub(" ", text).split(" ")
+    pieces = [piece for piece in pieces if piece]
+    return len(pieces) in counts and all(map(_strtod, pieces))
+
+
+def _strtod(piece: str) -> bool:
+    if _HEXADECIMAL.fullmatch(piece) or _WORDS.fullmatch(piece):
+        return True
+    return _STREAM.fullmatch(piece) is not None and math.isfinite(float(piece))
+
+
+def _numbers(text: str) -> list[float]:
+    """The numbers in a text, by the beginning of each piece, as C reads them; what begins with none is left out."""
+    found = (_beginning(piece) for piece in text.split())
+    return [number for number in found if number is not None]
+
+
+def number_in(text: str) -> float | None:
+    """The number that a text begins with, or None."""
+    return _beginning(text.strip())
+
+
+def _beginning(piece: str) -> float | None:
+    if found := _HEXADECIMAL.match(piece):
+        return float.fromhex(found[0])
+    if found := _WORDS.match(piece) or _LEADING.match(piece):
+        return float(found[0].split("(")[0])
+    return None
+
+
+def _positive(text: str) -> bool:
+    return all(number > 0 for number in _numbers(text))
+
+
+def _long(text: str) -> bool:
+    """Whether it is the direction of something, and not of nothing."""
+    numbers = _numbers(text)
+    return not numbers or any(math.isnan(number) for number in numbers) or math.hypot(*numbers) >= _SHORTEST
+
+
+def _finite(text: str) -> bool:
+    return not _python(text) or math.isfinite(float(text))
 
 
 def _pieces(text: str) -> list[str]:
@@ -75,42 +132,6 @@ def _directed(text: str) -> bool:
     return not pieces or not all(_python(piece) and float(piece) == 0 for piece in pieces)
 
 
-def _begun(*counts: int) -> Callable[[str], bool]:
-    """So many numbers at the beginning, whatever follows: a C++ stream that is read until it fails."""
-    return lambda text: len(_beginning(text)) in counts
-
-
-def _beginning(text: str) -> list[str]:
-    found, at = list[str](), 0
-    while number := _STREAM.match(text, at):
-        found.append(number[0])
-        at = number.end()
-    return found if all(math.isfinite(float(each)) for each in found) else []
-
-
-def _c_numbers(text: str) -> list[bool]:
-    """Whether `strtod` takes each piece in full; it knows hexadecimal ones, `inf` and `nan`, and MuJoCo no overflow."""
-    return [_C.fullmatch(piece) is not None and not _overflows(piece) for piece in text.split()]
-
-
-def _overflows(piece: str) -> bool:
-    return _python(piece) and math.isinf(float(piece)) and "inf" not in piece.lower()
-
-
-def _c(*counts: int) -> Callable[[str], bool]:
-    return lambda text: all(found := _c_numbers(text)) and len(found) in counts
-
-
-def _all_of(text: str, holds: Callable[[float], bool]) -> bool:
-    """Whether all numbers at the beginning are such."""
-    return all(holds(float(each)) for each in _beginning(text))
-
-
-def _has_length(text: str) -> bool:
-    numbers = [float(each) for each in _beginning(text)]
-    return len(numbers) != 3 or math.hypot(*numbers) > _SHORTEST
-
-
 FORMS: Mapping[str, tuple[str, Callable[[str], bool]]] = {
     "text": ("any text", lambda _: True),
     "words": ("a text that is not empty", bool),
@@ -120,6 +141,25 @@ FORMS: Mapping[str, tuple[str, Callable[[str], bool]]] = {
     "blank4": ("four numbers with blanks between them", lambda text: len(_pieces(text)) == 4),
     "blank3": ("three numbers with blanks between them", lambda text: len(_pieces(text)) >= 3),
     "at-least-0": ("a number that is not negative", lambda text: not _stream(text) or float(text) >= 0),
+    "streams1": ("one number such as 0.5 or 1e-3", lambda text: _streamed(text) == 1),
+    "streams1+": ("a number such as 0.5 or 1e-3", lambda text: _streamed(text) > 0),
+    "streams3": ("three numbers", lambda text: _streamed(text) == 3),
+    "streams4": ("four numbers", lambda text: _streamed(text) == 4),
+    "strtod": ("a number such as 0.5 or 1e-3", lambda text: _strtods(text, 0, 1)),
+    "strtod+": ("a number such as 0.5 or 1e-3", lambda text: _strtods(text, 1)),
+    "strtods3": ("three numbers", lambda text: _strtods(text, 0, 3)),
+    "strtods3+": ("three numbers", lambda text: _strtods(text, 3)),
+    "strtods4+": ("four numbers", lambda text: _strtods(text, 4)),
+    "zeros": ("0", lambda text: not any(_numbers(text))),
+    "share": ("numbers from 0 to 1", lambda text: all(0 <= number <= 1 for number in _numbers(text))),
+    "one": ("1", lambda text: text in {"", "1"}),
+    "positive": ("more than 0", _positive),
+    "long": ("a direction", _long),
+    "finite": ("a finite number", _finite),
+    "finites": ("finite numbers", lambda text: all(map(_finite, text.split()))),
+    "printable": ("a short name in one line", lambda text: text.isprintable() and len(text) < _LONGEST_NAME),
+    "strtods3?": ("three numbers", lambda text: not text or _strtods(text, 3)),
+    "unblank": ("a name", lambda text: not text or bool(text.strip())),
     "python": ("a number such as 0.5 or 1e-3", _python),
     "python3": ("three numbers", lambda text: _pythons(text, 3)),
     "python4": ("four numbers", lambda text: _pythons(text, 4)),
@@ -131,21 +171,6 @@ FORMS: Mapping[str, tuple[str, Callable[[str], bool]]] = {
     "commas3": ("three numbers", lambda text: _pythons(text.replace(",", " "), 3)),
     "bounded": ("finite numbers", _bounded),
     "directed": ("a direction", _directed),
-    "begun1": ("a number such as 0.5 or 1e-3", _begun(1)),
-    "begun3": ("three numbers", _begun(3)),
-    "begun1or3": ("one number, or three", _begun(1, 3)),
-    "begun4": ("four numbers", _begun(4)),
-    "begins": ("a number such as 0.5 or 1e-3", lambda text: bool(_beginning(text))),
-    "c1": ("a number such as 0.5 or 1e-3", _c(1)),
-    "c3": ("three numbers", _c(0, 3)),
-    "c4": ("four numbers", _c(4)),
-    "not-nan": ("numbers", lambda text: "nan" not in text.lower()),
-    "positive": ("numbers above 0", lambda text: _all_of(text, lambda number: number > 0)),
-    "not-negative": ("numbers that are not negative", lambda text: _all_of(text, lambda number: number >= 0)),
-    "not-0": ("numbers other than 0", lambda text: _all_of(text, lambda number: abs(number) >= 1e-8)),
-    "zero": ("0", lambda text: _all_of(text, lambda number: number == 0)),
-    "of-unit": ("numbers from 0 to 1", lambda text: _all_of(text, lambda number: 0 <= number <= 1)),
-    "long": ("a direction", _has_length),
     "urdf-1.0": ("1.0", _versions((1, 0))),
     "urdf-1.2": ("1.0, 1.1 or 1.2", _versions((1, 0), (1, 1), (1, 2))),
     "exactly-1.0": ("1.0", lambda text: text == "1.0"),

@@ -3,12 +3,24 @@
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 
-from twinform.profiles.reading.forms import fits_bytes
+from twinform.profiles.reading import bodies, clashes, drives, lumping
+from twinform.profiles.reading.forms import FORMS, fits_bytes
 from twinform.profiles.reading.nodes import Node
 
 Fact = Iterator[tuple[Node, str]]
 """Elements that it is about, and what is so."""
 _ONE_WAY = frozenset({"revolute", "continuous", "prismatic"})
+_EQUAL_COLORS = 1e-10
+_SIZES = {
+    name: FORMS[form][1]
+    for name, form in (
+        ("xyz", "python3"),
+        ("rpy", "python3"),
+        ("size", "python3"),
+        ("radius", "python"),
+        ("length", "python"),
+    )
+}
 _KNOWN = _ONE_WAY | {"planar", "floating", "fixed"}
 
 
@@ -52,6 +64,146 @@ def _of_nowhere(end: int) -> Callable[[Node], Fact]:
                 yield joint, f"joint {joint.attributes.get('name', '')!r} has the {kind} {name!r}, which is no link"
 
     return fact
+
+
+def _of_nowhere_but_world(end: int) -> Callable[[Node], Fact]:
+    """Joints that have all their names, and one of a link that is not there and not the world."""
+    unknown = _of_nowhere(end)
+
+    def fact(root: Node) -> Fact:
+        for joint, message in unknown(root):
+            names = (joint.attributes.get("name"), joint.attributes.get("type"), *_ends(joint))
+            if all(names) and _ends(joint)[end] != "world":
+                yield joint, message
+
+    return fact
+
+
+def _self_joints(root: Node) -> Fact:
+    for joint in root.all("joint"):
+        parent, child = _ends(joint)
+        if parent == child != "":
+            yield joint, f"joint {joint.attributes.get('name', '')!r} joins {parent!r} to itself"
+
+
+def _repeated_moving_joints(root: Node) -> Fact:
+    met = set[str]()
+    for joint in root.all("joint"):
+        name = joint.attributes.get("name", "")
+        if joint.attributes.get("type") != "fixed":
+            if name in met:
+                yield joint, f"two of the joints that move are called {name!r}"
+            met.add(name)
+
+
+def _repeated_shapes(root: Node) -> Fact:
+    for link in root.all("link"):
+        for tag in ("visual", "collision"):
+            met = set[str]()
+            for shape in link.all(tag):
+                name = shape.attributes.get("name")
+                if name is not None and name in met:
+                    yield shape, f"two of the <{tag}> elements of a link are called {name!r}"
+                met.add(name or "")
+
+
+def _repeated_collisions(root: Node) -> Fact:
+    met = set[str]()
+    for shape in (shape for link in root.all("link") for shape in link.all("collision")):
+        name = shape.attributes.get("name", "")
+        if name and name in met:
+            yield shape, f"two of the <collision> elements are called {name!r}"
+        met.add(name)
+
+
+def _held_by_roots(root: Node, joints: list[Node]) -> set[str]:
+    """Roots, and what is fixed to them."""
+    held = {link.attributes.get("name", "") for link in _roots(root)} | {"world"}
+    fixed = [_ends(joint) for joint in joints if joint.attributes.get("type") == "fixed"]
+    while new := {child for parent, child in fixed if parent in held} - held:
+        held |= new
+    return held
+
+
+def _free_below(root: Node) -> Fact:
+    joints = list(root.all("joint"))
+    held = _held_by_roots(root, joints)
+    for joint in joints:
+        if joint.attributes.get("type") == "floating" and _ends(joint)[0] not in held:
+            yield joint, f"joint {joint.attributes.get('name', '')!r} is floating below a link"
+
+
+def _unknown_leaders(root: Node) -> Fact:
+    names = set(_names(root.all("joint")))
+    for joint in root.all("joint"):
+        mimic = joint.first("mimic")
+        leader = None if mimic is None else mimic.attributes.get("joint")
+        if mimic is not None and leader and leader not in names:
+            yield mimic, f"the joint {leader!r} to follow is not there"
+
+
+def _stiff_mimics(root: Node) -> Fact:
+    """Joints that follow themselves, or one that is not there or has not one degree of freedom, or have not one."""
+    moving = set(_names(joint for joint in root.all("joint") if joint.attributes.get("type") in _ONE_WAY))
+    for joint in root.all("joint"):
+        mimic, name = joint.first("mimic"), joint.attributes.get("name", "")
+        if mimic is None:
+            continue
+        leader = mimic.attributes.get("joint", "")
+        if leader not in moving or leader == name or joint.attributes.get("type") not in _ONE_WAY:
+            yield mimic, f"joint {name!r} follows {leader!r}, and one of them does not move, or is not another one"
+
+
+def _visual_materials(root: Node) -> Iterator[Node]:
+    materials = (visual.first("material") for link in root.all("link") for visual in link.all("visual"))
+    return (material for material in materials if material is not None)
+
+
+def _uncolored(root: Node) -> Fact:
+    """Materials with a name and nothing else, where nothing before has that name."""
+    known = set[str]()
+    for material in (*root.all("material"), *_visual_materials(root)):
+        name = material.attributes.get("name", "")
+        plain = material.first("color") is None and not material.value("texture", "filename")
+        if plain and name and name not in known:
+            yield material, f"material {name!r} has no color, and none before has this name"
+        known.add(name)
+
+
+def _recolored(root: Node) -> Fact:
+    known: dict[str, str | None] = {}
+    for material in (*root.all("material"), *_visual_materials(root)):
+        name, color = material.attributes.get("name", ""), material.value("color", "rgba")
+        if not name or (color is None and name in known):
+            continue
+        before = known.setdefault(name, color)
+        if not _same_color(before or "0 0 0 0", color or "0 0 0 0"):
+            yield material, f"material {name!r} has another color before"
+
+
+def _same_color(one: str, other: str) -> bool:
+    try:
+        pairs = zip(map(float, one.split()), map(float, other.split()), strict=True)
+        return all(abs(first - second) <= _EQUAL_COLORS for first, second in pairs)
+    except ValueError:
+        return True
+
+
+def _nameless_colors(root: Node) -> Fact:
+    for material in _visual_materials(root):
+        if material.first("color") is None and "name" not in material.attributes:
+            yield material, "a <material> has no name and no color"
+
+
+def _unread_numbers(root: Node) -> Fact:
+    """Numbers of places and sizes, whatever element has them."""
+    nodes = [root]
+    while nodes:
+        node = nodes.pop()
+        nodes += node.children
+        for name, reads in _SIZES.items():
+            if name in node.attributes and not reads(node.attributes[name]):
+                yield node, f"{name!r} of <{node.tag}> is {node.attributes[name]!r}"
 
 
 def _roots(root: Node) -> list[Node]:
@@ -103,6 +255,20 @@ def _undefined_materials(root: Node) -> Fact:
                 yield material, f"material {name!r} is defined nowhere before"
         else:
             known.add(name)
+
+
+def _nowhere_materials(root: Node) -> Fact:
+    """Materials with a name alone that are defined neither before nor behind."""
+    named = [*root.all("material"), *(each for each in _visual_materials(root) if _says_something(each))]
+    known = set(_names(iter(named)))
+    for material in _visual_materials(root):
+        name = material.attributes.get("name", "")
+        if name and name not in known and not _says_something(material):
+            yield material, f"material {name!r} is defined nowhere"
+
+
+def _says_something(material: Node) -> bool:
+    return material.first("color") is not None or material.first("texture") is not None
 
 
 def _plain_materials(root: Node) -> Fact:
@@ -157,10 +323,36 @@ FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "repeated-link": _repeated("link"),
     "repeated-joint": _repeated("joint"),
     "repeated-material": _repeated("material"),
+    "repeated-moving-joint": _repeated_moving_joints,
+    "repeated-shape": _repeated_shapes,
+    "repeated-collision": _repeated_collisions,
+    "self-joint": _self_joints,
+    "free-below": _free_below,
+    "unknown-leader": _unknown_leaders,
+    "stiff-mimic": _stiff_mimics,
+    "unknown-parent-but-world": _of_nowhere_but_world(0),
+    "unknown-child-but-world": _of_nowhere_but_world(1),
+    "uncolored": _uncolored,
+    "recolored": _recolored,
+    "nameless-color": _nameless_colors,
+    "unread-numbers": _unread_numbers,
     "no-links": _linkless,
     "open-joint": _open_joints,
     "unknown-parent": _of_nowhere(0),
     "unknown-child": _of_nowhere(1),
+    "nowhere-material": _nowhere_materials,
+    "indefinite-inertia": bodies.indefinite,
+    "unbalanced-inertia": bodies.unbalanced,
+    "unphysical-inertia": bodies.unphysical,
+    "weightless-body": bodies.weightless,
+    "reversed-limits": drives.reversed_limits,
+    "equal-limits": drives.equal_limits,
+    "self-mimic": drives.self_mimics,
+    "idle-mimic": drives.idle_mimics,
+    "unknown-number": drives.unknown_numbers,
+    "foreign-transmission": drives.foreign_transmissions,
+    "repeated-actuator": drives.repeated_actuators,
+    "idle-transmission": drives.idle_transmissions,
     "several-roots": _several_roots,
     "no-root": _no_root,
     "two-parents": _two_parents,
@@ -170,6 +362,8 @@ FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "unpaintable": _unpaintable,
     "weightless-link": _weightless,
     "foreign-joint": _foreign_joints,
+    **clashes.FACTS,
+    **lumping.FACTS,
     "idle-leader": _idle_leaders,
 }
 """By the names that a table calls them."""

@@ -4,12 +4,11 @@ import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
-from twinform.profiles.reading import bodies, clashes, drives, transmissions, tree
+from twinform.profiles.reading import transmissions, tree
 from twinform.profiles.reading.forms import FORMS
 from twinform.profiles.reading.nodes import Node
 from twinform.profiles.reading.notation import Demand, Reads, Step
 
-_FACTS = {**tree.FACTS, **bodies.FACTS, **clashes.FACTS, **drives.FACTS}
 _ITEMS = re.compile(r"[\w:.-]+\??")
 
 
@@ -31,8 +30,8 @@ class Shortfall:
 def shortfalls(root: Node, table: Reads) -> Iterator[Shortfall]:
     """All demands that are not met, in the order of the table."""
     for demand in table.demands:
-        if demand.item in _FACTS:
-            for node, message in _FACTS[demand.item](root):
+        if demand.item in tree.FACTS:
+            for node, message in tree.FACTS[demand.item](root):
                 yield _short(demand, "tree", message, node)
             continue
         for node in _found(root, demand.place):
@@ -73,13 +72,13 @@ def _held(demand: Demand, node: Node) -> Iterator[Shortfall]:
 def _attribute(demand: Demand, node: Node) -> Iterator[Shortfall]:
     names = demand.item[1:].split("|")
     given = [name for name in names if name in node.attributes]
+    if demand.form == "none":
+        yield from (_short(demand, "unread", f"<{node.tag}> has an attribute {name!r}", node) for name in given)
+        return
     if not given and demand.needed:
         wanted = " or ".join(map(repr, names))
         yield _short(demand, "absent", f"<{node.tag}> has no attribute {wanted}", node, expected=wanted)
     for name in given:
-        if demand.form == "none":
-            yield _short(demand, "unread", f"<{node.tag}> has an attribute {name!r}", node)
-            continue
         yield from _value(demand, node, f"{name!r} of <{node.tag}>", node.attributes[name])
 
 
@@ -96,15 +95,14 @@ def _one_of(form: str) -> tuple[str, Callable[[str], bool]]:
 
 def _element(demand: Demand, node: Node) -> Iterator[Shortfall]:
     names = demand.item.strip("<>").split("|")
-    if demand.form == "once":
-        for child in [child for child in node.children if child.tag in names][1:]:
-            yield _short(demand, "unread", f"<{node.tag}> has a second <{child.tag}>", child)
-    elif demand.form == "none":
+    if demand.form == "none":
         yield from (
             _short(demand, "unread", f"<{node.tag}> has a <{tag.tag}>", tag)
             for tag in node.children
             if tag.tag in names
         )
+    elif demand.form == "once" and (again := [tag for tag in node.children if tag.tag in names][1:]):
+        yield _short(demand, "unread", f"<{node.tag}> has a second <{again[0].tag}>", again[0])
     elif demand.form in {"first", "single"}:
         if demand.form == "single" and len(node.children) != 1:
             yield _short(demand, "unread", f"<{node.tag}> has {len(node.children)} elements", node, expected="one")
