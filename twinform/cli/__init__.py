@@ -17,6 +17,7 @@ COMMANDS: Mapping[str, str] = {
     "fix": "Mend robot models in their files, and run passes on them.",
     "diff": "Say whether two files describe the same robot.",
     "format": "Lay out the text of models, and change nothing else.",
+    "advise": "Say which format to keep a robot in, and what each consumer makes of it.",
     "stats": "Print in numbers what models are made of.",
     "batch": "Work on every model of a folder, on several processors or machines.",
     "reproduce": "Run a pass again that failed.",

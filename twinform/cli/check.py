@@ -10,6 +10,7 @@ from twinform.cli.baseline import baseline_of, baseline_options
 from twinform.cli.check_report import CheckReport
 from twinform.cli.command import Command
 from twinform.cli.completion import files, pipelines
+from twinform.cli.consumers import consumers_option
 from twinform.cli.exclude import exclude_options, exclusion_of
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.findings import all_option, notes_option
@@ -27,12 +28,14 @@ if TYPE_CHECKING:
 
     from twinform.cli.fixing import Fixing
     from twinform.passes import Pipeline
+    from twinform.profiles import Profile
 
 
 EXAMPLES = {
     "Find mistakes": "twinform check robot.urdf",
     "Also what is legal and yet worth knowing, for a program": "twinform check robot.sdf --notes --format json",
     "Expand a xacro file with an argument of its own": "twinform check arm.urdf.xacro prefix:=left_",
+    "What would these two programs make of it?": "twinform check robot.urdf --for drake,mujoco",
     "One rule is an error, another is left out": "twinform check robot.urdf --deny massless-link --allow missing-limit",
 }
 
@@ -52,6 +55,7 @@ EXAMPLES = {
     shell_complete=pipelines,
     help="Read-only passes, such as 'check-inertia,check-limits', or @NAME for one that the configuration names.",
 )
+@consumers_option
 @exclude_options
 @click.option("--watch", is_flag=True, help="Stay, and check what changes again, until Ctrl-C.")
 @click.option("--fix", is_flag=True, help="Mend what can be mended without another robot coming of it, in the files.")
@@ -72,6 +76,7 @@ def command(
     baseline: Path | None,
     update_baseline: bool,
     check_passes: "Pipeline | None",
+    profiles: "tuple[Profile, ...]",
     exclude: tuple[str, ...],
     force_exclude: bool,
     watch: bool,
@@ -89,7 +94,7 @@ def command(
     """
     exclusion = exclusion_of(ctx, exclude, force=force_exclude)
     sources, arguments = model_inputs(words, exclusion)
-    options = OptionsByFile(ctx, arguments, input_options, allow, deny, check_passes, "check_passes")
+    options = OptionsByFile(ctx, arguments, input_options, allow, deny, check_passes, "check_passes", profiles)
     mends = fix or diff or fix_only
 
     def new_report() -> CheckReport:

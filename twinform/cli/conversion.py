@@ -170,5 +170,23 @@ def print_plan(job: Job, options: Options, label: str) -> int:
     if loaded.document is None or not loaded.accepted:
         options.show(job.source, loaded.diagnostics)
         return UNUSABLE if loaded.unreadable else FINDINGS
-    click.echo(f"{label}{': ' if label else ''}{options.request_for(job).plan(loaded.document)}")
+    try:
+        request = _fitted(options.request_for(job), job.source, options.load_options)
+    except CompileError as error:
+        options.show(job.source, error.diagnostics)
+        return FINDINGS
+    click.echo(f"{label}{': ' if label else ''}{request.plan(loaded.document)}")
     return 0
+
+
+def _fitted(request: ConversionRequest, source: Source, load_options: LoadOptions) -> ConversionRequest:
+    """The request with the passes for the consumers, if there are any.
+
+    Raises:
+        CompileError: the source cannot be made what they take.
+    """
+    if not load_options.profiles:
+        return request
+    from twinform.compiler.fitting import fitted  # noqa: PLC0415 - most results are for everybody
+
+    return fitted(request, source.content, load_options, name=source.name)

@@ -1,8 +1,9 @@
 """`twinform convert`."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import Unpack
+from typing import TYPE_CHECKING, Unpack
 
 import click
 from click.core import ParameterSource
@@ -10,6 +11,7 @@ from click.core import ParameterSource
 from twinform.cli.command import Command
 from twinform.cli.completion import files
 from twinform.cli.config import settings_of
+from twinform.cli.consumers import consumers_option, keep_physics_option
 from twinform.cli.conversion import Options, print_plan, run_job
 from twinform.cli.findings import all_option, notes_option
 from twinform.cli.gazebo_files import GazeboFiles, companion_options, version_for
@@ -23,11 +25,15 @@ from twinform.cli.source import Source
 from twinform.cli.targets import TARGETS, Job, Target, jobs, jobs_in_place
 from twinform.compiler import LoadOptions
 
+if TYPE_CHECKING:
+    from twinform.profiles import Profile
+
 EXAMPLES = {
     "Make SDF for Gazebo": "twinform convert robot.urdf -o robot.sdf",
     "Write an older version": "twinform convert robot.urdf -o robot.sdf --sdf-version 1.9",
     "List what was not expressed": "twinform convert robot.sdf -o robot.urdf --ledger ledger.json",
     "Run passes on the way": "twinform convert robot.urdf -o robot.sdf --passes 'fill-limits{effort=100}'",
+    "Make what Drake and MuJoCo take": "twinform convert robot.sdf -o robot.urdf --for drake,mujoco",
     "Change a file itself, where a pass does": "twinform convert robot.urdf --in-place --passes fill-inertia",
     "Let a URDF follow what was edited in its SDF": "twinform convert robot.sdf --into robot.urdf",
 }
@@ -53,6 +59,8 @@ EXAMPLES = {
 @click.option(
     "--base", type=click.Path(path_type=Path), metavar="FILE", help="With --into: IN as it was before it was changed."
 )
+@consumers_option
+@keep_physics_option
 @click.option("--to", "target", type=click.Choice(TARGETS), help="The format; else OUT's suffix or the other format.")
 @ordering_options
 @click.option(
@@ -83,6 +91,8 @@ def command(
     out: str | None,
     target: Target | None,
     *,
+    profiles: "tuple[Profile, ...]",
+    keep_physics: bool,
     ledger: Path | None,
     bridge: Path | None,
     world: Path | None,
@@ -118,13 +128,13 @@ def command(
         raise click.UsageError("--ledger takes one input")
     if ctx.get_parameter_source("gazebo") is not ParameterSource.DEFAULT:
         asked["sdf_version"] = version_for(gazebo, asked["sdf_version"])
-    by_file = OptionsByFile(ctx, arguments, asked, allow, deny, asked["passes"])
+    by_file = OptionsByFile(ctx, arguments, asked, allow, deny, asked["passes"], profiles=profiles)
     load_options, policy, _ = by_file.usual
     watching = InstrumentationOptions(
         dumps=dumps, changes=changes, times=times, statistics=statistics, reproducers=reproducers
     )
     options = Options(
-        request=request_of(asked, "sdf", model),
+        request=replace(request_of(asked, "sdf", model), keep_physics=keep_physics),
         load_options=load_options,
         ledger=ledger,
         notes=notes,
@@ -141,6 +151,7 @@ def command(
     if options.beside and len(sources) > 1:
         raise click.UsageError(f"a pass writes {options.beside[0]} beside the result; that takes one input")
     read = [source.path for source in sources] + [path for path in [settings_of(ctx).path] if path]
+    _require_consumers(profiles, alone=not (split or into), keep_physics=keep_physics)
     if split:
         from twinform.cli.splitting import run_split  # noqa: PLC0415 - few worlds are split
 
@@ -164,6 +175,14 @@ def command(
     outputs = Outputs(read, [job.path for job in todo if in_place and job.path], check)
     outputs.require_apart([place for job, own in planned for place in own.places(job, outputs)])
     ctx.exit(_end(outputs, [run_job(job, own, _label(job, todo), outputs) for job, own in planned], load_options))
+
+
+def _require_consumers(profiles: "tuple[Profile, ...]", *, alone: bool, keep_physics: bool) -> None:
+    """Raise where options contradict --for, or need it."""
+    if keep_physics and not profiles:
+        raise click.UsageError("--keep-physics is for --for")
+    if not alone and any(each.named for each in profiles):
+        raise click.UsageError("--for takes neither --split nor --into")
 
 
 def _require_sdf(ctx: click.Context, todo: Sequence[Job]) -> None:

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypedDict, TypeVar
+from typing import TYPE_CHECKING, Any, TypedDict, TypeVar
 
 import click
 
@@ -15,6 +15,9 @@ from twinform.compiler import LoadOptions, SearchPath
 from twinform.compiler.input.limits import LARGEST, MOST_TAGS, Limits, parse_size
 from twinform.diagnostics import Policy
 from twinform.schemas import Engine
+
+if TYPE_CHECKING:
+    from twinform.profiles import Profile
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -93,11 +96,14 @@ class InputOptions(TypedDict):
 
 
 def load_options_of(
-    arguments: Mapping[str, str], input_options: InputOptions, policy: Policy | None = None
+    arguments: Mapping[str, str],
+    input_options: InputOptions,
+    policy: Policy | None = None,
+    profiles: "tuple[Profile, ...]" = (),
 ) -> LoadOptions:
     """The options as the compiler takes them; the folders of the project come after those of the command line.
 
-    Where there is a policy, what it allows is left out, errors too.
+    Where there is a policy, what it allows is left out, errors too. `profiles` are those of the consumers.
     """
     paths = (*input_options["paths"], *settings_of(click.get_current_context()).folders)
     return LoadOptions(
@@ -109,6 +115,7 @@ def load_options_of(
         Limits(input_options["max_size"], input_options["max_tags"]),
         allow=policy.allow if policy else frozenset(),
         tolerant=policy is not None,
+        profiles=profiles,
     )
 
 

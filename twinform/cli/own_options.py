@@ -17,6 +17,7 @@ from twinform.diagnostics import Policy
 
 if TYPE_CHECKING:
     from twinform.passes import Pipeline
+    from twinform.profiles import Profile
 
 _TYPED = (ParameterSource.COMMANDLINE, ParameterSource.ENVIRONMENT)
 
@@ -33,7 +34,8 @@ class FileOptions(NamedTuple):
 class OptionsByFile:
     """Gives the options for each file; `option` is the name of the one that has the passes.
 
-    `usual` are those of a file without settings of its own. All share what they know of folders.
+    `profiles` are those of the consumers that the files are for. `usual` are the options of a file without settings of
+    its own. All share what they know of folders.
     """
 
     ctx: click.Context
@@ -43,11 +45,14 @@ class OptionsByFile:
     deny: Sequence[str]
     passes: "Pipeline | None"
     option: str = "passes"
+    profiles: "tuple[Profile, ...]" = ()
     usual: FileOptions = field(init=False)
 
     def __post_init__(self) -> None:
         policy = policy_of(self.ctx, self.allow, self.deny)
-        self.usual = FileOptions(load_options_of(self.arguments, self.input_options, policy), policy, self.passes)
+        self.usual = FileOptions(
+            load_options_of(self.arguments, self.input_options, policy, self.profiles), policy, self.passes
+        )
 
     def of(self, name: str) -> FileOptions:
         """The options for the file of this name.

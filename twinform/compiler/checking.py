@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING
 
 from twinform.compiler.input.limits import LARGEST, MOST_TAGS, Limits
 from twinform.compiler.input.loading import read
-from twinform.compiler.input.options import Input, LoadOptions, LoadResult
+from twinform.compiler.input.options import Input, LoadOptions, LoadResult, profiles_of
 from twinform.compiler.inspection import inspect
 from twinform.compiler.search.uris import SearchPath
 from twinform.schemas import Engine
 
 if TYPE_CHECKING:
     from twinform.passes import Pipeline
+    from twinform.profiles import Profile
 
 
 def check(
@@ -29,6 +30,7 @@ def check(
     expand_includes: bool = False,
     allow: Iterable[str] = (),
     passes: "str | Pipeline | None" = None,
+    profiles: "str | Iterable[Profile]" = (),
 ) -> LoadResult:
     """Read a file, the bytes of one or a document, and say everything that is wrong with it.
 
@@ -37,7 +39,8 @@ def check(
     and where it is false all are refused. The files that includes name are read only where `expand_includes` asks for
     it. `passes` are run on a model without errors, for what they find. Files of more than `max_size` bytes or
     `max_tags` tags are refused. Findings of the rules in `allow` are left out, as are those that comments in the files
-    allow; they are `allowed` in the result.
+    allow; they are `allowed` in the result. `profiles` are those of the consumers of the model, or their names
+    with commas between.
 
     Raises:
         ReadOnlyPassError: a pass would change the model.
@@ -46,7 +49,15 @@ def check(
     """
     limits, rules = Limits(max_size, max_tags), frozenset(allow)
     load_options = LoadOptions(
-        strict, engine, SearchPath.of(paths), arguments or {}, xacro, limits, allow=rules, tolerant=True
+        strict,
+        engine,
+        SearchPath.of(paths),
+        arguments or {},
+        xacro,
+        limits,
+        allow=rules,
+        tolerant=True,
+        profiles=profiles_of(profiles),
     )
     if isinstance(passes, str):
         from twinform.passes import parse_pipeline  # noqa: PLC0415 - most checks have no passes

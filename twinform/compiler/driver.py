@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from twinform.compiler.errors import CompileError
 from twinform.compiler.input.allowances import staying
@@ -17,6 +18,7 @@ from twinform.compiler.input.loading import (
     read,
     read_tree_again,
 )
+from twinform.compiler.input.options import profiles_of
 from twinform.compiler.output.comments import Comments
 from twinform.compiler.output.emitting import emit, emit_legal
 from twinform.compiler.request import ConversionRequest, Language, UrdfVersion
@@ -30,6 +32,9 @@ from twinform.passes import Pass, PassError, PassInstrumentation, Pipeline
 from twinform.passes.analyses.candidates import candidates, name_once_expanded, wanted_includes
 from twinform.passes.sdf_versions import has_early_frames
 from twinform.schemas import Engine, XmlElement, versions_of
+
+if TYPE_CHECKING:
+    from twinform.profiles import Profile
 
 
 @dataclass(frozen=True)  # no slots: `source` is kept in the dictionary
@@ -99,12 +104,16 @@ def convert(
     expand_includes: bool = False,
     comments: bool = True,
     allow: Iterable[str] = (),
+    profiles: "str | Iterable[Profile]" = (),
+    keep_physics: bool = False,
     instrumentation: PassInstrumentation | None = None,
 ) -> Conversion:
     """Compile a file, the bytes of one or a document into the target's format; `instrumentation` sees each pass.
 
     `paths`, `arguments`, `xacro`, `max_size`, `max_tags` and `allow` are those of `check`. URDF has no includes: for
-    it, those in the model are always expanded. `comments` are those of the source, which go along.
+    it, those in the model are always expanded. `comments` are those of the source, which go along. `profiles` are those
+    of the consumers of the result, or their names with commas between: passes that help them run too, none that changes
+    the physics where `keep_physics` is true.
 
     Raises:
         CompileError: the source, a pass or the result has an error.
@@ -121,10 +130,19 @@ def convert(
         model=model,
         expand_includes=expand_includes,
         comments=comments,
+        keep_physics=keep_physics,
     )
     limits, rules = Limits(max_size, max_tags), frozenset(allow)
     load_options = LoadOptions(
-        strict, engine, SearchPath.of(paths), arguments or {}, xacro, limits, allow=rules, tolerant=True
+        strict,
+        engine,
+        SearchPath.of(paths),
+        arguments or {},
+        xacro,
+        limits,
+        allow=rules,
+        tolerant=True,
+        profiles=profiles_of(profiles),
     )
     return run_conversion(request, source, load_options, name=name, instrumentation=instrumentation)
 
@@ -138,6 +156,26 @@ def run_conversion(
     instrumentation: PassInstrumentation | None = None,
 ) -> Conversion:
     """`convert`, with all that is asked for in one place.
+
+    Raises:
+        CompileError: the source, a pass or the result has an error, or a consumer would refuse the result.
+    """
+    if load_options.profiles:
+        from twinform.compiler.fitting import convert_for_consumers  # noqa: PLC0415 - most results are for everybody
+
+        return convert_for_consumers(request, source, load_options, name=name, instrumentation=instrumentation)
+    return convert_once(request, source, load_options, name=name, instrumentation=instrumentation)
+
+
+def convert_once(
+    request: ConversionRequest,
+    source: Input,
+    load_options: LoadOptions,
+    *,
+    name: str = "",
+    instrumentation: PassInstrumentation | None = None,
+) -> Conversion:
+    """A conversion with the passes of the request, whoever the result is for.
 
     Raises:
         CompileError: the source, a pass or the result has an error.
@@ -154,7 +192,7 @@ def run_conversion(
             loaded = expand(loaded, load_options, wanted=wanted, carriers=request.carriers)
             request = replace(request, model=name_once_expanded(before, loaded.document, request.model))
         request = replace(request, mixed=has_mixed_words(loaded))
-        if loaded.document is None or not (loaded.accepted or (request.passes and _may_be_mended(loaded))):
+        if loaded.document is None or not (loaded.accepted or _may_be_mended(loaded, request)):
             raise CompileError(loaded.diagnostics, unreadable=loaded.unreadable)
         try:
             return _run(loaded, loaded.document, request, load_options, instrumentation=instrumentation)
@@ -231,6 +269,7 @@ def _run(
     )
     passes = _with_files(request, load_options, loaded.path)
     changed = passes.run(document, sink, instrumentation=instrumentation, verify=verify if loaded.accepted else None)
+    changed = _remedied(changed, request, sink, instrumentation, accepted=loaded.accepted)
     if not loaded.accepted:
         verify(changed, sink)
     text = ""
@@ -244,6 +283,28 @@ def _run(
     ledger = Ledger(max(0, loaded.size - lost), sink.traced_entries())
     origin = loaded.tree if loaded.content is None else loaded.content
     return Conversion(text, document, tuple(sink.diagnostics), ledger, origin, tuple(sink.side_files))
+
+
+def _remedied(
+    document: Document,
+    request: ConversionRequest,
+    sink: DiagnosticSink,
+    instrumentation: PassInstrumentation | None,
+    *,
+    accepted: bool,
+) -> Document:
+    """The document after the passes that consumers need; what these change in its physics is in the ledger."""
+    if not request.remedies:
+        return document
+    from twinform.profiles.physics import physics_changes  # noqa: PLC0415 - see `run_conversion`
+
+    for step in request.remedies.with_files(request.assets):
+        before = document
+        document = Pipeline((step,)).run(
+            before, sink, instrumentation=instrumentation, verify=verify if accepted else None
+        )
+        sink.entries.extend(physics_changes(before, document, step.name))
+    return document
 
 
 def _comments(loaded: LoadResult, document: Document, request: ConversionRequest) -> Comments | None:
@@ -290,10 +351,14 @@ def written(
     return emit_legal(document, legal, sink, instrumentation, fit=fit, kept=kept, comments=comments)
 
 
-def _may_be_mended(loaded: LoadResult) -> bool:
-    """Whether nothing is wrong but what a pass can put right: limits that are missing."""
+def _may_be_mended(loaded: LoadResult, request: ConversionRequest) -> bool:
+    """Whether nothing is wrong but what a pass can put right: limits that are missing, and what remedies are for."""
+    if not (request.passes or request.remedies):
+        return False
     errors = [each for each in loaded.diagnostics if each.is_error]
     return all(
-        each.rule is MISSING_LIMIT or (each.rule is MISSING_ATTRIBUTE and each.location.path.endswith("/limit"))
+        each.rule is MISSING_LIMIT
+        or (each.rule is MISSING_ATTRIBUTE and each.location.path.endswith("/limit"))
+        or each.rule.name in request.mends
         for each in errors
     )

@@ -21,7 +21,8 @@ class ConversionRequest:
     """What a conversion is asked for; `passes` are the user's, and `assets` the files beside the source.
 
     `mixed` means that the source has elements that its version does not have; `comments` that those of the source go
-    along.
+    along. `remedies` are the passes that consumers need, `mends` the
+    rules of errors that these put right, and with `keep_physics` none of these may change the physics.
     """
 
     to: Language
@@ -33,11 +34,14 @@ class ConversionRequest:
     expand_includes: bool = False
     mixed: bool = False
     comments: bool = True
+    remedies: Pipeline = field(default_factory=Pipeline)
+    mends: frozenset[str] = frozenset()
+    keep_physics: bool = False
     assets: Assets = field(default=NO_ASSETS, compare=False, repr=False)
 
     def plan(self, source: Document) -> Pipeline:
         """Every pass that a conversion of this document runs, in order: the user's, then those of the target."""
-        return Pipeline((*self.passes, *self.selection(source), *self.legalisation(source)))
+        return Pipeline((*self.passes, *self.remedies, *self.selection(source), *self.legalisation(source)))
 
     def selection(self, source: Document) -> Pipeline:
         """What takes the model that is asked for out of a file, where the way to the target does not begin so."""

@@ -4,7 +4,7 @@ from twinform.diagnostics.catalog import catalog
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.did_you_mean import did_you_mean, meant_name, nearest_name
 from twinform.diagnostics.fix import Fix, Safety
-from twinform.diagnostics.ledger import Entry, Fate, Ledger
+from twinform.diagnostics.ledger import Entry, Fate, Ledger, PhysicsChange, ValueChange
 from twinform.diagnostics.location import NOWHERE, Location, Origins, Source
 from twinform.diagnostics.policy import Policy
 from twinform.diagnostics.rule import Rule, Severity
@@ -21,6 +21,7 @@ __all__ = [
     "Ledger",
     "Location",
     "Origins",
+    "PhysicsChange",
     "Policy",
     "Rule",
     "Safety",
@@ -29,6 +30,7 @@ __all__ = [
     "Source",
     "Span",
     "TextEdit",
+    "ValueChange",
     "catalog",
     "did_you_mean",
     "meant_name",

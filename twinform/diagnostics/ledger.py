@@ -1,8 +1,10 @@
 """The ledger: what a conversion could not express exactly in the target format, and what became of it."""
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import NamedTuple, cast
 
 from twinform.diagnostics.location import NOWHERE, Location
 from twinform.diagnostics.rule import Rule
@@ -16,15 +18,37 @@ class Fate(StrEnum):
     DROPPED = "dropped"
 
 
+class ValueChange(NamedTuple):
+    """A value that a pass changed: its path in the JSON of its part, and None where there was or is none."""
+
+    path: str
+    was: object
+    now: object
+
+
+@dataclass(frozen=True, slots=True)
+class PhysicsChange:
+    """What a pass changed in a part, `link` or `joint`, by its name with those of the models around it."""
+
+    step: str
+    part: str
+    name: str
+    values: tuple[ValueChange, ...]
+
+
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One piece of the source and its fate. `weight` counts the elements and attributes that the piece stands for."""
+    """One piece of the source and its fate. `weight` counts the elements and attributes that the piece stands for.
+
+    `change` is there where a pass changed the physics for the sake of a consumer.
+    """
 
     fate: Fate
     rule: Rule
     message: str
     location: Location = NOWHERE
     weight: int = 1
+    change: PhysicsChange | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,4 +78,19 @@ def _rows(entries: Iterable[Entry]) -> Iterable[dict[str, object]]:
             "rule": entry.rule.name,
             "message": entry.message,
             "weight": entry.weight,
+            **({"change": _change(entry.change)} if entry.change else {}),
         }
+
+
+def _change(change: PhysicsChange) -> dict[str, object]:
+    values = [{"path": each.path, "was": _plain(each.was), "now": _plain(each.now)} for each in change.values]
+    return {"pass": change.step, "part": change.part, "name": change.name, "values": values}
+
+
+def _plain(value: object) -> object:
+    """A value as JSON has it; what it has no number for is a text."""
+    if isinstance(value, tuple):
+        return [_plain(each) for each in cast("tuple[object, ...]", value)]
+    if isinstance(value, float) and not math.isfinite(value):
+        return str(value)
+    return value if value is None or isinstance(value, (bool, int, float, str)) else str(value)

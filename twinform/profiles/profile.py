@@ -85,8 +85,13 @@ class _Table(BaseModel):
     seen: str = ""
     tested: bool = True
     reads: str = ""
+    sdf: str = ""
     releases: dict[str, str] = {}
+    """Its releases, oldest first, with the newest version of SDF that each reads."""
+
     release: str = ""
+    """The release that is meant where none is named."""
+
     row: tuple[Row, ...] = ()
 
 
@@ -95,7 +100,8 @@ class Profile:
     """A consumer, perhaps in one of its releases, and the rows that hold for it.
 
     `seen` is the version that was asked, empty where it was not `tested` but read in sources and documentation.
-    `reads` is the table in `data/reads/` of what it reads of URDF, where there is one.
+    `reads` is the table in `data/reads/` of what it reads of URDF, where there is one, and `sdf` the newest version of
+    SDF that it reads, empty where that does not matter. It is `named` where somebody asks for it and not for all.
     """
 
     name: str
@@ -107,6 +113,8 @@ class Profile:
     release: str
     rows: tuple[Row, ...]
     reads: str = ""
+    sdf: str = ""
+    named: bool = True
 
     @property
     def label(self) -> str:
@@ -138,7 +146,7 @@ def load(text: str) -> tuple[Profile, ...]:
         if release:
             raise UnknownProfileError(f"{PORTABLE!r} has no releases")
         every = [_read(each) for each in names() if each != PORTABLE]
-        return tuple(_of_release(each_name, table, "") for each_name, table in every if table.tested)
+        return tuple(_of_release(each_name, table, "", named=False) for each_name, table in every if table.tested)
     return (_of_release(*_read(name), release),)
 
 
@@ -163,14 +171,16 @@ def _read(name: str) -> tuple[str, _Table]:
         raise ProfileError(f"{name}.toml: {error}") from error
 
 
-def _of_release(name: str, table: _Table, release: str) -> Profile:
+def _of_release(name: str, table: _Table, release: str, *, named: bool = True) -> Profile:
     known = list(table.releases)
     if release and release not in known:
         advice = did_you_mean(release, known) or f"there are {', '.join(known)}" if known else "it has no releases"
         raise UnknownProfileError(f"{name!r} has no release {release!r}; {advice}")
     chosen = release or table.release
     rows = tuple(row for row in table.row if _holds(row, chosen, known))
-    return Profile(name, table.title, table.about, table.formats, table.seen, table.tested, chosen, rows, table.reads)
+    sdf = table.releases.get(chosen, table.sdf)
+    about = (table.title, table.about, table.formats, table.seen, table.tested)
+    return Profile(name, *about, chosen, rows, table.reads, sdf, named)
 
 
 def _holds(row: Row, release: str, known: list[str]) -> bool:

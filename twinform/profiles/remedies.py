@@ -1,10 +1,11 @@
 """Remedies: the passes that make a model acceptable to its consumers, in the one order in which they run."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from twinform.passes import Pass, Pipeline, parse_pipeline
-from twinform.profiles.assessment import Assessment
+from twinform.ir import Format
+from twinform.passes import Pass, parse_pipeline
+from twinform.profiles.assessment import Assessment, Judgment
 
 
 class Remedy(NamedTuple):
@@ -25,15 +26,25 @@ _ORDER = {remedy.name: number for number, remedy in enumerate(REMEDIES)}
 _PHYSICS = frozenset(remedy.name for remedy in REMEDIES if remedy.physics)
 
 
-def remedies(assessments: Iterable[Assessment]) -> Pipeline:
-    """The passes that help with what was found, each once, in order."""
-    wanted = dict.fromkeys(
-        judgment.row.pipeline for each in assessments for judgment in each.judgments if judgment.row.pipeline
-    )
-    steps = {str(Pipeline((step,))): step for text in wanted for step in parse_pipeline(text)}
-    return Pipeline(tuple(sorted(steps.values(), key=lambda step: _ORDER[step.name])))
+def remedies(assessments: Iterable[Assessment], to: Format | None = None) -> tuple[Pass, ...]:
+    """The passes that help with what was found, each once, in order; those for another target are left out."""
+    wanted = dict.fromkeys(text for each in assessments for text in _pipelines(each.judgments, to))
+    return in_order(step for text in wanted for step in parse_pipeline(text))
+
+
+def in_order(steps: Iterable[Pass]) -> tuple[Pass, ...]:
+    """The passes in the order in which they run, each once."""
+    unlike = {str(step): step for step in steps}
+    return tuple(sorted(unlike.values(), key=lambda step: _ORDER[step.name]))
 
 
 def changes_physics(step: Pass) -> bool:
     """Whether a pass of a profile changes masses, inertias, joints or limits."""
     return step.name in _PHYSICS
+
+
+def _pipelines(judgments: Iterable[Judgment], to: Format | None) -> Iterator[str]:
+    for judgment in judgments:
+        row = judgment.row
+        if row.pipeline and (row.to is None or to is None or row.to is to):
+            yield row.pipeline

@@ -9,11 +9,13 @@ from twinform.cli.batch.models import ModelOptions, model_options, models
 from twinform.cli.batch.running import RunOptions, run_and_end, run_options
 from twinform.cli.command import Command
 from twinform.cli.completion import pipelines
+from twinform.cli.consumers import consumers_option
 from twinform.cli.inputs import InputOptions, load_options_of, reading_options
 from twinform.cli.policy import policy_of, policy_options
 from twinform.cli.request import pipeline_option
 from twinform.compiler.batch import Batch, Check
 from twinform.passes import Pipeline
+from twinform.profiles import Profile
 
 EXAMPLES = {
     "Check a folder of models": "twinform batch check models --report findings.jsonl",
@@ -30,6 +32,7 @@ EXAMPLES = {
     shell_complete=pipelines,
     help="Passes that only look, such as 'check-inertia,check-limits', or @NAME for one that the configuration names.",
 )
+@consumers_option
 @model_options
 @run_options
 @policy_options
@@ -40,6 +43,7 @@ def command(
     source: Path,
     *,
     check_passes: Pipeline,
+    profiles: tuple[Profile, ...],
     expand_includes: bool,
     allow: tuple[str, ...],
     deny: tuple[str, ...],
@@ -58,7 +62,7 @@ def command(
             source=found.folder,
             entries=found.entries,
             job=job,
-            load_options=load_options_of({}, cast("InputOptions", rest), policy),
+            load_options=load_options_of({}, cast("InputOptions", rest), policy, profiles),
             shard=rest["shard"],
             seconds=options["timeout"],
             shown=found.shown,

@@ -1,5 +1,6 @@
 """`twinform batch convert`."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Literal, cast
 
@@ -8,10 +9,12 @@ import click
 from twinform.cli.batch.models import ModelOptions, model_options, models
 from twinform.cli.batch.running import RunOptions, run_and_end, run_options
 from twinform.cli.command import Command
+from twinform.cli.consumers import consumers_option, keep_physics_option
 from twinform.cli.inputs import load_options_of, reading_options
 from twinform.cli.policy import policy_of, policy_options
 from twinform.cli.request import Asked, ordering_options, request_of
 from twinform.compiler.batch import Batch, Convert
+from twinform.profiles import Profile
 
 EXAMPLES = {
     "Convert a folder of models, with four processes": "twinform batch convert models out --to sdf --jobs 4",
@@ -23,6 +26,8 @@ EXAMPLES = {
 @click.argument("source", metavar="SRC", type=click.Path(path_type=Path))
 @click.argument("dest", metavar="DEST", type=click.Path(path_type=Path))
 @click.option("--to", "target", type=click.Choice(["sdf", "urdf"]), required=True, help="The format.")
+@consumers_option
+@keep_physics_option
 @ordering_options
 @click.option(
     "--split", is_flag=True, help="Write each world into a folder: its models, and an SDF that includes them."
@@ -40,6 +45,8 @@ def command(
     dest: Path,
     target: Literal["sdf", "urdf"],
     *,
+    profiles: tuple[Profile, ...],
+    keep_physics: bool,
     split: bool,
     ledgers: bool,
     fresh: bool,
@@ -57,13 +64,14 @@ def command(
     asked, options = cast("Asked", rest), cast("RunOptions", rest)
     asked["sdf_version"] = asked["sdf_version"] if target == "sdf" else None
     policy = policy_of(ctx, allow, deny)
-    job = Convert(to=request_of(asked, target), policy=policy, split=split, ledgers=ledgers)
+    request = replace(request_of(asked, target), keep_physics=keep_physics)
+    job = Convert(to=request, policy=policy, split=split, ledgers=ledgers)
     with models(source, cast("ModelOptions", rest), dest) as found:
         whole = Batch(
             source=found.folder,
             entries=found.entries,
             job=job,
-            load_options=load_options_of({}, asked, policy),
+            load_options=load_options_of({}, asked, policy, profiles),
             dest=dest,
             shard=rest["shard"],
             seconds=options["timeout"],

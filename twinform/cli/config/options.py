@@ -191,4 +191,5 @@ def _load(ctx: click.Context, _option: click.Parameter, value: Path | None) -> N
         per_file=_per_file(path, settings),
     )
     given = {name: getattr(settings, name) for name in _DEFAULTS} | dict(settings.format)
+    given["profiles"] = ",".join(settings.profiles) or None
     ctx.default_map = {name: value for name, value in given.items() if value is not None}

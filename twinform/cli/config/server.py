@@ -9,8 +9,10 @@ from twinform.cli.config.per_file import NO_OWN_SETTINGS, OwnSettings, PerFile, 
 from twinform.cli.config.settings import Settings as ProjectSettings
 from twinform.cli.config.settings import parse_settings
 from twinform.cli.config.trust import require_inside
+from twinform.compiler.input.options import profiles_of
 from twinform.compiler.search.uris import SearchPath
 from twinform.diagnostics import Policy
+from twinform.profiles import Profile
 from twinform.server.settings import Settings
 
 
@@ -43,6 +45,7 @@ def _settings(project: ProjectSettings, own: OwnSettings) -> Settings:
         search=SearchPath.of(project.paths),
         arguments=own.arguments,
         allow=policy.allow,
+        profiles=_profiles(project),
     )
     wanted, layout = project.format, usual.layout
     if wanted.indent is not None:
@@ -54,3 +57,9 @@ def _settings(project: ProjectSettings, own: OwnSettings) -> Settings:
         load_options=load_options,
         policy=policy,
     )
+
+
+def _profiles(project: ProjectSettings) -> tuple[Profile, ...]:
+    """Those of the consumers that the project is for; a format that one does not read is not for it."""
+    found = profiles_of(",".join(project.profiles)) if project.profiles else ()
+    return tuple(replace(each, named=False) for each in found)

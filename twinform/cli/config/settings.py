@@ -65,6 +65,19 @@ class Settings(BaseModel):
     extend_exclude: list[str] = Field(default_factory=list[str])
     baseline: str | None = None
     files: list[FileSettings] = Field(default_factory=list[FileSettings])
+    profiles: list[str] = Field(default_factory=list[str], alias="for")
+
+    @field_validator("profiles")
+    @classmethod
+    def _are_profiles(cls, names: list[str]) -> list[str]:
+        if names:
+            from twinform.profiles import UnknownProfileError, parse  # noqa: PLC0415 - most projects have none
+
+            try:
+                parse(",".join(names))
+            except UnknownProfileError as error:
+                raise ValueError(str(error)) from error
+        return names
 
     @field_validator("sdf_version")
     @classmethod

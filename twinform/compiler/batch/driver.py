@@ -63,6 +63,7 @@ class Batch:
         search = load_options.search
         folders = (search.own, search.models, search.packages, search.workspaces, search.fuel)
         asked += [list(map(str, each)) for each in folders]
+        asked += [[each.label, each.name] for each in load_options.profiles]
         asked += [sorted(load_options.arguments.items()), [_version(name) for name in _READERS], self.job.request]
         return digest(json.dumps(asked).encode())
 

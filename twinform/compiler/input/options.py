@@ -1,8 +1,9 @@
 """`LoadOptions` and `LoadResult`: how a file is read, and what was found in it."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from twinform.compiler.input.allowances import Allowances
 from twinform.compiler.input.limits import USUAL_LIMITS, Limits
@@ -10,6 +11,9 @@ from twinform.compiler.search.uris import SearchPath
 from twinform.diagnostics import Diagnostic, Entry, Origins
 from twinform.ir import Document, count_parts
 from twinform.schemas import Engine, XmlElement
+
+if TYPE_CHECKING:
+    from twinform.profiles import Profile
 
 Input = str | Path | bytes | Document
 """What is read: the path of a file, the bytes of one, or a document that was read or made."""
@@ -23,6 +27,7 @@ class LoadOptions:
     those whose name ends so, all where it is true, and none where it is false. `limits` say how large files may be.
     Without `keep_tree` the result has no tree, which needs more memory than the document. Findings of the rules in
     `allow` are left out, as are those that comments in the files allow; errors too where the caller is `tolerant`.
+    `profiles` are those of the consumers that the files are for.
     """
 
     strict: bool = False
@@ -34,6 +39,7 @@ class LoadOptions:
     keep_tree: bool = True
     allow: frozenset[str] = frozenset()
     tolerant: bool = False
+    profiles: "tuple[Profile, ...]" = ()
 
     def allowances(self, file: str, origins: Mapping[str, Origins] | None = None) -> Allowances:
         """What may be left out of the findings about a file."""
@@ -102,3 +108,16 @@ def name_of_input(source: Input) -> str:
     if isinstance(source, Document):
         return source.location.file or "<document>"
     return "<bytes>" if isinstance(source, bytes) else str(source)
+
+
+def profiles_of(profiles: "str | Iterable[Profile]") -> "tuple[Profile, ...]":
+    """The profiles of consumers, or those of their names.
+
+    Raises:
+        UnknownProfileError: there is none of such a name.
+    """
+    if not isinstance(profiles, str):
+        return tuple(profiles)
+    from twinform.profiles import parse  # noqa: PLC0415 - most models are for everybody
+
+    return parse(profiles)

@@ -48,6 +48,11 @@ def inspect(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline | N
         found = DiagnosticSink(file, load_options.strict)
         run_read_only(document, passes, found, Path(loaded.path), load_options)
         whole.extend_new(_placed(found, loaded))
+    if load_options.profiles:
+        # few files are for certain consumers
+        from twinform.compiler.inspection.consumers import report_for_consumers  # noqa: PLC0415 - see above
+
+        report_for_consumers(loaded, load_options, whole)
     if loaded.allowances:
         loaded.allowances.checked = True
         loaded.allowances.settle(whole)

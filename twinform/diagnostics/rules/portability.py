@@ -2,6 +2,32 @@
 
 from twinform.diagnostics.rule import Rule, Severity
 
+UNREAD_FORMAT = Rule(
+    name="unread-format",
+    severity=Severity.WARNING,
+    finds="A file in a format that a consumer does not read at all.",
+    matters="MuJoCo, Pinocchio and ROS read URDF alone.",
+    example="`twinform check --for mujoco robot.sdf`",
+    better="Convert it: `twinform convert robot.sdf --to urdf --for mujoco`.",
+)
+CHANGED_PHYSICS = Rule(
+    name="changed-physics",
+    severity=Severity.INFO,
+    finds="A link or joint whose physics a pass has changed for the sake of a consumer (`--for`).",
+    matters="It is in the ledger, value by value: masses, inertias, limits, shapes of collisions. An engine that took "
+    "the model as it was computes another motion now.",
+    example="`link 'tip' (split-massless): inertial/mass was not written, is 0.001`",
+    better="Write the right values yourself. `--keep-physics` refuses such changes.",
+)
+KEPT_PHYSICS = Rule(
+    name="kept-physics",
+    severity=Severity.ERROR,
+    finds="A thing that a consumer minds, and that only a pass that changes the physics could mend, under "
+    "`--keep-physics`.",
+    matters="The consumer would refuse the model, or read another one.",
+    example="A moving link without mass, under `--for mujoco --keep-physics`.",
+    better="Write the right values yourself, or leave `--keep-physics` out.",
+)
 COLLADA_MESH = Rule(
     name="collada-mesh",
     severity=Severity.INFO,

@@ -32,7 +32,14 @@ class Convert:
         """The options that the outcome depends on."""
         to = self.to
         asked: list[object] = [to.to, to.sdf_version, to.urdf_version, to.carriers, str(to.passes), to.expand_includes]
-        asked += [to.comments, self.split, self.ledgers, sorted(self.policy.allow), sorted(self.policy.deny)]
+        asked += [
+            to.comments,
+            to.keep_physics,
+            self.split,
+            self.ledgers,
+            sorted(self.policy.allow),
+            sorted(self.policy.deny),
+        ]
         return ["convert", *asked, sorted(_packages(to))]
 
     def work(self, task: Task, content: bytes) -> Done:

@@ -1,0 +1,65 @@
+"""`twinform advise`."""
+
+from typing import Unpack
+
+import click
+
+from twinform.cli.command import Command
+from twinform.cli.completion import files
+from twinform.cli.failure import FINDINGS, UNUSABLE
+from twinform.cli.findings import show
+from twinform.cli.inputs import InputOptions, file_options, inputs, load_options_of
+from twinform.compiler import CompileError
+from twinform.compiler.advice import REPORTERS, advise
+from twinform.diagnostics.reporters import Findings
+from twinform.profiles import Profile, UnknownProfileError, load, names, parse
+from twinform.profiles.profile import PORTABLE
+
+EXAMPLES = {
+    "Which format, and who takes it?": "twinform advise robot.urdf",
+    "What would two of them lose?": "twinform advise robot.sdf --for drake,mujoco",
+    "The same for a program": "twinform advise robot.urdf --format json",
+}
+
+
+def _profiles(_ctx: click.Context, _option: click.Parameter, value: str | None) -> tuple[Profile, ...]:
+    """Those of the names, or all, those too that are not tested."""
+    if value is None:
+        return tuple(profile for name in names() if name != PORTABLE for profile in load(name))
+    try:
+        return parse(value)
+    except UnknownProfileError as error:
+        raise click.BadParameter(str(error)) from error
+
+
+@click.command("advise", cls=Command, examples=EXAMPLES)
+@click.argument("words", metavar="IN [NAME:=VALUE...]", nargs=-1, required=True, shell_complete=files)
+@click.option("--for", "profiles", metavar="NAME,...", callback=_profiles, help="Ask these consumers; else all.")
+@click.option("--model", metavar="NAME", help="The model to convert, where a file has several.")
+@click.option("--format", "style", type=click.Choice(list(REPORTERS)), default="text", help="How to print the advice.")
+@file_options
+@click.pass_context
+def command(
+    ctx: click.Context,
+    words: tuple[str, ...],
+    profiles: tuple[Profile, ...],
+    model: str | None,
+    style: str,
+    **input_options: Unpack[InputOptions],
+) -> None:
+    """Say which format to keep a robot in, and what each consumer makes of it.
+
+    The reasons are measured: the model is converted into the other format, and the profiles of all consumers are asked
+    about both. IN is a URDF, SDF, xacro or JSON file; - is standard input. Arguments of xacro are written NAME:=VALUE.
+    Exit code: 0 where there is advice, 1 where the file has errors, 2 where it could not be read.
+    """
+    sources, arguments = inputs(words)
+    if len(sources) != 1:
+        raise click.UsageError("advise takes one input")
+    source, load_options = sources[0], load_options_of(arguments, input_options)
+    try:
+        found = advise(source.content, profiles, load_options, name=source.name, model=model)
+    except CompileError as error:
+        show(Findings(source.name, error.diagnostics), notes=False, on_stderr=True)
+        ctx.exit(UNUSABLE if error.unreadable else FINDINGS)
+    click.echo(REPORTERS[style](found), nl=False)

@@ -1,0 +1,138 @@
+"""Conversions for consumers: finds the passes that make the result one that they take, and judges what was written.
+
+The result is what a consumer reads, so the result is judged: it is converted, assessed, and converted again with the
+passes that help, until no other pass does.
+"""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from twinform.compiler.driver import Conversion, convert_once
+from twinform.compiler.errors import CompileError
+from twinform.compiler.input.loading import read
+from twinform.compiler.input.options import Input, LoadOptions
+from twinform.compiler.inspection import inspect
+from twinform.compiler.inspection.consumers import subject_of, unread
+from twinform.compiler.output.emitting import located
+from twinform.compiler.request import ConversionRequest
+from twinform.diagnostics import Diagnostic, Severity
+from twinform.diagnostics.rules.portability import KEPT_PHYSICS
+from twinform.ir import Document, Format
+from twinform.passes import Pass, PassInstrumentation, Pipeline
+from twinform.profiles import Assessment, Judgment, Profile, Subject, assess, findings
+from twinform.profiles.remedies import changes_physics, in_order, remedies
+
+_ROUNDS = 5
+"""How often a conversion is begun again; each time a pass has brought something else to light."""
+
+
+def convert_for_consumers(
+    request: ConversionRequest,
+    source: Input,
+    load_options: LoadOptions,
+    *,
+    name: str = "",
+    instrumentation: PassInstrumentation | None = None,
+) -> Conversion:
+    """Convert for the consumers whose profiles the options have.
+
+    Raises:
+        CompileError: it cannot be converted, or a consumer would refuse the result.
+    """
+    request = fitted(request, source, load_options, name=name)
+    made = convert_once(request, source, load_options, name=name, instrumentation=instrumentation)
+    told = findings(assessed(made, load_options, name))
+    if any(each.is_error for each in told):
+        raise CompileError((*made.diagnostics, *told))
+    return replace(made, diagnostics=(*made.diagnostics, *told))
+
+
+def fitted(
+    request: ConversionRequest, source: Input, load_options: LoadOptions, *, name: str = ""
+) -> ConversionRequest:
+    """The request with the passes that help its consumers.
+
+    Raises:
+        CompileError: a consumer does not read the target, or needs what `keep_physics` forbids.
+    """
+    _require_readers(load_options.profiles, request, name)
+    request = replace(request, sdf_version=request.sdf_version or newest_sdf(load_options.profiles))
+    steps: tuple[Pass, ...] = ()
+    mends = frozenset(row.rule for each in load_options.profiles for row in each.rows if row.pipeline)
+    for _ in range(_ROUNDS):
+        request = replace(request, remedies=Pipeline(in_order(steps)), mends=mends)
+        found = _assessed_once(request, source, load_options, name)
+        more = [each for each in remedies(found, Format(request.to)) if each not in steps]
+        if request.keep_physics:
+            _require_kept(more, found)
+        if not more:
+            break
+        steps = (*steps, *more)
+    return request
+
+
+def newest_sdf(profiles: Iterable[Profile]) -> str | None:
+    """The newest version of SDF that all consumers read; None where none says."""
+    versions = [each.sdf for each in profiles if each.sdf]
+    return min(versions, key=lambda text: [int(part) for part in text.split(".")]) if versions else None
+
+
+def assessed(made: Conversion, load_options: LoadOptions, name: str) -> tuple[Assessment, ...]:
+    """What consumers make of the text of a conversion, read as they read it, at the lines of the source."""
+    plain = replace(load_options, profiles=(), xacro=False)
+    loaded = inspect(read(made.text.encode(), plain, name=name), plain)
+    found = assess(subject_of(loaded, plain), load_options.profiles)
+    placed: dict[int, Diagnostic] = {}
+    return tuple(_placed(each, made.document, placed) for each in found)
+
+
+def _placed(assessment: Assessment, document: Document, placed: dict[int, Diagnostic]) -> Assessment:
+    """The same at the lines of the source; what several consumers mind stays one finding."""
+    judgments: list[Judgment] = []
+    for judgment in assessment.judgments:
+        finding = judgment.finding
+        if id(finding) not in placed:
+            placed[id(finding)] = located(replace(finding, location=finding.location._replace(line=0)), document)
+        judgments.append(Judgment(judgment.row, placed[id(finding)]))
+    return replace(assessment, judgments=tuple(judgments))
+
+
+def _assessed_once(
+    request: ConversionRequest, source: Input, load_options: LoadOptions, name: str
+) -> tuple[Assessment, ...]:
+    """What consumers make of the result, or of the errors for which there is none yet."""
+    try:
+        return assessed(convert_once(request, source, load_options, name=name), load_options, name)
+    except CompileError as error:
+        subject = Subject(name, None, diagnostics=tuple(each for each in error.diagnostics if each.is_error))
+        found = assess(subject, load_options.profiles)
+        if not any(each.judgments for each in found):
+            raise
+        return found
+
+
+def _require_readers(profiles: Iterable[Profile], request: ConversionRequest, name: str) -> None:
+    """Raise where a consumer that was asked for does not read what is to be written."""
+    format_ = None if request.to == "json" else Format(request.to)
+    deaf = [unread(each, format_, name) for each in profiles if each.named and format_ not in each.formats]
+    if deaf:
+        raise CompileError(tuple(replace(each, severity=Severity.ERROR) for each in deaf))
+
+
+def _require_kept(steps: Iterable[Pass], found: Iterable[Assessment]) -> None:
+    """Raise where a pass is needed that changes the physics."""
+    refused = [
+        _forbidden(judgment.finding, step)
+        for step in steps
+        if changes_physics(step)
+        for each in found
+        for judgment in each.judgments
+        if step.name in judgment.row.pipeline
+    ]
+    if refused:
+        raise CompileError(tuple(dict.fromkeys(refused)))
+
+
+def _forbidden(finding: Diagnostic, step: Pass) -> Diagnostic:
+    message = f"{finding.message}; {step.name} would change the physics, which is to be kept"
+    return Diagnostic(KEPT_PHYSICS, message, finding.location, Severity.ERROR, finding.found, finding.expected)

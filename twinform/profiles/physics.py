@@ -1,0 +1,76 @@
+"""What a pass changed in the physics of a model, value by value: masses, inertias, joints, shapes that collide."""
+
+from collections.abc import Iterable, Iterator
+
+from twinform.diagnostics import Entry, Fate, Location, PhysicsChange, ValueChange
+from twinform.diagnostics.rules.portability import CHANGED_PHYSICS
+from twinform.ir import Document, Joint, Link, Model
+from twinform.ir.changes import changes
+
+Part = Link | Joint
+_NO_PHYSICS = frozenset({"name", "visuals", "sensors", "lights", "opaque", "plugins"})
+"""Fields of links and joints that no engine computes with."""
+_Key = tuple[str, str]
+
+
+def physics_changes(before: Document, after: Document, step: str) -> Iterator[Entry]:
+    """An entry of the ledger for each link and joint of which a pass, called `step`, changed the physics."""
+    if before is after:
+        return
+    old, new = dict(_parts(before)), dict(_parts(after))
+    for key in {**old, **new}:
+        values = tuple(_values(old.get(key), new.get(key)))
+        if values:
+            change, place = PhysicsChange(step, *key, values), _place(old.get(key), new.get(key))
+            written = sum(bool(each.path) and each.was is not None for each in values)
+            yield Entry(Fate.APPROXIMATED, CHANGED_PHYSICS, _message(change), place, written, change)
+
+
+def _parts(document: Document) -> Iterator[tuple[_Key, Part]]:
+    """Every link and joint, by its kind and its name with those of the models around it."""
+    for model in document.models:
+        yield from _inside(model, "")
+    for world in document.worlds:
+        for model in world.models:
+            yield from _inside(model, f"{world.name}::{model.name}::")
+
+
+def _inside(model: Model, scope: str) -> Iterator[tuple[_Key, Part]]:
+    for link in model.links:
+        yield ("link", scope + link.name), link
+    for joint in model.joints:
+        yield ("joint", scope + joint.name), joint
+    for nested in model.models:
+        yield from _inside(nested, f"{scope}{nested.name}::")
+
+
+def _values(old: Part | None, new: Part | None) -> Iterator[ValueChange]:
+    if old is None or new is None:
+        yield ValueChange("", None if old is None else "there", None if new is None else "there")
+        return
+    for each in changes(old, new):
+        path = each.path.removeprefix("/")
+        if not each.is_node and path.partition("/")[0].partition("[")[0] not in _NO_PHYSICS:
+            yield ValueChange(path, each.old, each.new)
+
+
+def _message(change: PhysicsChange) -> str:
+    told = "; ".join(_words(each) for each in change.values)
+    return f"{change.part} {change.name!r} ({change.step}): {told}"
+
+
+def _words(value: ValueChange) -> str:
+    if not value.path:
+        return "is gone" if value.now is None else "is new"
+    was = "was not written" if value.was is None else f"was {value.was}"
+    now = "is not written any more" if value.now is None else f"is {value.now}"
+    return f"{value.path} {was}, {now}"
+
+
+def _place(*parts: Part | None) -> Location:
+    return next(part.location for part in parts if part is not None)
+
+
+def of_ledger(entries: Iterable[Entry]) -> tuple[PhysicsChange, ...]:
+    """The changes of the physics that a ledger lists."""
+    return tuple(each.change for each in entries if each.change)
