@@ -61,3 +61,20 @@ PBR_TOO_OLD = Rule(
     better="Write a newer version first: `--sdf-version 1.9`, and run the pass on that.",
     references="SDF specification 1.6, `material/pbr`.",
 )
+
+TIDIED_MATERIAL = Rule(
+    name="tidied-material",
+    severity=Severity.INFO,
+    finds="A material of URDF that got a name, a name of its own, or its color, or that went because it has nothing.",
+    matters="Readers differ about materials without a name, with two colors, or that are defined nowhere.",
+    example="`tidy-materials` on `<material><color rgba='1 0 0 1'/></material>`.",
+    better="Give every material one name and one color, before it is used.",
+)
+REPLACED_SHAPE = Rule(
+    name="replaced-shape",
+    severity=Severity.INFO,
+    finds="A shape that most readers of URDF do not know, and that was made of those that they know, or left out.",
+    matters="URDF has boxes, cylinders, spheres and meshes; what else stands there, some readers refuse.",
+    example="`tidy-shapes` on `<capsule radius='0.1' length='0.4'/>`.",
+    better="Write the shapes of URDF, with sizes above zero.",
+)

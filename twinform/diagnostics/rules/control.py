@@ -76,3 +76,12 @@ TRANSMISSION_WITHOUT_JOINT = Rule(
     example="`<transmission name='hip_drive'><type>...</type><actuator name='hip_motor'/></transmission>`",
     better="Write `<joint name='...'>` with its hardware interface into it.",
 )
+
+TIDIED_TRANSMISSION = Rule(
+    name="tidied-transmission",
+    severity=Severity.INFO,
+    finds="A transmission that was completed, or left out because it has no joint of the robot or no actuator.",
+    matters="Drake and urdf_parser_py refuse the file for a transmission that lacks a type, a joint or an interface.",
+    example="`tidy-transmissions` on `<transmission name='t'><joint name='j'/><actuator name='m'/></transmission>`.",
+    better="Write `<type>`, a joint with a `<hardwareInterface>`, and an actuator.",
+)

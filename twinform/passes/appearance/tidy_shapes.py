@@ -1,0 +1,95 @@
+"""Keep to the shapes that every reader of URDF knows: boxes, cylinders, spheres and meshes."""
+
+import math
+from collections.abc import Iterator
+from typing import ClassVar, TypeVar
+
+from twinform.diagnostics import DiagnosticSink, Fate
+from twinform.diagnostics.rules.appearance import REPLACED_SHAPE
+from twinform.ir import Document, Format, Link, Pose, replace_fields, rewrite
+from twinform.ir.defaults import sizes
+from twinform.ir.geometry import Box, Capsule, Cylinder, Geometry, Mesh, Sphere
+from twinform.ir.transform import Transform
+from twinform.ir.visual import Collision, Visual
+from twinform.passes.framework.base import Pass
+from twinform.passes.transforms.nodes import unique_name
+
+Part = TypeVar("Part", Visual, Collision)
+_KNOWN = (Box, Cylinder, Sphere, Mesh)
+
+
+class TidyShapes(Pass):
+    """Make capsules of shapes that every reader of URDF knows, and leave out what is no shape.
+
+    Changes visuals and collisions of URDF:
+
+    1. a capsule becomes a cylinder and two spheres, which are the same together;
+    2. one without a geometry, with an empty one, or with a shape that is not of URDF (`<plane>`, `<ellipsoid>`) goes;
+    3. one with a size that is zero, negative or no number goes: nothing can be seen of it or touch it;
+    4. what stands in a geometry beside its shape goes.
+
+    Never touches: SDF, masses and inertias.
+    Diagnostics: `replaced-shape` for each; what goes has an entry of the ledger, *dropped*.
+    """
+
+    name = "tidy-shapes"
+    example: ClassVar[str] = "tidy-shapes"
+
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
+        """The document with tidy shapes."""
+        if document.format is not Format.URDF:
+            return document
+        return rewrite(document, Link, lambda link: _tidied(link, sink))
+
+
+def _tidied(link: Link, sink: DiagnosticSink) -> Link:
+    visuals, collisions = _parts(link, link.visuals, sink), _parts(link, link.collisions, sink)
+    return replace_fields(link, visuals=visuals, collisions=collisions)
+
+
+def _parts(link: Link, parts: tuple[Part, ...], sink: DiagnosticSink) -> tuple[Part, ...]:
+    names = {part.name for part in parts if part.name}
+    return tuple(made for part in parts for made in _made(link, part, names, sink))
+
+
+def _made(link: Link, part: Part, names: set[str], sink: DiagnosticSink) -> Iterator[Part]:
+    kind = type(part).__name__.lower()
+    geometry = part.geometry
+    shape = None if geometry is None else geometry.shape
+    if geometry is None or not isinstance(shape, (*_KNOWN, Capsule)):
+        _drop(part, f"a {kind} of link {link.name!r} has no shape that URDF knows", sink)
+    elif not isinstance(shape, Mesh) and not all(size > 0 and math.isfinite(size) for size in sizes(shape)):
+        _drop(part, f"a {kind} of link {link.name!r} has a size that is not above 0", sink)
+    elif isinstance(shape, Capsule):
+        message = f"a capsule of link {link.name!r} becomes a cylinder and two spheres"
+        sink.report(REPLACED_SHAPE, message, part.location)
+        yield from _of_capsule(part, shape, names)
+    elif geometry.opaque:
+        message = f"what is beside the shape of a {kind} of link {link.name!r} is left out"
+        sink.report(REPLACED_SHAPE, message, part.location)
+        sink.account(Fate.DROPPED, REPLACED_SHAPE, message, part.location)
+        yield replace_fields(part, geometry=geometry.model_copy(update={"opaque": ()}))
+    else:
+        yield part
+
+
+def _drop(part: Visual | Collision, message: str, sink: DiagnosticSink) -> None:
+    sink.report(REPLACED_SHAPE, f"{message}: it is left out", part.location)
+    sink.account(Fate.DROPPED, REPLACED_SHAPE, message, part.location)
+
+
+def _of_capsule(part: Part, shape: Capsule, names: set[str]) -> Iterator[Part]:
+    radius, length = sizes(shape)
+    yield replace_fields(part, geometry=Geometry(shape=Cylinder(radius=radius, length=length)))
+    for height in (length / 2, -length / 2):
+        name = None
+        if part.name:
+            name = unique_name(f"{part.name}_end", names)
+            names.add(name)
+        pose = _above(part.pose, height)
+        yield part.model_copy(update={"name": name, "pose": pose, "geometry": Geometry(shape=Sphere(radius=radius))})
+
+
+def _above(pose: Pose | None, height: float) -> Pose:
+    """A place along the z axis of another one."""
+    return Transform.from_pose(pose).compose(Transform((0.0, 0.0, height))).to_pose()
