@@ -17,6 +17,9 @@ class Remedy(NamedTuple):
 
 REMEDIES = (
     Remedy("replace-continuous", physics=False),
+    Remedy("drop-bare-scripts", physics=False),
+    Remedy("drop-flat-shapes", physics=True),
+    Remedy("order-limits", physics=True),
     Remedy("fill-limits", physics=True),
     Remedy("split-massless", physics=True),
     Remedy("balance-inertia", physics=True),
