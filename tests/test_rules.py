@@ -18,6 +18,8 @@ _PARTS = _CASES / "includes/parts"
 WITHOUT_CASE = {
     "automatic-inertia": "unit/passes/legalise/to_urdf/test_refusals.py",
     "bare-script": "portability/gazebo.toml",
+    "late-sensor": "portability/gazebo.toml",
+    "model-joint-end": "portability/gazebo.toml",
     "edit-conflict": "unit/cli/test_into.py",
     "flat-collision": "portability/gazebo.toml",
     "joint-type-unsupported": "unit/passes/legalise/to_urdf/test_refusals.py",

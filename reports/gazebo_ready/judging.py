@@ -25,6 +25,7 @@ ENGINES = (gazebo.PhysicsEngine.DART, gazebo.PhysicsEngine.BULLET)
 _MOVING = frozenset({"revolute", "continuous", "prismatic", "screw", "universal", "revolute2", "ball", "gearbox"})
 _ENGINES = ("rare-joint-type", "two-parents", "kinematic-loop")
 """Rules about what engines do with joints, before others that only have the name of the joint."""
+_FIRST_ALONE = ("several-at-top", "repeated-element: <model>")
 _LIGHT = 1e-6
 """Masses that differ by less than this part of them are the same: Bullet has single precision."""
 
@@ -103,13 +104,13 @@ def _converted(file: CorpusFile) -> Made:
 
 def _robot(text: bytes) -> Robot:
     """What is written in a text, by lxml alone; numbers that are none weigh nothing."""
-    root = etree.fromstring(text, etree.XMLParser(recover=True, huge_tree=True))
-    if root is None:
+    if not text.strip():
         return Robot(frozenset(), frozenset(), 0.0, frozenset())
+    root = etree.fromstring(text, etree.XMLParser(recover=True, huge_tree=True))
     for static in [each for each in root.iter("static") if (each.text or "").strip() in {"1", "true"}]:
         if (model := static.getparent()) is not None and (above := model.getparent()) is not None:
             above.remove(model)
-    for other in [each for each in root.iter("plugin") if each.getparent() is not None]:
+    for other in [each for each in root.iter() if _is_no_physics(each)]:
         other.clear()
     joints = (each.get("name", "") for each in root.iter("joint") if each.get("type") in _MOVING and len(each))
     links = [each for each in root.iter("link") if each.get("name")]
@@ -118,6 +119,12 @@ def _robot(text: bytes) -> Robot:
     names = frozenset(each.get("name", "") for each in links)
     mass = sum(_mass(each, default) for each in links)
     return Robot(frozenset(joints), names, mass, frozenset(each.get("name", "") for each in inside))
+
+
+def _is_no_physics(element: XmlElement) -> bool:
+    """Whether what is inside is no part of a robot: plugins, actors, states, and what is of another namespace."""
+    name = element.tag if isinstance(element.tag, str) else ""
+    return element.getparent() is not None and (name in {"plugin", "actor", "state"} or ":" in name or "{" in name)
 
 
 def _mass(link: XmlElement, default: float) -> float:
@@ -136,7 +143,7 @@ def _lost(name: str, made: Made) -> Iterator[Finding]:
     source, result = made.source, made.result
     if source is None or result is None:
         return
-    for joint in sorted(source.moving - result.moving):
+    for joint in sorted({_own(each) for each in source.moving} - {_own(each) for each in result.moving}):
         yield _finding(name, "", Fault.GONE, f"joint {joint}", made)
     if made.is_physics_kept and result.mass < source.mass * (1 - _LIGHT):
         yield _finding(name, "", Fault.LIGHTER, f"{source.mass:g} kg become {result.mass:g} kg", made)
@@ -168,8 +175,8 @@ def _own(name: str) -> str:
 
 
 def _finding(name: str, engine: str, fault: Fault, what: str, made: Made) -> Finding:
-    reason = KNOWN.why("known", file=name, engine=engine, fault=fault, what=what) or _reported(engine, fault, what, made)
-    return Finding(name, engine, fault, what, reason)
+    known = KNOWN.why("known", file=name, engine=engine, fault=fault, what=what)
+    return Finding(name, engine, fault, what, known or _reported(engine, fault, what, made))
 
 
 def _reported(engine: str, fault: Fault, what: str, made: Made) -> str:
@@ -179,6 +186,10 @@ def _reported(engine: str, fault: Fault, what: str, made: Made) -> str:
         nested = any(each.startswith("nested-in-engine") for each in made.told)
         if nested and (part is None or (made.result and part[1] in made.result.nested)):
             return "reported: nested-in-engine"
+    if fault in {Fault.DROPPED, Fault.LIGHTER} and any(each.startswith(_FIRST_ALONE) for each in made.told):
+        return "reported: several-at-top"
+    if fault is Fault.FROZEN and any(each.startswith("kinematic-loop") for each in made.told):
+        return "reported: kinematic-loop"
     if part is None or fault in {Fault.REFUSED, Fault.ENDED, Fault.LIGHTER}:
         return ""
     about = next((each for each in made.told if each.startswith(_ENGINES) and repr(part[1]) in each), "")

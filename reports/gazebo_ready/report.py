@@ -13,8 +13,8 @@ from tests.corpus.files import Kind
 from tests.corpus.files import models as corpus_files
 
 _ABOUT = f"""\
-Every URDF and SDF file of the corpus is converted with `convert --for {PROFILE} --to sdf`, without its meshes, loaded by
-libsdformat 12 into DART and Bullet of gz-physics 5, those of Gazebo Fortress, and stepped for
+Every URDF and SDF file of the corpus is converted with `convert --for {PROFILE} --to sdf`, without its meshes,
+loaded by libsdformat 12 into DART and Bullet of gz-physics 5, those of Gazebo Fortress, and stepped for
 {SETTINGS.steps * SETTINGS.dt:g} s with all joints at {SETTINGS.start:g} rad/s or m/s.
 
 Nothing may be refused, and no engine may end. A joint that moves in the source has to be in the result and to have a
@@ -68,7 +68,9 @@ def _causes(found: list[Finding]) -> str:
 
 
 def _refused(made: dict[str, Made]) -> str:
-    rules = grouped((one.told[0].partition(":")[0] if one.told else "", name) for name, one in made.items() if not one.path)
+    rules = grouped(
+        (one.told[0].partition(":")[0] if one.told else "", name) for name, one in made.items() if not one.path
+    )
     rows = [(rule, len(names), names[0]) for rule, names in sorted(rules.items(), key=lambda item: -len(item[1]))]
     return listing(["first error", "files", "for example"], rows)
 

@@ -44,11 +44,26 @@ THREADLESS_SCREW = Rule(
     example="`<thread_pitch>0</thread_pitch>`.",
     better="Give the screw a pitch, or make the joint revolute.",
 )
+LATE_SENSOR = Rule(
+    name="late-sensor",
+    severity=Severity.INFO,
+    finds="A sensor of a type that libsdformat 12 does not know.",
+    matters="Gazebo Fortress refuses the whole file.",
+    example="`<sensor name='pitot' type='air_speed'>` under `--for gazebo@fortress`.",
+    better="Leave the sensor out for Fortress: `drop{sensors=pitot}`.",
+)
+MODEL_JOINT_END = Rule(
+    name="model-joint-end",
+    severity=Severity.INFO,
+    finds="A joint with `__model__` as its parent or child: the frame of a model in place of a link.",
+    matters="libsdformat 12 does not find it and refuses the file.",
+    example="`<parent>__model__</parent>` under `--for gazebo@fortress`.",
+    better="Name the link that is meant.",
+)
 UNUSABLE_AXIS = Rule(
     name="unusable-axis",
     severity=Severity.INFO,
-    finds="An axis of SDF with a lower limit above the upper one, with a limit that is NaN, or with negative damping or "
-    "friction.",
+    finds="An axis of SDF with a lower limit above the upper one, a limit of NaN, or negative damping or friction.",
     matters="Gazebo ends with such an axis in DART.",
     example="`<limit><lower>1</lower><upper>-1</upper></limit>` under `--for gazebo`.",
     better="Write the limits that are meant; `order-limits` swaps them, and makes damping and friction zero.",

@@ -8,8 +8,8 @@ from twinform.diagnostics import Location
 from twinform.ir import Collision, Inertial, Link, Mesh, Model, Node, Pose, Shape, Visual
 from twinform.ir.bounds import Bounds, bounds, placed_bounds, united
 from twinform.ir.defaults import DENSITY, sizes
-from twinform.ir.geometry import Box, Capsule, Cone, Cylinder, Ellipsoid, Sphere
 from twinform.ir.frames import FrameGraph
+from twinform.ir.geometry import Box, Capsule, Cone, Cylinder, Ellipsoid, Sphere
 from twinform.ir.solids import ORIGIN, Solid, placed, solid, with_tensor
 from twinform.ir.transform import Transform
 from twinform.passes.analyses.meshes import MeshError, Meshes

@@ -8,22 +8,26 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules.portability_engines import (
     BARE_SCRIPT,
     FLAT_COLLISION,
+    LATE_SENSOR,
+    MODEL_JOINT_END,
     NESTED_IN_ENGINE,
     RARE_JOINT_TYPE,
     THREADLESS_SCREW,
     UNUSABLE_AXIS,
     WEIGHTLESS_MOVER,
 )
-from twinform.ir import Collision, Document, Format, Joint, Link, Material, Model, walk
+from twinform.ir import Collision, Document, Format, Joint, Link, Material, Model, Sensor, walk
 from twinform.ir.solids import written_solid
 from twinform.passes.analyses.moving_bodies import Body, moving_bodies
 from twinform.passes.analyses.shapes import is_flat
-from twinform.passes.limits.order_limits import is_usable
 from twinform.passes.appearance.drop_bare_scripts import is_bare
+from twinform.passes.limits.order_limits import is_usable
 
 if TYPE_CHECKING:
     from twinform.profiles.assessment import Subject
 
+_LATE_SENSORS = frozenset({"air_speed"})
+"""What SDF 1.9 has no sensor of."""
 _COMMON = frozenset({"revolute", "fixed"})
 """The types of joints that every engine has."""
 
@@ -40,6 +44,8 @@ def find_engine_faults(subject: "Subject", sink: DiagnosticSink) -> None:
             sink.report(FLAT_COLLISION, f"collision {node.name!r} has no extent", node.location)
         elif isinstance(node, Material) and node.script is not None and is_bare(node.script):
             sink.report(BARE_SCRIPT, "a material script has no name, or no URI", node.script.location)
+        elif isinstance(node, Sensor) and node.type in _LATE_SENSORS:
+            sink.report(LATE_SENSOR, f"sensor {node.name!r} is of type {node.type}", node.location)
         elif isinstance(node, Model):
             for nested in node.models:
                 message = f"model {nested.name!r} is in model {node.name!r}"
@@ -53,6 +59,8 @@ def find_engine_faults(subject: "Subject", sink: DiagnosticSink) -> None:
 def _find_in_joint(joint: Joint, sink: DiagnosticSink) -> None:
     if joint.type not in _COMMON:
         sink.report(RARE_JOINT_TYPE, f"joint {joint.name!r} is {joint.type}", joint.location.at("@type"))
+    if any((end or "").rpartition("::")[2] == "__model__" for end in (joint.parent, joint.child)):
+        sink.report(MODEL_JOINT_END, f"joint {joint.name!r} ends at the frame of a model", joint.location)
     for axis in (joint.axis, joint.axis2):
         if axis is not None and joint.type != "fixed" and not is_usable(axis):
             message = f"joint {joint.name!r} has limits, damping or friction that no axis has"

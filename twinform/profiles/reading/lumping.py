@@ -1,4 +1,4 @@
-"""Facts about the masses of a robot whose fixed links become one with what they are fixed to, as libsdformat makes it."""
+"""Facts about the masses of a robot whose links are put into those that they are fixed to, as libsdformat does."""
 
 import math
 import re
