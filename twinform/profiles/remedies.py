@@ -15,6 +15,10 @@ class Remedy(NamedTuple):
 
 
 REMEDIES = (
+    Remedy("drop-repeats", physics=False),
+    Remedy("tidy-materials", physics=False),
+    Remedy("tidy-shapes", physics=False),
+    Remedy("tidy-transmissions", physics=False),
     Remedy("replace-continuous", physics=False),
     Remedy("fill-limits", physics=True),
     Remedy("split-massless", physics=True),

@@ -15,6 +15,7 @@ BUILT_IN: Mapping[str, str] = {
     "check-limits": "limits.check_limits:CheckLimits",
     "check-plugins": "plugins.check_plugins:CheckPlugins",
     "drop": "structure.drop:Drop",
+    "drop-repeats": "structure.drop_repeats:DropRepeats",
     "fill-inertia": "inertia.fill_inertia:FillInertia",
     "fill-limits": "limits.fill_limits:FillLimits",
     "flatten-models": "structure.flatten_models:FlattenModels",
