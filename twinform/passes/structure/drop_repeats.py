@@ -25,8 +25,7 @@ _FIELDS = {"origin": "pose", "texture": "texture", "parent": "parent", "child": 
 class DropRepeats(Pass):
     """Leave out what is there twice: readers take the first, MuJoCo refuses the file.
 
-    Changes URDF: a second `<material>`, `<origin>`, `<geometry>`, `<limit>` and so on, of which there is one in its place,
-    goes.
+    Changes URDF: a second `<material>`, `<origin>`, `<geometry>`, `<limit>` and so on, beside one in its place, goes.
 
     Never touches: the first of them, elements of which there may be several, and SDF.
     Diagnostics: none of its own, as `repeated-element` is found when the file is read; each has an entry of the ledger,
