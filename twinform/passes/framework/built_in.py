@@ -17,6 +17,7 @@ BUILT_IN: Mapping[str, str] = {
     "drop": "structure.drop:Drop",
     "drop-bare-scripts": "appearance.drop_bare_scripts:DropBareScripts",
     "drop-flat-shapes": "appearance.drop_flat_shapes:DropFlatShapes",
+    "drop-repeats": "structure.drop_repeats:DropRepeats",
     "fill-inertia": "inertia.fill_inertia:FillInertia",
     "fill-limits": "limits.fill_limits:FillLimits",
     "flatten-models": "structure.flatten_models:FlattenModels",

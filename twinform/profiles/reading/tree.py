@@ -125,6 +125,13 @@ def _held_by_roots(root: Node, joints: list[Node]) -> set[str]:
     return held
 
 
+def _shared_names(root: Node) -> Fact:
+    links = set(_names(root.all("link")))
+    for joint in root.all("joint"):
+        if (name := joint.attributes.get("name", "")) in links and joint.attributes.get("type") != "fixed":
+            yield joint, f"a joint and a link are called {name!r}"
+
+
 def _free_below(root: Node) -> Fact:
     joints = list(root.all("joint"))
     held = _held_by_roots(root, joints)
@@ -344,6 +351,8 @@ FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "indefinite-inertia": bodies.indefinite,
     "unbalanced-inertia": bodies.unbalanced,
     "unphysical-inertia": bodies.unphysical,
+    "weightless-root": bodies.rootless,
+    "shared-name": _shared_names,
     "weightless-body": bodies.weightless,
     "reversed-limits": drives.reversed_limits,
     "equal-limits": drives.equal_limits,
