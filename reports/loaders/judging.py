@@ -17,6 +17,8 @@ from twinform.testing.oracles.readers.recalled import Recalled
 
 _MOVING = frozenset({"revolute", "continuous", "prismatic"})
 _LOSING = frozenset({Effect.DROPS, Effect.MISREADS})
+_WORLDLY = frozenset({"mujoco"})
+"""Loaders that count what stands still to the world, and so have less mass than the file."""
 _LIGHT = 1e-6
 """Masses that differ by less than this part of them are the same: some loaders keep single precision."""
 
@@ -96,16 +98,17 @@ def _difference(job: Job, loader: Loader, reading: Reading, assessment: Assessme
         return Difference.THEY_REMARK
     if verdict is Verdict.ACCEPTS and effects == {Effect.WARNS}:
         return Difference.WE_REMARK
-    if reading.kept is not None and not effects & _LOSING and not _is_whole(job.path, reading.kept):
+    if reading.kept is not None and not effects & _LOSING and not _is_whole(job.path, loader, reading.kept):
         return Difference.KEPT
     return None
 
 
-def _is_whole(path: Path, kept: Kept) -> bool:
+def _is_whole(path: Path, loader: Loader, kept: Kept) -> bool:
     """Whether all joints that move are there, and all of the mass where the file has one for every link."""
     if path.suffix != ".urdf":
         return True
     joints, mass = _contents(path)
+    mass = None if loader.profile in _WORLDLY else mass
     return joints <= set(kept.joints) and (mass is None or abs(kept.mass - mass) <= _LIGHT * abs(mass))
 
 

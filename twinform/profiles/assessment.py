@@ -7,7 +7,7 @@ from enum import StrEnum
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Rule
 from twinform.diagnostics.rules.portability import SHORTFALLS
 from twinform.ir import Document, Format
-from twinform.passes import NO_ASSETS, Assets
+from twinform.passes import NO_ASSETS, AssetError, Assets
 from twinform.profiles.detectors import DETECTORS
 from twinform.profiles.profile import Effect, Profile, Row
 from twinform.profiles.reading import Shortfall, read_as
@@ -109,11 +109,17 @@ class Shortfalls:
         """What one of them cannot read."""
         if not profile.reads or self._subject.content is None or self._subject.format is Format.SDF:
             return
-        for each in read_as(profile.reads, self._subject.content):
+        for each in read_as(profile.reads, self._subject.content, self._is_there):
             rule = SHORTFALLS[each.kind]
             words = {"rule": rule.name, "effect": each.effect, "about": each.about, "pass": each.pipeline}
             row = Row.model_validate(words)
             yield Judgment(row, self._finding(rule, each))
+
+    def _is_there(self, uri: str) -> bool:
+        try:
+            return self._subject.assets.find(uri).is_file()
+        except AssetError:
+            return False
 
     def _finding(self, rule: Rule, each: Shortfall) -> Diagnostic:
         place = Location(self._subject.path, each.line, f"/robot/{each.path}".rstrip("/"))

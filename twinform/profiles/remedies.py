@@ -16,7 +16,14 @@ class Remedy(NamedTuple):
 
 
 REMEDIES = (
+    Remedy("drop-repeats", physics=False),
+    Remedy("tidy-materials", physics=False),
+    Remedy("tidy-shapes", physics=False),
+    Remedy("tidy-transmissions", physics=False),
     Remedy("replace-continuous", physics=False),
+    Remedy("drop-bare-scripts", physics=False),
+    Remedy("drop-flat-shapes", physics=True),
+    Remedy("order-limits", physics=True),
     Remedy("fill-limits", physics=True),
     Remedy("split-massless", physics=True),
     Remedy("balance-inertia", physics=True),

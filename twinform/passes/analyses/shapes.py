@@ -1,18 +1,30 @@
 """Shapes of a link: their poses, masses and volumes."""
 
+import math
 from collections.abc import Iterator
 from typing import Literal, NamedTuple
 
 from twinform.diagnostics import Location
 from twinform.ir import Collision, Inertial, Link, Mesh, Model, Node, Pose, Shape, Visual
 from twinform.ir.bounds import Bounds, bounds, placed_bounds, united
-from twinform.ir.defaults import DENSITY
+from twinform.ir.defaults import DENSITY, sizes
 from twinform.ir.frames import FrameGraph
+from twinform.ir.geometry import Box, Capsule, Cone, Cylinder, Ellipsoid, Sphere
 from twinform.ir.solids import ORIGIN, Solid, placed, solid, with_tensor
 from twinform.ir.transform import Transform
 from twinform.passes.analyses.meshes import MeshError, Meshes
 
 Kind = Literal["collision", "visual", "either"]
+
+
+_EXTENDED = (Box, Capsule, Cone, Cylinder, Ellipsoid, Sphere)
+"""Shapes whose sizes are all above zero."""
+
+
+def is_flat(holder: Visual | Collision) -> bool:
+    """Whether a shape has a size that is zero, negative or no number; sizes that are not written are SDF's."""
+    shape = holder.geometry.shape if holder.geometry else None
+    return isinstance(shape, _EXTENDED) and not all(size > 0 and math.isfinite(size) for size in sizes(shape))
 
 
 class NoSolidError(Exception):

@@ -5,7 +5,7 @@ from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules.control import TIDIED_TRANSMISSION
-from twinform.ir import Document, Element, Format, Joint, Model, Opaque, replace_fields, rewrite
+from twinform.ir import Document, Element, Format, Model, Opaque, replace_fields, rewrite
 from twinform.passes.framework.base import Pass
 from twinform.passes.transforms.nodes import unique_name
 
@@ -41,7 +41,7 @@ class TidyTransmissions(Pass):
 
 
 def _tidied(model: Model, sink: DiagnosticSink) -> Iterator[Opaque]:
-    joints = {joint.name for joint in model.joints if isinstance(joint, Joint)}
+    joints = {joint.name for joint in model.joints}
     names, actuators = set[str](), set[str]()
     for part in model.opaque:
         if part.element is None or part.element.name != "transmission":

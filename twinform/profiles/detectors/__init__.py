@@ -4,7 +4,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 from twinform.diagnostics import DiagnosticSink, Rule
-from twinform.diagnostics.rules import portability
+from twinform.diagnostics.rules import portability, portability_engines
+from twinform.profiles.detectors.engines import find_engine_faults
 from twinform.profiles.detectors.meshes import find_mesh_formats
 
 if TYPE_CHECKING:
@@ -20,5 +21,21 @@ class Detector(NamedTuple):
     rules: tuple[Rule, ...]
 
 
-DETECTORS = (Detector(find_mesh_formats, (portability.COLLADA_MESH,)),)
+DETECTORS = (
+    Detector(find_mesh_formats, (portability.COLLADA_MESH,)),
+    Detector(
+        find_engine_faults,
+        (
+            portability_engines.BARE_SCRIPT,
+            portability_engines.FLAT_COLLISION,
+            portability_engines.LATE_SENSOR,
+            portability_engines.MODEL_JOINT_END,
+            portability_engines.NESTED_IN_ENGINE,
+            portability_engines.RARE_JOINT_TYPE,
+            portability_engines.THREADLESS_SCREW,
+            portability_engines.UNUSABLE_AXIS,
+            portability_engines.WEIGHTLESS_MOVER,
+        ),
+    ),
+)
 """All detectors."""

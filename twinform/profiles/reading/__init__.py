@@ -12,7 +12,7 @@ from twinform.profiles.reading.nodes import Node, UnparsedError
 from twinform.profiles.reading.notation import reads
 from twinform.profiles.reading.python_xml import parse_with_expat, parse_with_lxml
 from twinform.profiles.reading.tinyxml import TINYXML, TINYXML_2, in_lines, parse
-from twinform.profiles.reading.walking import Shortfall, shortfalls
+from twinform.profiles.reading.walking import IsThere, Shortfall, shortfalls
 
 __all__ = ["Shortfall", "read_as"]
 
@@ -24,7 +24,7 @@ _NOT_XML = "its XML parser does not read the file"
 _RECOVERED = "it reads as much of the file as it can"
 
 
-def read_as(consumer: str, content: bytes) -> Iterator[Shortfall]:
+def read_as(consumer: str, content: bytes, is_there: IsThere = lambda _: True) -> Iterator[Shortfall]:
     """What a consumer cannot read of a text, or needs and does not find in it."""
     table = reads(consumer)
     try:
@@ -38,7 +38,7 @@ def read_as(consumer: str, content: bytes) -> Iterator[Shortfall]:
     if root is None:
         yield Shortfall("text", "refuses", _NOT_XML, "there is no <robot>", top[0].line)
         return
-    yield from shortfalls(root, table)
+    yield from shortfalls(root, table, is_there)
 
 
 def _parsed(parser: str, content: bytes) -> tuple[list[Node], str]:

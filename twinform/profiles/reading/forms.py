@@ -82,6 +82,10 @@ def _long(text: str) -> bool:
     return not numbers or any(math.isnan(number) for number in numbers) or math.hypot(*numbers) >= _SHORTEST
 
 
+def _unreserved(text: str) -> bool:
+    return text != "world" and not (len(text) > 3 and text.startswith("__") and text.endswith("__"))
+
+
 def _finite(text: str) -> bool:
     return not _python(text) or math.isfinite(float(text))
 
@@ -142,6 +146,7 @@ FORMS: Mapping[str, tuple[str, Callable[[str], bool]]] = {
     "blank3": ("three numbers with blanks between them", lambda text: len(_pieces(text)) >= 3),
     "at-least-0": ("a number that is not negative", lambda text: not _stream(text) or float(text) >= 0),
     "streams1": ("one number such as 0.5 or 1e-3", lambda text: _streamed(text) == 1),
+    "streams1+": ("a number such as 0.5 or 1e-3", lambda text: _streamed(text) > 0),
     "streams3": ("three numbers", lambda text: _streamed(text) == 3),
     "streams4": ("four numbers", lambda text: _streamed(text) == 4),
     "strtod": ("a number such as 0.5 or 1e-3", lambda text: _strtods(text, 0, 1)),
@@ -149,6 +154,7 @@ FORMS: Mapping[str, tuple[str, Callable[[str], bool]]] = {
     "strtods3": ("three numbers", lambda text: _strtods(text, 0, 3)),
     "strtods3+": ("three numbers", lambda text: _strtods(text, 3)),
     "strtods4+": ("four numbers", lambda text: _strtods(text, 4)),
+    "zeros": ("0", lambda text: not any(_numbers(text))),
     "share": ("numbers from 0 to 1", lambda text: all(0 <= number <= 1 for number in _numbers(text))),
     "one": ("1", lambda text: text in {"", "1"}),
     "positive": ("more than 0", _positive),
@@ -157,6 +163,7 @@ FORMS: Mapping[str, tuple[str, Callable[[str], bool]]] = {
     "finites": ("finite numbers", lambda text: all(map(_finite, text.split()))),
     "printable": ("a short name in one line", lambda text: text.isprintable() and len(text) < _LONGEST_NAME),
     "strtods3?": ("three numbers", lambda text: not text or _strtods(text, 3)),
+    "unreserved": ("a name without two underscores at both ends, and not world", _unreserved),
     "unblank": ("a name", lambda text: not text or bool(text.strip())),
     "python": ("a number such as 0.5 or 1e-3", _python),
     "python3": ("three numbers", lambda text: _pythons(text, 3)),
@@ -168,6 +175,7 @@ FORMS: Mapping[str, tuple[str, Callable[[str], bool]]] = {
     "commas": ("numbers", lambda text: _pythons(text.replace(",", " "))),
     "commas3": ("three numbers", lambda text: _pythons(text.replace(",", " "), 3)),
     "bounded": ("finite numbers", _bounded),
+    "zero": ("0", lambda text: not any(_numbers(text))),
     "directed": ("a direction", _directed),
     "urdf-1.0": ("1.0", _versions((1, 0))),
     "urdf-1.2": ("1.0, 1.1 or 1.2", _versions((1, 0), (1, 1), (1, 2))),

@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 
-from twinform.profiles.reading import bodies, drives
+from twinform.profiles.reading import bodies, clashes, drives, lumping
 from twinform.profiles.reading.forms import FORMS, fits_bytes
 from twinform.profiles.reading.nodes import Node
 
@@ -116,9 +116,27 @@ def _repeated_collisions(root: Node) -> Fact:
         met.add(name)
 
 
-def _free_below(root: Node) -> Fact:
+def _held_by_roots(root: Node, joints: list[Node]) -> set[str]:
+    """Roots, and what is fixed to them."""
+    held = {link.attributes.get("name", "") for link in _roots(root)} | {"world"}
+    fixed = [_ends(joint) for joint in joints if joint.attributes.get("type") == "fixed"]
+    while new := {child for parent, child in fixed if parent in held} - held:
+        held |= new
+    return held
+
+
+def _shared_names(root: Node) -> Fact:
+    links = set(_names(root.all("link")))
     for joint in root.all("joint"):
-        if joint.attributes.get("type") == "floating" and _ends(joint)[0] != "world":
+        if (name := joint.attributes.get("name", "")) in links and joint.attributes.get("type") != "fixed":
+            yield joint, f"a joint and a link are called {name!r}"
+
+
+def _free_below(root: Node) -> Fact:
+    joints = list(root.all("joint"))
+    held = _held_by_roots(root, joints)
+    for joint in joints:
+        if joint.attributes.get("type") == "floating" and _ends(joint)[0] not in held:
             yield joint, f"joint {joint.attributes.get('name', '')!r} is floating below a link"
 
 
@@ -333,6 +351,8 @@ FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "indefinite-inertia": bodies.indefinite,
     "unbalanced-inertia": bodies.unbalanced,
     "unphysical-inertia": bodies.unphysical,
+    "weightless-root": bodies.rootless,
+    "shared-name": _shared_names,
     "weightless-body": bodies.weightless,
     "reversed-limits": drives.reversed_limits,
     "equal-limits": drives.equal_limits,
@@ -351,6 +371,8 @@ FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "unpaintable": _unpaintable,
     "weightless-link": _weightless,
     "foreign-joint": _foreign_joints,
+    **clashes.FACTS,
+    **lumping.FACTS,
     "idle-leader": _idle_leaders,
 }
 """By the names that a table calls them."""

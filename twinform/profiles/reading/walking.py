@@ -9,6 +9,8 @@ from twinform.profiles.reading.forms import FORMS
 from twinform.profiles.reading.nodes import Node
 from twinform.profiles.reading.notation import Demand, Reads, Step
 
+IsThere = Callable[[str], bool]
+"""Whether a URI leads to a file."""
 _ITEMS = re.compile(r"[\w:.-]+\??")
 
 
@@ -27,7 +29,7 @@ class Shortfall:
     pipeline: str = ""
 
 
-def shortfalls(root: Node, table: Reads) -> Iterator[Shortfall]:
+def shortfalls(root: Node, table: Reads, is_there: IsThere) -> Iterator[Shortfall]:
     """All demands that are not met, in the order of the table."""
     for demand in table.demands:
         if demand.item in tree.FACTS:
@@ -35,7 +37,18 @@ def shortfalls(root: Node, table: Reads) -> Iterator[Shortfall]:
                 yield _short(demand, "tree", message, node)
             continue
         for node in _found(root, demand.place):
-            yield from _held(demand, node)
+            if demand.form == "file":
+                yield from _file(demand, node, is_there)
+            else:
+                yield from _held(demand, node)
+
+
+def _file(demand: Demand, node: Node, is_there: IsThere) -> Iterator[Shortfall]:
+    uri = node.attributes.get(demand.item[1:])
+    if uri and not is_there(uri):
+        yield _short(
+            demand, "value", f"{demand.item[1:]!r} of <{node.tag}> is {uri!r}, which is not there", node, found=uri
+        )
 
 
 def _found(node: Node, place: tuple[Step, ...]) -> Iterator[Node]:

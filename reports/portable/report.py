@@ -1,0 +1,119 @@
+"""The URDF files of the corpus before all loaders, as they are and as `convert --for portable` writes them."""
+
+import re
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import twinform
+from reports.harness.files import OUT
+from reports.harness.known import Known
+from reports.harness.needs import corpus
+from reports.harness.pages import listing, section, table
+from reports.harness.report import UNEXPLAINED, Findings, Report
+from reports.harness.sample import Sample
+from reports.loaders.judging import recalled
+from tests.corpus.files import CorpusFile, Kind
+from twinform.compiler.input.options import LoadOptions
+from twinform.compiler.profiling import assess_file
+from twinform.profiles import parse
+from twinform.profiles.remedies import remedies
+from twinform.testing.oracles.readers import LOADERS
+from twinform.testing.oracles.readers.meshless import without_meshes
+
+KNOWN = Known(Path(__file__).with_name("known.toml"), lambda text, pattern: re.search(pattern, text))
+_SECONDS = 600
+_LONGEST = 200
+_ABOUT = """\
+A URDF of the corpus is *readable* where `twinform check` finds no error in it: what it cannot read, nothing can
+convert. Each is read by nine loaders, as it is and as it is after
+
+    twinform convert FILE --for portable --to urdf
+
+with a box of 0.1 m for each mesh, in the text of the file, since the corpus has no meshes. A loader takes a file where
+it neither throws nor crashes nor returns nothing; see [loaders](loaders.md) for how each is asked. Every refusal that
+is left has its cause, by message (`reports/portable/known.toml`); one without fails the command."""
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """What a loader says about a converted file that it does not take."""
+
+    loader: str
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class Carried:
+    """A readable file: who takes it before and after, why not, and the passes that it went through."""
+
+    name: str
+    before: frozenset[str]
+    after: frozenset[str]
+    refusals: tuple[Refusal, ...]
+    passes: str
+
+
+def measure(sample: Sample) -> Findings:
+    """Convert, and ask all loaders."""
+    asked = [loader.profile for loader in LOADERS if loader.reader.present()]
+    found = sample.outcomes(carried, sample.models(Kind.URDF), _never, seconds=_SECONDS)
+    causes = [
+        (one.name, each, KNOWN.why("refusal", loader=each.loader, message=each.message))
+        for one in found
+        for each in one.refusals
+    ]
+    faults = [f"{name}: {each.loader}: {each.message}" for name, each, why in causes if not why]
+    counts = _counts(found, asked)
+    left = Counter((each.loader, why or f"{UNEXPLAINED}: {each.message}") for _, each, why in causes)
+    rows = ((count, *key) for key, count in sorted(left.items(), key=lambda item: (-item[1], item[0])))
+    passes = Counter(step for one in found for step in re.findall(r"[a-z][a-z-]+(?=[,{]|$)", one.passes))
+    return Findings(
+        [
+            section("Who takes the files", counts),
+            section("Refusals that are left", listing(["files", "loader", "cause"], rows)),
+            section("Passes that were appended", listing(["pass", "files"], passes.most_common())),
+        ],
+        counts,
+        faults,
+    )
+
+
+def carried(file: CorpusFile) -> Carried | None:
+    """What becomes of a file; None where it is not readable."""
+    folder = OUT / "portable" / Path(file.name).parent
+    folder.mkdir(parents=True, exist_ok=True)
+    before, after = folder / f"{file.path.stem}.urdf", folder / f"{file.path.stem}.portable.urdf"
+    before.write_bytes(without_meshes(file.path.read_bytes()))
+    if any(each.is_error for each in twinform.check(before).diagnostics):
+        return None
+    taken = frozenset(
+        loader.profile for loader in LOADERS if loader.reader.present() and recalled().ask(loader.reader, before).ok
+    )
+    pipeline = str(remedies(assess_file(before, parse("portable"), LoadOptions())))
+    try:
+        after.write_text(twinform.convert(before, to="urdf", passes=pipeline).text, encoding="utf-8")
+    except twinform.CompileError as error:
+        refusal = Refusal("twinform", str(error)[:_LONGEST])
+        return Carried(file.name, taken, frozenset(), (refusal,), pipeline)
+    readings = [(loader.profile, recalled().ask(loader.reader, after)) for loader in LOADERS if loader.reader.present()]
+    refusals = (Refusal(name, reading.error[:_LONGEST]) for name, reading in readings if not reading.ok)
+    return Carried(
+        file.name, taken, frozenset(name for name, reading in readings if reading.ok), tuple(refusals), pipeline
+    )
+
+
+def _never(file: CorpusFile, cause: str) -> Carried:
+    return Carried(file.name, frozenset(), frozenset(), (Refusal("twinform", cause),), "")
+
+
+def _counts(found: Sequence[Carried], asked: Sequence[str]) -> str:
+    every = frozenset(asked)
+    rows = [(name, sum(name in one.before for one in found), sum(name in one.after for one in found)) for name in asked]
+    whole = ("all of them", sum(one.before >= every for one in found), sum(one.after >= every for one in found))
+    share = ("of all files", *(f"{100 * count / max(1, len(found)):.1f}%" for count in whole[1:]))
+    return f"{len(found)} files.\n\n{table(['loader', 'before', 'after'], [*rows, whole, share])}"
+
+
+REPORT = Report("portable", "Converted for all loaders", _ABOUT, measure, needs=(corpus,), known=KNOWN)

@@ -1,0 +1,110 @@
+"""Small robots with one thing changed: what each loader does with them, and that its profile says so.
+
+`probes/SUBJECT.toml` has changes of `probes/robot.urdf`, a text and another one for it, and a letter for each loader in
+the order of `LOADERS`: `.` accepts, `w` warns, `R` refuses. All were measured; the loaders that are here are asked
+about some of them again, and about all in the deep profile.
+"""
+
+import tomllib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from tests.profile import DEEP
+from twinform.profiles.reading import read_as
+from twinform.testing.oracles.readers import LOADERS, Loader
+
+FOLDER = Path(__file__).with_name("probes")
+PROFILES = ("urdfdom", "pinocchio", "pybullet", "yourdfpy", "urdf-parser-py", "drake", "mujoco", "usd", "gazebo")
+"""The loaders of the letters."""
+TABLES = PROFILES[:-1]
+"""Those of which all is in their tables; libsdformat has more to say about what urdfdom reads."""
+ELSEWHERE = 3 if DEEP else 211
+"""Loaders are asked about one probe in so many."""
+UNTOLD = {
+    "yourdfpy": {"material: nan", "robot: xmlns:xi"},
+    "pybullet": {"text: a null character"},
+    "drake": {
+        # files that are not there, and numbers that overflow
+        "axis: xyz: '0 0 1e300'", "material: texture", "material: color and texture", "material: texture by package",
+        "material: global, with a texture", "material: global with the color in a visual with a texture",
+        "mass: mass: '0x10'", "limit: lower: hexadecimal", "name: link: world", "dynamics: friction: hexadecimal",
+        "geometry: radius of a cylinder: '0x10'", "geometry: length of a cylinder: '0x10'",
+    },
+    "mujoco": {
+        "axis: xyz: '0 0 1e300'", "limit: velocity: nan", "material: nan", "robot: Robot",
+    },
+    "usd": {
+        "joint: a loop", "name: robot: a back slash", "material: texture", "material: color and texture",
+        "material: twice", "material: texture by package", "material: global, with a texture", "robot: xmlns:xi",
+    },
+}  # fmt: skip
+"""What tables do not tell, by the loader: what depends on other files, and what hardly any file has."""
+
+
+@dataclass(frozen=True, slots=True)
+class Probe:
+    """A changed robot, and a letter for each loader."""
+
+    name: str
+    text: bytes
+    verdicts: str
+
+
+@cache
+def probes() -> tuple[Probe, ...]:
+    return tuple(probe for path in sorted(FOLDER.glob("*.toml")) for probe in _of(path))
+
+
+def _of(path: Path) -> Iterator[Probe]:
+    robot = (FOLDER / "robot.urdf").read_text(encoding="utf-8")
+    table = tomllib.loads(path.read_text(encoding="utf-8"))
+    for row in table.get("probe", ()):
+        yield Probe(f"{path.stem}: {row['name']}", _changed(robot, row["changes"]), row["verdicts"])
+    for row in table.get("values", ()):
+        for value, verdicts in row["verdicts"]:
+            change = [[row["find"], row["write"].replace("{}", value)]]
+            yield Probe(f"{path.stem}: {row['name']}: {value!r}", _changed(robot, change), verdicts)
+
+
+def _changed(text: str, changes: list[list[str]]) -> bytes:
+    for find, write in changes:
+        assert find in text, find
+        text = text.replace(find, write, -1 if find == "\n" else 1)
+    return text.encode()
+
+
+def _letter(loader: Loader, path: Path) -> str:
+    return {"accepts": ".", "warns": "w", "refuses": "R"}[loader.verdict(loader.ask(path))]
+
+
+def test_there_are_probes_of_every_kind() -> None:
+    assert len(probes()) > 1000
+    for at, _ in enumerate(PROFILES):
+        assert {probe.verdicts[at] for probe in probes()} == set(".wR")
+
+
+@pytest.mark.parametrize("profile", TABLES)
+def test_a_table_says_what_the_loader_does(profile: str) -> None:
+    at, wrong = PROFILES.index(profile), list[str]()
+    for probe in probes()[:: 1 if DEEP else 3]:
+        effects = {each.effect for each in read_as(profile, probe.text)}
+        said = "R" if "refuses" in effects else "w" if effects else "."
+        is_told = said == probe.verdicts[at] or (said == "w" and probe.verdicts[at] == "." and effects != {"warns"})
+        if not is_told and probe.name not in UNTOLD.get(profile, ()):
+            wrong.append(f"{probe.name}: {probe.verdicts[at]}, and the table says {sorted(effects)}")
+    assert wrong == []
+
+
+@pytest.mark.parametrize("loader", LOADERS, ids=lambda loader: loader.profile)
+def test_a_loader_does_what_is_written_of_it(loader: Loader, tmp_path: Path) -> None:
+    if not loader.reader.present():
+        pytest.skip(f"{loader.profile} is not here: it needs {loader.reader.needs}")
+    at, path = PROFILES.index(loader.profile), tmp_path / "robot.urdf"
+    for probe in probes()[::ELSEWHERE]:
+        path.write_bytes(probe.text)
+        assert _letter(loader, path) == probe.verdicts[at], probe.name
+    loader.reader.close()

@@ -1,0 +1,44 @@
+"""Leave out material scripts without a name or a URI, for which libsdformat refuses a file."""
+
+from typing import ClassVar
+
+from twinform.diagnostics import DiagnosticSink, Fate
+from twinform.diagnostics.rules.portability_engines import DROPPED_BARE_SCRIPT
+from twinform.ir import Document, Format, Material, Script, rewrite
+from twinform.passes.framework.base import Pass
+
+
+class DropBareScripts(Pass):
+    """Leave out material scripts of SDF that lack a name or a URI: libsdformat refuses a file with one.
+
+    Changes materials of SDF with a `<script>` that has no `<name>`, or no `<uri>`, or an empty one: the script goes.
+
+    Never touches: colors, PBR, scripts that are complete, and URDF.
+    Diagnostics: `dropped-bare-script` for each, which has an entry of the ledger, *dropped*.
+    """
+
+    name = "drop-bare-scripts"
+    example: ClassVar[str] = "materials,drop-bare-scripts"
+
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
+        """The document without such scripts."""
+        if document.format is not Format.SDF:
+            return document
+        return rewrite(document, Material, lambda material: _without(material, sink))
+
+
+def is_bare(script: Script | None) -> bool:
+    """Whether a script lacks its name or URI."""
+    return script is not None and not (script.name and script.uris and all(script.uris))
+
+
+def _without(material: Material, sink: DiagnosticSink) -> Material:
+    script = material.script
+    if script is None or not is_bare(script):
+        return material
+    what = "URI" if script.name else "name"
+    called = f" {script.name!r}" if script.name else ""
+    message = f"the material script{called} has no {what}: it is left out"
+    sink.report(DROPPED_BARE_SCRIPT, message, script.location)
+    sink.account(Fate.DROPPED, DROPPED_BARE_SCRIPT, message, script.location)
+    return material.model_copy(update={"script": None})

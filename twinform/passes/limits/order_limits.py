@@ -1,0 +1,91 @@
+"""Put limits that are the wrong way round in order, and take out negative damping and friction."""
+
+import math
+from typing import ClassVar
+
+from pydantic import Field
+
+from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.rules.portability_engines import ORDERED_LIMITS
+from twinform.ir import Axis, Document, Dynamics, Joint, Limit, rewrite
+from twinform.passes.framework.base import Pass
+from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
+
+_BOUNDED = frozenset({"revolute", "prismatic", "screw", "universal", "revolute2", "gearbox", "continuous"})
+
+
+class OrderLimits(Pass):
+    """Put limits in order, and make damping and friction what they can be, for engines that end otherwise.
+
+    Changes joints whose name matches `joints`, along each of their axes:
+
+    1. a lower limit above the upper one, where both are written, is swapped with it, as libsdformat does for URDF;
+    2. a limit that is NaN is left out;
+    3. a negative damping or friction becomes zero.
+
+    Never touches: limits that are in order or not written, effort, velocity and springs.
+    Diagnostics: `ordered-limits` for each.
+    """
+
+    name = "order-limits"
+    example: ClassVar[str] = 'order-limits{joints="arm_*"}'
+
+    joints: tuple[str, ...] = Field(default=EVERY, description=with_such_a_name("Only joints"))
+
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
+        """The document with limits in order."""
+
+        def order(joint: Joint) -> Joint:
+            if joint.type not in _BOUNDED or not matches(joint.name, self.joints):
+                return joint
+            axis, second = (_ordered(joint, each, sink) for each in (joint.axis, joint.axis2))
+            return joint.model_copy(update={"axis": axis, "axis2": second})
+
+        return rewrite(document, Joint, order)
+
+
+def _ordered(joint: Joint, axis: Axis | None, sink: DiagnosticSink) -> Axis | None:
+    if axis is None:
+        return None
+    limit, dynamics = _in_order(joint, axis.limit, sink), _positive(joint, axis.dynamics, sink)
+    if limit is axis.limit and dynamics is axis.dynamics:
+        return axis
+    return axis.model_copy(update={"limit": limit, "dynamics": dynamics})
+
+
+def is_usable(axis: Axis) -> bool:
+    """Whether its limits are in order and numbers, and its damping and friction are not negative."""
+    limit, dynamics = axis.limit or Limit(), axis.dynamics or Dynamics()
+    numbers = [number for number in (limit.lower, limit.upper) if number is not None]
+    in_order = len(numbers) < 2 or not numbers[0] > numbers[1]
+    return in_order and not any(map(math.isnan, numbers)) and not _negative(dynamics)
+
+
+def _negative(dynamics: Dynamics) -> list[str]:
+    values = {"damping": dynamics.damping, "friction": dynamics.friction}
+    return [name for name, value in values.items() if value is not None and value < 0]
+
+
+def _in_order(joint: Joint, limit: Limit | None, sink: DiagnosticSink) -> Limit | None:
+    if limit is None:
+        return None
+    lower, upper = (None if each is None or math.isnan(each) else each for each in (limit.lower, limit.upper))
+    if (lower, upper) != (limit.lower, limit.upper):
+        message = f"a limit of joint {joint.name!r} was no number, and is left out"
+        sink.report(ORDERED_LIMITS, message, limit.location)
+        limit = limit.model_copy(update={"lower": lower, "upper": upper})
+    if lower is None or upper is None or lower <= upper:
+        return limit
+    was, now = f"{lower:g} to {upper:g}", f"{upper:g} to {lower:g}"
+    message = f"the limits of joint {joint.name!r} were {was} and are {now}"
+    sink.report(ORDERED_LIMITS, message, limit.location, found=was, expected=now)
+    return limit.model_copy(update={"lower": upper, "upper": lower})
+
+
+def _positive(joint: Joint, dynamics: Dynamics | None, sink: DiagnosticSink) -> Dynamics | None:
+    if dynamics is None or not (names := _negative(dynamics)):
+        return dynamics
+    for name in names:
+        message = f"the {name} of joint {joint.name!r} was below zero and is 0"
+        sink.report(ORDERED_LIMITS, message, dynamics.location, expected="0")
+    return dynamics.model_copy(update=dict.fromkeys(names, 0.0))

@@ -1,0 +1,87 @@
+"""What engines of Gazebo freeze, leave out or end with, in SDF."""
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.rules.portability_engines import (
+    BARE_SCRIPT,
+    FLAT_COLLISION,
+    LATE_SENSOR,
+    MODEL_JOINT_END,
+    NESTED_IN_ENGINE,
+    RARE_JOINT_TYPE,
+    THREADLESS_SCREW,
+    UNUSABLE_AXIS,
+    WEIGHTLESS_MOVER,
+)
+from twinform.ir import Collision, Document, Format, Joint, Link, Material, Model, Sensor, walk
+from twinform.ir.solids import written_solid
+from twinform.passes.analyses.moving_bodies import Body, moving_bodies
+from twinform.passes.analyses.shapes import is_flat
+from twinform.passes.appearance.drop_bare_scripts import is_bare
+from twinform.passes.limits.order_limits import is_usable
+
+if TYPE_CHECKING:
+    from twinform.profiles.assessment import Subject
+
+_LATE_SENSORS = frozenset({"air_speed"})
+"""What SDF 1.9 has no sensor of."""
+_COMMON = frozenset({"revolute", "fixed"})
+"""The types of joints that every engine has."""
+
+
+def find_engine_faults(subject: "Subject", sink: DiagnosticSink) -> None:
+    """Report what some engine of Gazebo does not take; URDF becomes SDF before engines see it."""
+    document = subject.document
+    if document is None or document.format is not Format.SDF:
+        return
+    for node in walk(document):
+        if isinstance(node, Joint):
+            _find_in_joint(node, sink)
+        elif isinstance(node, Collision) and is_flat(node):
+            sink.report(FLAT_COLLISION, f"collision {node.name!r} has no extent", node.location)
+        elif isinstance(node, Material) and node.script is not None and is_bare(node.script):
+            sink.report(BARE_SCRIPT, "a material script has no name, or no URI", node.script.location)
+        elif isinstance(node, Sensor) and node.type in _LATE_SENSORS:
+            sink.report(LATE_SENSOR, f"sensor {node.name!r} is of type {node.type}", node.location)
+        elif isinstance(node, Model):
+            for nested in node.models:
+                message = f"model {nested.name!r} is in model {node.name!r}"
+                sink.report(NESTED_IN_ENGINE, message, nested.location)
+    for body in _weightless(document):
+        link = body[0]
+        message = f"link {link.name!r} moves, and has no mass or no inertia with what is fixed to it"
+        sink.report(WEIGHTLESS_MOVER, message, link.location)
+
+
+def _find_in_joint(joint: Joint, sink: DiagnosticSink) -> None:
+    if joint.type not in _COMMON:
+        sink.report(RARE_JOINT_TYPE, f"joint {joint.name!r} is {joint.type}", joint.location.at("@type"))
+    if any((end or "").rpartition("::")[2] == "__model__" for end in (joint.parent, joint.child)):
+        sink.report(MODEL_JOINT_END, f"joint {joint.name!r} ends at the frame of a model", joint.location)
+    for axis in (joint.axis, joint.axis2):
+        if axis is not None and joint.type != "fixed" and not is_usable(axis):
+            message = f"joint {joint.name!r} has limits, damping or friction that no axis has"
+            sink.report(UNUSABLE_AXIS, message, axis.location)
+    if joint.type == "screw" and 0.0 in {joint.thread_pitch, joint.screw_thread_pitch}:
+        sink.report(THREADLESS_SCREW, f"joint {joint.name!r} is a screw of pitch 0", joint.location)
+
+
+def _weightless(document: Document) -> Iterator[Body]:
+    """Bodies that move and have no mass; or no inertia, where their mass is in one place."""
+    for body in moving_bodies(document):
+        if any(link.inertial is not None and link.inertial.auto for link in body):
+            continue
+        solids = [_solid(link) for link in body]
+        massive = [mass for mass, _ in solids if mass > 0]
+        turns = any(extent > 0 for _, extent in solids)
+        if not massive or (len(massive) == 1 and not turns):
+            yield body
+
+
+def _solid(link: Link) -> tuple[float, float]:
+    """The mass of a link, and its greatest moment."""
+    one = written_solid(link.inertial, Format.SDF)
+    return one.mass, max((abs(each) for each in one.inertia if math.isfinite(each)), default=0.0)

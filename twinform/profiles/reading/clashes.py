@@ -1,0 +1,87 @@
+"""Facts about names that a consumer keeps for something else, and names with a prefix."""
+
+from collections.abc import Callable, Iterator, Mapping
+
+from twinform.profiles.reading.forms import number_in
+from twinform.profiles.reading.lumping import Fact
+from twinform.profiles.reading.nodes import Node
+
+
+def _name(node: Node) -> str:
+    return node.attributes.get("name", "")
+
+
+def _is_reserved(name: str) -> bool:
+    return name == "world" or (len(name) >= 4 and name.startswith("__") and name.endswith("__"))
+
+
+def _kept_links(root: Node) -> Iterator[Node]:
+    """Links that libsdformat does not lump into others, nor takes for the world."""
+    joints = {joint.value("child", "link") or "": joint for joint in root.all("joint")}
+    for link in root.all("link"):
+        joint = joints.get(_name(link))
+        if joint is None:
+            if _name(link) != "world":
+                yield link
+        elif joint.attributes.get("type") != "fixed" or joint.value("parent", "link") == "world":
+            yield link
+
+
+def _reserved(root: Node) -> Fact:
+    """Names that SDF keeps for itself."""
+    moving = (joint for joint in root.all("joint") if joint.attributes.get("type") != "fixed")
+    for node in (root, *_kept_links(root), *moving):
+        if _is_reserved(_name(node)):
+            yield node, f"<{node.tag}> has the name {_name(node)!r}"
+
+
+def _shared(root: Node) -> Fact:
+    """Joints with the name of a link."""
+    links = set(map(_name, _kept_links(root)))
+    for joint in root.all("joint"):
+        if joint.attributes.get("type") != "fixed" and _name(joint) in links:
+            yield joint, f"joint {_name(joint)!r} has the name of a link"
+
+
+def _with_prefixes(root: Node) -> Fact:
+    """Elements that have an attribute of a namespace."""
+    nodes = [root]
+    for node in nodes:  # grows while it is walked
+        nodes.extend(node.children)
+        strange = next((name for name in node.attributes if name.startswith("{")), None)
+        if strange is not None:
+            yield node, f"<{node.tag.rpartition('}')[2]}> has an attribute {strange!r}"
+
+
+def _weighing_world(root: Node) -> Fact:
+    for link in root.all("link"):
+        if _name(link) == "world" and link.first("inertial") is not None:
+            yield link, "link 'world' has an <inertial>"
+
+
+def _swapped_limits(root: Node) -> Fact:
+    """Limits where the lower one is above the upper one; one that is not written is zero."""
+    for joint in root.all("joint"):
+        limit = joint.first("limit")
+        if limit is not None and joint.attributes.get("type") in {"revolute", "prismatic"}:
+            lower, upper = (number_in(limit.attributes.get(end, "")) or 0.0 for end in ("lower", "upper"))
+            if lower > upper:
+                yield limit, f"the limits of joint {_name(joint)!r} are {lower:g} and {upper:g}"
+
+
+def _empty_names(root: Node) -> Fact:
+    for link in root.all("link"):
+        for shape in (*link.all("visual"), *link.all("collision")):
+            if shape.attributes.get("name") == "":
+                yield shape, f"a <{shape.tag}> of link {_name(link)!r} has an empty name"
+
+
+FACTS: Mapping[str, Callable[[Node], Fact]] = {
+    "reserved-name": _reserved,
+    "swapped-limits": _swapped_limits,
+    "empty-name": _empty_names,
+    "shared-name": _shared,
+    "weighing-world": _weighing_world,
+    "prefixed-attribute": _with_prefixes,
+}
+"""Facts by their names in tables."""
