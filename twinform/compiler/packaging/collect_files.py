@@ -67,7 +67,7 @@ class CollectFiles(AssetPass):
             self._report_problems(written, where, sink)
             return self._collection.layout.uri(place, scheme)
 
-        report_plugin_files(document, sink)
+        report_plugin_files(document, self._collection.is_reserved, sink)
         return map_uris(document, change)
 
     def _collected(self, uri: str, kinds: frozenset[FileKind]) -> str:

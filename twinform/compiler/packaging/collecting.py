@@ -57,12 +57,18 @@ class Collection:
     sources: dict[str, Path] = field(default_factory=dict[str, Path])
     problems: list[UncollectedError] = field(default_factory=list[UncollectedError])
     _places: Places = field(default_factory=Places)
+    _reserved: set[str] = field(default_factory=set[str])
     _by_source: dict[Path, str] = field(default_factory=dict[Path, str])
     _by_content: dict[tuple[object, ...], str] = field(default_factory=dict[tuple[object, ...], str])
 
     def reserve(self, path: str) -> None:
         """Keep a place free for a file that is written by somebody else."""
         self._places.take([path])
+        self._reserved.add(path)
+
+    def is_reserved(self, uri: str) -> bool:
+        """Whether a URI leads to a file of the package that is written by somebody else."""
+        return any(uri == self.layout.uri(path, scheme) for path in self._reserved for scheme in self.layout.names)
 
     def add(self, found: Path, kinds: frozenset[FileKind], assets: LocalAssets) -> str:
         """Put a file of one of these kinds into the package, or a folder of scripts or images; gives its place there.

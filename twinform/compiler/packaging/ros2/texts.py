@@ -2,7 +2,7 @@
 
 from twinform.compiler.packaging.ros2.contents import Contents
 from twinform.compiler.packaging.ros2.controllers import controllers_yaml
-from twinform.compiler.packaging.ros2.gazebo_control import control_package
+from twinform.compiler.packaging.ros2.gazebo_control import CONTROLLERS, control_package
 from twinform.compiler.packaging.ros2.manifest import package_xml
 from twinform.compiler.packaging.ros2.rendering import python_text, render
 from twinform.compiler.packaging.ros2.rviz import rviz_config
@@ -34,7 +34,7 @@ def generated_files(contents: Contents) -> dict[str, str]:
         "config/bridge.yaml": bridge_yaml(contents.bridges),
     }
     if contents.controllers:
-        files["config/controllers.yaml"] = controllers_yaml(contents.controllers)
+        files[CONTROLLERS] = controllers_yaml(contents.controllers)
     variable = "IGN_GAZEBO_RESOURCE_PATH" if contents.release == "fortress" else "GZ_SIM_RESOURCE_PATH"
     files |= {f"env-hooks/{each}": render(each, {"variable": variable}, {}) for each in _HOOKS}
     return {**files, "CMakeLists.txt": _cmake(contents, files)}
