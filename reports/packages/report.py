@@ -55,7 +55,7 @@ def measure(sample: Sample) -> Findings:
     chosen = sample.of(robots())
     outcomes = sample.outcomes(_judge, chosen, lambda robot, why: Outcome(robot.name, why), seconds=_SECONDS)
     green = sum(one.green for one in outcomes)
-    causes = {one.name: KNOWN.why("robots", one.name) for one in outcomes if not one.green}
+    causes = {one.name: KNOWN.why("robots", one.name, why=one.why) for one in outcomes if not one.green}
     faults = [f"{one.name}: {one.why}" for one in outcomes if not one.green and not causes[one.name]]
     return Findings(list(_page(outcomes, causes)), f"{green} of {len(outcomes)} robots are green", faults)
 

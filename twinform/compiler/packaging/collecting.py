@@ -102,10 +102,12 @@ class Collection:
             raise UncollectedError(f"{str(folder)!r} is a folder without images and scripts")
         kinds = {kind_of(each) for each in inside}
         kind: FileKind = "script" if "script" in kinds else "image"
-        place = self._places.take(folder_of(path) for path in self._wanted(inside[0], kind, origins))
+        wanted = (folder_of(path) for path in self._wanted(inside[0], kind, origins))
+        place = self._places.take_folder(wanted, [each.name for each in inside])
         for each in inside:
-            self._places.take([f"{place}/{each.name}"])
-            self.files[f"{place}/{each.name}"] = self.sources[f"{place}/{each.name}"] = self._checked(each, origins)
+            own = f"{place}/{each.name}"
+            self.files[own] = self.sources[own] = self._checked(each, origins)
+            self._by_source.setdefault(each.resolve(), own)
         return place
 
     def _file(self, found: Path, origins: Origins) -> str:

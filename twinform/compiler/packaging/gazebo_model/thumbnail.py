@@ -68,9 +68,9 @@ def _faces(model: Model, meshes: Meshes) -> Iterator[Faces]:
         for visual in link.visuals:
             shape = visual.geometry.shape if visual.geometry else None
             made = _triangles(shape, meshes) if shape else None
-            if made is not None and len(made.faces):
-                at = graph.resolve(visual.pose, name, MODEL, base="model")
-                yield Faces(_placed(made, at), _color(visual.material))
+            points = _placed(made, graph.resolve(visual.pose, name, MODEL, base="model")) if made is not None else ()
+            if len(points):
+                yield Faces(points, _color(visual.material))
 
 
 def _links(model: Model) -> Iterator[tuple[str, Link]]:
@@ -110,10 +110,11 @@ def _triangles(shape: Shape, meshes: Meshes) -> Any:
 
 
 def _placed(triangles: Any, at: Transform) -> Any:
-    """The corners of each triangle in the frame of the model: an array of n by 3 by 3 numbers."""
+    """The corners of each triangle in the frame of the model: an array of n by 3 by 3 numbers, all of them finite."""
     numpy: Any = importlib.import_module("numpy")
     turn = numpy.array(at.rotation).reshape(3, 3)
-    return (triangles.vertices @ turn.T + numpy.array(at.translation))[triangles.faces]
+    placed = (triangles.vertices @ turn.T + numpy.array(at.translation))[triangles.faces]
+    return placed[numpy.isfinite(placed).all(axis=(1, 2))]
 
 
 def _color(material: Material | None) -> tuple[float, float, float]:
