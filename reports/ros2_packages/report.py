@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from reports import packages
 from reports.harness.files import OUT
 from reports.harness.known import Known
 from reports.harness.needs import need
@@ -26,6 +27,7 @@ _ABOUT = """\
 shown to the judges below. A robot that is refused, or with which a judge is not content, has its cause in
 `reports/ros2_packages/known.toml`; without one, the command fails."""
 KNOWN = Known.beside(__file__)
+REFUSALS = Known.beside(packages.__file__)
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,10 +51,15 @@ def measure(sample: Sample) -> Findings:
         _judge, sample.of(robots()), lambda robot, why: Outcome(robot.name, why), seconds=_SECONDS
     )
     others = [one for one in outcomes if one.why]
-    causes = {one.name: KNOWN.why("robots", one.name) for one in others}
+    causes = {one.name: _cause(one) for one in others}
     faults = [f"{one.name}: {one.why}" for one in others if not causes[one.name]]
     green = len(outcomes) - len(others)
     return Findings(list(_page(outcomes, causes)), f"{green} of {len(outcomes)} robots are green", faults)
+
+
+def _cause(outcome: Outcome) -> str:
+    """Why it is right; robots that are refused as a model folder too have their cause there."""
+    return KNOWN.why("robots", outcome.name, why=outcome.why) or REFUSALS.why("robots", outcome.name, why=outcome.why)
 
 
 def _judge(robot: Robot) -> Outcome:
