@@ -4,6 +4,7 @@ import re
 import shutil
 import subprocess
 import sys
+import sysconfig
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -88,8 +89,9 @@ def _command(robot: Robot, folder: str) -> list[str]:
 
 
 def _first_error(text: str) -> str:
-    """The first error of the command, without the path of the file."""
-    return next((line.partition(": error: ")[2] for line in text.splitlines() if ": error: " in line), text[-300:])
+    """The first error of the command, without the places on this machine."""
+    found = next((line.partition(": error: ")[2] for line in text.splitlines() if ": error: " in line), text[-300:])
+    return found.replace(f"{sysconfig.get_path('purelib')}/", "")
 
 
 def _page(outcomes: list[Outcome], causes: dict[str, str]) -> Iterable[str]:
