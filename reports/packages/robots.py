@@ -23,9 +23,9 @@ class Robot:
 
 
 def robots() -> list[Robot]:
-    """All that are installed and have meshes, by name."""
-    found = [*_example_robot_data(), *_pybullet_data()]
-    return sorted(found, key=lambda robot: robot.name)
+    """One of each folder of robots that is installed, by name: its variants have the same meshes."""
+    found = sorted([*_example_robot_data(), *_pybullet_data()], key=lambda robot: robot.name)
+    return list({robot.name.rpartition("/")[0]: robot for robot in reversed(found)}.values())[::-1]
 
 
 def _example_robot_data() -> Iterator[Robot]:

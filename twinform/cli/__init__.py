@@ -18,7 +18,7 @@ COMMANDS: Mapping[str, str] = {
     "diff": "Say whether two files describe the same robot.",
     "format": "Lay out the text of models, and change nothing else.",
     "stats": "Print in numbers what models are made of.",
-    "package": "Put a robot model and all its files into a folder for Gazebo or ROS 2.",
+    "package": "Put a model and all its files into a folder.",
     "batch": "Work on every model of a folder, on several processors or machines.",
     "fuel": "Fill the local cache of Gazebo Fuel.",
     "reproduce": "Run a pass again that failed.",
