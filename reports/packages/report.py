@@ -22,10 +22,10 @@ _SAID = ("--description", "A robot.", "--maintainer", "A. Body", "--email", "a@b
 _KIND = "gazebo-model"
 _VERSIONS = ("1.11", "1.9")
 _ABOUT = """\
-`twinform package --kind gazebo-model` is run on robots with meshes: one of each folder in the packages
-`example-robot-data` and `pybullet_data` (extra `robots`). Each folder is then shown to the judges below; the source is
-not in any of their search paths. A robot that is refused, or with which a judge is not content, has its cause in
-`reports/packages/known.toml`; without one, the command fails."""
+`twinform package --kind gazebo-model` is run on robots with meshes, which the packages `example-robot-data` and
+`pybullet_data` bring (extra `robots`; `reports/packages/robots.py` lists them). Each folder is then shown to the judges
+below; the source is not in any of their search paths. A robot that is refused, or with which a judge is not content,
+has its cause in `reports/packages/known.toml`; without one, the command fails."""
 KNOWN = Known.beside(__file__)
 
 

@@ -17,5 +17,6 @@ COMMANDS: Mapping[str, str] = {
 def command() -> None:
     """Fill the local cache of Gazebo Fuel.
 
-    Includes by address are looked up there, and nothing is fetched from a network. The cache is where Gazebo has it: GZ_FUEL_CACHE_PATH, or .gz/fuel in the home.
+    Includes by address are looked up there, and nothing is fetched from a network. The cache is where Gazebo has it:
+    GZ_FUEL_CACHE_PATH, or .gz/fuel in the home.
     """

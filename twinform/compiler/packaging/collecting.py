@@ -93,6 +93,18 @@ class Collection:
         self._by_source[real] = place
         return place
 
+    def put(self, path: str, data: bytes) -> None:
+        """Put a file into the package that a pass has made, at its own path; the same one may come again.
+
+        Raises:
+            UncollectedError: another file is there.
+        """
+        if self.files.get(path) == data:
+            return
+        if self._places.take([path]) != path:
+            raise UncollectedError(f"a pass makes {path!r}, and another file of the package is there")
+        self.files[path] = data
+
     def _folder(self, folder: Path, origins: Origins) -> str:
         """The scripts or images in a folder, which are found by their names, so that they stay together."""
         inside = sorted(each for each in folder.iterdir() if kind_of(each) in {"image", "script"} and each.is_file())

@@ -95,7 +95,7 @@ def test_nothing_to_be_drawn_is_a_note(visuals: list[str]) -> None:
 def test_corners_that_are_no_numbers_are_left_out(tmp_path: Path) -> None:
     mesh = tmp_path / "m.obj"
     mesh.write_text("v 0 0 0\nv 1 0 0\nv 0 1 1\nv nan 0 0\nf 1 2 3\nf 1 2 4\n")
-    collection = Collection(Layout({"model": "m"}), sources={"meshes/m.obj": mesh})
+    collection = Collection(Layout({"model": "m"}), files={"meshes/m.obj": mesh})
     shape = "<mesh><uri>model://m/meshes/m.obj</uri></mesh>"
     document = twinform.loads(_TEXT.format(_visual("v", "0 0 0", "1 0 0", shape)).encode())
     assert thumbnail(document, collection, DiagnosticSink())
