@@ -23,7 +23,7 @@ from reports.ros2_packages.judges import JUDGES
 _SECONDS = 300
 _SAID = ("--description", "A robot.", "--maintainer", "A. Body", "--email", "a@body.org", "--license", "BSD-3-Clause")
 _ABOUT = """\
-`twinform package --kind both` is run on every robot with meshes in the packages `example-robot-data` and
+`twinform package --kind both` is run on robots with meshes of many makers in the packages `example-robot-data` and
 `pybullet_data` (extra `robots`), with the transmissions of ROS 1 turned into `<ros2_control>`. Each folder is then
 shown to the judges below. A robot that is refused, or with which a judge is not content, has its cause in
 `reports/ros2_packages/known.toml`; without one, the command fails."""
