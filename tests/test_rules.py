@@ -23,6 +23,7 @@ WITHOUT_CASE = {
     "edit-conflict": "unit/cli/test_into.py",
     "foreign-hardware": "unit/compiler/packaging/ros2/test_gazebo_control.py",
     "flat-collision": "portability/gazebo.toml",
+    "frame-not-in-tf": "unit/compiler/packaging/ros2/test_packages.py",
     "joint-type-unsupported": "unit/passes/legalise/to_urdf/test_refusals.py",
     "kept-as-sdf": "unit/compiler/splitting/test_worlds.py",
     "measured-wheels": "unit/passes/plugins/test_add_plugin.py",

@@ -21,8 +21,9 @@ from twinform.testing.oracles.libsdformat.library import available
 _FOR_LIBSDFORMAT = "model-1_9.sdf"
 """The newest version that libsdformat 12 reads."""
 _URI = re.compile(r"\w+://[^\s\"'<>]+")
-_OWN = ("urn:", "http://", "https://")
-"""What is no file: names of namespaces, addresses."""
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_ELSEWHERE = ("http://", "https://", "file://media/")
+"""What is no file of the robot: names of namespaces, addresses, and what Gazebo Classic brought."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,9 +65,9 @@ def _absent(folder: Path) -> Iterator[str]:
         if file.is_symlink():
             yield f"{file.name} is a link"
         if file.suffix in {".sdf", ".urdf"}:
-            for uri in dict.fromkeys(_URI.findall(file.read_text(encoding="utf-8"))):
+            for uri in dict.fromkeys(_URI.findall(_COMMENT.sub("", file.read_text(encoding="utf-8")))):
                 inner = uri.partition("://")[2].partition("/")
-                if not uri.startswith(_OWN) and not (inner[0] == folder.name and (folder / inner[2]).is_file()):
+                if not uri.startswith(_ELSEWHERE) and not (inner[0] == folder.name and (folder / inner[2]).is_file()):
                     yield f"{file.name} names {uri}"
         format_ = FORMATS.get(file.suffix.lower().removeprefix("."))
         for name in format_.references(file.read_bytes()) if format_ and file.is_file() else ():

@@ -22,10 +22,10 @@ _SAID = ("--description", "A robot.", "--maintainer", "A. Body", "--email", "a@b
 _KIND = "gazebo-model"
 _VERSIONS = ("1.11", "1.9")
 _ABOUT = """\
-`twinform package --kind gazebo-model` is run on every robot with meshes in the packages `example-robot-data` and
-`pybullet_data` (extra `robots`). Each folder is then shown to the judges below; the source is not in any of their
-search paths. A robot that is refused, or with which a judge is not content, has its cause in
-`reports/packages/known.toml`; without one, the command fails."""
+`twinform package --kind gazebo-model` is run on robots with meshes, which the packages `example-robot-data` and
+`pybullet_data` bring (extra `robots`; `reports/packages/robots.py` lists them). Each folder is then shown to the judges
+below; the source is not in any of their search paths. A robot that is refused, or with which a judge is not content,
+has its cause in `reports/packages/known.toml`; without one, the command fails."""
 KNOWN = Known.beside(__file__)
 
 
@@ -55,7 +55,7 @@ def measure(sample: Sample) -> Findings:
     chosen = sample.of(robots())
     outcomes = sample.outcomes(_judge, chosen, lambda robot, why: Outcome(robot.name, why), seconds=_SECONDS)
     green = sum(one.green for one in outcomes)
-    causes = {one.name: KNOWN.why("robots", one.name) for one in outcomes if not one.green}
+    causes = {one.name: KNOWN.why("robots", one.name, why=one.why) for one in outcomes if not one.green}
     faults = [f"{one.name}: {one.why}" for one in outcomes if not one.green and not causes[one.name]]
     return Findings(list(_page(outcomes, causes)), f"{green} of {len(outcomes)} robots are green", faults)
 

@@ -17,6 +17,9 @@ from twinform.compiler import CompileError
 from twinform.testing.oracles import libsdformat
 
 _URI = re.compile(r"(?:package|model)://([^\s\"'<>]+)")
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_WHERE = re.compile(r"^\d+: |[\"'\[].*?[\]\"']|link named \S+|file:\S+")
+"""What differs between the same errors of two files."""
 
 
 def made(packaged: Packaged) -> Made:
@@ -39,7 +42,7 @@ def _cmake(packaged: Packaged) -> str:
 
 def _lost(package: Made) -> Iterator[str]:
     for file in (*package.share.glob("urdf/*.urdf"), *package.share.glob("*.sdf")):
-        for path in dict.fromkeys(_URI.findall(file.read_text(encoding="utf-8"))):
+        for path in dict.fromkeys(_URI.findall(_COMMENT.sub("", file.read_text(encoding="utf-8")))):
             if not (package.share.parent / path).is_file():
                 yield f"{file.name} names {path}"
 
@@ -79,8 +82,12 @@ def _urdfdom(packaged: Packaged) -> str:
 
 
 def _libsdformat(packaged: Packaged) -> str:
-    files = [_urdf(packaged), packaged.folder / "worlds" / f"{packaged.folder.name}.sdf"]
-    return "; ".join([error for verdict in libsdformat.judge(files).values() for error in verdict.errors][:2])
+    """The errors that are not those of the robot that was packaged."""
+    world = packaged.folder / "worlds" / f"{packaged.folder.name}.sdf"
+    verdicts = libsdformat.judge([packaged.robot.file, _urdf(packaged), world])
+    before, *after = (verdict.errors for verdict in verdicts.values())
+    known = {_WHERE.sub("", error) for error in before}
+    return "; ".join([error for errors in after for error in errors if _WHERE.sub("", error) not in known][:2])
 
 
 def _frames(packaged: Packaged) -> str | None:
@@ -117,7 +124,7 @@ JUDGES: tuple[Judge, ...] = (
     Judge("check_urdf", "urdfdom reads the robot", _urdfdom, lambda: _program("check_urdf")),
     Judge(
         "libsdformat 12",
-        "reads the robot, as Gazebo gets it, and the world without an error",
+        "reads the robot, as Gazebo gets it, and the world without an error that it does not find in the source",
         _libsdformat,
         lambda: "" if libsdformat.available() else "not installed",
     ),

@@ -4,10 +4,12 @@ import re
 import shutil
 import subprocess
 import sys
+import sysconfig
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from reports import packages
 from reports.harness.files import OUT
 from reports.harness.known import Known
 from reports.harness.needs import need
@@ -21,11 +23,12 @@ from reports.ros2_packages.judges import JUDGES
 _SECONDS = 300
 _SAID = ("--description", "A robot.", "--maintainer", "A. Body", "--email", "a@body.org", "--license", "BSD-3-Clause")
 _ABOUT = """\
-`twinform package --kind both` is run on every robot with meshes in the packages `example-robot-data` and
+`twinform package --kind both` is run on robots with meshes of many makers in the packages `example-robot-data` and
 `pybullet_data` (extra `robots`), with the transmissions of ROS 1 turned into `<ros2_control>`. Each folder is then
 shown to the judges below. A robot that is refused, or with which a judge is not content, has its cause in
 `reports/ros2_packages/known.toml`; without one, the command fails."""
 KNOWN = Known.beside(__file__)
+REFUSALS = Known.beside(packages.__file__)
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,10 +52,15 @@ def measure(sample: Sample) -> Findings:
         _judge, sample.of(robots()), lambda robot, why: Outcome(robot.name, why), seconds=_SECONDS
     )
     others = [one for one in outcomes if one.why]
-    causes = {one.name: KNOWN.why("robots", one.name) for one in others}
+    causes = {one.name: _cause(one) for one in others}
     faults = [f"{one.name}: {one.why}" for one in others if not causes[one.name]]
     green = len(outcomes) - len(others)
     return Findings(list(_page(outcomes, causes)), f"{green} of {len(outcomes)} robots are green", faults)
+
+
+def _cause(outcome: Outcome) -> str:
+    """Why it is right; robots that are refused as a model folder too have their cause there."""
+    return KNOWN.why("robots", outcome.name, why=outcome.why) or REFUSALS.why("robots", outcome.name, why=outcome.why)
 
 
 def _judge(robot: Robot) -> Outcome:
@@ -81,8 +89,9 @@ def _command(robot: Robot, folder: str) -> list[str]:
 
 
 def _first_error(text: str) -> str:
-    """The first error of the command, without the path of the file."""
-    return next((line.partition(": error: ")[2] for line in text.splitlines() if ": error: " in line), text[-300:])
+    """The first error of the command, without the places on this machine."""
+    found = next((line.partition(": error: ")[2] for line in text.splitlines() if ": error: " in line), text[-300:])
+    return found.replace(f"{sysconfig.get_path('purelib')}/", "")
 
 
 def _page(outcomes: list[Outcome], causes: dict[str, str]) -> Iterable[str]:

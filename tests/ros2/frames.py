@@ -52,7 +52,7 @@ def _positions(model: Model) -> dict[str, float]:
             found[joint.name] = lower + (upper - lower) * (0.3 + 0.05 * number)
     for joint in model.joints:
         mimic = joint.axis.mimic if joint.axis else None
-        if mimic and mimic.joint:
+        if mimic and mimic.joint and joint.name in found:
             found[joint.name] = multiplier(mimic) * found[mimic.joint] + (mimic.offset or 0.0)
     return found
 

@@ -87,7 +87,7 @@ def command(
     deny: tuple[str, ...],
     **rest: Any,
 ) -> None:
-    """Put a robot model and all its files into a folder for Gazebo or ROS 2.
+    """Put a model and all its files into a folder.
 
     IN is a URDF, SDF, xacro or JSON file. Its meshes, textures and scripts, and what these name themselves, are copied
     into DIR, each once, and all URIs lead there. Of a world, each model gets a folder. The folder is written at once,

@@ -54,6 +54,7 @@ BUILT_IN: Mapping[str, str] = {
     "frame-cycle": "frames",
     "frame-link": "to_sdf",
     "frame-made-link": "to_urdf",
+    "frame-not-in-tf": "ros2",
     "gazebo-conflict": "to_sdf",
     "gazebo-tag-without-target": "to_sdf",
     "gearbox": "to_urdf",

@@ -21,6 +21,7 @@ _XACRO = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:arg name="prefix" default=""/><link name="$(arg prefix)base"/>
 </robot>
 """
+_CONFIG = '<model><name>crate</name><sdf version="1.11">model.sdf</sdf></model>'
 _NOT_RUN = {"lsp": "it waits for an editor", "reproduce": "it takes the file that a fault has left"}
 
 
@@ -65,6 +66,10 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (made / "arm.urdf.xacro").write_text(_XACRO)
     sdf = twinform.convert(GOOD.encode(), to="sdf").text
     (made / "robot.sdf").write_text(sdf)
+    for crate in (made / "crate", made / "models/crate"):
+        crate.mkdir()
+        (crate / "model.config").write_text(_CONFIG)
+        (crate / "model.sdf").write_text(sdf)
     (made / "out").mkdir()
     (made / "out" / "a.sdf").write_text(sdf)
     for part in range(1, 5):
@@ -79,6 +84,7 @@ def folder(files: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path
     """A copy of it, where the command runs."""
     shutil.copytree(files, tmp_path, dirs_exist_ok=True)
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("GZ_FUEL_CACHE_PATH", str(tmp_path / "fuel"))
     return tmp_path
 
 

@@ -398,6 +398,49 @@ def test_standard_input_has_no_files_beside_it(run: Run, tmp_path: Path) -> None
     assert twinform.load(tmp_path / "out/model.sdf").models[0].name == "one"
 
 
+def test_folders_of_material_scripts_come_whole(run: Run, tmp_path: Path) -> None:
+    script = b"material Wood { technique { pass { texture_unit { texture wood.png } } } }"
+    model = (
+        '<sdf version="1.9"><model name="m"><link name="l"><visual name="v"><geometry><box><size>1 1 1</size></box>'
+        "</geometry><material><script><uri>model://old/materials/scripts</uri><uri>model://old/materials/textures</uri>"
+        "<name>Wood</name></script></material></visual><visual name='w'><geometry><sphere><radius>1</radius></sphere>"
+        "</geometry><material><pbr><metal><albedo_map>materials/textures/wood.png</albedo_map></metal></pbr></material>"
+        "</visual><visual name='x'><geometry><sphere><radius>1</radius></sphere></geometry><material><script>"
+        "<uri>file://media/materials/scripts/gazebo.material</uri><name>Gazebo/Grey</name></script></material></visual>"
+        "</link></model></sdf>"
+    )
+    files = {
+        "model.config": b"<model><name>old</name><sdf version='1.9'>model.sdf</sdf></model>",
+        "model.sdf": model.encode(),
+        "materials/scripts/wood.material": script,
+        "materials/scripts/wood.vert": b"void main() {}",
+        "materials/scripts/notes.txt": b"private",
+        "materials/textures/wood.png": PNG,
+    }
+    written = _package(run, write(tmp_path / "old", files) / "model.sdf", tmp_path / "new")
+    assert {path for path in written if path.startswith("materials/")} == {
+        "materials/scripts/wood.material", "materials/scripts/wood.vert", "materials/textures/wood.png"
+    }  # fmt: skip
+    uris = re.findall(r"<(?:uri|albedo_map)>(.*?)</", written["model.sdf"].decode())
+    assert uris == [
+        "model://new/materials/scripts", "model://new/materials/textures", "model://new/materials/textures/wood.png",
+        "file://media/materials/scripts/gazebo.material",
+    ]  # fmt: skip
+
+
+def test_a_texture_that_a_script_names_keeps_its_bare_name(run: Run, tmp_path: Path) -> None:
+    script = b"material Wood { technique { pass { texture_unit {\ntexture wood.png\n} } } }"
+    model = (
+        '<sdf version="1.9"><model name="m"><link name="l"><visual name="v"><geometry><box><size>1 1 1</size></box>'
+        "</geometry><material><script><uri>file://wood.material</uri><name>Wood</name></script></material></visual>"
+        "</link></model></sdf>"
+    )
+    source = write(tmp_path / "old", {"m.sdf": model.encode(), "wood.material": script, "wood.png": PNG}) / "m.sdf"
+    written = _package(run, source, tmp_path / "new")
+    assert written["materials/scripts/wood.material"] == script
+    assert written["materials/textures/wood.png"] == PNG
+
+
 @pytest.mark.parametrize("wrong", [["--kind", "deb"], [], ["--kind", "gazebo-model", "--sdf-version", "7"]])
 def test_wrong_usage(run: Run, folder: Path, wrong: list[str]) -> None:
     assert run("package", folder / "good.urdf", "-o", folder / "out", *wrong).exit_code == 2

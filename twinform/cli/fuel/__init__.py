@@ -15,7 +15,8 @@ COMMANDS: Mapping[str, str] = {
 
 @click.command("fuel", cls=LazyGroup, package=__name__, summaries=COMMANDS)
 def command() -> None:
-    """Fill the local cache of Gazebo Fuel, in which includes by address are looked up.
+    """Fill the local cache of Gazebo Fuel.
 
-    Nothing is fetched from a network. The cache is where Gazebo has it: GZ_FUEL_CACHE_PATH, or .gz/fuel in the home.
+    Includes by address are looked up there, and nothing is fetched from a network. The cache is where Gazebo has it:
+    GZ_FUEL_CACHE_PATH, or .gz/fuel in the home.
     """

@@ -6,6 +6,7 @@ from pydantic import PrivateAttr
 
 from twinform.compiler.packaging.collecting import Collection, UncollectedError
 from twinform.compiler.packaging.file_kinds import FileKind
+from twinform.compiler.packaging.made_files import MadeFiles
 from twinform.compiler.packaging.plugin_files import report_plugin_files
 from twinform.compiler.search.uris import LocalAssets
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Severity
@@ -49,6 +50,7 @@ class CollectFiles(AssetPass):
         """The document with the URIs of the package."""
         scheme = "package" if document.format is Format.URDF else "model"
         missing: dict[str, AssetError | UncollectedError] = {}
+        made = MadeFiles.of(sink.side_files)
 
         def change(uri: str, kind: Kind, where: Location) -> str:
             written = uri.strip()
@@ -58,7 +60,7 @@ class CollectFiles(AssetPass):
             if written.startswith(("__", _STANDARD)):
                 return uri
             try:
-                place = self._collected(written, _KINDS[kind])
+                place = self._collected(written, _KINDS[kind], made)
             except (AssetError, UncollectedError) as error:
                 if written not in missing:
                     self._report(written, error, where, sink)
@@ -67,14 +69,23 @@ class CollectFiles(AssetPass):
             self._report_problems(written, where, sink)
             return self._collection.layout.uri(place, scheme)
 
-        report_plugin_files(document, sink)
+        report_plugin_files(document, self._collection.is_reserved, sink)
         return map_uris(document, change)
 
-    def _collected(self, uri: str, kinds: frozenset[FileKind]) -> str:
+    def _collected(self, uri: str, kinds: frozenset[FileKind], made: MadeFiles) -> str:
+        """The place of a file: of one that a pass has made, or of one that is there."""
         assets = self._assets
+        if uri in made.files:
+            return made.put(uri, self._collection)
         if not isinstance(assets, LocalAssets):
             raise UncollectedError(f"{uri!r} cannot be looked up: only the text of the model is known")
-        return self._collection.add(assets.find(uri), kinds, assets)
+        try:
+            return self._collection.add(assets.find(uri), kinds, assets)
+        except AssetError:
+            path = made.named(uri)
+            if path is None:
+                raise
+            return made.put(path, self._collection)
 
     def _report(self, uri: str, error: AssetError | UncollectedError, where: Location, sink: DiagnosticSink) -> None:
         """Report a file that is not in the package; an error, unless one goes on without it."""

@@ -57,12 +57,18 @@ class Collection:
     sources: dict[str, Path] = field(default_factory=dict[str, Path])
     problems: list[UncollectedError] = field(default_factory=list[UncollectedError])
     _places: Places = field(default_factory=Places)
+    _reserved: set[str] = field(default_factory=set[str])
     _by_source: dict[Path, str] = field(default_factory=dict[Path, str])
     _by_content: dict[tuple[object, ...], str] = field(default_factory=dict[tuple[object, ...], str])
 
     def reserve(self, path: str) -> None:
         """Keep a place free for a file that is written by somebody else."""
         self._places.take([path])
+        self._reserved.add(path)
+
+    def is_reserved(self, uri: str) -> bool:
+        """Whether a URI leads to a file of the package that is written by somebody else."""
+        return any(uri == self.layout.uri(path, scheme) for path in self._reserved for scheme in self.layout.names)
 
     def add(self, found: Path, kinds: frozenset[FileKind], assets: LocalAssets) -> str:
         """Put a file of one of these kinds into the package, or a folder of scripts or images; gives its place there.
@@ -87,6 +93,18 @@ class Collection:
         self._by_source[real] = place
         return place
 
+    def put(self, path: str, data: bytes) -> None:
+        """Put a file into the package that a pass has made, at its own path; the same one may come again.
+
+        Raises:
+            UncollectedError: another file is there.
+        """
+        if self.files.get(path) == data:
+            return
+        if self._places.take([path]) != path:
+            raise UncollectedError(f"a pass makes {path!r}, and another file of the package is there")
+        self.files[path] = data
+
     def _folder(self, folder: Path, origins: Origins) -> str:
         """The scripts or images in a folder, which are found by their names, so that they stay together."""
         inside = sorted(each for each in folder.iterdir() if kind_of(each) in {"image", "script"} and each.is_file())
@@ -96,10 +114,12 @@ class Collection:
             raise UncollectedError(f"{str(folder)!r} is a folder without images and scripts")
         kinds = {kind_of(each) for each in inside}
         kind: FileKind = "script" if "script" in kinds else "image"
-        place = self._places.take(folder_of(path) for path in self._wanted(inside[0], kind, origins))
+        wanted = (folder_of(path) for path in self._wanted(inside[0], kind, origins))
+        place = self._places.take_folder(wanted, [each.name for each in inside])
         for each in inside:
-            self._places.take([f"{place}/{each.name}"])
-            self.files[f"{place}/{each.name}"] = self.sources[f"{place}/{each.name}"] = self._checked(each, origins)
+            own = f"{place}/{each.name}"
+            self.files[own] = self.sources[own] = self._checked(each, origins)
+            self._by_source.setdefault(each.resolve(), own)
         return place
 
     def _file(self, found: Path, origins: Origins) -> str:

@@ -4,6 +4,7 @@ import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import count
 
 from twinform.compiler.packaging.file_kinds import FileKind, kind_of
 
@@ -66,27 +67,47 @@ def safe_name(name: str) -> str:
 
 @dataclass(slots=True)
 class Places:
-    """The places in a package that are taken, where capitals do not count."""
+    """The places in a package that are taken, where capitals do not count: no file is where a folder is."""
 
-    taken: set[str] = field(default_factory=set[str])
+    files: set[str] = field(default_factory=set[str])
+    folders: set[str] = field(default_factory=set[str])
 
     def take(self, wanted: Iterable[str]) -> str:
-        """The first of several places that is free, or else the last one with a number."""
-        place = ""
-        for place in _tries(wanted):
-            if place.casefold() not in self.taken:
-                break
-        self.taken.add(place.casefold())
+        """The first of several places that is free, or else the name of the last one with a number."""
+        place = next(filter(self._is_free, _with_numbers(wanted)))
+        self._take(place)
         return place
 
+    def take_folder(self, wanted: Iterable[str], names: Sequence[str]) -> str:
+        """The first of several folders in which there is room for files of these names, which they take."""
+        folders = _with_numbers(wanted)
+        place = next(each for each in folders if all(self._is_free(f"{each}/{name}") for name in names))
+        for name in names:
+            self._take(f"{place}/{name}")
+        return place
 
-def _tries(wanted: Iterable[str]) -> Iterator[str]:
-    last = ""
-    for place in wanted:
-        last = place
+    def _is_free(self, place: str) -> bool:
+        known = place.casefold()
+        return known not in self.files and known not in self.folders and self.files.isdisjoint(_above(known))
+
+    def _take(self, place: str) -> None:
+        self.files.add(place.casefold())
+        self.folders.update(_above(place.casefold()))
+
+
+def _above(place: str) -> Iterator[str]:
+    """The folders that a place is in."""
+    while "/" in place:
+        place = place.rpartition("/")[0]
         yield place
-    stem, dot, suffix = last.rpartition(".")
-    number = 2
-    while True:
-        yield f"{stem}_{number}.{suffix}" if dot and kind_of(last) else f"{last}_{number}"
-        number += 1
+
+
+def _with_numbers(wanted: Iterable[str]) -> Iterator[str]:
+    """The places, and then numbered ones right below the first folder, where nothing but folders is."""
+    last = ""
+    for last in wanted:
+        yield last
+    top, name = last.partition("/")[0], last.rpartition("/")[2]
+    stem, dot, suffix = name.rpartition(".")
+    for number in count(2):
+        yield f"{top}/{stem}_{number}.{suffix}" if dot and kind_of(name) else f"{top}/{name}_{number}"

@@ -5,13 +5,16 @@ from dataclasses import dataclass, field, replace
 from typing import Self
 
 from twinform.compiler.driver import Conversion, run_conversion
+from twinform.compiler.errors import CompileError
 from twinform.compiler.input.loading import Input, LoadOptions
 from twinform.compiler.packaging.collect_files import CollectFiles
-from twinform.compiler.packaging.collecting import Collection
+from twinform.compiler.packaging.collecting import Collection, UncollectedError
 from twinform.compiler.packaging.layout import Layout
+from twinform.compiler.packaging.made_files import MadeFiles
 from twinform.compiler.packaging.package import Package
 from twinform.compiler.request import ConversionRequest, Language
-from twinform.diagnostics import Diagnostic, Ledger
+from twinform.diagnostics import Diagnostic, Ledger, Location, Severity
+from twinform.diagnostics.rules.packaging import UNPACKAGED_FILE
 from twinform.passes import PassInstrumentation, Pipeline
 from twinform.passes.plugins.release_names import ReleaseName
 
@@ -86,9 +89,16 @@ class Order:
         """
         passes = Pipeline((*self.conversion.passes, CollectFiles.into(collection)))
         request = replace(self.conversion, to=to, sdf_version=sdf_version, passes=passes)
-        return run_conversion(
+        made = run_conversion(
             request, self.source, self.load_options, name=self.source_name, instrumentation=instrumentation
         )
+        try:
+            for path, data in MadeFiles.of(made.side_files).files.items():
+                collection.put(path, data)
+        except UncollectedError as error:
+            wrong = Diagnostic(UNPACKAGED_FILE, error.message, Location(self.source_name), Severity.ERROR)
+            raise CompileError((*made.diagnostics, wrong)) from error
+        return made
 
 
 @dataclass(frozen=True, slots=True)

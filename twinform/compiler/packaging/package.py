@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from types import MappingProxyType
 
 Content = bytes | Path
@@ -14,7 +14,7 @@ class Package:
     """What a package is called, and its files: paths with `/`, sorted, none of which leaves the folder.
 
     Raises:
-        ValueError: a path leaves the folder, or two are one file where capitals do not count.
+        ValueError: a path leaves the folder, is below a file, or two are one file where capitals do not count.
     """
 
     name: str
@@ -28,6 +28,9 @@ class Package:
             other = seen.setdefault(path.casefold(), path)
             if other != path:
                 raise ValueError(f"{path!r} and {other!r} are one file where capitals do not count")
+        for path in self.files:
+            if any(str(folder).casefold() in seen for folder in PurePosixPath(path).parents):
+                raise ValueError(f"{path!r} is below a file")
         object.__setattr__(self, "files", MappingProxyType(dict(sorted(self.files.items()))))
 
     @property

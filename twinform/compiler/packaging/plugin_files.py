@@ -1,7 +1,7 @@
 """Files that parameters of plugins name: not put into a package, since only the plugin knows what they mean."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules.packaging import UNPACKAGED_PARAMETER
@@ -11,11 +11,11 @@ from twinform.ir.census import untyped_elements
 _FILE = re.compile(r"(?:package|model|file)://\S+|\$\(find [^)]*\)\S*")
 
 
-def report_plugin_files(document: Document, sink: DiagnosticSink) -> None:
-    """Report each URI in parameters of plugins, once."""
+def report_plugin_files(document: Document, is_there: Callable[[str], bool], sink: DiagnosticSink) -> None:
+    """Report each URI in parameters of plugins, once, but for those of which it is known that they are there."""
     reported: set[str] = set()
     for uri, plugin, where in _uris(document):
-        if uri not in reported:
+        if uri not in reported and not is_there(uri):
             reported.add(uri)
             message = f"plugin {plugin!r} names {uri!r}, which is not put into the package"
             sink.report(UNPACKAGED_PARAMETER, message, where, found=uri)

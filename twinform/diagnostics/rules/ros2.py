@@ -53,6 +53,17 @@ NO_JOINT_STATES = Rule(
     better="Add the system with `--passes add-plugin{system=joint-state-publisher}`, or turn transmissions of ROS 1 "
     "into a `<ros2_control>` with `--passes ros2-control-from-transmissions`.",
 )
+FRAME_NOT_IN_TF = Rule(
+    name="frame-not-in-tf",
+    severity=Severity.WARNING,
+    finds="A sensor in a package of ROS 2 that does not say which frame its messages are in. Gazebo takes the names of "
+    "model, link and sensor for one.",
+    matters="tf has no such frame, so RViz and navigation drop the messages: they know no place for them.",
+    example="`<sensor name='lidar' type='gpu_lidar'>` without a frame publishes in `rover/laser_link/lidar`.",
+    better="Write the link that the sensor is on: `<gz_frame_id>laser_link</gz_frame_id>`, or with Fortress "
+    "`<ignition_frame_id>`. A sensor with a pose of its own needs a link at its place, as `frame-id` of `add-sensor`.",
+    references="gz-sensors, `Sensor.cc`; ros_gz_bridge.",
+)
 PACKAGE_NAME = Rule(
     name="package-name",
     severity=Severity.ERROR,

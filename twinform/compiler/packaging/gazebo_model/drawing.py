@@ -17,6 +17,8 @@ _FORWARD, _UP = (-0.75, 0.5, -0.43), (0.0, 0.0, 1.0)
 _TO_LAMP = (0.6, -0.35, 0.72)
 _MOST_SAMPLES = 2**22
 """So many points are worked on at once, which bounds the memory."""
+_LEVELS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512, 768, 1024, 1536, 2048)
+"""How many steps a triangle is sampled in, along it and across."""
 
 _Array = Any
 """A `numpy.ndarray`."""
@@ -79,16 +81,28 @@ def _shaded(numpy: Any, faces: Faces) -> _Array:
 
 
 def _samples(numpy: Any, corners: _Array) -> Iterator[tuple[_Array, _Array]]:
-    """Points of the triangles, at least one for each pixel that these cover, and the triangle that each is of."""
-    edges = corners[:, :, :2] - numpy.roll(corners[:, :, :2], 1, axis=1)
-    steps = numpy.ceil(numpy.linalg.norm(edges, axis=2).max(axis=1) * 1.25).astype(int) + 1
-    for count in numpy.unique(steps):
-        i, j = (each.ravel() for each in numpy.meshgrid(numpy.arange(count + 1), numpy.arange(count + 1)))
-        inside = i + j <= count
-        weights = numpy.stack([i[inside], j[inside], count - i[inside] - j[inside]], axis=1) / count
-        which = numpy.flatnonzero(steps == count)
+    """Points of the triangles, at least one for each pixel that these cover, and the triangle that each is of.
+
+    They lie in rows along the longest side, as many as the triangle is high, so that one that is long and thin, as
+    many are, has few. Triangles with about as many go together.
+    """
+    sides = numpy.linalg.norm((numpy.roll(corners, -1, axis=1) - corners)[:, :, :2], axis=2)
+    first = sides.argmax(axis=1)
+    each = numpy.arange(len(corners))
+    a, b, c = (corners[each, (first + step) % 3] for step in range(3))
+    length = sides[each, first]
+    doubled = numpy.abs((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+    height = doubled / numpy.maximum(length, 1e-12)
+    levels = numpy.array(_LEVELS)
+    along, across = (numpy.searchsorted(levels, 1.25 * extent) for extent in (length, height))
+    for group in numpy.unique(along * len(_LEVELS) + across):
+        which = numpy.flatnonzero(along * len(_LEVELS) + across == group)
+        columns, rows = levels[group // len(_LEVELS)], levels[group % len(_LEVELS)]
+        grid = numpy.meshgrid(numpy.linspace(0, 1, columns + 1), numpy.linspace(0, 1, rows + 1))
+        s, t = (values.ravel() for values in grid)
+        weights = numpy.stack([(1 - t) * (1 - s), (1 - t) * s, t], axis=1)
         at_once = max(1, _MOST_SAMPLES // len(weights))
         for start in range(0, len(which), at_once):
             some = which[start : start + at_once]
-            points = numpy.einsum("sc,tcx->tsx", weights, corners[some]).reshape(-1, 3)
+            points = numpy.einsum("sc,ctx->tsx", weights, numpy.stack([a[some], b[some], c[some]])).reshape(-1, 3)
             yield points, numpy.repeat(some, len(weights))

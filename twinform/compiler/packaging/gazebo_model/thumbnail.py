@@ -3,6 +3,7 @@
 import importlib
 from collections.abc import Iterator
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, Literal
 
 from twinform.compiler.packaging.collecting import Collection
@@ -27,7 +28,8 @@ def thumbnail(document: Document, collection: Collection, sink: DiagnosticSink) 
         return None
     model = document.models[0]
     try:
-        faces = list(_faces(model, Meshes(_Collected(collection))))
+        with TemporaryDirectory() as folder:
+            faces = list(_faces(model, Meshes(_Collected(collection, Path(folder)))))
         if faces and sum(len(each.points) for each in faces) <= _MOST_FACES:
             return picture(faces)
         why = "there are too many triangles" if faces else "nothing of it can be drawn"
@@ -40,17 +42,26 @@ def thumbnail(document: Document, collection: Collection, sink: DiagnosticSink) 
 
 
 class _Collected:
-    """The files of a package by their URIs in it, wherever they still lie."""
+    """The files of a package by their URIs in it: where they still lie, or in a folder if a pass has made them."""
 
     folder: Path | None = None
 
-    def __init__(self, collection: Collection) -> None:
-        self._sources = {collection.layout.uri(path, "model"): source for path, source in collection.sources.items()}
+    def __init__(self, collection: Collection, folder: Path) -> None:
+        self._collection, self._folder = collection, folder
+        self._places = {collection.layout.uri(path, "model"): path for path in collection.files}
 
     def find(self, uri: str) -> Path:
-        if uri.strip() not in self._sources:
+        place = self._places.get(uri.strip())
+        if place is None:
             raise AssetError(UNRESOLVED_URI, f"{uri!r} is not in the package")
-        return self._sources[uri.strip()]
+        if place in self._collection.sources:
+            return self._collection.sources[place]
+        content = self._collection.files[place]
+        if isinstance(content, Path):
+            return content
+        path = self._folder / place.replace("/", "_")
+        path.write_bytes(content)
+        return path
 
     def holder(self, folder: Path, kind: Literal["package", "model"]) -> str | None:
         del folder, kind
@@ -68,9 +79,9 @@ def _faces(model: Model, meshes: Meshes) -> Iterator[Faces]:
         for visual in link.visuals:
             shape = visual.geometry.shape if visual.geometry else None
             made = _triangles(shape, meshes) if shape else None
-            if made is not None and len(made.faces):
-                at = graph.resolve(visual.pose, name, MODEL, base="model")
-                yield Faces(_placed(made, at), _color(visual.material))
+            points = _placed(made, graph.resolve(visual.pose, name, MODEL, base="model")) if made is not None else ()
+            if len(points):
+                yield Faces(points, _color(visual.material))
 
 
 def _links(model: Model) -> Iterator[tuple[str, Link]]:
@@ -110,10 +121,11 @@ def _triangles(shape: Shape, meshes: Meshes) -> Any:
 
 
 def _placed(triangles: Any, at: Transform) -> Any:
-    """The corners of each triangle in the frame of the model: an array of n by 3 by 3 numbers."""
+    """The corners of each triangle in the frame of the model: an array of n by 3 by 3 numbers, all of them finite."""
     numpy: Any = importlib.import_module("numpy")
     turn = numpy.array(at.rotation).reshape(3, 3)
-    return (triangles.vertices @ turn.T + numpy.array(at.translation))[triangles.faces]
+    placed = (triangles.vertices @ turn.T + numpy.array(at.translation))[triangles.faces]
+    return placed[numpy.isfinite(placed).all(axis=(1, 2))]
 
 
 def _color(material: Material | None) -> tuple[float, float, float]:

@@ -13,6 +13,8 @@ from twinform.passes.framework.base import Pass
 from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.sites import Site, map_plugins, plugins_of
 
+CONTROLLERS = "config/controllers.yaml"
+"""The file of the package that it reads."""
 _FORTRESS = "fortress"
 _PARAMETERS = "parameters"
 _CLASSES = ("::GazeboSimROS2ControlPlugin", "::IgnitionROS2ControlPlugin")
@@ -33,7 +35,7 @@ def runs_in_gazebo(system: System, release: str) -> bool:
 
 def controllers_uri(package: str) -> str:
     """What the plugin has for the path of its file, which the launch file puts in its place."""
-    return f"package://{package}/config/controllers.yaml"
+    return f"package://{package}/{CONTROLLERS}"
 
 
 class ConnectControllers(Pass):

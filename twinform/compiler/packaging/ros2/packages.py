@@ -12,7 +12,8 @@ from twinform.compiler.packaging.order import Built, Order
 from twinform.compiler.packaging.package import Content, Package
 from twinform.compiler.packaging.ros2.contents import Contents
 from twinform.compiler.packaging.ros2.controllers import controllers_of
-from twinform.compiler.packaging.ros2.gazebo_control import ConnectControllers, has_gazebo_control
+from twinform.compiler.packaging.ros2.gazebo_control import CONTROLLERS, ConnectControllers, has_gazebo_control
+from twinform.compiler.packaging.ros2.sensor_frames import report_frames
 from twinform.compiler.packaging.ros2.texts import generated_files
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import ros2 as rules
@@ -39,6 +40,7 @@ def build(order: Order, collection: Collection) -> Built:
         CompileError: the model or a file of it has an error, or ROS does not take the name.
     """
     _check_name(order)
+    collection.reserve(CONTROLLERS)
     sink = DiagnosticSink(order.source_name)
     conversion = _converted(order, collection)
     contents = _contents(order, conversion, [*collection.files, *order.beside], sink)
@@ -72,6 +74,7 @@ def _contents(order: Order, conversion: Conversion, files: Sequence[str], sink: 
         files=sorted({path for path in files if "/" not in path}),
     )
     _check_joint_states(contents, sink)
+    report_frames(document, order.release, sink)
     return contents
 
 

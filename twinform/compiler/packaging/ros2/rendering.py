@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from importlib import resources
 
 _NAME = re.compile(r"\{\{(\w+)\}\}")
+_PLAIN = re.compile(r"[A-Za-z0-9_./-]+")
 _CONDITION = re.compile(r"  #\? (\w+)$")
 
 
@@ -25,3 +26,8 @@ def render(template: str, values: Mapping[str, str], facts: Mapping[str, bool]) 
 def python_text(text: str) -> str:
     """Text as Python has it, in single quotes, as ROS 2 writes them, wherever that needs no more escapes."""
     return ascii(text)
+
+
+def cmake_text(text: str) -> str:
+    """Text as CMake has it, in quotes where it needs them."""
+    return text if _PLAIN.fullmatch(text) else '"' + re.sub(r'([\\"$@])', r"\\\1", text) + '"'

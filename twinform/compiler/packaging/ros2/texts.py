@@ -2,9 +2,9 @@
 
 from twinform.compiler.packaging.ros2.contents import Contents
 from twinform.compiler.packaging.ros2.controllers import controllers_yaml
-from twinform.compiler.packaging.ros2.gazebo_control import control_package
+from twinform.compiler.packaging.ros2.gazebo_control import CONTROLLERS, control_package
 from twinform.compiler.packaging.ros2.manifest import package_xml
-from twinform.compiler.packaging.ros2.rendering import python_text, render
+from twinform.compiler.packaging.ros2.rendering import cmake_text, python_text, render
 from twinform.compiler.packaging.ros2.rviz import rviz_config
 from twinform.passes.plugins.bridge import bridge_yaml
 from twinform.passes.plugins.ground_clearance import lowest_point
@@ -34,7 +34,7 @@ def generated_files(contents: Contents) -> dict[str, str]:
         "config/bridge.yaml": bridge_yaml(contents.bridges),
     }
     if contents.controllers:
-        files["config/controllers.yaml"] = controllers_yaml(contents.controllers)
+        files[CONTROLLERS] = controllers_yaml(contents.controllers)
     variable = "IGN_GAZEBO_RESOURCE_PATH" if contents.release == "fortress" else "GZ_SIM_RESOURCE_PATH"
     files |= {f"env-hooks/{each}": render(each, {"variable": variable}, {}) for each in _HOOKS}
     return {**files, "CMakeLists.txt": _cmake(contents, files)}
@@ -50,7 +50,11 @@ def _depends(contents: Contents) -> list[str]:
 def _cmake(contents: Contents, files: dict[str, str]) -> str:
     folders = {path.partition("/")[0] for path in files if "/" in path} - {"env-hooks"}
     folders |= {"urdf", "worlds", *contents.folders}
-    values = {"package": contents.package, "folders": " ".join(sorted(folders)), "files": " ".join(contents.files)}
+    values = {
+        "package": contents.package,
+        "folders": " ".join(map(cmake_text, sorted(folders))),
+        "files": " ".join(map(cmake_text, contents.files)),
+    }
     return render("CMakeLists.txt.in", values, {"files": bool(contents.files)})
 
 

@@ -2,6 +2,7 @@
 
 import io
 import sys
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -24,6 +25,7 @@ _SHAPES = (
     "<cone><radius>1</radius><length>2</length></cone>",
     "<ellipsoid><radii>1 2 3</radii></ellipsoid>",
 )
+_TEXT = '<sdf version="1.12"><model name="m"><link name="l">{}</link></model></sdf>'
 _BEHIND = (245, 246, 248)
 
 
@@ -32,9 +34,10 @@ def _visual(name: str, pose: str, color: str, shape: str = _BALL) -> str:
 
 
 def _drawn(*visuals: str) -> tuple[bytes | None, DiagnosticSink]:
-    text = f'<sdf version="1.12"><model name="m"><link name="l">{"".join(visuals)}</link></model></sdf>'
     sink = DiagnosticSink()
-    return thumbnail(twinform.loads(text.encode()), Collection(Layout({"model": "m"})), sink), sink
+    return thumbnail(
+        twinform.loads(_TEXT.format("".join(visuals)).encode()), Collection(Layout({"model": "m"})), sink
+    ), sink
 
 
 def _picture(*visuals: str) -> Any:
@@ -87,6 +90,15 @@ def test_nothing_to_be_drawn_is_a_note(visuals: list[str]) -> None:
     assert [(each.rule.name, each.message) for each in sink.diagnostics] == [
         ("no-thumbnail", "model 'm' has no thumbnail: nothing of it can be drawn")
     ]
+
+
+def test_corners_that_are_no_numbers_are_left_out(tmp_path: Path) -> None:
+    mesh = tmp_path / "m.obj"
+    mesh.write_text("v 0 0 0\nv 1 0 0\nv 0 1 1\nv nan 0 0\nf 1 2 3\nf 1 2 4\n")
+    collection = Collection(Layout({"model": "m"}), files={"meshes/m.obj": mesh})
+    shape = "<mesh><uri>model://m/meshes/m.obj</uri></mesh>"
+    document = twinform.loads(_TEXT.format(_visual("v", "0 0 0", "1 0 0", shape)).encode())
+    assert thumbnail(document, collection, DiagnosticSink())
 
 
 def test_libraries_that_are_missing_are_named(monkeypatch: pytest.MonkeyPatch) -> None:

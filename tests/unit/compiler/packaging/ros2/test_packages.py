@@ -1,4 +1,4 @@
-"""Rules: no-joint-states, package-name."""
+"""Rules: frame-not-in-tf, no-joint-states, package-name."""
 
 import pytest
 
@@ -60,6 +60,23 @@ def test_other_names_are_an_error_with_a_name_to_take(name: str, suggested: str)
 def test_a_robot_whose_joints_nobody_publishes_is_reported() -> None:
     assert rules(packaged()) == ["no-joint-states"]
     assert rules(packaged(passes="add-plugin{system=joint-state-publisher}")) == []
+
+
+@pytest.mark.parametrize(("frame", "found"), [("", ["frame-not-in-tf"]), (" frame-id=base", [])])
+def test_a_sensor_without_a_frame_is_reported(frame: str, found: list[str]) -> None:
+    text = f'<robot name="r">{link("base")}</robot>'
+    built = packaged(passes=f"add-sensor{{type=imu link=base xyz=[0,0,1]{frame}}}", text=text)
+    assert [each for each in rules(built) if each == "frame-not-in-tf"] == found
+
+
+def test_the_frame_of_a_sensor_is_shown() -> None:
+    built = packaged(
+        passes="add-sensor{type=imu link=base xyz=[0,0,1]}", text=f'<robot name="r">{link("base")}</robot>'
+    )
+    (report,) = [each for each in built.diagnostics if each.rule.name == "frame-not-in-tf"]
+    assert report.message == "messages of sensor 'imu' are in the frame 'r/base/imu', which tf does not have"
+    where = "or another link that is where the sensor is"
+    assert report.help == f"write <gz_frame_id>base</gz_frame_id> into it, {where}"
 
 
 def test_a_robot_that_does_not_move_needs_no_sliders() -> None:
