@@ -79,7 +79,8 @@ def _absent(folder: Path) -> Iterator[str]:
 def _libsdformat(packaged: Packaged) -> str:
     """What the library reports, and the files that it does not find from the folder around."""
     found = named_files(packaged.folder / _FOR_LIBSDFORMAT, [packaged.folder.parent])
-    lost = [uri for uri, path in found.paths.items() if path is None or not path.is_relative_to(packaged.folder)]
+    paths = {uri: path for uri, path in found.paths.items() if not uri.startswith(_ELSEWHERE)}
+    lost = [uri for uri, path in paths.items() if path is None or not path.is_relative_to(packaged.folder)]
     return "; ".join((*found.errors, *lost)[:2])
 
 

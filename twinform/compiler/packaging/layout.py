@@ -107,7 +107,7 @@ def _with_numbers(wanted: Iterable[str]) -> Iterator[str]:
     last = ""
     for last in wanted:
         yield last
-    top, name = last.partition("/")[0], last.rpartition("/")[2]
+    top, name = last.partition("/")[0] + "/" if "/" in last else "", last.rpartition("/")[2]
     stem, dot, suffix = name.rpartition(".")
     for number in count(2):
-        yield f"{top}/{stem}_{number}.{suffix}" if dot and kind_of(name) else f"{top}/{name}_{number}"
+        yield f"{top}{stem}_{number}.{suffix}" if dot and kind_of(name) else f"{top}{name}_{number}"

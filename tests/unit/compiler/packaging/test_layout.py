@@ -35,7 +35,7 @@ def test_no_file_is_where_a_folder_is() -> None:
     assert places.take(["meshes/a.stl/b.stl"]) == "meshes/b_2.stl"
     assert places.take(["meshes/c.stl/b.stl"]) == "meshes/c.stl/b.stl"
     assert places.take(["meshes/c.stl"]) == "meshes/c_2.stl"
-    assert places.take_folder(["meshes"], ["x.png", "A.STL"]) == "meshes/meshes_2"
+    assert places.take_folder(["meshes"], ["x.png", "A.STL"]) == "meshes_2"
 
 
 @pytest.mark.parametrize("paths", [["../a"], ["/a"], ["a//b"], ["a/"], [""], ["a\\b"], ["a", "A"], ["a", "a/b"]])
