@@ -8,7 +8,7 @@ from pathlib import Path
 MOST = {"stl": 30, "dae": 30, "obj": 22, "ply": 8, "glb": 5, "gltf": 8}
 """How many of each format are looked at."""
 _PACKAGES = ("pybullet_data", "pydrake", "cmeel")
-_LARGEST = 2**21
+_LARGEST = 2**20
 _FOLDERS = {"cmeel": "../cmeel.prefix/share/example-robot-data", "pydrake": "share"}
 
 
@@ -35,7 +35,7 @@ def chosen(folders: Iterable[str]) -> list[MeshFile]:
         )
         step = max(1.0, len(own) / most)
         found += [own[int(at * step)] for at in range(min(most, len(own)))]
-    return found
+    return sorted(found, key=lambda each: (each.path.stat().st_size, each.name))
 
 
 def _installed() -> Iterator[MeshFile]:

@@ -16,7 +16,7 @@ from twinform.ir.geometry import Box, Capsule, Cylinder, Sphere
 from twinform.ir.transform import Transform
 
 Array = Any
-_POINTS = 20_000
+_POINTS = 5_000
 _NEAR = 1e-9
 _UNIT = re.compile(r"<unit\b[^>]*\bmeter\s*=\s*[\"']([^\"']+)")
 

@@ -1,10 +1,14 @@
 """What the passes make of one mesh, each in a process of its own, whose memory and time are measured."""
 
+import hashlib
 import importlib
+import json
+import os
 import shutil
+import tempfile
 import time
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -18,10 +22,9 @@ PIPELINES = {
     "simplify": "simplify-collisions{how=[primitive,hull]}",
     "parts": "simplify-collisions{how=parts parts=8}",
     "decimate": "decimate-visuals{share=0.25}",
-    "obj": "convert-meshes{to=obj drop-appearance=true}",
-    "stl": "convert-meshes{to=stl drop-appearance=true}",
+    "convert": "convert-meshes{to=obj drop-appearance=true}",
 }
-LIMITS = {"simplify": 0.05, "parts": 0.05, "decimate": 0.01, "obj": 1e-6, "stl": 1e-6}
+LIMITS = {"simplify": 0.05, "parts": 0.05, "decimate": 0.01, "convert": 1e-6}
 """The distances that are asked for, as a share of the diagonal."""
 COLLISIONS = frozenset({"simplify", "parts"})
 _MODEL = """<robot name="m"><link name="l">
@@ -50,37 +53,52 @@ class Outcome:
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """A mesh, and the step."""
+    """A mesh, and the steps to take with it."""
 
     file: MeshFile
-    step: str
+    steps: tuple[str, ...]
+
+    @property
+    def kept(self) -> Path:
+        """Where its outcomes are kept, so that a run that was broken off goes on."""
+        key = hashlib.sha256(repr((self.file.name, self.steps, PIPELINES)).encode()).hexdigest()
+        return OUT / "meshes" / f"{key}.json"
 
 
-def judged(task: Task) -> Outcome:
+def all_judged(task: Task) -> list[Outcome]:
+    """Take every step with a mesh, unless its outcomes are kept."""
+    if task.kept.is_file():
+        return [Outcome(**row) for row in json.loads(task.kept.read_text(encoding="utf-8"))]
+    os.environ["TWINFORM_MESH_CACHE"] = "off"  # time and memory are measured
+    found = [_judged(task.file, step) for step in task.steps]
+    peak = _peak()
+    found = [replace(each, megabytes=peak) for each in found]
+    twinform.write_atomically(task.kept, json.dumps([asdict(each) for each in found]))
+    return found
+
+
+def _judged(file: MeshFile, step: str) -> Outcome:
     """Run a pass on a model with this mesh, write what it makes, and ask others about it."""
-    folder = OUT / "meshes" / task.step / str(abs(hash((task.file.name, task.step))))
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
-    uri = f"in/mesh{task.file.path.suffix.lower()}"
-    shutil.copytree(task.file.path.parent, folder / "in", ignore=_others(task.file.path), dirs_exist_ok=True)
-    (folder / "in" / task.file.path.name).rename(folder / uri)
-    tag = "collision" if task.step in COLLISIONS else "visual"
+    folder = Path(tempfile.mkdtemp())
+    uri = f"in/mesh{file.path.suffix.lower()}"
+    shutil.copytree(file.path.parent, folder / "in", ignore=_others(file.path), dirs_exist_ok=True)
+    (folder / "in" / file.path.name).rename(folder / uri)
+    tag = "collision" if step in COLLISIONS else "visual"
     (folder / "m.urdf").write_text(_MODEL.format(tag=tag, uri=uri))
     begin = time.monotonic()
-    made = twinform.convert(folder / "m.urdf", to="urdf", passes=PIPELINES[task.step])
+    made = twinform.convert(folder / "m.urdf", to="urdf", passes=PIPELINES[step])
     seconds = time.monotonic() - begin
     for each in made.side_files:
         twinform.write_atomically(folder / each.path, each.data)
     said = tuple(each.message for each in made.diagnostics if "mesh" in each.rule.name)
-    base = {"name": task.file.name, "format": task.file.format, "step": task.step, "said": said}
+    outcome = Outcome(file.name, file.format, step, said=said, seconds=seconds)
     try:
-        facts = _facts(task, made.document, folder, uri)
+        return replace(outcome, **_facts(step, made.document, folder, uri))
     except Exception as error:  # noqa: BLE001 - a judge that fails is a finding
-        facts = {"fault": f"{type(error).__name__}: {error}"}
+        return replace(outcome, fault=f"{type(error).__name__}: {error}")
     finally:
         with suppress(OSError):
             shutil.rmtree(folder)
-    return Outcome(**base, **facts, seconds=seconds, megabytes=_peak())  # type: ignore[arg-type]
 
 
 def _others(mesh_path: Path) -> Any:
@@ -94,19 +112,19 @@ def _others(mesh_path: Path) -> Any:
     return ignored
 
 
-def _facts(task: Task, document: Any, folder: Path, uri: str) -> dict[str, Any]:
+def _facts(step: str, document: Any, folder: Path, uri: str) -> dict[str, Any]:
     link = next(node for node in walk(document) if isinstance(node, Link))
     shapes: tuple[Collision | Visual, ...] = link.collisions or link.visuals
     found = [each.geometry.shape if each.geometry else None for each in shapes]
     if len(found) == 1 and isinstance(found[0], Mesh) and found[0].uri == uri:
         return {}
     old = mesh(folder / uri)
-    if task.step in COLLISIONS:
+    if step in COLLISIONS:
         new = [body_of(each.geometry.shape if each.geometry else None, each.pose, folder) for each in shapes]
     else:
         new = [mesh(folder / (each.uri or "")) for each in found if isinstance(each, Mesh)]
     size = diagonal(old)
-    parts = f"{len(new)} convex" if task.step in COLLISIONS else "mesh"
+    parts = f"{len(new)} convex" if step in COLLISIONS else "mesh"
     first = found[0]
     how = first.kind if first and not isinstance(first, Mesh) else parts
     uris = [each.uri or "" for each in found if isinstance(each, Mesh)]
@@ -115,8 +133,8 @@ def _facts(task: Task, document: Any, folder: Path, uri: str) -> dict[str, Any]:
         "before": old.shape.num_tris,
         "after": sum(getattr(each.shape, "num_tris", 0) for each in new),
         "how": how,
-        "judged": apart(old, new, outside=task.step in COLLISIONS) / size,
-        "readers": {} if task.step in COLLISIONS else _readers(folder / uris[0], old, size),
+        "judged": apart(old, new, outside=step in COLLISIONS) / size,
+        "readers": {} if step in COLLISIONS else _readers(folder / uris[0], old, size),
     }
 
 
