@@ -193,3 +193,26 @@ def test_what_cannot_be_read_stops_no_other(run: Run, tmp_path: Path) -> None:
     done = run("stats", tmp_path / "wrong.urdf", _EXAMPLES / "rover.urdf")
     assert (done.exit_code, "model 'rover'" in done.stdout) == (1, True)
     assert run("stats", tmp_path / "broken.urdf", tmp_path / "wrong.urdf").exit_code == 2
+
+
+SENSING = """<robot name="r"><link name="base"/><gazebo reference="base">
+<sensor name="scan" type="ray"><ray><scan><horizontal><samples>3600</samples></horizontal></scan></ray></sensor>
+<sensor name="eye" type="camera"><update_rate>60</update_rate><camera><image><width>1280</width><height>720</height>
+</image></camera></sensor></gazebo></robot>"""
+
+
+def test_the_cost_of_sensors_comes_with_what_to_do(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "r.urdf").write_text(SENSING)
+    (cost,) = [model["cost"] for model in stats(run, tmp_path / "r.urdf")["models"]]
+    assert (cost["pixels_per_second"], cost["rays_per_second"], cost["rates_assumed"]) == (60 * 1280 * 720, 3.6e6, 1)
+    assert [each["category"] for each in cost["advice"]] == ["sensors", "sensors"]
+    passes = ",".join(each["passes"] for each in cost["advice"])
+    done = run("convert", tmp_path / "r.urdf", "-o", tmp_path / "cheap.urdf", "--passes", passes)
+    assert done.exit_code == 0, done.stderr
+    (cost,) = [model["cost"] for model in stats(run, tmp_path / "cheap.urdf")["models"]]
+    assert cost["advice"] == []
+
+
+def test_a_model_that_costs_little_needs_no_advice(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "r.urdf").write_text('<robot name="r"><link name="base"/></robot>')
+    assert "cheaper" not in run("stats", tmp_path / "r.urdf").output

@@ -4,6 +4,7 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from twinform.compiler.statistics.cost import Cost, cost_of
 from twinform.compiler.statistics.meshes import MeshCost
 from twinform.compiler.statistics.tree import freedom, joints_of, shape
 from twinform.ir import Collision, Format, Frame, Include, Light, Link, Model, Plugin, Sensor, Visual, walk
@@ -40,6 +41,7 @@ class ModelStatistics:
     frames: int
     models: int
     includes: int
+    cost: Cost
 
 
 def model_statistics(model: Model, format_: Format, meshes: tuple[MeshCost, ...]) -> ModelStatistics:
@@ -70,6 +72,7 @@ def model_statistics(model: Model, format_: Format, meshes: tuple[MeshCost, ...]
         frames=sum(isinstance(node, Frame) for node in nodes),
         models=sum(isinstance(node, Model) for node in nodes) - 1,
         includes=sum(isinstance(node, Include) for node in nodes),
+        cost=cost_of(model, meshes),
     )
 
 

@@ -4,6 +4,7 @@ import json as jsonlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 
+from twinform.compiler.statistics.cost import Cost
 from twinform.compiler.statistics.driver import FileStatistics, WorldStatistics
 from twinform.compiler.statistics.meshes import MeshCost
 from twinform.compiler.statistics.model import ModelStatistics
@@ -64,6 +65,18 @@ def _rows(model: ModelStatistics) -> Iterator[tuple[str, str]]:
     for name in ("lights", "frames", "models", "includes"):
         number: int = getattr(model, name)
         yield name, str(number) if number else ""
+    yield from _cost(model.cost)
+
+
+def _cost(cost: Cost) -> Iterator[tuple[str, str]]:
+    """What is not said elsewhere of the cost, and what can be done about it."""
+    words = [f"{cost.pixels_per_second:,.0f} pixels a second"] * bool(cost.pixels_per_second)
+    words += [f"{cost.rays_per_second:,.0f} rays a second"] * bool(cost.rays_per_second)
+    words += [f"{_count(cost.rates_assumed, 'sensor')} without an update rate at 1000 Hz"] * bool(cost.rates_assumed)
+    yield "sensing", ", ".join(words)
+    yield "textures", _count(cost.textures, "file") if cost.textures else ""
+    for each in cost.advice:
+        yield "cheaper", f"{each.category}, {each.reason}: --passes '{each.passes}'"
 
 
 def _freedoms(model: ModelStatistics) -> str:

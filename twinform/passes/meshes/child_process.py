@@ -87,6 +87,11 @@ _usual = MeshProcess()
 atexit.register(_usual.end)
 
 
+def shared() -> MeshProcess:
+    """The process that all passes share."""
+    return _usual
+
+
 def do(job: Job) -> Result:
-    """What comes of a job, by the process that all passes share."""
+    """What comes of a job, by that process."""
     return _usual.do(job)

@@ -86,7 +86,9 @@ def error_of(surface: Surface, parts: Sequence[Surface], tolerance: float, limit
     """
     sides = [spatial.ConvexHull(part.points).equations for part in parts]
     size = surface.diagonal
-    outside = farthest(surface, Nearest(_together(parts)), tolerance, _Inside(sides, 1e-9 * size), limit)
+    outside = farthest(
+        surface, Nearest(_together(parts)), tolerance, _Inside(sides, 1e-9 * size, grain=tolerance), limit
+    )
     if outside > limit:
         return outside
     target = Nearest(surface)

@@ -1,7 +1,7 @@
 """Distances between surfaces with a guarantee: no point of one is farther from the other than what is found.
 
-Samples alone would say how far at least. Here every triangle is closed by a bound for all of its points, and split in
-four where the bound is not good enough: the distance of a point to a triangle is convex, so that over a triangle it is
+Samples alone would say how far at least. Here every triangle is closed by a bound for all of its points, and split
+where the bound is not good enough: the distance of a point to a triangle is convex, so that over a triangle it is
 greatest at a corner; and it changes by no more than one moves, so that near its middle it is that of the middle.
 Triangles to measure to are found as those of the nearest samples of the other surface; where that misses the nearest
 one the distance comes out larger, never smaller. Nothing is drawn at random.
@@ -21,8 +21,10 @@ _NEAREST, _NEAREST_TO_CORNER = 4, 2
 _CHUNK = 20_000
 _MOST_OPEN = 300_000
 """Where so many triangles are to be split, what is known so far has to do."""
-_DEEPEST = 14
+_DEEPEST = 20
 _TINY = 1e-3
+_WORTH, _ALIKE = 0.02, 3.0
+"""A triangle is cut where both sides of the cut have more than this part of its size."""
 
 Covered = Callable[[Array], Array]
 """Which of some triangles (by their corners) lie inside of a solid, and do not count."""
@@ -68,16 +70,15 @@ def farthest(
             triangles = triangles[~covered(triangles)]
         still: list[Array] = []
         for part in _chunks(triangles):
-            middles, corners, bounds = _bounds(part, nearest)
-            counted = np.maximum(middles, corners) if covered is None else middles[~covered(_shrunk(part))]
-            found = max(found, float(counted.max(initial=0.0)))
+            at_points, bounds, below = _bounds(part, nearest)
+            found = max(found, *(_greatest(part, *each, covered) for each in at_points))
             if found > limit:
                 return math.inf
             closed = bounds <= found + tolerance
             if depth == _DEEPEST or len(triangles) > _MOST_OPEN:
                 closed[:] = True
             bound = max(bound, float(bounds[closed].max(initial=0.0)))
-            still.append(_split(part[~closed]))
+            still.append(_split(part[~closed], below[~closed]))
         triangles = np.concatenate(still) if still else np.zeros((0, 3, 3))
         if not len(triangles):
             break
@@ -88,29 +89,57 @@ def _chunks(triangles: Array) -> Iterator[Array]:
     return (triangles[at : at + _CHUNK] for at in range(0, len(triangles), _CHUNK))
 
 
-def _shrunk(triangles: Array) -> Array:
-    """Triangles that look the same way, about as large as the middles of these."""
-    middles = triangles.mean(axis=1, keepdims=True)
-    return middles + _TINY * (triangles - middles)
+def _greatest(triangles: Array, points: Array, distances: Array, covered: Covered | None) -> float:
+    """The greatest distance of points, one of each triangle, of those where the triangle counts."""
+    if covered is None:
+        return float(distances.max(initial=0.0))
+    around = points[:, None] + _TINY * (triangles - points[:, None])
+    return float(distances[~covered(around)].max(initial=0.0))
 
 
-def _bounds(triangles: Array, nearest: Nearest) -> tuple[Array, Array, Array]:
-    """Of each triangle the distance of its middle, the greatest of a corner, and one that no point of it exceeds."""
+def _bounds(triangles: Array, nearest: Nearest) -> tuple[list[tuple[Array, Array]], Array, Array]:
+    """The middles and corners of triangles, with distances; a distance that no point of each exceeds; what is below."""
     middles = triangles.mean(axis=1)
     own = nearest.owners(middles, _NEAREST)
     at_corners = [nearest.owners(triangles[:, corner], _NEAREST_TO_CORNER) for corner in range(3)]
     others = nearest.triangles[np.concatenate([own, *at_corners], axis=1)]
     of_corners = np.stack([to_triangles(triangles[:, corner, None], others) for corner in range(3)], axis=1)
-    of_middles = to_triangles(middles[:, None], others).min(axis=1)
+    to_others = to_triangles(middles[:, None], others)
+    of_middles, below = to_others.min(axis=1), others[np.arange(len(others)), to_others.argmin(axis=1)]
     radius = np.linalg.norm(triangles - middles[:, None], axis=2).max(axis=1)
-    return (
-        of_middles,
-        of_corners.min(axis=2).max(axis=1),
-        np.minimum(of_corners.max(axis=1).min(axis=1), of_middles + radius),
-    )
+    corners = [(triangles[:, at], of_corners[:, at].min(axis=1)) for at in range(3)]
+    bounds = np.minimum(of_corners.max(axis=1).min(axis=1), of_middles + radius)
+    return [(middles, of_middles), *corners], bounds, below
 
 
-def _split(triangles: Array) -> Array:
+def _split(triangles: Array, below: Array) -> Array:
+    """Triangles cut where those below them end, so that each piece has one below it; others in four."""
+    sides = below - np.roll(below, 1, axis=1)
+    normals = np.cross(sides, np.cross(sides[:, 0], sides[:, 1])[:, None])
+    lengths = np.linalg.norm(normals, axis=2, keepdims=True)
+    normals = normals / np.where(lengths > 0, lengths, 1.0)
+    heights = np.einsum("tsi,tcsi->tcs", normals, triangles[:, :, None] - below[:, None])
+    across = np.minimum(heights.max(axis=1), -heights.min(axis=1))
+    best = across.argmax(axis=1)
+    size = np.linalg.norm(triangles - np.roll(triangles, 1, axis=1), axis=2).max(axis=1)
+    alike = size < _ALIKE * np.linalg.norm(sides, axis=2).max(axis=1)  # of many small ones, each cut serves but one
+    cut = alike & (across.max(axis=1) > _WORTH * size)
+    chosen = heights[np.arange(len(triangles)), :, best]
+    return np.concatenate([_in_four(triangles[~cut]), _in_three(triangles[cut], chosen[cut])])
+
+
+def _in_three(triangles: Array, heights: Array) -> Array:
+    """Triangles cut by planes, from the heights of their corners above these."""
+    alone = np.where((heights > 0).sum(axis=1) == 1, heights.argmax(axis=1), heights.argmin(axis=1))
+    rows, order = np.arange(len(triangles))[:, None], (alone[:, None] + np.arange(3)) % 3
+    corners, up = triangles[rows, order], heights[rows, order]
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    ab = a + (up[:, :1] / (up[:, :1] - up[:, 1:2])) * (b - a)
+    ac = a + (up[:, :1] / (up[:, :1] - up[:, 2:3])) * (c - a)
+    return np.concatenate([np.stack(each, axis=1) for each in ((a, ab, ac), (ab, b, c), (ab, c, ac))])
+
+
+def _in_four(triangles: Array) -> Array:
     a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
     ab, bc, ca = (a + b) / 2, (b + c) / 2, (c + a) / 2
     quarters = ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))

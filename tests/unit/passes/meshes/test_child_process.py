@@ -1,0 +1,136 @@
+"""Jobs on meshes in another process, and the cache of what comes of them."""
+
+import importlib
+import io
+import threading
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from twinform.passes.meshes.child import done
+from twinform.passes.meshes.child_process import MeshProcess
+from twinform.passes.meshes.job import BadMessageError, Job, Options, Result
+from twinform.passes.meshes.results_cache import VARIABLE, ResultsCache
+
+trimesh: Any = importlib.import_module("trimesh")
+BOX: bytes = trimesh.creation.box((1, 2, 3)).export(file_type="stl")
+OPTIONS: Options = {
+    "submesh": None, "center": False, "gltf_up": "z", "max_error": None, "max_relative_error": 0.05, "scale": [1, 1, 1],
+    "how": ["primitive", "hull"], "shapes": ["box"], "triangles": None, "parts": 4, "stem": "x", "to": "stl",
+}  # fmt: skip
+
+
+def job(content: bytes = BOX, kind: str = "stl", name: str = "simplify", **options: float | str | None) -> Job:
+    return Job(name, {**OPTIONS, **options}, kind, content)
+
+
+def test_jobs_and_results_are_the_same_after_the_way_there_and_back() -> None:
+    sent = Job("convert", OPTIONS, "obj", b"v 0 0 0", {"a.mtl": b"\0\xff"})
+    assert Job.read(io.BytesIO(sent.to_bytes())) == sent
+    result = Result({"error": 0.5}, {".obj": b"\0"}, None, "")
+    assert Result.read(io.BytesIO(result.to_bytes())) == result
+    with pytest.raises(BadMessageError):
+        Result.read(io.BytesIO(result.to_bytes()[:-1]))
+
+
+def test_a_box_is_a_box_and_nothing_else() -> None:
+    facts = done(job()).facts
+    assert (facts["kind"], facts["sizes"], facts["error"]) == ("box", [1.0, 2.0, 3.0], 0.0)
+
+
+@pytest.mark.parametrize(
+    ("content", "kind", "why"),
+    [
+        (b"", "stl", ""),
+        (b"\0" * 80 + b"\xff\xff\xff\xff" + b"\0" * 50, "stl", ""),
+        (b"v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "obj", "flat"),
+        (b"v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n", "obj", "no finite numbers"),
+        (b"v 0 0 0\nf 1 1 1\n", "obj", "no area"),
+        (b"ply\nformat ascii 1.0\nelement vertex 999999999999\nproperty float x\nend_header\n", "ply", ""),
+        (b"<!DOCTYPE a SYSTEM 'file:///etc/passwd'><COLLADA/>", "dae", "document type"),
+        ("<!DOCTYPE a><COLLADA/>".encode("utf-16"), "dae", "UTF-8"),
+        (b'{"asset": {"version": "2.0"}, "buffers": [{"uri": "/etc/passwd", "byteLength": 9}]}', "gltf", ""),
+        (b"glTF\x02\0\0\0\xff\xff\xff\xff", "glb", ""),
+    ],
+)
+def test_a_hostile_mesh_is_trouble_and_no_more(content: bytes, kind: str, why: str) -> None:
+    result = done(job(content, kind))
+    assert result.trouble == "unreadable"
+    assert result.message
+    assert why in result.message
+
+
+def test_scales_that_leave_nothing_are_trouble() -> None:
+    result = done(Job("simplify", {**OPTIONS, "scale": [1, 0, 1]}, "stl", BOX))
+    assert result.trouble == "unreadable"
+    assert "scale" in result.message
+
+
+def test_a_process_that_runs_out_of_time_or_memory_takes_only_its_job_along() -> None:
+    process = MeshProcess(seconds=0.01)
+    try:
+        assert "0.01 seconds" in process.do(job()).message
+        process.seconds = 600.0
+        assert process.do(job()).facts["kind"] == "box"
+    finally:
+        process.end()
+    process = MeshProcess(memory=2**25)
+    try:
+        assert process.do(job()).trouble is not None
+    finally:
+        process.end()
+
+
+def test_results_are_kept_by_all_that_they_depend_on(tmp_path: Path) -> None:
+    cache, result = ResultsCache(tmp_path / "a"), Result({"error": 1.0}, {".obj": b"v"})
+    assert cache.get(job()) is None
+    cache.put(job(), result)
+    assert cache.get(job()) == result
+    assert cache.get(job(max_error=0.1)) is None
+    assert cache.get(job(BOX + b"\0")) is None
+    cache.put(job(kind="ply"), Result({}, trouble="unreadable", message="no"))
+    assert cache.get(job(kind="ply")) is None
+
+
+def test_a_damaged_result_is_none(tmp_path: Path) -> None:
+    cache = ResultsCache(tmp_path)
+    cache.put(job(), Result({"error": 1.0}))
+    (file,) = tmp_path.iterdir()
+    file.write_bytes(file.read_bytes()[:-1] + b"?")
+    assert cache.get(job()) is None
+    file.write_bytes(b"")
+    assert cache.get(job()) is None
+
+
+def test_runs_side_by_side_do_each_other_no_harm(tmp_path: Path) -> None:
+    cache, result = ResultsCache(tmp_path), Result({"error": 1.0}, {".obj": b"v" * 100_000})
+    seen: list[Result | None] = []
+
+    def work() -> None:
+        for _ in range(20):
+            cache.put(job(), result)
+            seen.append(cache.get(job()))
+
+    threads = [threading.Thread(target=work) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all(each == result for each in seen)
+    assert len(list(tmp_path.iterdir())) == 1
+
+
+def test_the_cache_is_where_the_variables_say(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv(VARIABLE, "off")
+    assert ResultsCache.usual().folder is None
+    monkeypatch.setenv(VARIABLE, str(tmp_path))
+    assert ResultsCache.usual().folder == tmp_path
+    monkeypatch.delenv(VARIABLE)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    assert ResultsCache.usual().folder == tmp_path / "twinform" / "meshes"
+
+
+def test_a_folder_that_cannot_be_written_to_is_no_reason_to_fail(tmp_path: Path) -> None:
+    (tmp_path / "file").write_bytes(b"")
+    ResultsCache(tmp_path / "file" / "below").put(job(), Result({}))
