@@ -26,7 +26,7 @@ class MakeMeshes(Pass):
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         made = {**_MADE, **({self.also: b"other"} if self.also else {})}
-        sink.side_files += [SideFile(path, data) for path, data in made.items()]  # pyright: ignore[reportArgumentType]
+        sink.side_files += [SideFile(path, data) for path, data in made.items()]
         return map_uris(document, lambda uri, kind, _: self.uri if kind == "mesh" else uri)
 
 

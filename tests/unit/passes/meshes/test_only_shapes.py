@@ -34,6 +34,10 @@ class Folder:
         del folder, kind
         return None
 
+    def address(self, file: Path) -> str | None:
+        del file
+        return None
+
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Folder:
