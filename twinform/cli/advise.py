@@ -47,7 +47,7 @@ def command(
     style: str,
     **input_options: Unpack[InputOptions],
 ) -> None:
-    """Say which format to keep a robot in, and what each consumer makes of it.
+    """Say which format to keep a robot in, and who takes it.
 
     The reasons are measured: the model is converted into the other format, and the profiles of all consumers are asked
     about both. IN is a URDF, SDF, xacro or JSON file; - is standard input. Arguments of xacro are written NAME:=VALUE.

@@ -15,12 +15,13 @@ from twinform.compiler.inspection import inspect
 from twinform.compiler.inspection.consumers import subject_of, unread
 from twinform.compiler.output.emitting import located
 from twinform.compiler.request import ConversionRequest
-from twinform.diagnostics import Diagnostic, Severity
+from twinform.diagnostics import Diagnostic, Entry, Location, PhysicsChange, Severity
 from twinform.diagnostics.rules.portability import KEPT_PHYSICS
 from twinform.ir import Document, Format
 from twinform.passes import Pass, PassInstrumentation, Pipeline
 from twinform.profiles import Assessment, Judgment, Profile, Subject, assess, findings
-from twinform.profiles.remedies import changes_physics, in_order, remedies
+from twinform.profiles.physics import described
+from twinform.profiles.remedies import in_order, remedies
 
 _ROUNDS = 5
 """How often a conversion is begun again; each time a pass has brought something else to light."""
@@ -61,10 +62,10 @@ def fitted(
     mends = frozenset(row.rule for each in load_options.profiles for row in each.rows if row.pipeline)
     for _ in range(_ROUNDS):
         request = replace(request, remedies=Pipeline(in_order(steps)), mends=mends)
-        found = _assessed_once(request, source, load_options, name)
-        more = [each for each in remedies(found, Format(request.to)) if each not in steps]
+        found, entries = _tried(request, source, load_options, name)
         if request.keep_physics:
-            _require_kept(more, found)
+            _require_kept(entries)
+        more = [each for each in remedies(found, Format(request.to)) if each not in steps]
         if not more:
             break
         steps = (*steps, *more)
@@ -97,18 +98,19 @@ def _placed(assessment: Assessment, document: Document, placed: dict[int, Diagno
     return replace(assessment, judgments=tuple(judgments))
 
 
-def _assessed_once(
+def _tried(
     request: ConversionRequest, source: Input, load_options: LoadOptions, name: str
-) -> tuple[Assessment, ...]:
-    """What consumers make of the result, or of the errors for which there is none yet."""
+) -> tuple[tuple[Assessment, ...], tuple[Entry, ...]]:
+    """What consumers make of the result, and its ledger; or of the errors for which there is none yet."""
     try:
-        return assessed(convert_once(request, source, load_options, name=name), load_options, name)
+        made = convert_once(request, source, load_options, name=name)
     except CompileError as error:
         subject = Subject(name, None, diagnostics=tuple(each for each in error.diagnostics if each.is_error))
         found = assess(subject, load_options.profiles)
         if not any(each.judgments for each in found):
             raise
-        return found
+        return found, ()
+    return assessed(made, load_options, name), made.ledger.entries
 
 
 def _require_readers(profiles: Iterable[Profile], request: ConversionRequest, name: str) -> None:
@@ -119,20 +121,13 @@ def _require_readers(profiles: Iterable[Profile], request: ConversionRequest, na
         raise CompileError(tuple(replace(each, severity=Severity.ERROR) for each in deaf))
 
 
-def _require_kept(steps: Iterable[Pass], found: Iterable[Assessment]) -> None:
-    """Raise where a pass is needed that changes the physics."""
-    refused = [
-        _forbidden(judgment.finding, step)
-        for step in steps
-        if changes_physics(step)
-        for each in found
-        for judgment in each.judgments
-        if step.name in judgment.row.pipeline
-    ]
-    if refused:
-        raise CompileError(tuple(dict.fromkeys(refused)))
+def _require_kept(entries: Iterable[Entry]) -> None:
+    """Raise where a pass has changed the physics."""
+    changes = [(each.change, each.location) for each in entries if each.change]
+    if changes:
+        raise CompileError(tuple(_forbidden(change, place) for change, place in changes))
 
 
-def _forbidden(finding: Diagnostic, step: Pass) -> Diagnostic:
-    message = f"{finding.message}; {step.name} would change the physics, which is to be kept"
-    return Diagnostic(KEPT_PHYSICS, message, finding.location, Severity.ERROR, finding.found, finding.expected)
+def _forbidden(change: PhysicsChange, place: Location) -> Diagnostic:
+    message = f"{change.step} would change the physics, which is to be kept: {described(change)}"
+    return Diagnostic(KEPT_PHYSICS, message, place, Severity.ERROR)

@@ -1,16 +1,17 @@
 """`assess`: what consumers make of a file, by what is found in it."""
 
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Rule
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Location
 from twinform.diagnostics.rules.portability import SHORTFALLS
 from twinform.ir import Document, Format
 from twinform.passes import NO_ASSETS, AssetError, Assets
 from twinform.profiles.detectors import DETECTORS
 from twinform.profiles.profile import Effect, Profile, Row
-from twinform.profiles.reading import Shortfall, read_as
+from twinform.profiles.reading import SAME, Shortfall, read_as
 from twinform.schemas import XmlElement
 
 
@@ -104,16 +105,16 @@ class Shortfalls:
     def __init__(self, subject: Subject) -> None:
         self._subject = subject
         self._findings: dict[tuple[str, str, int], Diagnostic] = {}
+        self._below = _by_place(subject.diagnostics)
 
     def of(self, profile: Profile) -> Iterator[Judgment]:
         """What one of them cannot read."""
         if not profile.reads or self._subject.content is None or self._subject.format is Format.SDF:
             return
         for each in read_as(profile.reads, self._subject.content, self._is_there):
-            rule = SHORTFALLS[each.kind]
-            words = {"rule": rule.name, "effect": each.effect, "about": each.about, "pass": each.pipeline}
-            row = Row.model_validate(words)
-            yield Judgment(row, self._finding(rule, each))
+            finding = self._finding(each)
+            words = {"rule": finding.rule.name, "effect": each.effect, "about": each.about, "pass": each.pipeline}
+            yield Judgment(Row.model_validate(words), finding)
 
     def _is_there(self, uri: str) -> bool:
         try:
@@ -121,7 +122,40 @@ class Shortfalls:
         except AssetError:
             return False
 
-    def _finding(self, rule: Rule, each: Shortfall) -> Diagnostic:
-        place = Location(self._subject.path, each.line, f"/robot/{each.path}".rstrip("/"))
-        made = Diagnostic(rule, each.message, place, rule.severity, each.found, each.expected)
-        return self._findings.setdefault((rule.name, each.message, each.line), made)
+    def _finding(self, each: Shortfall) -> Diagnostic:
+        rule = SHORTFALLS[each.kind]
+        key = (rule.name, each.message, each.line)
+        if key not in self._findings:
+            place = Location(self._subject.path, each.line, each.path or "/")
+            new = Diagnostic(rule, each.message, place, rule.severity, each.found, each.expected)
+            known = self._below.get(each.path, ())
+            self._findings[key] = next((old for old in known if _is_about(old, each)), new)
+        return self._findings[key]
+
+
+def _by_place(diagnostics: Iterable[Diagnostic]) -> dict[str, list[Diagnostic]]:
+    """Findings by the paths of their elements, and of all elements around these."""
+    found: dict[str, list[Diagnostic]] = {}
+    for each in diagnostics:
+        path = each.location.path
+        for end in (*(at.start() for at in re.finditer("/", path) if at.start()), len(path)):
+            found.setdefault(path[:end], []).append(each)
+    return found
+
+
+_COUNTERPARTS = {
+    "value": frozenset({"invalid-value", "out-of-range", "tabbed-numbers", "missing-file"}),
+    "absent": frozenset({"missing-attribute", "missing-element", "missing-part", "missing-limit", "missing-shape"}),
+    "unread": frozenset({"unknown-attribute", "unknown-element", "repeated-element", "outside-version", "dialect"}),
+}
+"""The rules of `check` that may be about the same thing, by the kind of shortfall."""
+
+
+def _is_about(finding: Diagnostic, each: Shortfall) -> bool:
+    """Whether what `check` has found in this place or below it is what a consumer cannot read."""
+    name = finding.rule.name
+    if each.fact:
+        return name in SAME.get(each.fact, ())
+    if name not in _COUNTERPARTS.get(each.kind, ()) or finding.location.path != each.path:
+        return False
+    return each.kind != "absent" or (each.expected or "") in finding.message

@@ -23,7 +23,7 @@ def physics_changes(before: Document, after: Document, step: str) -> Iterator[En
         if values:
             change, place = PhysicsChange(step, *key, values), _place(old.get(key), new.get(key))
             written = sum(bool(each.path) and each.was is not None for each in values)
-            yield Entry(Fate.APPROXIMATED, CHANGED_PHYSICS, _message(change), place, written, change)
+            yield Entry(Fate.APPROXIMATED, CHANGED_PHYSICS, f"{step}: {described(change)}", place, written, change)
 
 
 def _parts(document: Document) -> Iterator[tuple[_Key, Part]]:
@@ -54,9 +54,9 @@ def _values(old: Part | None, new: Part | None) -> Iterator[ValueChange]:
             yield ValueChange(path, each.old, each.new)
 
 
-def _message(change: PhysicsChange) -> str:
-    told = "; ".join(_words(each) for each in change.values)
-    return f"{change.part} {change.name!r} ({change.step}): {told}"
+def described(change: PhysicsChange) -> str:
+    """`link 'b': inertial/mass/value was 0, is 0.001`."""
+    return f"{change.part} {change.name!r}: {'; '.join(_words(each) for each in change.values)}"
 
 
 def _words(value: ValueChange) -> str:

@@ -9,7 +9,7 @@ from twinform.profiles.assessment import Assessment, Judgment
 
 
 class Remedy(NamedTuple):
-    """A pass that rows name, and whether it changes the physics: masses, inertias, joints or limits."""
+    """A pass that rows name, and whether it may change the physics: masses, inertias, joints, limits, collisions."""
 
     name: str
     physics: bool
@@ -18,13 +18,12 @@ class Remedy(NamedTuple):
 REMEDIES = (
     Remedy("drop-repeats", physics=False),
     Remedy("tidy-materials", physics=False),
-    Remedy("tidy-shapes", physics=False),
+    Remedy("tidy-shapes", physics=True),
     Remedy("tidy-transmissions", physics=False),
     Remedy("replace-continuous", physics=False),
     Remedy("drop-bare-scripts", physics=False),
     Remedy("drop-flat-shapes", physics=True),
     Remedy("order-limits", physics=True),
-    Remedy("fill-limits", physics=True),
     Remedy("split-massless", physics=True),
     Remedy("balance-inertia", physics=True),
 )
@@ -46,7 +45,7 @@ def in_order(steps: Iterable[Pass]) -> tuple[Pass, ...]:
 
 
 def changes_physics(step: Pass) -> bool:
-    """Whether a pass of a profile changes masses, inertias, joints or limits."""
+    """Whether a pass of a profile may change masses, inertias, joints, limits or what collides."""
     return step.name in _PHYSICS
 
 

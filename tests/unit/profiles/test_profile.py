@@ -11,7 +11,9 @@ from twinform.ir import Format
 from twinform.passes import parse_pipeline
 from twinform.profiles import Effect, Profile, Row, UnknownProfileError, load, names, parse
 from twinform.profiles.profile import PORTABLE
+from twinform.profiles.reading import SAME
 from twinform.profiles.reading.notation import reads
+from twinform.profiles.reading.tree import FACTS
 from twinform.profiles.remedies import REMEDIES
 
 _EVERY = [profile for name in names() if name != PORTABLE for profile in load(name)]
@@ -37,6 +39,11 @@ def test_what_was_tested_says_in_which_version(profile: Profile) -> None:
     assert bool(profile.seen) or not profile.tested
     assert profile.formats
     assert profile.label.startswith(profile.title)
+
+
+def test_what_facts_share_with_check_are_facts_and_rules() -> None:
+    assert set(SAME) <= set(FACTS)
+    assert {name for rules in SAME.values() for name in rules} <= set(catalog())
 
 
 def test_every_remedy_is_needed_by_a_profile() -> None:

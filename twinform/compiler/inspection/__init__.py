@@ -40,7 +40,7 @@ def inspect(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline | N
         report_contact_sensors(document, sink)
     report_named_files(document, Path(loaded.path), load_options.search, loaded.tree, sink)
     whole = DiagnosticSink(loaded.path, load_options.strict, list(loaded.diagnostics), origins=dict(loaded.origins))
-    whole.allows = loaded.allowances
+    whole.allows, whole.allowed = loaded.allowances, list(loaded.allowed)
     whole.extend_new(_placed(sink, loaded))
     if passes and loaded.accepted:
         from twinform.compiler.inspection.read_only_passes import run_read_only  # noqa: PLC0415 - few runs have passes
@@ -59,7 +59,7 @@ def inspect(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline | N
         if not whole.has_errors:
             report_unused(loaded.allowances, whole)
     ordered = sorted(whole.diagnostics, key=lambda each: each.location.line)
-    return replace(loaded, diagnostics=tuple(ordered), allowed=(*loaded.allowed, *whole.allowed))
+    return replace(loaded, diagnostics=tuple(ordered), allowed=tuple(whole.allowed))
 
 
 def _placed(sink: DiagnosticSink, loaded: LoadResult) -> list[Diagnostic]:

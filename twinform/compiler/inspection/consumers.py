@@ -27,6 +27,7 @@ def report_for_consumers(loaded: LoadResult, load_options: LoadOptions, sink: Di
     found = assess(subject_of(loaded, load_options, (*sink.diagnostics, *sink.allowed)), load_options.profiles)
     told = {id(judgment.finding) for each in found for judgment in each.judgments}
     sink.diagnostics = [each for each in sink.diagnostics if id(each) not in told]
+    sink.allowed = [each for each in sink.allowed if id(each) not in told]
     sink.has_errors = any(each.is_error for each in sink.diagnostics)
     sink.extend(findings(found))
     sink.extend(

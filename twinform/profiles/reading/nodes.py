@@ -1,5 +1,6 @@
-"""Elements as a consumer's own XML parser sees them, and its refusal of a text."""
+"""Elements as a consumer's own XML parser sees them, their paths, and its refusal of a text."""
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
@@ -36,3 +37,34 @@ class Node:
         for tag in path[:-1]:
             node = None if node is None else node.first(tag)
         return None if node is None else node.attributes.get(path[-1])
+
+
+class Paths:
+    """XPaths of the elements of a tree, as findings have them: `/robot[@name='r']/link[@name='b']/visual[2]`."""
+
+    def __init__(self, root: Node) -> None:
+        self._root = root
+        self._paths: dict[int, str] = {}
+
+    def of(self, node: Node) -> str:
+        """The path of an element; all are counted when the first is asked for."""
+        if not self._paths:
+            self._count()
+        return self._paths.get(id(node), "/")
+
+    def _count(self) -> None:
+        waiting = [(self._root, "/" + _step(self._root, 1, 1))]
+        while waiting:
+            node, path = waiting.pop()
+            self._paths[id(node)] = path
+            totals, met = Counter(child.tag for child in node.children), Counter[str]()
+            for child in node.children:
+                met[child.tag] += 1
+                waiting.append((child, f"{path}/{_step(child, met[child.tag], totals[child.tag])}"))
+
+
+def _step(node: Node, place: int, total: int) -> str:
+    name = node.attributes.get("name")
+    if name is not None:
+        return f"{node.tag}[@name='{name}']"
+    return node.tag if total == 1 else f"{node.tag}[{place}]"

@@ -376,3 +376,56 @@ FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "idle-leader": _idle_leaders,
 }
 """By the names that a table calls them."""
+
+_ONCE = ("duplicate-name",)
+_BODY = ("impossible-inertia", "indefinite-inertia", "non-positive-mass")
+_WEIGHTLESS = ("missing-inertial", "non-positive-mass", "weightless-mover")
+_LOOP = ("kinematic-loop", "two-parents", "no-links")
+_MATERIAL = ("unknown-material", "bare-material", "unnamed-material", "conflicting-material")
+SAME: Mapping[str, tuple[str, ...]] = {
+    "repeated-link": _ONCE,
+    "repeated-joint": _ONCE,
+    "repeated-material": (*_ONCE, "conflicting-material"),
+    "repeated-moving-joint": _ONCE,
+    "repeated-shape": _ONCE,
+    "repeated-collision": _ONCE,
+    "reserved-name": ("reserved-name",),
+    "shared-name": ("shared-name",),
+    "empty-name": ("empty-name",),
+    "self-joint": ("self-joint",),
+    "unknown-leader": ("unknown-leader",),
+    "stiff-mimic": ("unknown-leader",),
+    "self-mimic": ("unknown-leader",),
+    "idle-mimic": ("unknown-leader",),
+    "idle-leader": ("unknown-leader",),
+    "unknown-parent": ("dangling-link",),
+    "unknown-child": ("dangling-link",),
+    "unknown-parent-but-world": ("dangling-link",),
+    "unknown-child-but-world": ("dangling-link",),
+    "open-joint": ("missing-element", "missing-attribute"),
+    "uncolored": _MATERIAL,
+    "recolored": _MATERIAL,
+    "nameless-color": _MATERIAL,
+    "nowhere-material": _MATERIAL,
+    "undefined-material": _MATERIAL,
+    "plain-material": _MATERIAL,
+    "unread-numbers": ("invalid-value",),
+    "unknown-number": ("invalid-value",),
+    "indefinite-inertia": _BODY,
+    "unbalanced-inertia": _BODY,
+    "unphysical-inertia": _BODY,
+    "weightless-link": _WEIGHTLESS,
+    "weightless-root": _WEIGHTLESS,
+    "weightless-body": _WEIGHTLESS,
+    "weightless-branch": _WEIGHTLESS,
+    "reversed-limits": ("lower-above-upper",),
+    "swapped-limits": ("lower-above-upper",),
+    "equal-limits": ("empty-range",),
+    "foreign-transmission": ("foreign-transmission", "transmission-without-joint", "unknown-driven-joint"),
+    "several-roots": ("several-roots",),
+    "no-root": _LOOP,
+    "two-parents": _LOOP,
+    "circle": _LOOP,
+    "no-links": ("no-links",),
+}
+"""The rules of `check` that may be about the same thing, by the names of facts."""

@@ -2,11 +2,11 @@
 
 import re
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 from twinform.profiles.reading import transmissions, tree
 from twinform.profiles.reading.forms import FORMS
-from twinform.profiles.reading.nodes import Node
+from twinform.profiles.reading.nodes import Node, Paths
 from twinform.profiles.reading.notation import Demand, Reads, Step
 
 IsThere = Callable[[str], bool]
@@ -16,7 +16,10 @@ _ITEMS = re.compile(r"[\w:.-]+\??")
 
 @dataclass(frozen=True, slots=True)
 class Shortfall:
-    """A demand that a robot does not meet: `kind` is "value", "absent", "unread", "tree" or "text"."""
+    """A demand that a robot does not meet: `kind` is "value", "absent", "unread", "tree" or "text".
+
+    `path` is that of the element or attribute that it is about, and `fact` the name of a fact of the tree.
+    """
 
     kind: str
     effect: str
@@ -27,14 +30,23 @@ class Shortfall:
     found: str | None = None
     expected: str | None = None
     pipeline: str = ""
+    fact: str = ""
+    node: Node | None = field(default=None, repr=False, compare=False)
 
 
 def shortfalls(root: Node, table: Reads, is_there: IsThere) -> Iterator[Shortfall]:
     """All demands that are not met, in the order of the table."""
+    paths = Paths(root)
+    for each in _unmet(root, table, is_there):
+        above = paths.of(each.node) if each.node else "/"
+        yield replace(each, path=above + each.path)
+
+
+def _unmet(root: Node, table: Reads, is_there: IsThere) -> Iterator[Shortfall]:
     for demand in table.demands:
         if demand.item in tree.FACTS:
             for node, message in tree.FACTS[demand.item](root):
-                yield _short(demand, "tree", message, node)
+                yield _short(demand, "tree", message, node, fact=demand.item)
             continue
         for node in _found(root, demand.place):
             if demand.form == "file":
@@ -46,9 +58,8 @@ def shortfalls(root: Node, table: Reads, is_there: IsThere) -> Iterator[Shortfal
 def _file(demand: Demand, node: Node, is_there: IsThere) -> Iterator[Shortfall]:
     uri = node.attributes.get(demand.item[1:])
     if uri and not is_there(uri):
-        yield _short(
-            demand, "value", f"{demand.item[1:]!r} of <{node.tag}> is {uri!r}, which is not there", node, found=uri
-        )
+        message = f"{demand.item[1:]!r} of <{node.tag}> is {uri!r}, which is not there"
+        yield _short(demand, "value", message, node, found=uri)
 
 
 def _found(node: Node, place: tuple[Step, ...]) -> Iterator[Node]:
@@ -86,19 +97,23 @@ def _attribute(demand: Demand, node: Node) -> Iterator[Shortfall]:
     names = demand.item[1:].split("|")
     given = [name for name in names if name in node.attributes]
     if demand.form == "none":
-        yield from (_short(demand, "unread", f"<{node.tag}> has an attribute {name!r}", node) for name in given)
+        yield from (_strange(demand, node, name) for name in given)
         return
     if not given and demand.needed:
         wanted = " or ".join(map(repr, names))
         yield _short(demand, "absent", f"<{node.tag}> has no attribute {wanted}", node, expected=wanted)
     for name in given:
-        yield from _value(demand, node, f"{name!r} of <{node.tag}>", node.attributes[name])
+        yield from _value(demand, node, f"{name!r} of <{node.tag}>", node.attributes[name], f"/@{name}")
 
 
-def _value(demand: Demand, node: Node, what: str, text: str) -> Iterator[Shortfall]:
+def _value(demand: Demand, node: Node, what: str, text: str, below: str = "") -> Iterator[Shortfall]:
     words, reads = FORMS[demand.form] if demand.form in FORMS else _one_of(demand.form)
     if not reads(text):
-        yield _short(demand, "value", f"{what} is {text!r}", node, found=text, expected=words)
+        yield _short(demand, "value", f"{what} is {text!r}", node, found=text, expected=words, below=below)
+
+
+def _strange(demand: Demand, node: Node, name: str) -> Shortfall:
+    return _short(demand, "unread", f"<{node.tag}> has an attribute {name!r}", node, below=f"/@{name}")
 
 
 def _one_of(form: str) -> tuple[str, Callable[[str], bool]]:
@@ -136,7 +151,7 @@ def _unknown(demand: Demand, node: Node) -> Iterator[Shortfall]:
     names = {name.removesuffix("?") for name in known}
     if demand.item.startswith("@"):
         strange = (name for name in node.attributes if name not in names)
-        yield from (_short(demand, "unread", f"<{node.tag}> has an attribute {name!r}", node) for name in strange)
+        yield from (_strange(demand, node, name) for name in strange)
         return
     once, met = {name[:-1] for name in known if name.endswith("?")}, set[str]()
     for child in node.children:
@@ -148,7 +163,15 @@ def _unknown(demand: Demand, node: Node) -> Iterator[Shortfall]:
 
 
 def _short(
-    demand: Demand, kind: str, message: str, node: Node, *, found: str | None = None, expected: str | None = None
+    demand: Demand,
+    kind: str,
+    message: str,
+    node: Node,
+    *,
+    found: str | None = None,
+    expected: str | None = None,
+    below: str = "",
+    fact: str = "",
 ) -> Shortfall:
-    path = "/".join(step.tag for step in demand.place)
-    return Shortfall(kind, demand.effect, demand.about, message, node.line, path, found, expected, demand.pipeline)
+    what = (kind, demand.effect, demand.about, message, node.line, below)
+    return Shortfall(*what, found, expected, demand.pipeline, fact, node)
