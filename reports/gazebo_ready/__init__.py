@@ -1,1 +1,1 @@
-"""Is nothing refused, frozen, dropped or ended with that was converted for Gazebo?"""
+"""Is anything left that Gazebo refuses, freezes, drops or ends with after `convert --for gazebo`?"""

@@ -1,4 +1,7 @@
-"""Applies the changes that a ledger lists to a document, without the code of any pass."""
+"""Applies the changes that a ledger lists to a document, without the code of any pass.
+
+Shapes that collide are not written: the links that have others are told by `reshaped`, so that they can be left out.
+"""
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
@@ -9,14 +12,25 @@ from twinform.ir import Document
 
 _STEP = re.compile(r"(\w+)(?:\[(.*?)\])?(?=/|$)")
 _Part = dict[str, Any]
+_SHAPES = "collisions"
 
 
 class NotApplicableError(Exception):
     """The ledger names a part or a value that the document does not have."""
 
 
+def reshaped(changes: Iterable[PhysicsChange]) -> frozenset[str]:
+    """The names, without those of models around, of the links of which the ledger says that other shapes collide."""
+    listed = (each for each in changes if any(_is_shape(value) for value in each.values))
+    return frozenset(each.name.rpartition("::")[2] for each in listed)
+
+
+def _is_shape(value: ValueChange) -> bool:
+    return value.path.startswith(_SHAPES)
+
+
 def applied(document: Document, changes: Iterable[PhysicsChange]) -> Document:
-    """The document with every value as the ledger has it.
+    """The document with every value as the ledger has it, but for shapes.
 
     Raises:
         NotApplicableError: a value was another one than the ledger says, or a part is new or gone.
@@ -25,7 +39,8 @@ def applied(document: Document, changes: Iterable[PhysicsChange]) -> Document:
     for change in changes:
         part = _find(whole, change)
         for value in change.values:
-            _set(part, value)
+            if not _is_shape(value):
+                _set(part, value)
     return Document.model_validate(whole)
 
 

@@ -8,7 +8,7 @@ from reports.harness.needs import corpus, drake
 from reports.harness.pages import section, table
 from reports.harness.report import Findings, Report
 from reports.harness.sample import Sample
-from reports.physics.judging import Job, Outcome, Verdict, judge
+from reports.physics.judging import Outcome, Verdict, judge
 from tests.corpus.files import Kind
 from twinform.profiles import names
 
@@ -19,19 +19,20 @@ Every file of the corpus, with small boxes for its meshes, is converted for each
 consumer reads that, into URDF where it does not, and into SDF for Gazebo. Where a pass has changed something, Drake is
 asked. What it compares the result with is the source with the values that the ledger lists written into it, one by
 one, by a few lines of code that know nothing of any pass (`reports/physics/applying.py`): so it finds both what was
-changed and is not listed, and what is listed and was not changed.
+changed and is not listed, and what is listed and was not changed. Collisions of links of which the ledger lists that
+other shapes collide are left out of both: which they are is for the cases of the passes to show.
 
-*Nothing was changed* are files of which the text is that of a conversion for nobody. *Not converted* are files with
-errors, or of which a consumer would refuse the result."""
+*Nothing was changed* are files that need no pass: the result is that of a conversion for nobody. *Not converted* are
+files with errors, or of which a consumer would refuse the result."""
 
 
 def measure(sample: Sample) -> Findings:
     """Convert every file for every profile, and ask."""
-    jobs = [Job(file, profile) for profile in names() for file in sample.models(Kind.URDF, Kind.SDF)]
-    found = sample.outcomes(judge, jobs, lambda job, cause: Outcome(job.name, job.profile, Verdict.DIFFERENT, cause))
+    found, failures = sample.lists(judge, sample.models(Kind.URDF, Kind.SDF), seconds=600)
     wrong = [each for each in found if each.verdict is Verdict.DIFFERENT]
     known = {each.name: KNOWN.why("different", each.name, cause=each.cause) for each in wrong}
     faults = [f"{each.name}: {each.cause}" for each in wrong if not known[each.name]]
+    faults += failures
     totals = _totals(found)
     return Findings([totals, *_passes(found), *_causes(found), *_different(wrong, known)], totals, faults)
 
@@ -54,9 +55,15 @@ def _passes(found: Sequence[Outcome]) -> Iterator[str]:
 
 
 def _causes(found: Sequence[Outcome]) -> Iterator[str]:
-    count = Counter((each.profile, each.cause) for each in found if each.verdict is Verdict.REFUSED)
-    rows = [(profile, cause, number) for (profile, cause), number in sorted(count.items())]
-    yield section("Not converted", table(("profile", "first error", "files"), rows))
+    files, profiles = dict[str, set[str]](), dict[str, set[str]]()
+    for each in (each for each in found if each.verdict is Verdict.REFUSED):
+        files.setdefault(each.cause, set()).add(each.name.rpartition(" for ")[0])
+        profiles.setdefault(each.cause, set()).add(each.profile)
+    rows = [
+        (cause, len(files[cause]), "all" if profiles[cause] == set(names()) else ", ".join(sorted(profiles[cause])))
+        for cause in sorted(files)
+    ]
+    yield section("Not converted", table(("first error", "files", "profiles"), rows))
 
 
 def _different(wrong: Sequence[Outcome], known: dict[str, str]) -> Iterator[str]:

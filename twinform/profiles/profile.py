@@ -9,7 +9,7 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 
-from twinform.diagnostics import Diagnostic
+from twinform.diagnostics import Diagnostic, Severity
 from twinform.diagnostics.did_you_mean import did_you_mean
 from twinform.ir import Format
 from twinform.package_files import package_files
@@ -38,9 +38,10 @@ class Effect(StrEnum):
 class Row(BaseModel):
     """One thing that a consumer minds: the rule that finds it, and what the consumer does.
 
-    `format`, `message`, `place`, `since` and `until` narrow the findings: the format of the file, patterns that occur
-    in the message and in the XML path, and the releases, both included. `drops` are the kinds of parts that are
-    missing afterwards. `pipeline` are the passes that help, and `fix` is whether `check --fix` does.
+    `format`, `message`, `place`, `severity`, `since` and `until` narrow the findings: the format of the file, patterns
+    that occur in the message and in the XML path, the least severity, and the releases, both included. `drops` are the
+    kinds of parts that are missing afterwards. `pipeline` are the passes that help, and `fix` is whether `check --fix`
+    does.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", populate_by_name=True)
@@ -51,12 +52,18 @@ class Row(BaseModel):
     format: Format | None = None
     message: str = ""
     place: str = ""
+    severity: Severity = Severity.INFO
     since: str = ""
     until: str = ""
     drops: tuple[str, ...] = ()
     pipeline: str = Field(default="", alias="pass")
     fix: bool = False
     to: Format | None = None
+
+    @field_validator("severity", mode="before")
+    @classmethod
+    def _of_name(cls, name: object) -> object:
+        return Severity[name.upper()] if isinstance(name, str) and name.upper() in Severity.__members__ else name
 
     @field_validator("message", "place")
     @classmethod
@@ -68,6 +75,7 @@ class Row(BaseModel):
         """Whether it is about this finding in a file of this format."""
         return (
             finding.rule.name == self.rule
+            and finding.severity >= self.severity
             and (self.format is None or format_ is None or self.format is format_)
             and re.search(self.message, finding.message) is not None
             and re.search(self.place, finding.location.path) is not None

@@ -2,7 +2,7 @@
 
 import json as jsonlib
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from itertools import chain
 
 from twinform.compiler.advice.advising import Advice
@@ -90,24 +90,27 @@ def _help(assessment: Assessment | None) -> str:
 
 
 def _details(advice: Advice) -> Iterator[str]:
-    """The first thing that each consumer minds in the form that suits it best."""
-    minding = [(each, best) for each in advice.consumers if (best := _worth_telling(each, advice))]
-    if minding:
+    """The first thing that each consumer minds in the form that suits it best, and in one that it refuses."""
+    told = [line for reading in advice.consumers for line in _told(reading, advice)]
+    if told:
         yield ""
-    for reading, judgments in minding:
-        first = judgments[0]
-        more = f", and {len(judgments) - 1} more" if len(judgments) > 1 else ""
-        place = f"line {first.finding.location.line}: " if first.finding.location.line else ""
-        yield printable(f"{reading.profile.label} {first.row.effect}: {place}{first.finding.message}{more}")
+    yield from told
     if any("*" in _help(each.best(advice.choice.format)) for each in advice.consumers):
         yield ""
         yield "* changes the physics; the ledger of the conversion says how"
 
 
-def _worth_telling(reading: Reading, advice: Advice) -> Sequence[Judgment]:
+def _told(reading: Reading, advice: Advice) -> Iterator[str]:
     best = reading.best(advice.choice.format)
-    effects = (Effect.REFUSES, Effect.DROPS, Effect.MISREADS)
-    return [each for effect in effects for each in best.by(effect)] if best else []
+    for format_, assessment in reading.forms.items():
+        effects = (Effect.REFUSES, Effect.DROPS, Effect.MISREADS) if assessment is best else (Effect.REFUSES,)
+        judgments = [each for effect in effects for each in assessment.by(effect)]
+        if judgments:
+            first = judgments[0]
+            more = f", and {len(judgments) - 1} more" if len(judgments) > 1 else ""
+            what = f" the {format_.upper()}" if len(reading.forms) > 1 else ""
+            place = f"line {first.finding.location.line}: " if first.finding.location.line else ""
+            yield printable(f"{reading.profile.label} {first.row.effect}{what}: {place}{first.finding.message}{more}")
 
 
 def _consumer(reading: Reading) -> dict[str, object]:

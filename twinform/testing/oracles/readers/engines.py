@@ -1,4 +1,4 @@
-"""Readers that build a robot which can move: Drake, MuJoCo, Pinocchio, PyBullet, and the USD of urdf-usd-converter."""
+"""Readers that build a robot which can move: DART, Drake, MuJoCo, Pinocchio, PyBullet, urdf-usd-converter's USD."""
 
 import importlib
 import tempfile
@@ -9,6 +9,19 @@ from typing import Any
 from twinform.testing.oracles.readers.answers import Answer, kept
 
 _STILL = "what stands still"
+
+
+def dart(path: Path) -> Answer:
+    """The skeleton of DART's own reader, which stands on urdfdom; the joint above the root is not of the file."""
+    utilities = _module("dartpy").utils
+    skeleton = utilities.DartLoader().parseSkeleton(str(path))
+    if skeleton is None:
+        raise ValueError("no skeleton")
+    bodies = [skeleton.getBodyNode(number) for number in range(skeleton.getNumBodyNodes())]
+    joints = (body.getParentJoint().getName() for body in bodies if body.getParentBodyNode() is not None)
+    masses = ((body.getName(), body.getMass()) for body in bodies)
+    shapes = sum(body.getNumShapeNodes() for body in bodies)
+    return Answer("", kept((body.getName() for body in bodies), joints, masses, shapes))
 
 
 def drake(path: Path) -> Answer:

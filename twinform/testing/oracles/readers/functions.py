@@ -10,6 +10,7 @@ from twinform.testing.oracles.readers.answers import Answer
 FUNCTIONS: Mapping[str, Callable[[Path], Answer]] = {
     "libsdformat": parsers.libsdformat12,
     "urdfdom": parsers.urdfdom,
+    "dart": engines.dart,
     "drake": engines.drake,
     "drake with a scene": engines.drake_with_scene,
     "mujoco": engines.mujoco,
@@ -34,6 +35,7 @@ def prepare(name: str) -> None:
 
 _DRAKE = ("pydrake.multibody.plant", "pydrake.multibody.parsing", "pydrake.systems.framework", "pydrake.geometry")
 _MODULES: Mapping[str, tuple[str, ...]] = {
+    "dart": ("dartpy",),
     "drake": _DRAKE,
     "drake with a scene": _DRAKE,
     "mujoco": ("mujoco",),

@@ -147,6 +147,7 @@ READERS = (
         partial(_packaged, "libsdformat-dev"),
     ),
     Reader("urdfdom", _URDF, _TOOL, parsers.available_urdfdom, partial(_packaged, "liburdfdom-dev")),
+    _python("dart", _URDF, "dartpy", "dartpy"),
     _python("drake", _BOTH, "pydrake", "drake"),
     _python("mujoco", _URDF, "mujoco", "mujoco"),
     _python("pinocchio", _URDF, "pinocchio", "pin"),
