@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
+from typing import cast
 
 from lxml import etree
 
@@ -104,9 +105,10 @@ def _converted(file: CorpusFile) -> Made:
 
 def _robot(text: bytes) -> Robot:
     """What is written in a text, by lxml alone; numbers that are none weigh nothing."""
-    if not text.strip():
+    parser = etree.XMLParser(recover=True, huge_tree=True)
+    root = cast("XmlElement | None", etree.fromstring(text, parser)) if text.strip() else None
+    if root is None:
         return Robot(frozenset(), frozenset(), 0.0, frozenset())
-    root = etree.fromstring(text, etree.XMLParser(recover=True, huge_tree=True))
     for static in [each for each in root.iter("static") if (each.text or "").strip() in {"1", "true"}]:
         if (model := static.getparent()) is not None and (above := model.getparent()) is not None:
             above.remove(model)
@@ -188,6 +190,8 @@ def _reported(engine: str, fault: Fault, what: str, made: Made) -> str:
             return "reported: nested-in-engine"
     if fault in {Fault.DROPPED, Fault.LIGHTER} and any(each.startswith(_FIRST_ALONE) for each in made.told):
         return "reported: several-at-top"
+    if fault is Fault.LIGHTER and any(each.startswith("world-link") for each in made.told):
+        return "reported: world-link"
     if fault is Fault.FROZEN and any(each.startswith("kinematic-loop") for each in made.told):
         return "reported: kinematic-loop"
     if part is None or fault in {Fault.REFUSED, Fault.ENDED, Fault.LIGHTER}:

@@ -18,9 +18,11 @@ from twinform.profiles.reading import read_as
 from twinform.testing.oracles.readers import LOADERS, Loader
 
 FOLDER = Path(__file__).with_name("probes")
-PROFILES = ("urdfdom", "pinocchio", "pybullet", "yourdfpy", "urdf-parser-py", "drake", "mujoco", "usd", "gazebo")
+PROFILES = (
+    "urdfdom", "pinocchio", "pybullet", "yourdfpy", "urdf-parser-py", "drake", "mujoco", "usd", "gazebo", "dart"
+)  # fmt: skip
 """The loaders of the letters."""
-TABLES = PROFILES[:-1]
+TABLES = tuple(name for name in PROFILES if name != "gazebo")
 """Those of which all is in their tables; libsdformat has more to say about what urdfdom reads."""
 ELSEWHERE = 3 if DEEP else 211
 """Loaders are asked about one probe in so many."""
@@ -34,6 +36,7 @@ UNTOLD = {
         "mass: mass: '0x10'", "limit: lower: hexadecimal", "name: link: world", "dynamics: friction: hexadecimal",
         "geometry: radius of a cylinder: '0x10'", "geometry: length of a cylinder: '0x10'",
     },
+    "dart": {"name: link: world"},
     "mujoco": {
         "axis: xyz: '0 0 1e300'", "limit: velocity: nan", "material: nan", "robot: Robot",
     },

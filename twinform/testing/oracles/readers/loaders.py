@@ -53,7 +53,7 @@ def _loader(profile: str, reader: str, remark: str) -> Loader:
 LOADERS = (
     _loader("urdfdom", "urdfdom", _URDFDOM),
     _loader("gazebo", "libsdformat", r"^(?:Error|Warning)(?: \[|: )"),
-    _loader("dart", "dart", r"^(?:Error|Warning)(?::| \[DartLoader)|^\[ *\] \[warning\]"),
+    _loader("dart", "dart", r"^(?:Error|Warning)\b|\[warning\]"),
     _loader("drake", "drake with a scene", r"^(?:WARNING|ERROR):drake"),
     _loader("mujoco", "mujoco", r"WARNING"),
     _loader("pinocchio", "pinocchio", _URDFDOM),
