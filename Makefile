@@ -17,7 +17,7 @@ SYNCED := .venv/.synced
 ORACLES := .venv/.oracles
 READERS := .venv/.readers
 PEERS := .venv/.peers
-MODELS := .venv/.models
+ROBOTS := .venv/.robots
 DEMO := out/demo
 
 .PHONY: help sync fmt generate lint wheel test demo report bench latency vsix before prove coverage fuzz clean
@@ -108,13 +108,13 @@ demo: $(SYNCED) ## the rover to SDF and back: what is found, what became of its 
 	$(BIN)/twinform diff examples/rover.urdf $(DEMO)/rover.urdf
 	@echo; echo "The files are in $(DEMO). The command is $(BIN)/twinform; try $(BIN)/twinform --help"
 
-report: $(if $(NAME),$(ORACLES),$(SYNCED)) $(if $(filter readers,$(NAME)),$(READERS)) $(if $(filter meshes,$(NAME)),$(MODELS)) ## measure, and write a page: NAME=lumping ARGS="--every 50"; which there are without NAME
+report: $(if $(NAME),$(ORACLES),$(SYNCED)) $(if $(filter readers loaders portable,$(NAME)),$(READERS)) $(if $(filter meshes packages ros2_packages,$(NAME)),$(ROBOTS)) ## measure, and write a page: NAME=lumping ARGS="--every 50"; which there are without NAME
 	@$(BIN)/python -m reports $(NAME) $(ARGS)
 
 report: export TWINFORM_NODE_MODULES = $(CURDIR)/out/readers/node_modules
 
-$(MODELS): $(ORACLES)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[models]'
+$(ROBOTS): $(ORACLES)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[robots]'
 	touch $@
 
 $(READERS): $(ORACLES)
