@@ -1,5 +1,6 @@
 """One file before every loader and its profile: what each does with it, and where the two differ."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
@@ -109,7 +110,7 @@ def _is_whole(path: Path, loader: Loader, kept: Kept) -> bool:
         return True
     joints, mass = _contents(path)
     mass = None if loader.profile in _WORLDLY else mass
-    return joints <= set(kept.joints) and (mass is None or abs(kept.mass - mass) <= _LIGHT * abs(mass))
+    return joints <= set(kept.joints) and (mass is None or math.isclose(kept.mass, mass, rel_tol=_LIGHT))
 
 
 @cache

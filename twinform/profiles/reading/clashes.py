@@ -1,4 +1,4 @@
-"""Facts about names that a consumer keeps for something else, and names with a prefix."""
+"""Facts about names that a consumer keeps for something else."""
 
 from collections.abc import Callable, Iterator, Mapping
 
@@ -43,16 +43,6 @@ def _shared(root: Node) -> Fact:
             yield joint, f"joint {_name(joint)!r} has the name of a link"
 
 
-def _with_prefixes(root: Node) -> Fact:
-    """Elements that have an attribute of a namespace."""
-    nodes = [root]
-    for node in nodes:  # grows while it is walked
-        nodes.extend(node.children)
-        strange = next((name for name in node.attributes if name.startswith("{")), None)
-        if strange is not None:
-            yield node, f"<{node.tag.rpartition('}')[2]}> has an attribute {strange!r}"
-
-
 def _weighing_world(root: Node) -> Fact:
     for link in root.all("link"):
         if _name(link) == "world" and link.first("inertial") is not None:
@@ -82,6 +72,5 @@ FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "empty-name": _empty_names,
     "shared-name": _shared,
     "weighing-world": _weighing_world,
-    "prefixed-attribute": _with_prefixes,
 }
 """Facts by their names in tables."""

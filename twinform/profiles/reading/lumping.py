@@ -54,12 +54,17 @@ def _numbers(text: str | None, count: int) -> tuple[float, ...]:
     return tuple(found) if len(found) == count else (0.0,) * count
 
 
+def _finite(numbers: tuple[float, ...]) -> tuple[float, ...]:
+    """Those of a place; with an infinite one the file is refused before anything is put together."""
+    return numbers if all(map(math.isfinite, numbers)) else (0.0,) * len(numbers)
+
+
 def _place(node: Node | None) -> Transform:
     origin = node.first("origin") if node is not None else None
     if origin is None:
         return Transform.from_pose(None)
-    x, y, z = _numbers(origin.attributes.get("xyz"), 3)
-    roll, pitch, yaw = _numbers(origin.attributes.get("rpy"), 3)
+    x, y, z = _finite(_numbers(origin.attributes.get("xyz"), 3))
+    roll, pitch, yaw = _finite(_numbers(origin.attributes.get("rpy"), 3))
     return Transform.from_pose(Pose(xyz=(x, y, z), rpy=(roll, pitch, yaw)))
 
 

@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 
-from twinform.profiles.reading import bodies, clashes, drives, lumping
+from twinform.profiles.reading import bodies, clashes, drives, lumping, stage
 from twinform.profiles.reading.forms import FORMS, fits_bytes
 from twinform.profiles.reading.nodes import Node
 
@@ -373,6 +373,7 @@ FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "foreign-joint": _foreign_joints,
     **clashes.FACTS,
     **lumping.FACTS,
+    **stage.FACTS,
     "idle-leader": _idle_leaders,
 }
 """By the names that a table calls them."""

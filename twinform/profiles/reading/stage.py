@@ -1,0 +1,250 @@
+"""Facts about the stage that urdf-usd-converter writes: the tree of links in it, misplaced elements, and attributes."""
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+
+from twinform.profiles.reading.forms import number_in
+from twinform.profiles.reading.nodes import Node
+
+Fact = Iterator[tuple[Node, str]]
+_PLACES: Mapping[str, frozenset[str]] = {
+    **dict.fromkeys(("box", "cylinder", "mesh", "sphere"), frozenset({"geometry"})),
+    **dict.fromkeys(("inertia", "mass"), frozenset({"inertial"})),
+    **dict.fromkeys(("color", "texture"), frozenset({"material"})),
+    **dict.fromkeys(("collision", "inertial", "visual"), frozenset({"link"})),
+    **dict.fromkeys(("axis", "calibration", "child", "dynamics", "limit", "mimic"), frozenset({"joint"})),
+    **dict.fromkeys(("parent", "safety_controller"), frozenset({"joint"})),
+    **dict.fromkeys(("joint", "link"), frozenset({"robot"})),
+    **dict.fromkeys(("actuator", "hardwareInterface", "horizontal", "robot", "type", "vertical"), frozenset[str]()),
+    "geometry": frozenset({"visual", "collision"}),
+    "material": frozenset({"robot", "visual"}),
+    "mechanicalReduction": frozenset(),
+    "origin": frozenset({"inertial", "visual", "collision", "joint"}),
+    "verbose": frozenset({"collision"}),
+}
+"""The elements that it knows, and those in which they may stand."""
+_SHAPES = ("box", "sphere", "cylinder", "mesh")
+_DIAGONAL = ("ixx", "iyy", "izz")
+_MOMENTS = (*_DIAGONAL, "ixy", "ixz", "iyz")
+
+
+def _name(node: Node) -> str:
+    return node.attributes.get("name", "")
+
+
+def _last(node: Node, tag: str) -> Node | None:
+    """Of several children with a tag it takes the last one."""
+    found: Node | None = None
+    for found in node.all(tag):  # noqa: B007  the last one is what is wanted
+        pass
+    return found
+
+
+def _end(joint: Node, tag: str) -> str:
+    end = _last(joint, tag)
+    return "" if end is None else end.attributes.get("link", "")
+
+
+@dataclass(slots=True, eq=False)
+class _Stage:
+    """The links that it comes to from the root, how many joints lead to each, and those joints."""
+
+    links: dict[str, Node]
+    below: dict[str, list[Node]]
+    led: frozenset[str]
+    """The children of fixed joints that others follow."""
+    times: dict[str, int] = field(default_factory=dict[str, int])
+    joints: list[Node] = field(default_factory=list[Node])
+    merged: set[str] = field(default_factory=set[str])
+    """Links that become a part of the one above, and what is below them is left out."""
+    loop: Node | None = None
+
+    def walk(self, root: str) -> None:
+        """From a link to all below; a link that is below itself ends it."""
+        self.times[root] = 1
+        above: set[str] = {root}
+        stack = [(root, self._written(root))]
+        while stack and self.loop is None:
+            name, joints = stack[-1]
+            joint = next(joints, None)
+            if joint is None:
+                above.discard(name)
+                stack.pop()
+                continue
+            child = _end(joint, "child")
+            self.joints.append(joint)
+            self.times[child] = self.times.get(child, 0) + 1
+            if child in above:
+                self.loop = joint
+            elif self.times[child] == 1:
+                above.add(child)
+                stack.append((child, self._written(child)))
+
+    def _written(self, name: str) -> Iterator[Node]:
+        """The joints below a link, without one whose child becomes a part of it."""
+        merged = self._merged(name)
+        if merged is not None:
+            self.merged.add(_end(merged, "child"))
+        return iter([j for j in self.below.get(name, ()) if j is not merged and _end(j, "child") in self.links])
+
+    def _merged(self, name: str) -> Node | None:
+        """The fixed joint whose child is written as the inertial of this link, and is no link then."""
+        link = self.links[name]
+        if _weighs(link) or not _has_shapes(link):
+            return None
+        for joint in self.below.get(name, ()):
+            child = self.links.get(_end(joint, "child"))
+            if child is None or joint.attributes.get("type") != "fixed" or _name(child) in self.led:
+                continue
+            if _weighs(child) and not _has_shapes(child):
+                return joint
+        return None
+
+
+def _has_shapes(link: Node) -> bool:
+    return link.first("visual") is not None or link.first("collision") is not None
+
+
+def _weighs(link: Node) -> bool:
+    """Whether a link has a mass, or else moments."""
+    inertial = _last(link, "inertial")
+    mass = None if inertial is None else _last(inertial, "mass")
+    if inertial is None or mass is None:
+        return False
+    inertia = _last(inertial, "inertia")
+    if (number_in(mass.attributes.get("value", "0")) or 0.0) > 0:
+        return True
+    return inertia is not None and any(number_in(inertia.attributes.get(each, "0")) for each in _DIAGONAL)
+
+
+def _stage(root: Node) -> _Stage | None:
+    """None where no link that carries another one is a root."""
+    links = {_name(link): link for link in root.all("link")}
+    joints = list(root.all("joint"))
+    below: dict[str, list[Node]] = {}
+    for joint in joints:
+        below.setdefault(_end(joint, "parent"), []).append(joint)
+    children = {_end(joint, "child") for joint in joints}
+    leaders = {mimic.attributes.get("joint") for joint in joints if (mimic := _last(joint, "mimic")) is not None}
+    led = (_end(joint, "child") for joint in joints if _name(joint) in leaders)
+    first = next((name for name in below if name not in children), None) if joints else next(iter(links), None)
+    if first is None or first not in links:
+        return None
+    stage = _Stage(links, below, frozenset(led))
+    stage.walk(first)
+    return stage
+
+
+def _rootless(root: Node) -> Fact:
+    """Joints of which none has a root for its parent, or a loop below the root."""
+    stage = _stage(root)
+    if stage is None and root.first("link") is not None:
+        yield root, "no link that has another one below it is a root"
+    elif stage is not None and stage.loop is not None:
+        yield stage.loop, f"joint {_name(stage.loop)!r} closes a loop"
+
+
+def _unreached(root: Node) -> Fact:
+    """Links that are not below the root of the first joint that has one."""
+    stage = _stage(root)
+    if stage is None or stage.loop is not None:
+        return
+    for name, link in stage.links.items():
+        times = stage.times.get(name, 0)
+        if times > 1:
+            yield link, f"link {name!r} has several joints above it"
+        elif not times and name not in stage.merged:
+            yield link, f"link {name!r} is not below the root that it begins with, or below one that is left out"
+
+
+def _misplaced(root: Node) -> Fact:
+    """Elements that it knows, in others that it knows, where they do not belong."""
+    waiting = [root]
+    while waiting:
+        node = waiting.pop()
+        for child in node.children:
+            if _is_at_home(child, node):
+                waiting.append(child)
+            elif child.tag in _PLACES:
+                yield child, f"<{node.tag}> has a <{child.tag}>"
+
+
+def _is_at_home(child: Node, node: Node) -> bool:
+    return node.tag in _PLACES.get(child.tag, ())
+
+
+def _strange_attributes(root: Node) -> Fact:
+    """Attributes that it wants to write by their names, which are no names in USD."""
+    stage = _stage(root)
+    if stage is None:
+        return
+    reached = [link for name, link in stage.links.items() if name in stage.times]
+    shapes = [shape for link in reached for shape in link.children if _is_shape(shape)]
+    moving = [joint for joint in stage.joints if joint.attributes.get("type") != "floating"]
+    for node in (root, *root.all("material"), *reached, *shapes, *moving):
+        for each in (node, *_unknown_below(node)):
+            name = next((name for name in each.attributes if not _is_writable(name)), None)
+            if name is not None:
+                yield each, f"<{each.tag.rpartition('}')[2]}> has an attribute {name!r}"
+
+
+def _is_shape(node: Node) -> bool:
+    geometry = _last(node, "geometry") if node.tag in {"visual", "collision"} else None
+    return geometry is not None and any(child.tag in _SHAPES for child in geometry.children)
+
+
+def _unknown_below(node: Node) -> Iterator[Node]:
+    """The children that it does not know, and all in them."""
+    waiting = [child for child in node.children if not _is_at_home(child, node)]
+    while waiting:
+        each = waiting.pop()
+        waiting += each.children
+        yield each
+
+
+def _is_writable(name: str) -> bool:
+    return all(piece.isidentifier() for piece in name.split(":"))
+
+
+def _opacities(root: Node) -> Fact:
+    """Colors with a fourth number that is not from 0 to 1, of the first material of each name."""
+    met = {_name(material) for material in root.all("material")}
+    visuals = (visual for link in root.all("link") for visual in link.all("visual"))
+    inside = [material for visual in visuals if (material := _last(visual, "material")) is not None]
+    for material in (*root.all("material"), *inside):
+        is_inside, name = material in inside, _name(material)
+        if is_inside and name and name in met:
+            continue
+        met.add(name)
+        color = _last(material, "color")
+        numbers = [number_in(piece) for piece in (color.attributes.get("rgba", "") if color else "").split()]
+        if color is not None and len(numbers) == len("rgba") and not _is_share(numbers[-1]):
+            yield color, f"the opacity of a color is {numbers[-1]:g}"
+
+
+def _is_share(number: float | None) -> bool:
+    return number is None or math.isnan(number) or 0 <= number <= 1
+
+
+def _endless_moments(root: Node) -> Fact:
+    """Moments that are no numbers, in an inertial with a place, to which it turns them."""
+    for inertial in (each for link in root.all("link") if (each := _last(link, "inertial")) is not None):
+        inertia = _last(inertial, "inertia")
+        if inertia is None or inertial.first("origin") is None:
+            continue
+        for name in _MOMENTS:
+            number = number_in(inertia.attributes.get(name, "0"))
+            if number is not None and not math.isfinite(number):
+                yield inertia, f"{name!r} of <inertia> is {inertia.attributes[name]!r}"
+
+
+FACTS: Mapping[str, Callable[[Node], Fact]] = {
+    "rootless-stage": _rootless,
+    "unreached-link": _unreached,
+    "misplaced-element": _misplaced,
+    "strange-attribute": _strange_attributes,
+    "strange-opacity": _opacities,
+    "endless-moment": _endless_moments,
+}
+"""Facts by their names in tables."""
