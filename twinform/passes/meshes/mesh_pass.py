@@ -148,8 +148,8 @@ def stays(sink: DiagnosticSink, error: MeshError, what: str, location: Location)
 
 
 def length(meters: float) -> str:
-    """A length for people."""
-    return f"{1000 * meters:.3g} mm" if meters < 1 else f"{meters:.3g} m"
+    """A length for people; less than a nanometer is rounding, and differs from machine to machine."""
+    return f"{max(1000 * meters, 1e-6):.3g} mm" if meters < 1 else f"{meters:.3g} m"
 
 
 def number(value: object) -> float:
