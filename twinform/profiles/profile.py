@@ -39,9 +39,8 @@ class Row(BaseModel):
     """One thing that a consumer minds: the rule that finds it, and what the consumer does.
 
     `format`, `message`, `place`, `severity`, `since` and `until` narrow the findings: the format of the file, patterns
-    that occur in the message and in the XML path, the least severity, and the releases, both included. `drops` are the
-    kinds of parts that are missing afterwards. `pipeline` are the passes that help, and `fix` is whether `check --fix`
-    does.
+    that occur in the message and in the XML path, the least severity, and the releases, both included. `pipeline`
+    are the passes that help; where the rule has fixes, `check --fix` helps, too.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", populate_by_name=True)
@@ -55,9 +54,7 @@ class Row(BaseModel):
     severity: Severity = Severity.INFO
     since: str = ""
     until: str = ""
-    drops: tuple[str, ...] = ()
     pipeline: str = Field(default="", alias="pass")
-    fix: bool = False
     to: Format | None = None
 
     @field_validator("severity", mode="before")

@@ -16,7 +16,7 @@ CHANGED_PHYSICS = Rule(
     finds="A link or joint whose physics a pass has changed for the sake of a consumer (`--for`).",
     matters="It is in the ledger, value by value: masses, inertias, limits, shapes of collisions. An engine that took "
     "the model as it was computes another motion now.",
-    example="`link 'tip' (split-massless): inertial/mass was not written, is 0.001`",
+    example="`split-massless: link 'tip': inertial/mass was not written, is 0.001`",
     better="Write the right values yourself. `--keep-physics` refuses such changes.",
 )
 KEPT_PHYSICS = Rule(
