@@ -1,4 +1,4 @@
-"""Distances between shapes by Coal, which reads meshes with assimp: it shares no code with the passes.
+"""Distances between shapes by Coal, of meshes that assimp has read: they share no code with the passes.
 
 It is asked how far points are that are drawn on the one shape from the other. That is a distance from below: the passes
 say one that no point exceeds.
@@ -6,7 +6,7 @@ say one that no point exceeds.
 
 import importlib
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,6 +18,7 @@ from twinform.ir.transform import Transform
 Array = Any
 _POINTS = 5_000
 _NEAR = 1e-9
+_COLLADA = ".dae"
 _UNIT = re.compile(r"<unit\b[^>]*\bmeter\s*=\s*[\"']([^\"']+)")
 
 
@@ -32,16 +33,38 @@ class Body:
 
 
 def unit_of(path: Path) -> float:
-    """What a COLLADA file counts as one; Coal leaves it out."""
-    found = _UNIT.search(path.read_text(encoding="utf-8", errors="replace")) if path.suffix.lower() == ".dae" else None
+    """What a COLLADA file counts as one."""
+    is_collada = path.suffix.lower() == _COLLADA
+    found = _UNIT.search(path.read_text(encoding="utf-8", errors="replace")) if is_collada else None
     return float(found[1]) if found else 1.0
 
 
-def mesh(path: Path, scale: float = 1.0) -> Body:
-    """A mesh file as assimp reads it, in meters."""
+def mesh(path: Path) -> Body:
+    """A mesh file as assimp reads it, in meters; as readers of URDF do, it is not turned for the axis that is up."""
     coal, np = _libraries()
-    model = coal.MeshLoader(coal.BV_OBBRSS).load(str(path), np.ones(3) * scale * unit_of(path))
-    return Body(model, Transform(), _drawn(model, np))
+    assimp: Any = importlib.import_module("assimp_py")
+    scene = assimp.import_file(str(path), assimp.Process_Triangulate | assimp.Process_SortByPType)
+    # of COLLADA, the root has the unit and the axis that is up
+    at = np.eye(4) if path.suffix.lower() == _COLLADA else np.array(scene.root_node.transformation)
+    corners = np.concatenate([*_triangles(scene, scene.root_node, at, np), np.empty((0, 3, 3))]) * unit_of(path)
+    model = coal.BVHModelOBBRSS()
+    model.beginModel(len(corners), 3 * len(corners))
+    model.addVertices(corners.reshape(-1, 3))
+    model.addTriangles(np.arange(3 * len(corners), dtype=np.int32).reshape(-1, 3))
+    model.endModel()
+    return Body(model, Transform(), _drawn(corners, np))
+
+
+def _triangles(scene: Any, node: Any, at: Array, np: Any) -> Iterator[Array]:
+    """The corners of all triangles at a node and below it, in the frame of the root."""
+    for index in node.mesh_indices:
+        one = scene.meshes[index]
+        points = np.array(one.vertices).reshape(-1, 3) @ at[:3, :3].T + at[:3, 3]
+        indices = np.array(one.indices)
+        if len(indices) == 3 * one.num_faces:  # or they are points and lines
+            yield points[indices.reshape(-1, 3)]
+    for child in node.children:
+        yield from _triangles(scene, child, at @ np.array(child.transformation), np)
 
 
 def diagonal(body: Body) -> float:
@@ -132,18 +155,15 @@ def _moved(points: Array, at: Transform, np: Any) -> Array:
     return points @ np.array(at.rotation).reshape(3, 3).T + np.array(at.translation)
 
 
-def _drawn(model: Any, np: Any) -> Array:
-    """Points drawn on a mesh, by area, and its corners."""
-    points = np.asarray(model.vertices())
-    faces = np.array([[model.tri_indices(index)[corner] for corner in range(3)] for index in range(model.num_tris)])
-    corners = points[faces]
+def _drawn(corners: Array, np: Any) -> Array:
+    """Points drawn on triangles, by area, and corners of them."""
     areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    used = np.unique(corners.reshape(-1, 3), axis=0)
     draw = np.random.default_rng(1)
     if not areas.sum() > 0:
-        return points[np.unique(faces)]
-    of = draw.choice(len(faces), _POINTS, p=areas / areas.sum())
+        return used
+    of = draw.choice(len(corners), _POINTS, p=areas / areas.sum())
     weights = draw.dirichlet((1, 1, 1), _POINTS)
-    used = points[np.unique(faces)]
     return np.concatenate([np.einsum("pk,pki->pi", weights, corners[of]), used[:: max(1, len(used) // _POINTS)]])
 
 

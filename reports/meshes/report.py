@@ -23,8 +23,8 @@ _EACH = 8
 _ABOUT = """\
 Meshes of robots that come with PyBullet, Drake and example-robot-data (`pip install -e '.[robots]'`), and of folders
 that are given as ARGS: of every format that is read, and from the smallest to the largest. Each is put into a model,
-alone, and the model through one pass. What comes out is judged by Coal, which reads both files with assimp: 5,000
-points are drawn on each surface, and it measures how far they are from the other one. It shares no code with the
+alone, and the model through one pass. What comes out is judged by assimp, which reads both files, and by Coal: 5,000
+points are drawn on each surface, and it measures how far they are from the other one. They share no code with the
 passes. MuJoCo reads what is written too."""
 _STEPS = {
     "simplify": "Collisions as primitives and hulls",

@@ -3,7 +3,7 @@
 `data/NAME.toml` is the profile of a consumer: a row for each thing that it refuses, drops, reads otherwise or warns
 about, with the rule whose findings tell that the thing is in a file. Most rules are those of `twinform check`;
 `detectors/` find what is fine in general and not for some consumer, by rules of `diagnostics/rules/portability.py`.
-`assessment.py` holds a file against profiles, and `remedies.py` has the one order of the passes that help.
+`assessment.py` holds a file (`subject.py`) against profiles; `remedies.py` has the one order of the passes that help.
 
 To add a row: find out by the consumer itself what it does, name the rule and the effect. `reports/loaders` asks all
 consumers again. To add a detector: a function in `detectors/SUBJECT.py` and its line in the table of `detectors`.
@@ -14,16 +14,18 @@ from typing import TYPE_CHECKING
 from twinform.lazy import lazy_attributes
 
 if TYPE_CHECKING:
-    from twinform.profiles.assessment import Assessment, Judgment, Subject, Verdict, assess
+    from twinform.profiles.assessment import Assessment, Judgment, Verdict, assess
     from twinform.profiles.findings import findings
     from twinform.profiles.profile import Effect, Profile, ProfileError, Row, UnknownProfileError, load, names, parse
+    from twinform.profiles.subject import Subject
 else:
     __getattr__ = lazy_attributes(
         __name__,
         {
-            "twinform.profiles.assessment": "Assessment Judgment Subject Verdict assess",
+            "twinform.profiles.assessment": "Assessment Judgment Verdict assess",
             "twinform.profiles.findings": "findings",
             "twinform.profiles.profile": "Effect Profile ProfileError Row UnknownProfileError load names parse",
+            "twinform.profiles.subject": "Subject",
         },
     )
 

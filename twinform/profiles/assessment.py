@@ -2,17 +2,17 @@
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import StrEnum
 
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location
 from twinform.diagnostics.rules.portability import SHORTFALLS
-from twinform.ir import Document, Format
-from twinform.passes import NO_ASSETS, AssetError, Assets
+from twinform.ir import Format
+from twinform.passes import AssetError
 from twinform.profiles.detectors import DETECTORS
 from twinform.profiles.profile import Effect, Profile, Row
 from twinform.profiles.reading import SAME, Shortfall, read_as
-from twinform.schemas import XmlElement
+from twinform.profiles.subject import Subject
 
 
 class Verdict(StrEnum):
@@ -21,19 +21,6 @@ class Verdict(StrEnum):
     ACCEPTS = "accepts"
     WARNS = "warns"
     REFUSES = "refuses"
-
-
-@dataclass(frozen=True, slots=True)
-class Subject:
-    """A file before consumers: its bytes, tree and document as far as it has them, and what `check` finds in it."""
-
-    path: str
-    format: Format | None
-    document: Document | None = None
-    tree: XmlElement | None = None
-    content: bytes | None = field(default=None, repr=False)
-    diagnostics: tuple[Diagnostic, ...] = ()
-    assets: Assets = field(default=NO_ASSETS, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)

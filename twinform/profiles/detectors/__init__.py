@@ -1,15 +1,13 @@
 """Detectors: what is fine in general, and not for some consumer. They run where a profile minds them."""
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from twinform.diagnostics import DiagnosticSink, Rule
 from twinform.diagnostics.rules import portability, portability_engines
 from twinform.profiles.detectors.engines import find_engine_faults
 from twinform.profiles.detectors.meshes import find_mesh_formats
-
-if TYPE_CHECKING:
-    from twinform.profiles.assessment import Subject
+from twinform.profiles.subject import Subject
 
 __all__ = ["DETECTORS", "Detector"]
 
@@ -17,7 +15,7 @@ __all__ = ["DETECTORS", "Detector"]
 class Detector(NamedTuple):
     """A function that looks for something, and the rules that it reports."""
 
-    find: "Callable[[Subject, DiagnosticSink], None]"
+    find: Callable[[Subject, DiagnosticSink], None]
     rules: tuple[Rule, ...]
 
 

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules.portability_engines import (
@@ -22,9 +21,7 @@ from twinform.passes.analyses.moving_bodies import Body, moving_bodies
 from twinform.passes.analyses.shapes import is_flat
 from twinform.passes.appearance.drop_bare_scripts import is_bare
 from twinform.passes.limits.order_limits import is_usable
-
-if TYPE_CHECKING:
-    from twinform.profiles.assessment import Subject
+from twinform.profiles.subject import Subject
 
 _LATE_SENSORS = frozenset({"air_speed"})
 """What SDF 1.9 has no sensor of."""
@@ -32,7 +29,7 @@ _COMMON = frozenset({"revolute", "fixed"})
 """The types of joints that every engine has."""
 
 
-def find_engine_faults(subject: "Subject", sink: DiagnosticSink) -> None:
+def find_engine_faults(subject: Subject, sink: DiagnosticSink) -> None:
     """Report what some engine of Gazebo does not take; URDF becomes SDF before engines see it."""
     document = subject.document
     if document is None or document.format is not Format.SDF:

@@ -1,16 +1,12 @@
 """Mesh files in formats that not every consumer reads."""
 
-from typing import TYPE_CHECKING
-
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules.portability import COLLADA_MESH
 from twinform.ir import Mesh, walk
-
-if TYPE_CHECKING:
-    from twinform.profiles.assessment import Subject
+from twinform.profiles.subject import Subject
 
 
-def find_mesh_formats(subject: "Subject", sink: DiagnosticSink) -> None:
+def find_mesh_formats(subject: Subject, sink: DiagnosticSink) -> None:
     """Report every mesh that is COLLADA."""
     for node in walk(subject.document) if subject.document else ():
         if isinstance(node, Mesh) and (node.uri or "").lower().endswith(".dae"):
