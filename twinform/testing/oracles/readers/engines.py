@@ -12,13 +12,14 @@ _STILL = "what stands still"
 
 
 def dart(path: Path) -> Answer:
-    """The skeleton of DART's own reader, which stands on urdfdom; the joint above the root is not of the file."""
+    """The skeleton of DART's own reader, which stands on urdfdom; the joint above the root is its own."""
     utilities = _module("dartpy").utils
     skeleton = utilities.DartLoader().parseSkeleton(str(path))
     if skeleton is None:
         raise ValueError("no skeleton")
     bodies = [skeleton.getBodyNode(number) for number in range(skeleton.getNumBodyNodes())]
-    joints = (body.getParentJoint().getName() for body in bodies if body.getParentBodyNode() is not None)
+    roots = {body.getParentJoint().getName() for body in bodies if body.getParentBodyNode() is None} & {"rootJoint"}
+    joints = (name for body in bodies if (name := body.getParentJoint().getName()) not in roots)
     masses = ((body.getName(), body.getMass()) for body in bodies)
     shapes = sum(body.getNumShapeNodes() for body in bodies)
     return Answer("", kept((body.getName() for body in bodies), joints, masses, shapes))
