@@ -9,6 +9,8 @@ MOST = {"stl": 30, "dae": 30, "obj": 22, "ply": 8, "glb": 5, "gltf": 8}
 """How many of each format are looked at."""
 _PACKAGES = ("pybullet_data", "pydrake", "cmeel")
 _LARGEST = 2**20
+_ASSIMP = Path("/usr/share/assimp/models")
+"""Debian's package assimp-testmodels: files of every format, many of them odd or broken."""
 _FOLDERS = {"cmeel": "../cmeel.prefix/share/example-robot-data", "pydrake": "share"}
 
 
@@ -27,7 +29,8 @@ class MeshFile:
 
 def chosen(folders: Iterable[str]) -> list[MeshFile]:
     """The meshes to look at: of each format, as many as its share says, from the smallest to the largest."""
-    every = [*_installed(), *(each for folder in folders for each in _below(Path(folder), Path(folder).name))]
+    named = [_ASSIMP, *map(Path, folders)]
+    every = [*_installed(), *(each for folder in named for each in _below(folder, folder.name))]
     found: list[MeshFile] = []
     for kind, most in MOST.items():
         own = sorted(

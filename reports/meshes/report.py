@@ -21,8 +21,9 @@ _MEMORY = 4300.0
 _EACH = 8
 """One of so many meshes is taken apart: that takes minutes for some."""
 _ABOUT = """\
-Meshes of robots that come with PyBullet, Drake and example-robot-data (`pip install -e '.[robots]'`), and of folders
-that are given as ARGS: of every format that is read, and from the smallest to the largest. Each is put into a model,
+Meshes of robots that come with PyBullet, Drake and example-robot-data (`pip install -e '.[robots]'`), those that assimp
+is tested with (Debian's `assimp-testmodels`), and of folders that are given as ARGS: of every format that is read, and
+from the smallest to the largest. Each is put into a model,
 alone, and the model through one pass. What comes out is judged by assimp, which reads both files, and by Coal: 5,000
 points are drawn on each surface, and it measures how far they are from the other one. They share no code with the
 passes. MuJoCo reads what is written too."""

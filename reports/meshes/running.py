@@ -95,7 +95,7 @@ def _judged(file: MeshFile, step: str) -> Outcome:
     try:
         return replace(outcome, **_facts(step, made.document, folder, uri))
     except Exception as error:  # noqa: BLE001 - a judge that fails is a finding
-        return replace(outcome, fault=f"{type(error).__name__}: {error}")
+        return replace(outcome, fault=f"{type(error).__name__}: {error}".replace(f"{folder}/", ""))
     finally:
         with suppress(OSError):
             shutil.rmtree(folder)

@@ -6,6 +6,7 @@ passes that help, until no other pass does.
 
 from collections.abc import Iterable
 from dataclasses import replace
+from pathlib import Path
 
 from twinform.compiler.driver import Conversion, convert_once
 from twinform.compiler.errors import CompileError
@@ -40,6 +41,7 @@ def convert_for_consumers(
     Raises:
         CompileError: it cannot be converted, or a consumer would refuse the result.
     """
+    name = name or (str(source) if isinstance(source, str | Path) else "")
     request = fitted(request, source, load_options, name=name)
     made = convert_once(request, source, load_options, name=name, instrumentation=instrumentation)
     told = findings(assessed(made, load_options, name))

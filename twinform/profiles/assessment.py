@@ -8,7 +8,6 @@ from enum import StrEnum
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location
 from twinform.diagnostics.rules.portability import SHORTFALLS
 from twinform.ir import Format
-from twinform.passes import AssetError
 from twinform.profiles.detectors import DETECTORS
 from twinform.profiles.profile import Effect, Profile, Row
 from twinform.profiles.reading import SAME, Shortfall, read_as
@@ -98,16 +97,10 @@ class Shortfalls:
         """What one of them cannot read."""
         if not profile.reads or self._subject.content is None or self._subject.format is Format.SDF:
             return
-        for each in read_as(profile.reads, self._subject.content, self._is_there):
+        for each in read_as(profile.reads, self._subject.content, self._subject.has_file):
             finding = self._finding(each)
             words = {"rule": finding.rule.name, "effect": each.effect, "about": each.about, "pass": each.pipeline}
             yield Judgment(Row.model_validate(words), finding)
-
-    def _is_there(self, uri: str) -> bool:
-        try:
-            return self._subject.assets.find(uri).is_file()
-        except AssetError:
-            return False
 
     def _finding(self, each: Shortfall) -> Diagnostic:
         rule = SHORTFALLS[each.kind]

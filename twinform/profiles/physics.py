@@ -10,6 +10,8 @@ from twinform.ir.changes import changes
 Part = Link | Joint
 _NO_PHYSICS = frozenset({"name", "visuals", "sensors", "lights", "opaque", "plugins"})
 """Fields of links and joints that no engine computes with."""
+_FILE = "/shape/uri"
+"""Where a mesh lies: a pass for a consumer writes the same surface in another format."""
 _Key = tuple[str, str]
 
 
@@ -50,7 +52,8 @@ def _values(old: Part | None, new: Part | None) -> Iterator[ValueChange]:
         return
     for each in changes(old, new):
         path = each.path.removeprefix("/")
-        if not each.is_node and path.partition("/")[0].partition("[")[0] not in _NO_PHYSICS:
+        field = path.partition("/")[0].partition("[")[0]
+        if not (each.is_node or field in _NO_PHYSICS or path.endswith(_FILE)):
             yield ValueChange(path, each.old, each.new)
 
 

@@ -26,6 +26,7 @@ REMEDIES = (
     Remedy("order-limits", physics=True),
     Remedy("split-massless", physics=True),
     Remedy("balance-inertia", physics=True),
+    Remedy("convert-meshes", physics=False),
 )
 """Every pass that a row of a profile may name. Later ones see what earlier ones have made."""
 _ORDER = {remedy.name: number for number, remedy in enumerate(REMEDIES)}

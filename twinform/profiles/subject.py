@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 from twinform.diagnostics import Diagnostic
 from twinform.ir import Document, Format
-from twinform.passes import NO_ASSETS, Assets
+from twinform.passes import NO_ASSETS, AssetError, Assets
 from twinform.schemas import XmlElement
 
 
@@ -19,3 +19,10 @@ class Subject:
     content: bytes | None = field(default=None, repr=False)
     diagnostics: tuple[Diagnostic, ...] = ()
     assets: Assets = field(default=NO_ASSETS, compare=False, repr=False)
+
+    def has_file(self, uri: str) -> bool:
+        """Whether a URI leads to a file."""
+        try:
+            return self.assets.find(uri).is_file()
+        except AssetError:
+            return False

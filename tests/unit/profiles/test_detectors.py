@@ -1,10 +1,16 @@
 """What is looked for only under `--for`: meshes in COLLADA, wherever a model has them."""
 
+from pathlib import Path
+
 import pytest
 
 import twinform
 
-_URDF = '<robot name="r"><link name="a"><visual><geometry><mesh filename="{uri}"/></geometry></visual></link></robot>'
+_URDF = (
+    '<robot name="r"><link name="a"><{tag}><geometry><mesh filename="{uri}"/></geometry></{tag}>'
+    '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link></robot>'
+)
+_COLLADA = Path("tests/cases/passes/meshes/meshes").resolve()
 
 
 @pytest.mark.parametrize(
@@ -19,15 +25,24 @@ _URDF = '<robot name="r"><link name="a"><visual><geometry><mesh filename="{uri}"
     ],
 )
 def test_meshes_in_collada_are_found_by_their_ending(uri: str, found: bool) -> None:
-    told = [
-        each
-        for each in twinform.check(_URDF.format(uri=uri).encode(), profiles="mujoco").diagnostics
-        if each.rule.name == "collada-mesh"
-    ]
-    assert [(each.found, each.is_error) for each in told] == ([(uri, True)] if found else [])
+    text = _URDF.format(uri=uri, tag="collision").encode()
+    told = [each for each in twinform.check(text, profiles="mujoco").diagnostics if each.rule.name == "collada-mesh"]
+    assert [(each.found, each.is_error) for each in told] == ([(uri, False)] if found else [])
 
 
-def test_nobody_is_told_who_reads_it() -> None:
-    model = _URDF.format(uri="base.dae").encode()
-    for found in (twinform.check(model, profiles="pinocchio"), twinform.check(model)):
-        assert "collada-mesh" not in {each.rule.name for each in found.diagnostics}
+@pytest.mark.parametrize(("tag", "profile"), [("collision", "pinocchio"), ("visual", "mujoco"), ("collision", "")])
+def test_nobody_is_told_who_does_not_mind(tag: str, profile: str) -> None:
+    found = twinform.check(_URDF.format(uri="base.dae", tag=tag).encode(), profiles=profile or ())
+    assert "collada-mesh" not in {each.rule.name for each in found.diagnostics}
+
+
+def test_a_file_that_is_there_is_an_error_and_converted(tmp_path: Path) -> None:
+    (source,) = list(_COLLADA.glob("*.dae"))[:1]
+    (tmp_path / "a.dae").write_bytes(source.read_bytes())
+    robot = tmp_path / "r.urdf"
+    robot.write_text(_URDF.format(uri="a.dae", tag="collision"), encoding="utf-8")
+    (found,) = [each for each in twinform.check(robot, profiles="mujoco").diagnostics if each.is_error]
+    assert found.rule.name == "collada-mesh"
+    made = twinform.convert(robot, to="urdf", profiles="mujoco", keep_physics=True)
+    assert "a.dae" not in made.text
+    assert len(made.side_files) == 1

@@ -32,10 +32,10 @@ COLLADA_MESH = Rule(
     name="collada-mesh",
     severity=Severity.INFO,
     finds="A mesh in a COLLADA file (`.dae`).",
-    matters="Not every consumer reads COLLADA: PyBullet shows nothing, MuJoCo refuses the model, Drake leaves the "
-    "shape out.",
-    example="`<mesh filename='package://arm/meshes/base.dae'/>` under `--for mujoco`.",
-    better="Convert the file to OBJ, STL or glTF.",
+    matters="Not every consumer reads COLLADA: MuJoCo refuses a model with such a collision.",
+    example="`<collision><geometry><mesh filename='package://arm/meshes/base.dae'/></geometry></collision>` under "
+    "`--for mujoco`.",
+    better="Convert the file to OBJ or STL: `--passes convert-meshes{for=mujoco}`, which `convert --for mujoco` runs.",
 )
 
 UNREAD_VALUE = Rule(

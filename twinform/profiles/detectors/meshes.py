@@ -7,7 +7,9 @@ from twinform.profiles.subject import Subject
 
 
 def find_mesh_formats(subject: Subject, sink: DiagnosticSink) -> None:
-    """Report every mesh that is COLLADA."""
+    """Report every mesh that is COLLADA, and whether the file is there: only then something can be done about it."""
     for node in walk(subject.document) if subject.document else ():
-        if isinstance(node, Mesh) and (node.uri or "").lower().endswith(".dae"):
-            sink.report(COLLADA_MESH, f"mesh {node.uri!r} is COLLADA", node.location, found=node.uri)
+        uri = node.uri or "" if isinstance(node, Mesh) else ""
+        if uri.lower().endswith(".dae"):
+            absent = "" if subject.has_file(uri) else ", and not there"
+            sink.report(COLLADA_MESH, f"mesh {uri!r} is COLLADA{absent}", node.location, found=uri)
