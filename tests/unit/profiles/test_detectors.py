@@ -45,4 +45,4 @@ def test_a_file_that_is_there_is_an_error_and_converted(tmp_path: Path) -> None:
     assert found.rule.name == "collada-mesh"
     made = twinform.convert(robot, to="urdf", profiles="mujoco", keep_physics=True)
     assert "a.dae" not in made.text
-    assert len(made.side_files) == 1
+    assert made.side_files[0].path == "meshes/a.obj"
