@@ -25,7 +25,6 @@ TABLES = PROFILES[:-1]
 ELSEWHERE = 3 if DEEP else 211
 """Loaders are asked about one probe in so many."""
 UNTOLD = {
-    "yourdfpy": {"material: nan", "robot: xmlns:xi"},
     "pybullet": {"text: a null character"},
     "drake": {
         # files that are not there, and numbers that overflow
@@ -38,8 +37,8 @@ UNTOLD = {
         "axis: xyz: '0 0 1e300'", "limit: velocity: nan", "material: nan", "robot: Robot",
     },
     "usd": {
-        "joint: a loop", "name: robot: a back slash", "material: texture", "material: color and texture",
-        "material: twice", "material: texture by package", "material: global, with a texture", "robot: xmlns:xi",
+        "name: robot: a back slash", "material: texture", "material: color and texture", "material: texture by package",
+        "material: global, with a texture",
     },
 }  # fmt: skip
 """What tables do not tell, by the loader: what depends on other files, and what hardly any file has."""

@@ -10,6 +10,7 @@ from twinform.ir import Pose
 from twinform.ir.principal_moments import Symmetric, principal_moments
 from twinform.ir.solids import ORIGIN, Solid, combined, placed
 from twinform.ir.transform import Transform
+from twinform.profiles.reading.forms import FORMS
 from twinform.profiles.reading.nodes import Node
 
 Fact = Iterator[tuple[Node, str]]
@@ -18,6 +19,7 @@ Fact = Iterator[tuple[Node, str]]
 _NUMBER = re.compile(r"[-+]?(?:0[xX][0-9a-fA-F]+|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|inf)", re.IGNORECASE | re.ASCII)
 _ELEMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 _NOTHING: Symmetric = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+_STREAM, _STREAMS = FORMS["stream"][1], FORMS["stream3"][1]
 _ROUNDING = 1e-12
 """How much of the greatest moment the digits of a file may lack."""
 _DROPPED = 1e-6
@@ -68,20 +70,27 @@ def _place(node: Node | None) -> Transform:
     return Transform.from_pose(Pose(xyz=(x, y, z), rpy=(roll, pitch, yaw)))
 
 
-def _inertia(inertial: Node) -> Symmetric:
-    given = inertial.first("inertia")
-    if given is None:
+def _solid(link: Node) -> Solid:
+    """What urdfdom, which reads it first, has of an inertial when it gives it up: it begins with the origin."""
+    inertial = link.first("inertial")
+    mass = inertial.value("mass", "value") if inertial is not None else None
+    if inertial is None or mass is None or not _STREAM(mass) or not _is_place(inertial.first("origin")):
+        return Solid(0.0, ORIGIN, _NOTHING)
+    return placed(Solid(float(mass), ORIGIN, _inertia(inertial.first("inertia"))), _place(inertial))
+
+
+def _inertia(inertia: Node | None) -> Symmetric:
+    texts = [inertia.attributes.get(name, "") for name in _ELEMENTS] if inertia is not None else []
+    if not texts or not all(map(_STREAM, texts)):
         return _NOTHING
-    xx, yy, zz, xy, xz, yz = (_numbers(given.attributes.get(name), 1)[0] for name in _ELEMENTS)
+    xx, yy, zz, xy, xz, yz = map(float, texts)
     return xx, yy, zz, xy, xz, yz
 
 
-def _solid(link: Node) -> Solid:
-    inertial = link.first("inertial")
-    if inertial is None:
-        return Solid(0.0, ORIGIN, _NOTHING)
-    mass = _numbers(inertial.value("mass", "value"), 1)[0]
-    return placed(Solid(mass, ORIGIN, _inertia(inertial)), _place(inertial))
+def _is_place(origin: Node | None) -> bool:
+    return origin is None or all(
+        _STREAMS(origin.attributes[name]) for name in ("xyz", "rpy") if name in origin.attributes
+    )
 
 
 def _is_finite(one: Solid) -> bool:
