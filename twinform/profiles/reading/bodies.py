@@ -94,21 +94,6 @@ def weightless(root: Node) -> Fact:
             yield links[child], f"link {child!r} moves and has no mass or no inertia, nor has what is fixed to it"
 
 
-def rootless(root: Node) -> Fact:
-    """Roots that carry others and have no mass, nor has what is fixed to them."""
-    heavy = {_name(body.node) for body in bodies(root) if (body.mass or 0.0) > 0}
-    fixed, children = dict[str, list[str]](), set[str]()
-    for joint in root.all("joint"):
-        child = joint.value("child", "link") or ""
-        children.add(child)
-        if joint.attributes.get("type") == "fixed":
-            fixed.setdefault(joint.value("parent", "link") or "", []).append(child)
-    for link in root.all("link"):
-        name = _name(link)
-        if name not in children and name != "world" and not heavy & _together(name, fixed):
-            yield link, f"link {name!r}, the root, has no mass, nor has what is fixed to it"
-
-
 def _weighs(body: Body) -> bool:
     mass = body.mass or 0.0
     return mass > _LIGHTEST and body.principal is not None and body.principal[2] > _LIGHTEST

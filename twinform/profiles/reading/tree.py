@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 
-from twinform.profiles.reading import bodies, clashes, drives, lumping, stage
+from twinform.profiles.reading import bodies, clashes, drives, extensions, lumping, stage
 from twinform.profiles.reading.forms import FORMS, fits_bytes
 from twinform.profiles.reading.nodes import Node
 
@@ -351,7 +351,6 @@ FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "indefinite-inertia": bodies.indefinite,
     "unbalanced-inertia": bodies.unbalanced,
     "unphysical-inertia": bodies.unphysical,
-    "weightless-root": bodies.rootless,
     "shared-name": _shared_names,
     "weightless-body": bodies.weightless,
     "reversed-limits": drives.reversed_limits,
@@ -373,6 +372,7 @@ FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "foreign-joint": _foreign_joints,
     **clashes.FACTS,
     **lumping.FACTS,
+    **extensions.FACTS,
     **stage.FACTS,
     "idle-leader": _idle_leaders,
 }
