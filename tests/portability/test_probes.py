@@ -30,11 +30,11 @@ UNTOLD = {
         # files that are not there, and numbers that overflow
         "axis: xyz: '0 0 1e300'", "material: texture", "material: color and texture", "material: texture by package",
         "material: global, with a texture", "material: global with the color in a visual with a texture",
-        "mass: mass: '0x10'", "limit: lower: hexadecimal", "name: link: world", "dynamics: friction: hexadecimal",
+        "limit: lower: hexadecimal", "dynamics: friction: hexadecimal",
         "geometry: radius of a cylinder: '0x10'", "geometry: length of a cylinder: '0x10'",
     },
     "mujoco": {
-        "axis: xyz: '0 0 1e300'", "limit: velocity: nan", "material: nan", "robot: Robot",
+        "axis: xyz: '0 0 1e300'", "material: nan", "robot: Robot",
     },
     "usd": {
         "name: robot: a back slash", "material: texture", "material: color and texture", "material: texture by package",

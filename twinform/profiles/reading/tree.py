@@ -44,6 +44,10 @@ def _repeated(tag: str) -> Callable[[Node], Fact]:
     return fact
 
 
+def _repeated_links_but_world(root: Node) -> Fact:
+    return (found for found in _repeated("link")(root) if found[0].attributes.get("name") != "world")
+
+
 def _linkless(root: Node) -> Fact:
     if root.first("link") is None:
         yield root, "there is no <link>"
@@ -77,6 +81,40 @@ def _of_nowhere_but_world(end: int) -> Callable[[Node], Fact]:
                 yield joint, message
 
     return fact
+
+
+def _foreign_custom_ends(root: Node) -> Fact:
+    """Frames and joints of Drake's own at a link that is not there and not the world."""
+    links = {*_names(root.all("link")), "world"}
+    for joint in root.all("drake:joint"):
+        for name in filter(None, _ends(joint)):
+            if name not in links:
+                yield joint, f"joint {joint.attributes.get('name', '')!r} is at {name!r}, which is no link"
+    for frame in root.all("frame"):
+        if frame.attributes.get("link", "world") not in links:
+            yield (
+                frame,
+                f"frame {frame.attributes.get('name', '')!r} is at {frame.attributes['link']!r}, which is no link",
+            )
+
+
+def _loops(root: Node) -> Fact:
+    """Joints between links that are joined already, whichever of them is above."""
+    above: dict[str, str] = {}
+
+    def top(name: str) -> str:
+        while name in above:
+            above[name] = name = above.get(above[name], above[name])
+        return name
+
+    for joint in (*root.all("joint"), *root.all("drake:joint")):
+        parent, child = _ends(joint)
+        if joint.attributes.get("type") == "floating" or not joint.attributes.get("name") or not parent or not child:
+            continue
+        if top(parent) == top(child) and parent != child:
+            yield joint, f"joint {joint.attributes['name']!r} joins {parent!r} and {child!r}, which are joined already"
+        elif parent != child:
+            above[top(parent)] = top(child)
 
 
 def _self_joints(root: Node) -> Fact:
@@ -186,6 +224,30 @@ def _recolored(root: Node) -> Fact:
         before = known.setdefault(name, color)
         if not _same_color(before or "0 0 0 0", color or "0 0 0 0"):
             yield material, f"material {name!r} has another color before"
+
+
+def _strange_used_colors(root: Node) -> Fact:
+    """Colors at the top that are not from 0 to 1, which a visual uses by their names."""
+    colors = {node.attributes.get("name", ""): node.value("color", "rgba") for node in root.all("material")}
+    for material in _visual_materials(root):
+        rgba = colors.get(material.attributes.get("name", ""))
+        if rgba is not None and material.first("color") is None and not FORMS["share"][1](rgba):
+            yield material, f"the color of a visual is {rgba!r}"
+
+
+def _unread_colors(root: Node) -> Fact:
+    """Colors that are not four numbers, of materials anywhere with a name that none before them has with a color."""
+    known, waiting = set[str](), [root]
+    while waiting:
+        node = waiting.pop()
+        waiting += reversed(node.children)
+        name = node.attributes.get("name")
+        color = node.first("color") if node.tag == "material" and name not in known else None
+        if color is not None and name is not None:
+            known.add(name)
+            rgba = color.attributes.get("rgba", "")
+            if not FORMS["strtods4+"][1](rgba) or len(list(node.all("color"))) > 1:
+                yield color, f"the color of material {name!r} is {rgba!r}, or there are several"
 
 
 def _same_color(one: str, other: str) -> bool:
@@ -328,6 +390,11 @@ def _foreign_joints(root: Node) -> Fact:
 
 FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "repeated-link": _repeated("link"),
+    "repeated-link-but-world": _repeated_links_but_world,
+    "foreign-custom-end": _foreign_custom_ends,
+    "loop": _loops,
+    "strange-used-color": _strange_used_colors,
+    "unread-color": _unread_colors,
     "repeated-joint": _repeated("joint"),
     "repeated-material": _repeated("material"),
     "repeated-moving-joint": _repeated_moving_joints,
