@@ -8,8 +8,10 @@ from twinform.profiles.reading.nodes import Node
 Fact = Iterator[tuple[Node, str]]
 _TRUE = frozenset({"true", "yes", "1"})
 _LUMPING = frozenset({"disableFixedJointLumping", "preserveFixedJoint"})
-_NUMBERS = frozenset({"dampingFactor", "fudgeFactor", "kd", "kp", "laserRetro", "maxVel", "minDepth", "mu1", "mu2"})
-_NUMBERS |= {"springReference", "springStiffness", "stopCfm", "stopErp"}
+_NUMBERS = frozenset(
+    {"dampingFactor", "fudgeFactor", "kd", "kp", "laserRetro", "maxVel", "minDepth", "mu1", "mu2"}
+    | {"springReference", "springStiffness", "stopCfm", "stopErp"}
+)
 _WHOLE = frozenset({"maxContacts"})
 _WORDS = frozenset(
     {"cfmDamping", "fdir1", "implicitSpringDamper", "material", "provideFeedback", "selfCollide", "static"}
