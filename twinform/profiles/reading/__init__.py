@@ -22,6 +22,7 @@ _ROBOTS = frozenset({"tinyxml", "tinyxml2", "bullet", "sax"})
 _DECLARATIONS = re.compile(rb"^[^\S\n]*<\?xml[^\n]*\?>[^\S\n]*$", re.MULTILINE)
 """Lines that are left out before the text is parsed."""
 _NOT_XML = "its XML parser does not read the file"
+_LEFT_OUT = "it leaves the element out"
 _RECOVERED = "it reads as much of the file as it can"
 
 
@@ -39,6 +40,9 @@ def read_as(consumer: str, content: bytes, is_there: IsThere = lambda _: True) -
     if root is None:
         yield Shortfall("text", "refuses", _NOT_XML, "there is no <robot>", top[0].line)
         return
+    for child in [child for child in root.children if table.skips and child.attributes.get(table.skips) == "true"]:
+        yield Shortfall("unread", "drops", _LEFT_OUT, f"<{child.tag}> has {table.skips}='true'", child.line, child.tag)
+        root.children.remove(child)
     yield from shortfalls(root, table, is_there)
 
 

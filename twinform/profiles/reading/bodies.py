@@ -11,6 +11,8 @@ from twinform.profiles.reading.nodes import Node
 Fact = Iterator[tuple[Node, str]]
 _LIGHTEST = 1e-15
 """What counts as no mass, in kg, and as no moment, in kg m2."""
+_SMALLEST = 1e-14
+"""In kg m2: principal moments below it are none to MuJoCo."""
 _SLACK = 1e-9
 """By so much of it the largest moment may be more than the sum of the others."""
 _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
@@ -54,14 +56,15 @@ def _principal(moments: tuple[float, ...]) -> tuple[float, ...] | None:
 def indefinite(root: Node) -> Fact:
     """Inertias with a moment that is not positive, where there is one at all."""
     for body in bodies(root):
-        if not body.is_empty and (body.principal is None or body.principal[0] <= 0):
-            yield body.node, f"link {_name(body.node)!r} has a moment that is not positive"
+        if not body.is_empty and body.principal is not None and body.principal[0] < _SMALLEST:
+            yield body.node, f"link {_name(body.node)!r} has a moment that is not positive, or next to nothing"
 
 
 def unbalanced(root: Node) -> Fact:
-    """Inertias of which the largest moment is more than the other two together."""
+    """Inertias of which the largest moment is more than the other two together; the world has none."""
     for body in bodies(root):
-        if body.principal is not None and body.principal[0] > 0 and _is_unbalanced(body.principal):
+        is_real = body.principal is not None and body.principal[0] > 0 and _name(body.node) != "world"
+        if is_real and body.principal is not None and _is_unbalanced(body.principal):
             yield body.node, f"link {_name(body.node)!r} has a moment above the sum of the other two"
 
 
@@ -92,21 +95,6 @@ def weightless(root: Node) -> Fact:
         child = joint.value("child", "link") or ""
         if joint.attributes.get("type") != "fixed" and child in links and not heavy & _together(child, fixed):
             yield links[child], f"link {child!r} moves and has no mass or no inertia, nor has what is fixed to it"
-
-
-def rootless(root: Node) -> Fact:
-    """Roots that carry others and have no mass, nor has what is fixed to them."""
-    heavy = {_name(body.node) for body in bodies(root) if (body.mass or 0.0) > 0}
-    fixed, children = dict[str, list[str]](), set[str]()
-    for joint in root.all("joint"):
-        child = joint.value("child", "link") or ""
-        children.add(child)
-        if joint.attributes.get("type") == "fixed":
-            fixed.setdefault(joint.value("parent", "link") or "", []).append(child)
-    for link in root.all("link"):
-        name = _name(link)
-        if name not in children and name != "world" and not heavy & _together(name, fixed):
-            yield link, f"link {name!r}, the root, has no mass, nor has what is fixed to it"
 
 
 def _weighs(body: Body) -> bool:

@@ -8,7 +8,21 @@ from twinform.profiles.reading.nodes import Node
 
 Fact = Iterator[tuple[Node, str]]
 _ONE_WAY = frozenset({"revolute", "continuous", "prismatic"})
-_READ = frozenset({"inertial", "mass", "inertia", "origin", "axis", "limit", "dynamics", "mimic", "color"})
+_READ = {
+    "mass": ("value",),
+    "inertia": ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"),
+    "origin": ("xyz", "rpy"),
+    "axis": ("xyz",),
+    "limit": ("lower", "upper", "effort"),
+    "dynamics": ("damping", "friction"),
+    "mimic": ("multiplier", "offset"),
+    "color": ("rgba",),
+    "box": ("size",),
+    "cylinder": ("radius", "length"),
+    "sphere": ("radius",),
+    "capsule": ("radius", "length"),
+}
+"""The numbers that MuJoCo reads."""
 
 
 def _name(node: Node) -> str:
@@ -73,7 +87,8 @@ def unknown_numbers(root: Node) -> Fact:
     while waiting:
         node = waiting.pop()
         waiting += [child for child in node.children if child.tag != "visual"]
-        for name, text in node.attributes.items() if node.tag in _READ else ():
+        for name in _READ.get(node.tag, ()):
+            text = node.attributes.get(name, "")
             if any("nan" in piece.lower() and _is_nan(piece) for piece in text.split()):
                 yield node, f"{name!r} of <{node.tag}> is {text!r}"
 

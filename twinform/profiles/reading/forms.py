@@ -131,8 +131,8 @@ def _bounded(text: str) -> bool:
 
 
 def _directed(text: str) -> bool:
-    """Whether the numbers are not all 0."""
-    pieces = text.split()
+    """Whether the first three numbers are not all 0."""
+    pieces = text.split()[:3]
     return not pieces or not all(_python(piece) and float(piece) == 0 for piece in pieces)
 
 

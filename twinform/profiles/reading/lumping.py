@@ -10,6 +10,8 @@ from twinform.ir import Pose
 from twinform.ir.principal_moments import Symmetric, principal_moments
 from twinform.ir.solids import ORIGIN, Solid, combined, placed
 from twinform.ir.transform import Transform
+from twinform.profiles.reading.extensions import fixed_joints, foreign_ends, is_static
+from twinform.profiles.reading.forms import FORMS
 from twinform.profiles.reading.nodes import Node
 
 Fact = Iterator[tuple[Node, str]]
@@ -18,19 +20,27 @@ Fact = Iterator[tuple[Node, str]]
 _NUMBER = re.compile(r"[-+]?(?:0[xX][0-9a-fA-F]+|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|inf)", re.IGNORECASE | re.ASCII)
 _ELEMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 _NOTHING: Symmetric = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+_STREAM, _STREAMS = FORMS["stream"][1], FORMS["stream3"][1]
 _ROUNDING = 1e-12
 """How much of the greatest moment the digits of a file may lack."""
 _DROPPED = 1e-6
 """In kg: libsdformat before 12.7.2 leaves out links that do not weigh more."""
 
 
-@dataclass(frozen=True, slots=True)
+_Head = tuple[int | None, Node | None, str]
+"""Where a body begins: the number of the one above, the joint to it, and the name of its first link."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class _Body:
     """A link with what fixed joints hang on it, and the joint that moves it; none above a root."""
 
+    parent: "_Body | None"
     joint: Node | None
     links: tuple[Node, ...]
     places: tuple[Transform, ...]
+    above: tuple[int, ...]
+    """The number of the link that each is fixed to."""
 
     @property
     def link(self) -> Node:
@@ -40,9 +50,26 @@ class _Body:
     def name(self) -> str:
         return self.link.attributes.get("name", "")
 
+    @property
+    def is_dropped(self) -> bool:
+        return abs(self.solid().mass) <= _DROPPED
+
     def solid(self) -> Solid:
         """All of it as one, in the frame of its first link."""
         return combined([placed(_solid(link), at) for link, at in zip(self.links, self.places, strict=True)])
+
+    def is_placeless(self) -> bool:
+        """Whether links without any mass come together on the way, the last one first."""
+        masses = [_solid(link).mass for link in self.links]
+        written = [link.first("inertial") is not None for link in self.links]
+        wrong = [False] * len(masses)
+        for number in range(len(masses) - 1, 0, -1):
+            if written[number]:
+                parent = self.above[number]
+                masses[parent] += masses[number]
+                written[parent] = True
+                wrong[parent] |= wrong[number] or masses[parent] == 0
+        return wrong[0]
 
 
 def _number(text: str) -> float:
@@ -68,20 +95,33 @@ def _place(node: Node | None) -> Transform:
     return Transform.from_pose(Pose(xyz=(x, y, z), rpy=(roll, pitch, yaw)))
 
 
-def _inertia(inertial: Node) -> Symmetric:
-    given = inertial.first("inertia")
-    if given is None:
+def _solid(link: Node) -> Solid:
+    """What urdfdom, which reads it first, has of an inertial when it gives it up: it begins with the origin."""
+    inertial = link.first("inertial")
+    mass = inertial.value("mass", "value") if inertial is not None else None
+    if (
+        "name" not in link.attributes
+        or inertial is None
+        or mass is None
+        or not _STREAM(mass)
+        or not _is_place(inertial.first("origin"))
+    ):
+        return Solid(0.0, ORIGIN, _NOTHING)
+    return placed(Solid(float(mass), ORIGIN, _inertia(inertial.first("inertia"))), _place(inertial))
+
+
+def _inertia(inertia: Node | None) -> Symmetric:
+    texts = [inertia.attributes.get(name, "") for name in _ELEMENTS] if inertia is not None else []
+    if not texts or not all(map(_STREAM, texts)):
         return _NOTHING
-    xx, yy, zz, xy, xz, yz = (_numbers(given.attributes.get(name), 1)[0] for name in _ELEMENTS)
+    xx, yy, zz, xy, xz, yz = map(float, texts)
     return xx, yy, zz, xy, xz, yz
 
 
-def _solid(link: Node) -> Solid:
-    inertial = link.first("inertial")
-    if inertial is None:
-        return Solid(0.0, ORIGIN, _NOTHING)
-    mass = _numbers(inertial.value("mass", "value"), 1)[0]
-    return placed(Solid(mass, ORIGIN, _inertia(inertial)), _place(inertial))
+def _is_place(origin: Node | None) -> bool:
+    return origin is None or all(
+        _STREAMS(origin.attributes[name]) for name in ("xyz", "rpy") if name in origin.attributes
+    )
 
 
 def _is_finite(one: Solid) -> bool:
@@ -93,26 +133,43 @@ def _bodies(root: Node) -> tuple[_Body, ...]:
     """The bodies from the roots to the leaves, without what is in a circle."""
     links = {link.attributes.get("name", ""): link for link in reversed(list(root.all("link")))}
     below: dict[str, list[Node]] = {}
-    children = set[str]()
-    for joint in root.all("joint"):
+    children, staying = set[str](), fixed_joints(root)
+    for joint in sorted(root.all("joint"), key=lambda joint: joint.attributes.get("name", ""), reverse=True):
         parent, child = joint.value("parent", "link") or "", joint.value("child", "link") or ""
         if parent in links and child in links and child not in children and parent != child:
             below.setdefault(parent, []).append(joint)
             children.add(child)
-    heads: list[tuple[Node | None, str]] = [(None, name) for name in links if name not in children]
+    heads: list[_Head] = [(None, None, name) for name in links if name not in children]
     found = list[_Body]()
-    for joint, name in heads:  # grows while it is walked
-        names, places = [name], [Transform.from_pose(None)]
+    for parent, joint, name in heads:  # grows while it is walked
+        names, places, above = [name], [Transform.from_pose(None)], [0]
+        body = len(found)
         for index, inside in enumerate(names):  # grows, too
             for each in below.get(inside, ()):
                 child = each.value("child", "link") or ""
-                if each.attributes.get("type") == "fixed" and inside != "world":
+                if _is_lumped(each, staying) and inside != "world":
                     names.append(child)
+                    above.append(index)
                     places.append(places[index].compose(_place(each)))
                 else:
-                    heads.append((each, child))
-        found.append(_Body(joint, tuple(links[each] for each in names), tuple(places)))
+                    heads.append((body, each, child))
+        at = None if parent is None else found[parent]
+        found.append(_Body(at, joint, tuple(links[each] for each in names), tuple(places), tuple(above)))
     return tuple(found)
+
+
+def _is_lumped(joint: Node, staying: frozenset[str]) -> bool:
+    return joint.attributes.get("type") == "fixed" and joint.attributes.get("name", "") not in staying
+
+
+@lru_cache(maxsize=4)
+def _left(root: Node) -> tuple[_Body, ...]:
+    """The bodies that it does not leave out."""
+    found = dict.fromkeys(body for body in _bodies(root) if body.name == "world" or not body.is_dropped)
+    for body in _bodies(root):
+        if body.parent is not None and body.parent not in found:
+            found.pop(body, None)
+    return tuple(body for body in found if body.name != "world")
 
 
 def _is_possible(inertia: Symmetric) -> bool:
@@ -123,26 +180,43 @@ def _is_possible(inertia: Symmetric) -> bool:
 
 def _impossible_when_lumped(root: Node) -> Fact:
     """Bodies with an impossible inertia after what is fixed to them became a part of them."""
-    for body in _bodies(root):
+    for body in _left(root):
         one = body.solid()
-        if body.name != "world" and _is_finite(one) and one.mass > _DROPPED and not _is_possible(one.inertia):
-            yield body.link, f"no body has the inertia of link {body.name!r} with what is fixed to it"
-        elif one.mass < 0:
+        if one.mass < 0:
             yield body.link, f"link {body.name!r} has the mass {one.mass:g} kg with what is fixed to it"
+        elif _is_finite(one) and not _is_possible(one.inertia):
+            yield body.link, f"no body has the inertia of link {body.name!r} with what is fixed to it"
 
 
-def _dropped(wanted: Callable[[_Body], bool]) -> Callable[[Node], Fact]:
-    def fact(root: Node) -> Fact:
-        for body in _bodies(root):
-            if body.name != "world" and wanted(body) and 0 <= body.solid().mass <= _DROPPED:
-                yield body.link, f"link {body.name!r} weighs no more than {_DROPPED:g} kg with what is fixed to it"
+def _placeless(root: Node) -> Fact:
+    """Bodies of which parts without mass are put together, whose place it divides by their mass."""
+    for body in _left(root):
+        if body.is_placeless():
+            yield body.link, f"links without mass are fixed to each other in what is fixed to link {body.name!r}"
 
-    return fact
+
+def _dropped(root: Node) -> Fact:
+    for body in _bodies(root):
+        if body.name != "world" and body.is_dropped:
+            yield body.link, f"link {body.name!r} weighs no more than {_DROPPED:g} kg with what is fixed to it"
+
+
+def _nothing_left(root: Node) -> Fact:
+    """Models without a link: all are left out, or there is only the world."""
+    bodies = _bodies(root)
+    if bodies and not _left(root) and not is_static(root):
+        yield bodies[0].link, f"below link {bodies[0].name!r} no link is left, without the world and what has no mass"
+
+
+def _foreign_ends(root: Node) -> Fact:
+    return foreign_ends(root, frozenset(body.name for body in _left(root)))
 
 
 FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "impossible-lumped-inertia": _impossible_when_lumped,
-    "weightless-branch": _dropped(lambda body: body.joint is not None),
-    "weightless-root": _dropped(lambda body: body.joint is None),
+    "placeless-lump": _placeless,
+    "weightless-branch": _dropped,
+    "nothing-left": _nothing_left,
+    "foreign-end": _foreign_ends,
 }
 """Facts by their names in tables."""

@@ -47,16 +47,20 @@ class Reads:
 
     parser: str
     demands: tuple[Demand, ...]
+    skips: str = ""
+    """The attribute that leaves a link or a joint out where it is `true`."""
 
 
 @cache
 def reads(name: str) -> Reads:
     """The table of a consumer."""
-    parser, demands = "", list[Demand]()
+    parser, skips, demands = "", "", list[Demand]()
     for line in _lines(name):
         columns = _COLUMNS.split(line, maxsplit=4)
         if columns[0] == "parser":
             parser = columns[1]
+        elif columns[0] == "skips":
+            skips = columns[1]
         elif columns[0] == "like":
             base = reads(columns[1])
             parser, demands = parser or base.parser, [*base.demands, *demands]
@@ -64,7 +68,7 @@ def reads(name: str) -> Reads:
             demands = [each for each in demands if each.item != columns[1]]
         else:
             demands.append(_demand(columns))
-    return Reads(parser, tuple(demands))
+    return Reads(parser, tuple(demands), skips)
 
 
 def _lines(name: str) -> Iterator[str]:

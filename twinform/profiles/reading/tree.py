@@ -3,14 +3,13 @@
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 
-from twinform.profiles.reading import bodies, clashes, drives, lumping, stage
-from twinform.profiles.reading.forms import FORMS, fits_bytes
+from twinform.profiles.reading import bodies, clashes, colors, drives, extensions, lumping, stage
+from twinform.profiles.reading.forms import FORMS
 from twinform.profiles.reading.nodes import Node
 
 Fact = Iterator[tuple[Node, str]]
 """Elements that it is about, and what is so."""
 _ONE_WAY = frozenset({"revolute", "continuous", "prismatic"})
-_EQUAL_COLORS = 1e-10
 _SIZES = {
     name: FORMS[form][1]
     for name, form in (
@@ -42,6 +41,10 @@ def _repeated(tag: str) -> Callable[[Node], Fact]:
             met.add(name)
 
     return fact
+
+
+def _repeated_links_but_world(root: Node) -> Fact:
+    return (found for found in _repeated("link")(root) if found[0].attributes.get("name") != "world")
 
 
 def _linkless(root: Node) -> Fact:
@@ -77,6 +80,40 @@ def _of_nowhere_but_world(end: int) -> Callable[[Node], Fact]:
                 yield joint, message
 
     return fact
+
+
+def _foreign_custom_ends(root: Node) -> Fact:
+    """Frames and joints of Drake's own at a link that is not there and not the world."""
+    links = {*_names(root.all("link")), "world"}
+    for joint in root.all("drake:joint"):
+        for name in filter(None, _ends(joint)):
+            if name not in links:
+                yield joint, f"joint {joint.attributes.get('name', '')!r} is at {name!r}, which is no link"
+    for frame in root.all("frame"):
+        if frame.attributes.get("link", "world") not in links:
+            yield (
+                frame,
+                f"frame {frame.attributes.get('name', '')!r} is at {frame.attributes['link']!r}, which is no link",
+            )
+
+
+def _loops(root: Node) -> Fact:
+    """Joints between links that are joined already, whichever of them is above."""
+    above: dict[str, str] = {}
+
+    def top(name: str) -> str:
+        while name in above:
+            above[name] = name = above.get(above[name], above[name])
+        return name
+
+    for joint in (*root.all("joint"), *root.all("drake:joint")):
+        parent, child = _ends(joint)
+        if joint.attributes.get("type") == "floating" or not joint.attributes.get("name") or not parent or not child:
+            continue
+        if top(parent) == top(child) and parent != child:
+            yield joint, f"joint {joint.attributes['name']!r} joins {parent!r} and {child!r}, which are joined already"
+        elif parent != child:
+            above[top(parent)] = top(child)
 
 
 def _self_joints(root: Node) -> Fact:
@@ -161,47 +198,6 @@ def _stiff_mimics(root: Node) -> Fact:
             yield mimic, f"joint {name!r} follows {leader!r}, and one of them does not move, or is not another one"
 
 
-def _visual_materials(root: Node) -> Iterator[Node]:
-    materials = (visual.first("material") for link in root.all("link") for visual in link.all("visual"))
-    return (material for material in materials if material is not None)
-
-
-def _uncolored(root: Node) -> Fact:
-    """Materials with a name and nothing else, where nothing before has that name."""
-    known = set[str]()
-    for material in (*root.all("material"), *_visual_materials(root)):
-        name = material.attributes.get("name", "")
-        plain = material.first("color") is None and not material.value("texture", "filename")
-        if plain and name and name not in known:
-            yield material, f"material {name!r} has no color, and none before has this name"
-        known.add(name)
-
-
-def _recolored(root: Node) -> Fact:
-    known: dict[str, str | None] = {}
-    for material in (*root.all("material"), *_visual_materials(root)):
-        name, color = material.attributes.get("name", ""), material.value("color", "rgba")
-        if not name or (color is None and name in known):
-            continue
-        before = known.setdefault(name, color)
-        if not _same_color(before or "0 0 0 0", color or "0 0 0 0"):
-            yield material, f"material {name!r} has another color before"
-
-
-def _same_color(one: str, other: str) -> bool:
-    try:
-        pairs = zip(map(float, one.split()), map(float, other.split()), strict=True)
-        return all(abs(first - second) <= _EQUAL_COLORS for first, second in pairs)
-    except ValueError:
-        return True
-
-
-def _nameless_colors(root: Node) -> Fact:
-    for material in _visual_materials(root):
-        if material.first("color") is None and "name" not in material.attributes:
-            yield material, "a <material> has no name and no color"
-
-
 def _unread_numbers(root: Node) -> Fact:
     """Numbers of places and sizes, whatever element has them."""
     nodes = [root]
@@ -251,51 +247,6 @@ def _apart(root: Node) -> Fact:
             yield joint, f"joint {joint.attributes.get('name', '')!r} is in a circle, or below one"
 
 
-def _undefined_materials(root: Node) -> Fact:
-    known = set(_names(root.all("material")))
-    for visual in (visual for link in root.all("link") for visual in link.all("visual")):
-        material = visual.first("material")
-        if material is None or not (name := material.attributes.get("name", "")):
-            continue
-        if material.value("color", "rgba") is None and material.value("texture", "filename") is None:
-            if name not in known:
-                yield material, f"material {name!r} is defined nowhere before"
-        else:
-            known.add(name)
-
-
-def _nowhere_materials(root: Node) -> Fact:
-    """Materials with a name alone that are defined neither before nor behind."""
-    named = [*root.all("material"), *(each for each in _visual_materials(root) if _says_something(each))]
-    known = set(_names(iter(named)))
-    for material in _visual_materials(root):
-        name = material.attributes.get("name", "")
-        if name and name not in known and not _says_something(material):
-            yield material, f"material {name!r} is defined nowhere"
-
-
-def _says_something(material: Node) -> bool:
-    return material.first("color") is not None or material.first("texture") is not None
-
-
-def _plain_materials(root: Node) -> Fact:
-    for material in root.all("material"):
-        if material.value("color", "rgba") is None and material.value("texture", "filename") is None:
-            yield material, f"material {material.attributes.get('name', '')!r} has no color and no texture"
-
-
-def _unpaintable(root: Node) -> Fact:
-    """Visuals with a color, of their own or by name, that makes no bytes."""
-    known = {node.attributes.get("name", ""): node for node in root.all("material")}
-    for visual in (visual for link in root.all("link") for visual in link.all("visual")):
-        material = visual.first("material")
-        if material is not None and material.first("color") is None:
-            material = known.get(material.attributes.get("name", ""))
-        color = None if material is None else material.first("color")
-        if color is not None and not fits_bytes(rgba := color.attributes.get("rgba", "1 1 1 1")):
-            yield color, f"the color of a visual is {rgba!r}"
-
-
 def _weightless(root: Node) -> Fact:
     for link in root.all("link"):
         if link.first("inertial") is None and link.attributes.get("name") != "world":
@@ -328,6 +279,9 @@ def _foreign_joints(root: Node) -> Fact:
 
 FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "repeated-link": _repeated("link"),
+    "repeated-link-but-world": _repeated_links_but_world,
+    "foreign-custom-end": _foreign_custom_ends,
+    "loop": _loops,
     "repeated-joint": _repeated("joint"),
     "repeated-material": _repeated("material"),
     "repeated-moving-joint": _repeated_moving_joints,
@@ -339,19 +293,14 @@ FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "stiff-mimic": _stiff_mimics,
     "unknown-parent-but-world": _of_nowhere_but_world(0),
     "unknown-child-but-world": _of_nowhere_but_world(1),
-    "uncolored": _uncolored,
-    "recolored": _recolored,
-    "nameless-color": _nameless_colors,
     "unread-numbers": _unread_numbers,
     "no-links": _linkless,
     "open-joint": _open_joints,
     "unknown-parent": _of_nowhere(0),
     "unknown-child": _of_nowhere(1),
-    "nowhere-material": _nowhere_materials,
     "indefinite-inertia": bodies.indefinite,
     "unbalanced-inertia": bodies.unbalanced,
     "unphysical-inertia": bodies.unphysical,
-    "weightless-root": bodies.rootless,
     "shared-name": _shared_names,
     "weightless-body": bodies.weightless,
     "reversed-limits": drives.reversed_limits,
@@ -366,13 +315,12 @@ FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "no-root": _no_root,
     "two-parents": _two_parents,
     "circle": _apart,
-    "undefined-material": _undefined_materials,
-    "plain-material": _plain_materials,
-    "unpaintable": _unpaintable,
     "weightless-link": _weightless,
     "foreign-joint": _foreign_joints,
     **clashes.FACTS,
+    **colors.FACTS,
     **lumping.FACTS,
+    **extensions.FACTS,
     **stage.FACTS,
     "idle-leader": _idle_leaders,
 }
