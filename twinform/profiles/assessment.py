@@ -1,6 +1,5 @@
 """`assess`: what consumers make of a file, by what is found in it."""
 
-import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import StrEnum
@@ -8,9 +7,10 @@ from enum import StrEnum
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location
 from twinform.diagnostics.rules.portability import SHORTFALLS
 from twinform.ir import Format
+from twinform.profiles.counterparts import Counterparts
 from twinform.profiles.detectors import DETECTORS
 from twinform.profiles.profile import Effect, Profile, Row
-from twinform.profiles.reading import SAME, Shortfall, read_as
+from twinform.profiles.reading import Shortfall, read_as
 from twinform.profiles.subject import Subject
 
 
@@ -91,7 +91,7 @@ class Shortfalls:
     def __init__(self, subject: Subject) -> None:
         self._subject = subject
         self._findings: dict[tuple[str, str, int], Diagnostic] = {}
-        self._below = _by_place(subject.diagnostics)
+        self._known = Counterparts(subject.diagnostics)
 
     def of(self, profile: Profile) -> Iterator[Judgment]:
         """What one of them cannot read."""
@@ -108,34 +108,5 @@ class Shortfalls:
         if key not in self._findings:
             place = Location(self._subject.path, each.line, each.path or "/")
             new = Diagnostic(rule, each.message, place, rule.severity, each.found, each.expected)
-            known = self._below.get(each.path, ())
-            self._findings[key] = next((old for old in known if _is_about(old, each)), new)
+            self._findings[key] = self._known.of(each) or new
         return self._findings[key]
-
-
-def _by_place(diagnostics: Iterable[Diagnostic]) -> dict[str, list[Diagnostic]]:
-    """Findings by the paths of their elements, and of all elements around these."""
-    found: dict[str, list[Diagnostic]] = {}
-    for each in diagnostics:
-        path = each.location.path
-        for end in (*(at.start() for at in re.finditer("/", path) if at.start()), len(path)):
-            found.setdefault(path[:end], []).append(each)
-    return found
-
-
-_COUNTERPARTS = {
-    "value": frozenset({"invalid-value", "out-of-range", "tabbed-numbers", "missing-file"}),
-    "absent": frozenset({"missing-attribute", "missing-element", "missing-part", "missing-limit", "missing-shape"}),
-    "unread": frozenset({"unknown-attribute", "unknown-element", "repeated-element", "outside-version", "dialect"}),
-}
-"""The rules of `check` that may be about the same thing, by the kind of shortfall."""
-
-
-def _is_about(finding: Diagnostic, each: Shortfall) -> bool:
-    """Whether what `check` has found in this place or below it is what a consumer cannot read."""
-    name = finding.rule.name
-    if each.fact:
-        return name in SAME.get(each.fact, ())
-    if name not in _COUNTERPARTS.get(each.kind, ()) or finding.location.path != each.path:
-        return False
-    return each.kind != "absent" or (each.expected or "") in finding.message

@@ -10,8 +10,8 @@ from twinform.diagnostics.rules.inertia import IMPOSSIBLE_INERTIA
 from twinform.ir import Format
 from twinform.passes import parse_pipeline
 from twinform.profiles import Effect, Profile, Row, UnknownProfileError, load, names, parse
+from twinform.profiles.counterparts import OF_FACTS
 from twinform.profiles.profile import PORTABLE
-from twinform.profiles.reading import SAME
 from twinform.profiles.reading.notation import reads
 from twinform.profiles.reading.tree import FACTS
 from twinform.profiles.remedies import REMEDIES
@@ -42,8 +42,8 @@ def test_what_was_tested_says_in_which_version(profile: Profile) -> None:
 
 
 def test_what_facts_share_with_check_are_facts_and_rules() -> None:
-    assert set(SAME) <= set(FACTS)
-    assert {name for rules in SAME.values() for name in rules} <= set(catalog())
+    assert set(OF_FACTS) <= set(FACTS)
+    assert {name for rules in OF_FACTS.values() for name in rules} <= set(catalog())
 
 
 def test_every_remedy_is_needed_by_a_profile() -> None:

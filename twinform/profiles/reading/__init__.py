@@ -12,10 +12,9 @@ from twinform.profiles.reading.nodes import Node, UnparsedError
 from twinform.profiles.reading.notation import reads
 from twinform.profiles.reading.python_xml import parse_with_expat, parse_with_lxml
 from twinform.profiles.reading.tinyxml import TINYXML, TINYXML_2, in_lines, parse
-from twinform.profiles.reading.tree import SAME
 from twinform.profiles.reading.walking import IsThere, Shortfall, shortfalls
 
-__all__ = ["SAME", "Shortfall", "read_as"]
+__all__ = ["Shortfall", "read_as"]
 
 _ROBOTS = frozenset({"tinyxml", "tinyxml2", "bullet", "sax"})
 """Parsers after which the first robot at the top counts, and not whatever is there."""
