@@ -110,7 +110,11 @@ def _is_whole(path: Path, loader: Loader, kept: Kept) -> bool:
         return True
     joints, mass = _contents(path)
     mass = None if loader.profile in _WORLDLY else mass
-    return joints <= set(kept.joints) and (mass is None or math.isclose(kept.mass, mass, rel_tol=_LIGHT))
+    return joints <= set(kept.joints) and (mass is None or _is_same(kept.mass, mass))
+
+
+def _is_same(one: float, other: float) -> bool:
+    return math.isclose(one, other, rel_tol=_LIGHT) or (math.isnan(one) and math.isnan(other))
 
 
 @cache
