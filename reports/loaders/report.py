@@ -29,7 +29,8 @@ A loader *refuses* a file where it throws, returns nothing, crashes or comes to 
 warning or an error on the terminal and goes on. A pair of a file and a loader *agrees* where both refuse; or neither
 does and the loader writes warnings only if the profile has something for it, and the profile has more than a warning
 if it writes none; and where the profile says of nothing that it is dropped or read otherwise, all joints that turn or
-slide and all of the mass are there.
+slide and all of the mass are there. MuJoCo makes what stands still a part of the world, which has no mass; of it, the
+mass of what moves has to be there.
 
 Every disagreement has its cause, by what the loader or the profile says and not by file (`reports/loaders/known.toml`).
 One without a cause is a failure of the command."""
