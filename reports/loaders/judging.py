@@ -1,7 +1,7 @@
 """One file before every loader and its profile: what each does with it, and where the two differ."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cache
@@ -13,13 +13,14 @@ from reports.harness.files import OUT
 from twinform.compiler.input.options import LoadOptions
 from twinform.compiler.profiling import assess_file
 from twinform.profiles import Assessment, Effect, Judgment, names, parse
+from twinform.schemas import XmlElement
 from twinform.testing.oracles.readers import LOADERS, Kept, Loader, Reading, Verdict
 from twinform.testing.oracles.readers.recalled import Recalled
 
 _MOVING = frozenset({"revolute", "continuous", "prismatic"})
 _LOSING = frozenset({Effect.DROPS, Effect.MISREADS})
 _WORLDLY = frozenset({"mujoco"})
-"""Loaders that count what stands still to the world, and so have less mass than the file."""
+"""Loaders that make what stands still a part of the world, which has no mass: what moves has to be there."""
 _LIGHT = 1e-6
 """Masses that differ by less than this part of them are the same: some loaders keep single precision."""
 
@@ -108,19 +109,50 @@ def _is_whole(path: Path, loader: Loader, kept: Kept) -> bool:
     """Whether all joints that move are there, and all of the mass where the file has one for every link."""
     if path.suffix != ".urdf":
         return True
-    joints, mass = _contents(path)
-    mass = None if loader.profile in _WORLDLY else mass
-    return joints <= set(kept.joints) and (mass is None or math.isclose(kept.mass, mass, rel_tol=_LIGHT))
+    found = _contents(path)
+    if not found.joints <= set(kept.joints):
+        return False
+    if loader.profile in _WORLDLY:  # and bodies without an inertial get the mass of their shapes
+        return kept.mass >= found.moving * (1 - _LIGHT) or not math.isfinite(found.moving)
+    return found.mass is None or _is_same(kept.mass, found.mass)
+
+
+def _is_same(one: float, other: float) -> bool:
+    return math.isclose(one, other, rel_tol=_LIGHT) or (math.isnan(one) and math.isnan(other))
+
+
+@dataclass(frozen=True, slots=True)
+class _Contents:
+    """The joints of a file that turn or slide, its mass, and the part of that which moves; None and 0 if unreadable."""
+
+    joints: frozenset[str]
+    mass: float | None
+    moving: float
 
 
 @cache
-def _contents(path: Path) -> tuple[frozenset[str], float | None]:
-    """The joints of a file that turn or slide, and its mass; None where that cannot be read."""
+def _contents(path: Path) -> _Contents:
     root = etree.parse(path, etree.XMLParser(recover=True)).getroot()
-    joints = (joint.get("name", "") for joint in root.findall("joint") if joint.get("type") in _MOVING)
-    masses = [link.find("inertial/mass") for link in root.findall("link")]
+    joints = frozenset(joint.get("name", "") for joint in root.findall("joint") if joint.get("type") in _MOVING)
+    masses: dict[str, float] = {}
     try:
-        mass = sum(float(each.get("value", "")) for each in masses if each is not None)
+        for link in root.findall("link"):
+            mass = link.find("inertial/mass")
+            masses[link.get("name", "")] = 0.0 if mass is None else float(mass.get("value", ""))
     except ValueError:
-        return frozenset(joints), None
-    return frozenset(joints), mass
+        return _Contents(joints, None, 0.0)
+    still = _standing_still(root, masses)
+    return _Contents(joints, sum(masses.values()), sum(mass for name, mass in masses.items() if name not in still))
+
+
+def _standing_still(root: XmlElement, links: Iterable[str]) -> set[str]:
+    """The links above which is no joint, or fixed ones alone."""
+    above: dict[str, tuple[str, str]] = {}
+    for joint in root.findall("joint"):
+        parent, child = joint.find("parent"), joint.find("child")
+        if parent is not None and child is not None:
+            above[child.get("link", "")] = (joint.get("type", ""), parent.get("link", ""))
+    still = {name for name in links if name not in above}
+    while new := {name for name, (kind, parent) in above.items() if kind == "fixed" and parent in still} - still:
+        still |= new
+    return still

@@ -91,9 +91,9 @@ def carried(file: CorpusFile) -> Carried | None:
     taken = frozenset(
         loader.profile for loader in LOADERS if loader.reader.present() and recalled().ask(loader.reader, before).ok
     )
-    pipeline = str(remedies(assess_file(before, parse("portable"), LoadOptions())))
+    pipeline = ",".join(map(str, remedies(assess_file(before, parse("portable"), LoadOptions()))))
     try:
-        after.write_text(twinform.convert(before, to="urdf", passes=pipeline).text, encoding="utf-8")
+        after.write_text(twinform.convert(before, to="urdf", profiles="portable").text, encoding="utf-8")
     except twinform.CompileError as error:
         refusal = Refusal("twinform", str(error)[:_LONGEST])
         return Carried(file.name, taken, frozenset(), (refusal,), pipeline)

@@ -61,7 +61,9 @@ def _text(node: Node) -> str:
 
 
 def _is_unset(node: Node) -> bool:
-    return "value" not in node.attributes and bool(node.children) and not node.text.strip()
+    """Whether something else stands where it looks for the text."""
+    is_first = node.begins_with_comment or (bool(node.children) and not node.text.strip())
+    return is_first and "value" not in node.attributes
 
 
 def _unread_numbers(root: Node) -> Fact:
@@ -87,7 +89,7 @@ def _is_number(text: str) -> bool:
 def _unset(root: Node) -> Fact:
     for _, node in _settings(root, _READ):
         if _is_unset(node):
-            yield node, f"<{node.tag}> has elements and no text"
+            yield node, f"<{node.tag}> does not begin with its text"
 
 
 FACTS: Mapping[str, Callable[[Node], Fact]] = {

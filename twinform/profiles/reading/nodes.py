@@ -22,6 +22,8 @@ class Node:
     attributes: dict[str, str] = field(default_factory=dict[str, str])
     children: list["Node"] = field(default_factory=list["Node"])
     text: str = ""
+    begins_with_comment: bool = False
+    """Whether a comment stands before its text and its children; TinyXML's parsers alone tell."""
 
     def all(self, tag: str) -> Iterator["Node"]:
         """The children with a tag."""

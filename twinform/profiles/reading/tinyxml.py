@@ -107,6 +107,8 @@ class _Parser:
     def _passed_over(self) -> bool:
         for begin, end in _ASIDE:
             if self.text.startswith(begin, self.at):
+                if self.open and not self.open[-1].children and not self.open[-1].text.strip():
+                    self.open[-1].begins_with_comment |= begin == "<!--"
                 self._jump(end, begin)
                 self.begun = True
                 return True
