@@ -15,10 +15,11 @@ from reports.harness.report import UNEXPLAINED, Findings, Report
 from reports.harness.sample import Sample
 from reports.loaders.judging import recalled
 from tests.corpus.files import CorpusFile, Kind
+from twinform.compiler.driver import convert_once
+from twinform.compiler.fitting import assessed, fitted
 from twinform.compiler.input.options import LoadOptions
-from twinform.compiler.profiling import assess_file
-from twinform.profiles import parse
-from twinform.profiles.remedies import remedies
+from twinform.compiler.request import ConversionRequest
+from twinform.profiles import findings, parse
 from twinform.testing.oracles.readers import LOADERS
 from twinform.testing.oracles.readers.meshless import without_meshes
 
@@ -33,7 +34,10 @@ convert. Each is read by nine loaders, as it is and as it is after
 
 with a box of 0.1 m for each mesh, in the text of the file, since the corpus has no meshes. A loader takes a file where
 it neither throws nor crashes nor returns nothing; see [loaders](loaders.md) for how each is asked. Every refusal that
-is left has its cause, by message (`reports/portable/known.toml`); one without fails the command."""
+is left has its cause, by message (`reports/portable/known.toml`); one without fails the command.
+
+Where a consumer would still refuse the result, the command ends with an error that says so, and writes nothing. Here
+the loaders are asked about what it would have written, and whether it was right."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,13 +50,14 @@ class Refusal:
 
 @dataclass(frozen=True, slots=True)
 class Carried:
-    """A readable file: who takes it before and after, why not, and the passes that it went through."""
+    """A readable file: who takes it before and after, why not, the passes, and whether the command tells of a refusal."""
 
     name: str
     before: frozenset[str]
     after: frozenset[str]
     refusals: tuple[Refusal, ...]
     passes: str
+    told: bool = False
 
 
 def measure(sample: Sample) -> Findings:
@@ -91,21 +96,25 @@ def carried(file: CorpusFile) -> Carried | None:
     taken = frozenset(
         loader.profile for loader in LOADERS if loader.reader.present() and recalled().ask(loader.reader, before).ok
     )
-    pipeline = ",".join(map(str, remedies(assess_file(before, parse("portable"), LoadOptions()))))
+    options = LoadOptions(tolerant=True, profiles=parse("portable"))
+    request = ConversionRequest(to="urdf")
     try:
-        after.write_text(twinform.convert(before, to="urdf", profiles="portable").text, encoding="utf-8")
+        request = fitted(request, before, options)
+        made = convert_once(request, before, options)
     except twinform.CompileError as error:
         refusal = Refusal("twinform", str(error)[:_LONGEST])
-        return Carried(file.name, taken, frozenset(), (refusal,), pipeline)
+        return Carried(file.name, taken, frozenset(), (refusal,), str(request.remedies), told=True)
+    after.write_text(made.text, encoding="utf-8")
+    told = any(each.is_error for each in findings(assessed(made, options, file.name)))
+    pipeline = str(request.remedies)
     readings = [(loader.profile, recalled().ask(loader.reader, after)) for loader in LOADERS if loader.reader.present()]
     refusals = (Refusal(name, reading.error[:_LONGEST]) for name, reading in readings if not reading.ok)
-    return Carried(
-        file.name, taken, frozenset(name for name, reading in readings if reading.ok), tuple(refusals), pipeline
-    )
+    accepted = frozenset(name for name, reading in readings if reading.ok)
+    return Carried(file.name, taken, accepted, tuple(refusals), pipeline, told=told)
 
 
 def _never(file: CorpusFile, cause: str) -> Carried:
-    return Carried(file.name, frozenset(), frozenset(), (Refusal("twinform", cause),), "")
+    return Carried(file.name, frozenset(), frozenset(), (Refusal("twinform", cause),), "", told=True)
 
 
 def _counts(found: Sequence[Carried], asked: Sequence[str]) -> str:
@@ -113,7 +122,12 @@ def _counts(found: Sequence[Carried], asked: Sequence[str]) -> str:
     rows = [(name, sum(name in one.before for one in found), sum(name in one.after for one in found)) for name in asked]
     whole = ("all of them", sum(one.before >= every for one in found), sum(one.after >= every for one in found))
     share = ("of all files", *(f"{100 * count / max(1, len(found)):.1f}%" for count in whole[1:]))
-    return f"{len(found)} files.\n\n{table(['loader', 'before', 'after'], [*rows, whole, share])}"
+    silent = sum(not one.told and bool(one.refusals) for one in found)
+    needless = sum(one.told and not one.refusals for one in found)
+    told_of = sum(one.told for one in found)
+    errors = f"The command ends with an error for {told_of} of them; for {needless} of these all take"
+    told = f"{errors} the result. It says nothing of {silent} that a loader refuses."
+    return f"{len(found)} files. {told}\n\n{table(['loader', 'before', 'after'], [*rows, whole, share])}"
 
 
 REPORT = Report("portable", "Converted for all loaders", _ABOUT, measure, needs=(corpus,), known=KNOWN)

@@ -66,11 +66,21 @@ def _empty_names(root: Node) -> Fact:
                 yield shape, f"a <{shape.tag}> of link {_name(link)!r} has an empty name"
 
 
+def _forked_world(root: Node) -> Fact:
+    """A link called world, at the root, that carries several others."""
+    ends = [(joint.value("parent", "link"), joint.value("child", "link")) for joint in root.all("joint")]
+    carried = sum(parent == "world" for parent, _ in ends)
+    link = next((link for link in root.all("link") if link.attributes.get("name") == "world"), None)
+    if link is not None and carried > 1 and "world" not in (child for _, child in ends):
+        yield link, f"the link 'world' carries {carried} links"
+
+
 FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "reserved-name": _reserved,
     "swapped-limits": _swapped_limits,
     "empty-name": _empty_names,
     "shared-name": _shared,
     "weighing-world": _weighing_world,
+    "forked-world": _forked_world,
 }
 """Facts by their names in tables."""
