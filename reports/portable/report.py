@@ -50,7 +50,7 @@ class Refusal:
 
 @dataclass(frozen=True, slots=True)
 class Carried:
-    """A readable file: who takes it before and after, why not, the passes, and whether the command tells of a refusal."""
+    """A readable file: who takes it before and after, why not, the passes, and whether the command `told` of it."""
 
     name: str
     before: frozenset[str]
