@@ -14,6 +14,7 @@ from reports.harness.pages import listing, section, table
 from reports.harness.report import UNEXPLAINED, Findings, Report
 from reports.harness.sample import Sample
 from reports.loaders.judging import recalled
+from reports.loaders.report import absent
 from tests.corpus.files import CorpusFile, Kind
 from twinform.compiler.driver import convert_once
 from twinform.compiler.fitting import assessed, fitted
@@ -79,6 +80,7 @@ def measure(sample: Sample) -> Findings:
             section("Who takes the files", counts),
             section("Refusals that are left", listing(["files", "loader", "cause"], rows)),
             section("Passes that were appended", listing(["pass", "files"], passes.most_common())),
+            absent(),
         ],
         counts,
         faults,
