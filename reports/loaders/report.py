@@ -53,7 +53,7 @@ def measure(sample: Sample) -> Findings:
         if not why
     ]
     counts = _counts(found)
-    return Findings([counts, *_causes(causes), _absent()], counts, [*failures, *faults])
+    return Findings([counts, *_causes(causes), absent()], counts, [*failures, *faults])
 
 
 def _boxed(path: Path, name: Path) -> Path:
@@ -111,7 +111,8 @@ def _causes(causes: dict[Pair, str]) -> Iterator[str]:
     yield section("By cause", listing(["files", "loader", "what", "cause"], rows))
 
 
-def _absent() -> str:
+def absent() -> str:
+    """The loaders that are not here, and what they need; empty where all are."""
     missing = [
         f"`{loader.profile}` is not here: it needs {loader.reader.needs}" for loader in LOADERS if loader not in asked()
     ]

@@ -14,6 +14,7 @@ from reports.harness.pages import listing, section, table
 from reports.harness.report import UNEXPLAINED, Findings, Report
 from reports.harness.sample import Sample
 from reports.loaders.judging import recalled
+from reports.loaders.report import absent
 from tests.corpus.files import CorpusFile, Kind
 from twinform.compiler.driver import convert_once
 from twinform.compiler.fitting import assessed, fitted
@@ -50,7 +51,7 @@ class Refusal:
 
 @dataclass(frozen=True, slots=True)
 class Carried:
-    """A readable file: who takes it before and after, why not, the passes, and whether the command tells of a refusal."""
+    """A readable file: who takes it before and after, why not, the passes, and whether the command `told` of it."""
 
     name: str
     before: frozenset[str]
@@ -79,6 +80,7 @@ def measure(sample: Sample) -> Findings:
             section("Who takes the files", counts),
             section("Refusals that are left", listing(["files", "loader", "cause"], rows)),
             section("Passes that were appended", listing(["pass", "files"], passes.most_common())),
+            absent(),
         ],
         counts,
         faults,
