@@ -29,7 +29,7 @@ _SECONDS = 600
 _LONGEST = 200
 _ABOUT = """\
 A URDF of the corpus is *readable* where `twinform check` finds no error in it: what it cannot read, nothing can
-convert. Each is read by nine loaders, as it is and as it is after
+convert. Each is read by every loader, as it is and as it is after
 
     twinform convert FILE --for portable --to urdf
 

@@ -41,8 +41,7 @@ def remedies(assessments: Iterable[Assessment], to: Format | None = None) -> tup
 
 def in_order(steps: Iterable[Pass]) -> tuple[Pass, ...]:
     """The passes in the order in which they run, each once."""
-    unlike = {str(step): step for step in steps}
-    return tuple(sorted(unlike.values(), key=lambda step: _ORDER[step.name]))
+    return tuple(sorted(dict.fromkeys(steps), key=lambda step: _ORDER[step.name]))
 
 
 def changes_physics(step: Pass) -> bool:

@@ -14,7 +14,7 @@ from twinform.profiles.counterparts import OF_FACTS
 from twinform.profiles.profile import PORTABLE
 from twinform.profiles.reading.notation import reads
 from twinform.profiles.reading.tree import FACTS
-from twinform.profiles.remedies import REMEDIES
+from twinform.profiles.remedies import REMEDIES, in_order
 
 _EVERY = [profile for name in names() if name != PORTABLE for profile in load(name)]
 _FINDING = Diagnostic(
@@ -49,6 +49,12 @@ def test_what_facts_share_with_check_are_facts_and_rules() -> None:
 def test_every_remedy_is_needed_by_a_profile() -> None:
     needed = {step.name for profile in _EVERY for text in _pipelines(profile) for step in parse_pipeline(text)}
     assert {each.name for each in REMEDIES} == needed
+
+
+def test_every_remedy_that_is_asked_for_runs_once_and_in_order() -> None:
+    pipeline = ",".join(each.name for each in reversed(REMEDIES)).replace("convert-meshes", "convert-meshes{for=mujoco}")
+    steps = [*parse_pipeline(pipeline), *parse_pipeline(pipeline)]
+    assert [step.name for step in in_order(steps)] == [each.name for each in REMEDIES]
 
 
 def test_portable_is_all_that_are_tested() -> None:
