@@ -52,7 +52,8 @@ def test_every_remedy_is_needed_by_a_profile() -> None:
 
 
 def test_every_remedy_that_is_asked_for_runs_once_and_in_order() -> None:
-    pipeline = ",".join(each.name for each in reversed(REMEDIES)).replace("convert-meshes", "convert-meshes{for=mujoco}")
+    options = {"convert-meshes": "{for=mujoco}"}
+    pipeline = ",".join(each.name + options.get(each.name, "") for each in reversed(REMEDIES))
     steps = [*parse_pipeline(pipeline), *parse_pipeline(pipeline)]
     assert [step.name for step in in_order(steps)] == [each.name for each in REMEDIES]
 
