@@ -155,10 +155,17 @@ def _repeated_collisions(root: Node) -> Fact:
 
 def _held_by_roots(root: Node, joints: list[Node]) -> set[str]:
     """Roots, and what is fixed to them."""
-    held = {link.attributes.get("name", "") for link in _roots(root)} | {"world"}
-    fixed = [_ends(joint) for joint in joints if joint.attributes.get("type") == "fixed"]
-    while new := {child for parent, child in fixed if parent in held} - held:
-        held |= new
+    fixed: dict[str, list[str]] = {}
+    for joint in joints:
+        if joint.attributes.get("type") == "fixed":
+            parent, child = _ends(joint)
+            fixed.setdefault(parent, []).append(child)
+    held, waiting = set[str](), ["world", *_names(iter(_roots(root)))]
+    while waiting:
+        name = waiting.pop()
+        if name not in held:
+            held.add(name)
+            waiting += fixed.get(name, ())
     return held
 
 
@@ -238,12 +245,14 @@ def _two_parents(root: Node) -> Fact:
 def _apart(root: Node) -> Fact:
     """Links in a circle that no root leads to."""
     above = {child: parent for parent, child in map(_ends, root.all("joint"))}
+    circular = dict[str, bool]()
     for joint in root.all("joint"):
-        name, met = _ends(joint)[1], set[str]()
-        while name in above and name not in met:
-            met.add(name)
+        way, name = dict[str, None](), _ends(joint)[1]
+        while name in above and name not in way and name not in circular:
+            way[name] = None
             name = above[name]
-        if name in met:
+        circular |= dict.fromkeys(way, name in way or circular.get(name, False))
+        if circular.get(_ends(joint)[1], False):
             yield joint, f"joint {joint.attributes.get('name', '')!r} is in a circle, or below one"
 
 
