@@ -41,6 +41,7 @@ BUILT_IN: Mapping[str, str] = {
     "dropped-reference": "appearance",
     "duplicate-name": "model",
     "edit-conflict": "edits",
+    "empty-attribute": "portability_engines",
     "empty-dynamics": "joints",
     "empty-model": "model",
     "empty-name": "model",

@@ -12,6 +12,14 @@ RARE_JOINT_TYPE = Rule(
     better="Write `revolute` without limits for `continuous`, and two revolute joints with a light link between them "
     "for `revolute2`.",
 )
+EMPTY_ATTRIBUTE = Rule(
+    name="empty-attribute",
+    severity=Severity.INFO,
+    finds="An attribute of another namespace without a value, in an element of SDF.",
+    matters="libsdformat takes every such attribute for one that has to have a value, and refuses the file.",
+    example="`<link name='base' mine:note=''>`",
+    better="Write a value, or leave the attribute out.",
+)
 FLAT_COLLISION = Rule(
     name="flat-collision",
     severity=Severity.INFO,

@@ -7,11 +7,15 @@ from twinform.diagnostics.rules.portability_engines import DROPPED_BARE_SCRIPT
 from twinform.ir import Document, Format, Material, Script, rewrite
 from twinform.passes.framework.base import Pass
 
+_NOTHING = frozenset({"", "__default__", None})
+"""What libsdformat reads as no name, and as no URI."""
+
 
 class DropBareScripts(Pass):
     """Leave out material scripts of SDF that lack a name or a URI: libsdformat refuses a file with one.
 
     Changes materials of SDF with a `<script>` that has no `<name>`, or no `<uri>`, or an empty one: the script goes.
+    `__default__`, which the description of the format has there, is read as nothing.
 
     Never touches: colors, PBR, scripts that are complete, and URDF.
     Diagnostics: `dropped-bare-script` for each, which has an entry of the ledger, *dropped*.
@@ -29,15 +33,15 @@ class DropBareScripts(Pass):
 
 def is_bare(script: Script | None) -> bool:
     """Whether a script lacks its name or URI."""
-    return script is not None and not (script.name and script.uris and all(script.uris))
+    return script is not None and (script.name in _NOTHING or not script.uris or not _NOTHING.isdisjoint(script.uris))
 
 
 def _without(material: Material, sink: DiagnosticSink) -> Material:
     script = material.script
     if script is None or not is_bare(script):
         return material
-    what = "URI" if script.name else "name"
-    called = f" {script.name!r}" if script.name else ""
+    what = "name" if script.name in _NOTHING else "URI"
+    called = "" if script.name in _NOTHING else f" {script.name!r}"
     message = f"the material script{called} has no {what}: it is left out"
     sink.report(DROPPED_BARE_SCRIPT, message, script.location)
     sink.account(Fate.DROPPED, DROPPED_BARE_SCRIPT, message, script.location)

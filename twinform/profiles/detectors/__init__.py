@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 from twinform.diagnostics import DiagnosticSink, Rule
 from twinform.diagnostics.rules import portability, portability_engines
+from twinform.profiles.detectors.attributes import find_empty_attributes
 from twinform.profiles.detectors.engines import find_engine_faults
 from twinform.profiles.detectors.meshes import find_mesh_formats
 from twinform.profiles.subject import Subject
@@ -21,6 +22,7 @@ class Detector(NamedTuple):
 
 DETECTORS = (
     Detector(find_mesh_formats, (portability.COLLADA_MESH,)),
+    Detector(find_empty_attributes, (portability_engines.EMPTY_ATTRIBUTE,)),
     Detector(
         find_engine_faults,
         (
