@@ -27,7 +27,8 @@ class TidyMaterials(Pass):
     3. a visual with a material that is defined nowhere loses it, and is shown in the reader's own color, as before;
     4. a visual with another color than what has that name before: its material gets a name of its own;
     5. shared materials: one without a color and a texture goes, and so does the second of a name;
-    6. with `textures=drop`, textures go; a material that has nothing else becomes gray.
+    6. a `<texture>` that names no file goes;
+    7. with `textures=drop`, textures go; a material that has nothing else becomes gray.
 
     Never touches: SDF, and the colors themselves.
     Diagnostics: `tidied-material` for each; what goes has an entry of the ledger, *dropped*.
@@ -45,12 +46,24 @@ class TidyMaterials(Pass):
         return rewrite(document, Model, lambda model: self._tidied(model, sink))
 
     def _tidied(self, model: Model, sink: DiagnosticSink) -> Model:
+        model = rewrite(model, Material, lambda material: _without_empty_texture(material, sink))
         if self.textures == "drop":
             model = rewrite(model, Material, lambda material: _without_texture(material, sink))
         work = _Materials(model, sink)
         shared = tuple(work.shared())
         links = tuple(replace_fields(link, visuals=tuple(map(work.of_visual, link.visuals))) for link in model.links)
         return replace_fields(model, materials=shared, links=links)
+
+
+def _without_empty_texture(material: Material, sink: DiagnosticSink) -> Material:
+    """Without textures that name no file, which the document keeps as they are."""
+    kept = tuple(each for each in material.opaque if not (each.element and each.element.name == "texture"))
+    if len(kept) == len(material.opaque) and material.texture != "":
+        return material
+    message = f"material {material.name!r} has a texture without a file: it is left out"
+    sink.report(TIDIED_MATERIAL, message, material.location, found=material.name)
+    sink.account(Fate.DROPPED, TIDIED_MATERIAL, message, material.location.at("texture"))
+    return material.model_copy(update={"texture": material.texture or None, "opaque": kept})
 
 
 def _without_texture(material: Material, sink: DiagnosticSink) -> Material:
