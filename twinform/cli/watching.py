@@ -5,11 +5,10 @@ import stat
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import NamedTuple, Protocol, TypeVar
 
 import click
 
-from twinform.cli.check_report import CheckReport
 from twinform.cli.failure import Unusable
 from twinform.cli.source import Source, format_of_suffix
 from twinform.compiler.observing import Observation, observed
@@ -20,6 +19,17 @@ _MILLISECONDS = 1000
 """How long to wait for the system to tell of a change before looking: not every file system tells."""
 _MOST_WAITS = 5
 """So many times, before new models are looked for in all folders."""
+
+
+class Round(Protocol):
+    """What collects the work of one round."""
+
+    def end(self) -> object:
+        """Say what came of it."""
+        ...
+
+
+AnyRound = TypeVar("AnyRound", bound=Round)
 
 
 class _Status(NamedTuple):
@@ -58,10 +68,10 @@ class _Watched:
 
 def watch_models(
     find: Callable[[], Sequence[Source]],
-    new_report: Callable[[], CheckReport],
-    check: Callable[[Source, CheckReport], None],
+    new_round: Callable[[], AnyRound],
+    work: Callable[[Source, AnyRound], None],
 ) -> int:
-    """Check the models that are found, then those that change, until Ctrl-C; gives the exit code.
+    """Work on the models that are found, then on those that change, until Ctrl-C; gives the exit code.
 
     Raises:
         Unusable: watchfiles is not installed.
@@ -73,7 +83,7 @@ def watch_models(
             sources = _found(find)
             stale = [source for source in sources if watched.is_stale(source.name)]
             if stale:
-                _check(stale, new_report(), check, watched)
+                _work_on(stale, new_round(), work, watched)
                 click.echo(f"watching {len(sources)} file{'' if len(sources) == 1 else 's'}; Ctrl-C ends", err=True)
             _wait([source.name for source in sources], watched)
     except KeyboardInterrupt:
@@ -87,17 +97,14 @@ def _found(find: Callable[[], Sequence[Source]]) -> Sequence[Source]:
         return ()  # all models are gone; they may come back
 
 
-def _check(
-    sources: Sequence[Source],
-    report: CheckReport,
-    check: Callable[[Source, CheckReport], None],
-    watched: _Watched,
+def _work_on(
+    sources: Sequence[Source], round_: AnyRound, work: Callable[[Source, AnyRound], None], watched: _Watched
 ) -> None:
     for source in sources:
         with observed() as seen:
-            check(source, report)
+            work(source, round_)
         watched.note(source.name, seen)
-    report.end()
+    round_.end()
 
 
 def _require_watchfiles() -> None:

@@ -22,7 +22,11 @@ _XACRO = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
 </robot>
 """
 _CONFIG = '<model><name>crate</name><sdf version="1.11">model.sdf</sdf></model>'
-_NOT_RUN = {"lsp": "it waits for an editor", "reproduce": "it takes the file that a fault has left"}
+_NOT_RUN = {
+    "lsp": "it waits for an editor",
+    "reproduce": "it takes the file that a fault has left",
+    "view": "it shows a robot until Ctrl-C",
+}
 
 
 def _commands(group: LazyGroup, above: tuple[str, ...] = ()) -> Iterator[tuple[str, click.Command]]:

@@ -12,9 +12,10 @@ from dataclasses import dataclass
 
 from twinform.compiler.compare.findings import Base, Terms
 from twinform.compiler.compare.matching import unmatched
-from twinform.compiler.compare.robot import Body, JointView, Robot, carriers
+from twinform.compiler.compare.robot import Body, JointView, Robot
 from twinform.compiler.compare.values import Point, PoseValue, Tensor
 from twinform.ir.frames import WORLD
+from twinform.ir.motion import spanning_tree
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +55,7 @@ def _from_the_roots(robot: Robot, above: Mapping[str, JointView]) -> Iterator[st
 class _Work:
     def __init__(self, a: Robot, b: Robot, terms: Terms) -> None:
         self.a, self.b, self.terms = a, b, terms
-        self.above_a, self.above_b = carriers(a), carriers(b)
+        self.above_a, self.above_b = spanning_tree(a.joints.values()), spanning_tree(b.joints.values())
         self.bases: dict[str, Base] = {WORLD: Base(a.world, b.world)}
         self.moved: set[str] = set()
         self.placed: set[str] = set()

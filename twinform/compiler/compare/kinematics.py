@@ -1,21 +1,20 @@
 """Forward kinematics of both robots at the same joint positions."""
 
-import math
 import zlib
 from collections.abc import Iterator, Mapping
 from random import Random
 
 from twinform.compiler.compare.findings import Base, Findings, Subject
 from twinform.compiler.compare.joint_values import joint_type, number_of
-from twinform.compiler.compare.robot import JointView, Robot, carriers
+from twinform.compiler.compare.robot import JointView, Robot
 from twinform.compiler.compare.values import Delta, PoseValue, Text, gaps
 from twinform.ir import Vector3
 from twinform.ir.defaults import MULTIPLIER, SCREW_THREAD_PITCH
+from twinform.ir.motion import FULL_TURN, slide, spanning_tree, turn
 from twinform.ir.transform import Transform
 
 SAMPLES = 5
 _AXES: tuple[Vector3, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-_FULL_TURN = 2 * math.pi
 _STILL = Transform()
 
 
@@ -43,7 +42,7 @@ class Moving:
     def __init__(self, robot: Robot, bases: Mapping[str, Transform]) -> None:
         self.robot = robot
         self.bases = bases
-        self.hung = carriers(robot)
+        self.hung = spanning_tree(robot.joints.values())
 
     def poses(self, names: list[str], sample: int) -> Iterator[Transform]:
         """The frame of each link at the joint positions of a sample, in that of the root that it hangs from."""
@@ -74,21 +73,21 @@ class Moving:
             return _STILL
         if type == "prismatic":
             (axis,) = joint.axes
-            return Transform(_times(axis, self._position(joint.name, 0, sample)))
+            return slide(axis, self._position(joint.name, 0, sample))
         axes = joint.axes
         if type == "ball":  # about axes that are the same in both robots
             axes = tuple(map(self.bases.get(joint.parent, _STILL).rotate, _AXES))
         turned = _STILL
         for number, axis in enumerate(axes):
             angle = self._position(joint.name, number, sample)
-            turned = turned.compose(_turn(axis, angle, position, self._advance(joint, angle)))
+            turned = turned.compose(turn(axis, angle, position, self._advance(joint, angle)))
         return turned
 
     def _advance(self, joint: JointView, angle: float) -> float:
         """How far a screw goes."""
         if joint.type != "screw":
             return 0.0
-        return angle / _FULL_TURN * number_of(joint.leaves.get("screw_thread_pitch"), SCREW_THREAD_PITCH)
+        return angle / FULL_TURN * number_of(joint.leaves.get("screw_thread_pitch"), SCREW_THREAD_PITCH)
 
     def _position(self, name: str, axis: int, sample: int, depth: int = 0) -> float:
         """Where a joint stands: by its name alone, from -1 to 1, or where the joint is that it mimics."""
@@ -105,26 +104,3 @@ class Moving:
 
 def _axis(number: int) -> str:
     return "axis2" if number else "axis"
-
-
-def _times(vector: Vector3, factor: float) -> Vector3:
-    return (vector[0] * factor, vector[1] * factor, vector[2] * factor)
-
-
-def _turn(axis: Vector3, angle: float, center: Vector3, advance: float) -> Transform:
-    """The rotation about a line (Rodrigues), and the way along it."""
-    x, y, z = axis
-    c, s = math.cos(angle), math.sin(angle)
-    v = 1 - c
-    turn = Transform(
-        rotation=(
-            c + x * x * v, x * y * v - z * s, x * z * v + y * s,
-            x * y * v + z * s, c + y * y * v, y * z * v - x * s,
-            x * z * v - y * s, y * z * v + x * s, c + z * z * v,
-        )
-    )  # fmt: skip
-    back = turn.rotate(center)
-    shift = _times(axis, advance)
-    return Transform(
-        (center[0] - back[0] + shift[0], center[1] - back[1] + shift[1], center[2] - back[2] + shift[2]), turn.rotation
-    )

@@ -8,7 +8,8 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from twinform.compiler.compare.robot import Body, JointView, Mass, NamedFrame, Robot, carriers
+from twinform.compiler.compare.robot import Body, JointView, Mass, NamedFrame, Robot
+from twinform.ir.motion import spanning_tree
 from twinform.ir.solids import combined
 
 _EVIDENCE = 1e-5
@@ -40,7 +41,7 @@ def lump(a: Robot, b: Robot) -> Lumped:
 
 def _groups(robot: Robot, other: Robot) -> dict[str, list[str]]:
     """The links that the other robot does not have, by the nearest link above that both have."""
-    hung, found = carriers(robot), defaultdict[str, list[str]](list)
+    hung, found = spanning_tree(robot.joints.values()), defaultdict[str, list[str]](list)
     for name in robot.bodies:
         above = name
         while above not in other.bodies and above in hung and hung[above].type == "fixed":
@@ -71,7 +72,7 @@ def _total(robot: Robot, names: Iterable[str]) -> float:
 def _lumped(robot: Robot, into: Mapping[str, str]) -> Robot:
     if not into:
         return robot
-    hung, guests = carriers(robot), defaultdict[str, list[Body]](list)
+    hung, guests = spanning_tree(robot.joints.values()), defaultdict[str, list[Body]](list)
     for name, host in into.items():
         guests[host].append(robot.bodies[name])
     bodies = {

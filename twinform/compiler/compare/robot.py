@@ -111,18 +111,3 @@ class Robot:
     leaves: Leaves = field(default_factory=dict[str, Leaf])
     parts: tuple[Part, ...] = ()
     where: Location = NOWHERE
-
-
-def carriers(robot: Robot) -> Mapping[str, JointView]:
-    """The joints that make a tree, by the bodies that hang from them: of several, a fixed one, or the first by name."""
-    above: dict[str, JointView] = {}
-    for joint in sorted(robot.joints.values(), key=lambda joint: (joint.type != "fixed", joint.name)):
-        if joint.child not in above and not _is_below(joint.parent, joint.child, above):
-            above[joint.child] = joint
-    return above
-
-
-def _is_below(body: str, ancestor: str, above: Mapping[str, JointView]) -> bool:
-    while body != ancestor and body in above:
-        body = above[body].parent
-    return body == ancestor

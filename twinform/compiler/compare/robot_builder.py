@@ -1,6 +1,5 @@
 """Builds the robot that is compared from a model in the syntax of the newest SDF version."""
 
-import math
 from collections.abc import Iterable, Iterator, Mapping
 from functools import partial
 
@@ -9,18 +8,16 @@ from twinform.compiler.compare.leaves import THERE
 from twinform.compiler.compare.part_reader import PartReader
 from twinform.compiler.compare.robot import Body, JointView, Leaf, Mass, NamedFrame, Part, Robot
 from twinform.diagnostics import Origins
-from twinform.ir import Axis, Element, Format, Frame, Inertial, Joint, Link, Model, Node, Pose, Vector3
+from twinform.ir import Element, Format, Frame, Inertial, Joint, Link, Model, Node, Pose, Vector3
 from twinform.ir.defaults import direction
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
+from twinform.ir.motion import axes_of, unit
 from twinform.ir.solids import placed, written_solid
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import is_synthesized
 from twinform.passes.carriers.carriers import is_carrier, unpack
 from twinform.passes.transforms.flattening import flatten
 from twinform.schemas import element_xml
-
-_WITHOUT_AXIS = frozenset({"fixed", "ball"})
-_WITH_TWO = frozenset({"universal", "revolute2", "gearbox"})
 
 
 def build_robot(model: Model, source: Model, format: Format, origins: Mapping[str, Origins]) -> Robot:
@@ -108,14 +105,11 @@ class _RobotBuilder:
         return self.graph.body(name or WORLD)
 
     def _axes(self, joint: Joint, frame: Transform) -> Iterator[Vector3]:
-        if joint.type in _WITHOUT_AXIS:
-            return
-        axes = (joint.axis, joint.axis2) if joint.type in _WITH_TWO else (joint.axis,)
-        for axis in (each or Axis() for each in axes):
+        for axis in axes_of(joint):
             turn = frame
             if axis.expressed_in:
                 turn = self.graph.pose(axis.expressed_in, MODEL, kind="frame", base="model")
-            yield _unit(turn.rotate(direction(axis, Format.SDF)))
+            yield unit(turn.rotate(direction(axis, Format.SDF)))
 
     def _frame(self, frame: Frame, source: Model) -> NamedFrame:
         return NamedFrame(
@@ -159,10 +153,3 @@ def _carried(node: Node) -> Iterator[Element]:
 def _is_made_for_static(joint: Joint, model: Model) -> bool:
     """Whether it holds a link of a static model, which stands still anyway."""
     return bool(model.static) and joint.type == "fixed" and is_synthesized(joint)
-
-
-def _unit(vector: Vector3) -> Vector3:
-    length = math.hypot(*vector)
-    if not length:
-        return vector
-    return (vector[0] / length, vector[1] / length, vector[2] / length)

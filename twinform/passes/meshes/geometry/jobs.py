@@ -1,4 +1,4 @@
-"""The jobs that the child process knows: simplify a collision, decimate a visual, convert a file."""
+"""The jobs that the child process knows: simplify a collision, decimate a visual, convert a file, draw one."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -6,6 +6,7 @@ from typing import Any, cast
 
 from twinform.passes.meshes.geometry import convex, primitives
 from twinform.passes.meshes.geometry.decimation import decimated
+from twinform.passes.meshes.geometry.drawing import drawn
 from twinform.passes.meshes.geometry.formats import appearance_of, upright, written
 from twinform.passes.meshes.geometry.libraries import np, trimesh
 from twinform.passes.meshes.geometry.surface import (
@@ -178,4 +179,11 @@ def _welded(name: str, part: Any) -> Any:
     return type(part)(vertices=surface.points, faces=surface.faces, process=False)
 
 
-JOBS: Mapping[str, Callable[[Job], Result]] = {"simplify": simplify, "decimate": decimate, "convert": convert}
+def draw(job: Job) -> Result:
+    """All triangles of a mesh as arrays, for who draws it."""
+    return Result({}, drawn(_parts(job, appearance=True)))
+
+
+JOBS: Mapping[str, Callable[[Job], Result]] = {
+    "simplify": simplify, "decimate": decimate, "convert": convert, "draw": draw,
+}  # fmt: skip

@@ -1,0 +1,165 @@
+"""`twinform view`."""
+
+import contextlib
+import threading
+import webbrowser
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Unpack
+
+import click
+
+from twinform.cli.command import Command
+from twinform.cli.completion import files
+from twinform.cli.failure import UNUSABLE, Unusable
+from twinform.cli.findings import show
+from twinform.cli.inputs import InputOptions, file_options, inputs, load_options_of
+from twinform.cli.source import Source
+from twinform.compiler import CompileError, LoadOptions
+from twinform.diagnostics.reporters import Findings
+
+if TYPE_CHECKING:
+    from twinform.compiler.compare import Comparison
+    from twinform.view import Subject
+    from twinform.view.viewer import Viewer
+
+_MOST = 2
+EXAMPLES = {
+    "Look at a robot": "twinform view robot.urdf",
+    "Two robots over each other, with what differs in color": "twinform view robot.urdf robot.sdf",
+    "Show it again whenever the file is saved": "twinform view robot.urdf --watch",
+}
+
+
+@click.command("view", cls=Command, examples=EXAMPLES)
+@click.argument("words", metavar="A [B] [NAME:=VALUE...]", nargs=-1, required=True, shell_complete=files)
+@click.option("--port", type=click.IntRange(0, 65535), default=0, metavar="N", help="The port; by default a free one.")
+@click.option("--open/--no-open", "opens", default=True, help="Whether to open a browser.")
+@click.option("--watch", is_flag=True, help="Show a file again when it is saved, or one that it is made from.")
+@file_options
+@click.pass_context
+def command(
+    ctx: click.Context,
+    words: tuple[str, ...],
+    port: int,
+    *,
+    opens: bool,
+    watch: bool,
+    **input_options: Unpack[InputOptions],
+) -> None:
+    """Show a robot or world in a browser, or two over each other.
+
+    Shows visuals, collisions, frames, joint axes and limits, masses and sensors, with a slider for each joint, the
+    tree, and what was found, on the part that it is about. Until Ctrl-C a server on this machine alone listens. A and B
+    are URDF, SDF, xacro or JSON files; - is standard input. Arguments of xacro are written NAME:=VALUE. Exit code: 0,
+    or 2 where a file could not be read.
+    """
+    sources, arguments = inputs(words)
+    if len(sources) > _MOST:
+        raise click.UsageError("view shows one file or two")
+    load_options = load_options_of(arguments, input_options)
+    session = _Session(sources, load_options, port, opens=opens)
+    try:
+        if watch and "-" in words:
+            raise click.UsageError("--watch shows files: leave - out")
+        ctx.exit(session.watch(words) if watch else session.run())
+    finally:
+        session.stop()
+
+
+@dataclass(slots=True)
+class _Session:
+    """The server, and what it shows."""
+
+    sources: Sequence[Source]
+    load_options: LoadOptions
+    port: int
+    opens: bool
+    viewer: "Viewer | None" = field(default=None, init=False)
+
+    def run(self) -> int:
+        """Show the files until Ctrl-C."""
+        if not self.show():
+            return UNUSABLE
+        with contextlib.suppress(KeyboardInterrupt):
+            threading.Event().wait()
+        return 0
+
+    def watch(self, words: Sequence[str]) -> int:
+        """Show the files whenever one of them changes; one that cannot be read leaves the last that could."""
+        from twinform.cli.watching import watch_models  # noqa: PLC0415 - it seldom happens
+
+        round_ = _Round(self)
+        watch_models(lambda: inputs(words)[0], lambda: round_, lambda source, _: round_.read(source))
+        return 0
+
+    def show(self) -> bool:
+        """Read the files and show them; False where one could not be read."""
+        return self.show_subjects([self.read(source) for source in self.sources])
+
+    def read(self, source: Source) -> "Subject | None":
+        """What is to be shown of a file; its findings are printed where there is nothing."""
+        from twinform.view import read_subject  # noqa: PLC0415 - see above
+
+        subject, loaded = read_subject(source.content, self.load_options, name=source.name)
+        if subject is None:
+            show(Findings(loaded.path, loaded.diagnostics), notes=False, on_stderr=True)
+        return subject
+
+    def show_subjects(self, subjects: "Sequence[Subject | None]") -> bool:
+        """Show what could be read; False where something could not."""
+        found = [subject for subject in subjects if subject is not None]
+        if len(found) < len(subjects) or not found:
+            return False
+        viewer, is_new = self.viewer or self._start(), self.viewer is None
+        self.viewer = viewer
+        viewer.show(found, self._comparison())
+        if is_new:
+            click.echo(
+                f"showing {' and '.join(source.name for source in self.sources)} at {viewer.address}; Ctrl-C ends"
+            )
+            if self.opens:
+                webbrowser.open(viewer.address)
+        return True
+
+    def stop(self) -> None:
+        """End the server."""
+        if self.viewer is not None:
+            self.viewer.stop()
+
+    def _start(self) -> "Viewer":
+        from twinform.view import ViewError, new_viewer  # noqa: PLC0415 - see above
+
+        try:
+            return new_viewer(self.port)
+        except ViewError as error:
+            raise Unusable(str(error)) from error
+
+    def _comparison(self) -> "Comparison | None":
+        if len(self.sources) < _MOST:
+            return None
+        from twinform.compiler.compare import compare_files  # noqa: PLC0415 - most calls have one file
+
+        a, b = self.sources
+        try:
+            return compare_files(a.content, b.content, self.load_options, names=(a.name, b.name))
+        except CompileError as error:
+            show(Findings(a.name, error.diagnostics), notes=False, on_stderr=True)
+            return None
+
+
+@dataclass(slots=True)
+class _Round:
+    """The files as they were last read, of which one or both have changed."""
+
+    session: _Session
+    subjects: "dict[str, Subject | None]" = field(default_factory=dict[str, "Subject | None"])
+
+    def read(self, source: Source) -> None:
+        """Read a file again."""
+        self.subjects[source.name] = self.session.read(source)
+
+    def end(self) -> None:
+        """Show what was read."""
+        names = [source.name for source in self.session.sources]
+        self.session.show_subjects([self.subjects.get(name) for name in names])

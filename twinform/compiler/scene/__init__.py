@@ -1,0 +1,34 @@
+"""Scenes: what there is to see of a model or world, and where it is at any joint positions."""
+
+from twinform.compiler.scene.building import build_scene
+from twinform.compiler.scene.moving import Kinematics, Positions
+from twinform.compiler.scene.scene import (
+    Degree,
+    Frustum,
+    Leader,
+    Ray,
+    Role,
+    Scene,
+    SceneFrame,
+    SceneJoint,
+    SceneLink,
+    SceneSensor,
+    SceneShape,
+)
+
+__all__ = [
+    "Degree",
+    "Frustum",
+    "Kinematics",
+    "Leader",
+    "Positions",
+    "Ray",
+    "Role",
+    "Scene",
+    "SceneFrame",
+    "SceneJoint",
+    "SceneLink",
+    "SceneSensor",
+    "SceneShape",
+    "build_scene",
+]

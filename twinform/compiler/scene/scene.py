@@ -1,0 +1,136 @@
+"""A scene: what there is to see of a document, and where it is with every joint at zero.
+
+All frames are in the world's, lengths in meters, angles in radians, colors from 0 to 1. Names are those of SDF: parts
+of nested models, and of models in a world, are `model::part`.
+"""
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from twinform.diagnostics import NOWHERE, Location
+from twinform.ir import Color, Vector3
+from twinform.ir.geometry import ShapeNode
+from twinform.ir.solids import Solid
+from twinform.ir.transform import Transform
+
+Role = Literal["visual", "collision"]
+
+
+@dataclass(frozen=True, slots=True)
+class SceneShape:
+    """A visual or collision; `pose` is in the frame of its link."""
+
+    role: Role
+    name: str
+    pose: Transform
+    shape: ShapeNode
+    color: Color | None = None
+    where: Location = NOWHERE
+
+
+@dataclass(frozen=True, slots=True)
+class Ray:
+    """A piece of a ray of a sensor, in the sensor's frame."""
+
+    start: Vector3
+    end: Vector3
+
+
+@dataclass(frozen=True, slots=True)
+class Frustum:
+    """What a camera sees along the x axis of its sensor: angles of view, and the distances that it sees between."""
+
+    horizontal: float
+    vertical: float
+    near: float
+    far: float
+    pose: Transform = field(default_factory=Transform)
+
+
+@dataclass(frozen=True, slots=True)
+class SceneSensor:
+    """A sensor; `pose` is in the frame of the link that it moves with."""
+
+    name: str
+    type: str
+    link: str
+    pose: Transform
+    frustums: tuple[Frustum, ...] = ()
+    rays: tuple[Ray, ...] = ()
+    where: Location = NOWHERE
+
+
+@dataclass(frozen=True, slots=True)
+class SceneLink:
+    """A link, where its frame is, and what it weighs, in its own frame; None for a link without mass."""
+
+    name: str
+    pose: Transform
+    shapes: tuple[SceneShape, ...] = ()
+    mass: Solid | None = None
+    where: Location = NOWHERE
+
+
+@dataclass(frozen=True, slots=True)
+class Leader:
+    """The position that one follows: `multiplier` (position of `joint` - `reference`) + `offset`."""
+
+    joint: str
+    degree: int
+    multiplier: float
+    offset: float
+    reference: float
+
+    def followed(self, position: float) -> float:
+        """Where the follower is."""
+        return self.multiplier * (position - self.reference) + self.offset
+
+
+@dataclass(frozen=True, slots=True)
+class Degree:
+    """One way in which a joint moves: about or along a unit vector.
+
+    `advance` is how many meters it moves along the vector for each radian, and `lower` and `upper` are infinite where
+    there are no limits.
+    """
+
+    axis: Vector3
+    slides: bool
+    lower: float
+    upper: float
+    advance: float = 0.0
+    leader: Leader | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class SceneJoint:
+    """A joint between two links, or the world."""
+
+    name: str
+    type: str
+    parent: str
+    child: str
+    frame: Transform
+    degrees: tuple[Degree, ...] = ()
+    where: Location = NOWHERE
+
+
+@dataclass(frozen=True, slots=True)
+class SceneFrame:
+    """A frame besides those of links and joints, in the frame of the link that it moves with."""
+
+    name: str
+    link: str
+    pose: Transform
+    where: Location = NOWHERE
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """Everything. `left_out` says what could not be placed."""
+
+    links: tuple[SceneLink, ...] = ()
+    joints: tuple[SceneJoint, ...] = ()
+    frames: tuple[SceneFrame, ...] = ()
+    sensors: tuple[SceneSensor, ...] = ()
+    left_out: tuple[str, ...] = ()

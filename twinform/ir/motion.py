@@ -1,0 +1,116 @@
+"""How joints move: forward kinematics of one joint, as transforms of the frame that its axes are given in."""
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import Protocol, TypeVar
+
+from twinform.ir.joint import Axis, Joint
+from twinform.ir.node import Vector3
+from twinform.ir.transform import Transform
+
+FULL_TURN = 2 * math.pi
+WITHOUT_AXIS = frozenset({"fixed", "ball", "spherical", "floating"})
+"""Types of joints whose `<axis>` means nothing."""
+WITH_TWO_AXES = frozenset({"universal", "revolute2", "gearbox"})
+"""Types of joints that turn about a second axis too."""
+
+
+class JointEnds(Protocol):
+    """A joint by the links that its ends move with."""
+
+    @property
+    def name(self) -> str:
+        """Its own name."""
+        ...
+
+    @property
+    def type(self) -> str:
+        """What sort of joint it is."""
+        ...
+
+    @property
+    def parent(self) -> str:
+        """The link that it hangs from."""
+        ...
+
+    @property
+    def child(self) -> str:
+        """The link that it moves."""
+        ...
+
+
+AnyJoint = TypeVar("AnyJoint", bound=JointEnds)
+
+
+def axes_of(joint: Joint) -> tuple[Axis, ...]:
+    """The axes that a joint moves about or along, those that are not written with nothing in them."""
+    if joint.type in WITHOUT_AXIS:
+        return ()
+    axes = (joint.axis, joint.axis2) if joint.type in WITH_TWO_AXES else (joint.axis,)
+    return tuple(axis or Axis() for axis in axes)
+
+
+def spanning_tree(joints: Iterable[AnyJoint]) -> Mapping[str, AnyJoint]:
+    """The joints that make a tree, by the links that hang from them: of several, a fixed one, or the first by name."""
+    above: dict[str, AnyJoint] = {}
+    for joint in sorted(joints, key=lambda joint: (joint.type != "fixed", joint.name)):
+        if joint.child not in above and not _is_below(joint.parent, joint.child, above):
+            above[joint.child] = joint
+    return above
+
+
+def _is_below(link: str, ancestor: str, above: Mapping[str, AnyJoint]) -> bool:
+    while link != ancestor and link in above:
+        link = above[link].parent
+    return link == ancestor
+
+
+def slide(axis: Vector3, distance: float) -> Transform:
+    """The motion of so many meters along a unit vector."""
+    return Transform(_times(axis, distance))
+
+
+def turn(axis: Vector3, angle: float, center: Vector3, advance: float = 0.0) -> Transform:
+    """The rotation by an angle in radians about the line through `center` along a unit vector, by Rodrigues' formula.
+
+    `advance` is how many meters it moves along the line, as a screw does.
+    """
+    x, y, z = axis
+    c, s = math.cos(angle), math.sin(angle)
+    v = 1 - c
+    rotation = (
+        c + x * x * v, x * y * v - z * s, x * z * v + y * s,
+        x * y * v + z * s, c + y * y * v, y * z * v - x * s,
+        x * z * v - y * s, y * z * v + x * s, c + z * z * v,
+    )  # fmt: skip
+    back = Transform(rotation=rotation).rotate(center)
+    shift = _times(axis, advance)
+    return Transform(
+        (center[0] - back[0] + shift[0], center[1] - back[1] + shift[1], center[2] - back[2] + shift[2]), rotation
+    )
+
+
+def unit(vector: Vector3) -> Vector3:
+    """The vector with length one; itself where it has no length."""
+    length = math.hypot(*vector)
+    if not length:
+        return vector
+    return (vector[0] / length, vector[1] / length, vector[2] / length)
+
+
+def plane_across(normal: Vector3) -> tuple[Vector3, Vector3]:
+    """Two unit vectors that make a right-handed frame with a normal, x and y where that is z."""
+    length = math.hypot(*normal)
+    nx, ny, nz = (part / length for part in normal)
+    smallest = min(range(3), key=lambda i: abs((nx, ny, nz)[i]))
+    axis = [0.0, 0.0, 0.0]
+    axis[smallest] = 1.0
+    share = (nx, ny, nz)[smallest]
+    ux, uy, uz = (axis[0] - share * nx, axis[1] - share * ny, axis[2] - share * nz)
+    length = math.hypot(ux, uy, uz)
+    ux, uy, uz = ux / length + 0.0, uy / length + 0.0, uz / length + 0.0
+    return (ux, uy, uz), (ny * uz - nz * uy + 0.0, nz * ux - nx * uz + 0.0, nx * uy - ny * ux + 0.0)
+
+
+def _times(vector: Vector3, factor: float) -> Vector3:
+    return (vector[0] * factor, vector[1] * factor, vector[2] * factor)

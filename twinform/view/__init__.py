@@ -1,0 +1,16 @@
+"""The 3D view of robots in a browser, on viser: `twinform view`, and pages that open without a server."""
+
+from twinform.view.errors import PortTakenError, ViewerMissingError, ViewError
+from twinform.view.pages import new_viewer, standalone_page
+from twinform.view.reading import read_subject
+from twinform.view.subject import Subject
+
+__all__ = [
+    "PortTakenError",
+    "Subject",
+    "ViewError",
+    "ViewerMissingError",
+    "new_viewer",
+    "read_subject",
+    "standalone_page",
+]

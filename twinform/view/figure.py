@@ -1,0 +1,213 @@
+"""One robot or world in the 3D view: a node for each link, and layers of what there is on it."""
+
+import importlib
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from twinform.compiler.scene import Kinematics, Positions, Scene, SceneShape
+from twinform.ir import Vector3
+from twinform.ir.transform import Transform
+from twinform.view.mesh_drawings import MeshDrawings
+from twinform.view.triangles import Triangles, triangles_of
+
+np: Any = importlib.import_module("numpy")
+Rgb = tuple[int, int, int]
+Array = Any
+Handle = Any
+"""Of something in the scene of viser."""
+
+UNPAINTED: Rgb = (200, 200, 205)
+MARK: Rgb = (255, 170, 0)
+_FAR = 1e4
+"""Meters from the origin beyond which something does not count for where the camera is: the ground of a world."""
+_GROUND = 50.0
+"""The side in meters from which a shape is taken for the ground that a robot is on."""
+_LEAST = 1e-3
+_SHARE = 0.06
+"""The length of the axes of a frame, as a share of the whole robot."""
+_OPAQUE = 0.999
+_SWELL = 1.02
+"""How much larger a mark is than what it marks."""
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """How a robot is drawn: in one color instead of its own, and see-through."""
+
+    color: Rgb | None = None
+    opacity: float | None = None
+
+
+@dataclass(slots=True)
+class Figure:
+    """A scene as it is drawn below the node `root` of a viser scene."""
+
+    api: Any
+    root: str
+    scene: Scene
+    meshes: MeshDrawings
+    look: Look = field(default_factory=Look)
+    on_click: Callable[[str], None] | None = None
+    nodes: dict[str, Handle] = field(default_factory=dict[str, Handle], init=False)
+    poses: dict[str, Transform] = field(default_factory=dict[str, Transform], init=False)
+    base: Handle = field(init=False)
+    kinematics: Kinematics = field(init=False)
+    _layers: dict[str, list[Handle]] = field(default_factory=dict[str, "list[Handle]"], init=False)
+    _marks: list[Handle] = field(default_factory=list[Handle], init=False)
+    _size: float | None = field(default=None, init=False)
+    _triangles: dict[SceneShape, Triangles] = field(default_factory=dict[SceneShape, Triangles], init=False)
+
+    def __post_init__(self) -> None:
+        self.kinematics = Kinematics(self.scene)
+        self.poses = self.kinematics.poses({})
+        self.base = self.api.add_frame(self.root, show_axes=False)
+        for number, link in enumerate(self.scene.links):
+            self.nodes[link.name] = self.api.add_frame(
+                f"{self.root}/links/{number}", show_axes=False, **placed(self.poses[link.name])
+            )
+
+    def node_name(self, link: str) -> str:
+        """What a link's node is called; that of the world for a link that is none."""
+        node = self.nodes.get(link)
+        return node.name if node is not None else self.root
+
+    def move(self, positions: Positions) -> None:
+        """Put every joint to a position, others to zero."""
+        poses = self.kinematics.poses(positions)
+        for name, pose in poses.items():
+            if pose != self.poses[name]:
+                at = placed(pose)
+                self.nodes[name].position, self.nodes[name].wxyz = at["position"], at["wxyz"]
+        self.poses = poses
+
+    def place(self, offset: Vector3, *, visible: bool) -> None:
+        """Move the whole, such as beside another one, and show or hide it."""
+        self.base.position, self.base.visible = offset, visible
+
+    @property
+    def size(self) -> float:
+        """The length of the diagonal of the box around the robot, in meters."""
+        if self._size is None:
+            least, greatest = self.bounds()
+            self._size = max(float(np.linalg.norm(greatest - least)), _LEAST)
+        return self._size
+
+    def from_world(self, link: str) -> Transform:
+        """From the world's frame with all joints at zero to that of a link."""
+        pose = self.kinematics.at_zero.get(link)
+        return pose.inverse() if pose else Transform()
+
+    def axes(self, name: str, pose: Transform) -> Handle:
+        """The axes of a frame."""
+        length = self.size * _SHARE
+        return self.api.add_frame(name, axes_length=length, axes_radius=length * 0.04, **placed(pose))
+
+    def show(self, layer: str, draw: Callable[["Figure"], Iterable[Handle]], *, visible: bool) -> None:
+        """Show or hide a layer, which is drawn when it is first seen."""
+        if layer not in self._layers:
+            if not visible:
+                return
+            self._layers[layer] = list(draw(self))
+        for handle in self._layers[layer]:
+            handle.visible = visible
+
+    def shapes(self, role: str) -> Iterator[tuple[str, str, SceneShape]]:
+        """The visuals or collisions, each with its link, and a name for its node."""
+        for link in self.scene.links:
+            for number, shape in enumerate(link.shapes):
+                if shape.role == role:
+                    yield link.name, f"{self.node_name(link.name)}/{role}/{number}", shape
+
+    def triangles(self, shape: SceneShape) -> Triangles:
+        """The triangles of a shape, in its frame."""
+        found = self._triangles.get(shape)
+        if found is None:
+            found = self._triangles[shape] = triangles_of(shape.shape, self.meshes)
+        return found
+
+    def problems(self) -> Iterator[tuple[str, SceneShape, str]]:
+        """Shapes for which a box stands, each with its link and the reason."""
+        for role in ("visual", "collision"):
+            for link, _, shape in self.shapes(role):
+                if problem := self.triangles(shape).problem:
+                    yield link, shape, problem
+
+    def draw(self, shape: SceneShape, name: str, color: Rgb, opacity: float | None) -> Handle:
+        """A shape at its place; `color` counts where it has no colors of its own."""
+        found, at = self.triangles(shape), placed(shape.pose)
+        if found.problem:
+            return self.api.add_mesh_simple(name, found.points, found.faces, color=color, wireframe=True, **at)
+        if found.colors is not None and self.look.color is None and shape.role == "visual":
+            return self.api.add_mesh_trimesh(name, _painted(found), **at)
+        clear = opacity if opacity is not None and opacity < _OPAQUE else None
+        return self.api.add_mesh_simple(
+            name, found.points, found.faces, color=color, opacity=clear, side="double", **at
+        )
+
+    def mark(self, links: Mapping[str, Rgb]) -> None:
+        """Color some links, and no others."""
+        for handle in self._marks:
+            handle.remove()
+        self._marks = []
+        for role in ("visual", "collision"):
+            for link, name, shape in self.shapes(role):
+                if link in links and (role == "visual" or not self._has_visuals(link)):
+                    self._marks.append(self._mark(shape, f"{name}-mark", links[link]))
+
+    def _has_visuals(self, link: str) -> bool:
+        found = next(each for each in self.scene.links if each.name == link)
+        return any(shape.role == "visual" for shape in found.shapes)
+
+    def _mark(self, shape: SceneShape, name: str, color: Rgb) -> Handle:
+        found = self.triangles(shape)
+        middle = (found.points.max(axis=0) + found.points.min(axis=0)) / 2
+        points = (found.points - middle) * _SWELL + middle
+        return self.api.add_mesh_simple(
+            name, points, found.faces, color=color, opacity=0.6, side="double",
+            **placed(shape.pose),
+        )  # fmt: skip
+
+    def bounds(self) -> tuple[Array, Array]:
+        """The least and greatest coordinates of what is drawn with all joints at zero, or of the links' frames."""
+        corners: list[Array] = []
+        for role in ("visual", "collision"):
+            for link, _, shape in self.shapes(role):
+                pose = self.kinematics.at_zero[link].compose(shape.pose)
+                corners.append(_box_around(self.triangles(shape).points, pose))
+            corners = [each for each in corners if np.abs(each).max() < _FAR and np.ptp(each, axis=0).max() < _GROUND]
+            if corners:
+                break
+        corners += [np.asarray([pose.translation]) for pose in self.poses.values() if _is_near(pose)]
+        every = np.concatenate(corners) if corners else np.zeros((1, 3))
+        return every.min(axis=0), every.max(axis=0)
+
+
+def placed(pose: Transform) -> dict[str, Any]:
+    """Where a node is, as viser takes it."""
+    x, y, z, w = pose.quaternion()
+    return {"position": pose.translation, "wxyz": (w, x, y, z)}
+
+
+def rgb(color: Iterable[float] | None, usual: Rgb = UNPAINTED) -> Rgb:
+    """Red, green and blue from 0 to 255."""
+    if color is None:
+        return usual
+    red, green, blue, *_ = (round(255 * min(1.0, max(0.0, part))) if math.isfinite(part) else 0 for part in color)
+    return red, green, blue
+
+
+def _is_near(pose: Transform) -> bool:
+    return all(math.isfinite(each) and abs(each) < _FAR for each in pose.translation)
+
+
+def _painted(found: Triangles) -> Any:
+    trimesh = importlib.import_module("trimesh")
+    return trimesh.Trimesh(found.points, found.faces, vertex_colors=found.colors, process=False)
+
+
+def _box_around(points: Array, pose: Transform) -> Array:
+    rotation = np.asarray(pose.rotation).reshape(3, 3)
+    moved = points @ rotation.T + np.asarray(pose.translation)
+    return np.stack([moved.min(axis=0), moved.max(axis=0)])

@@ -1,0 +1,95 @@
+"""What can be shown of a robot, one layer each: shapes, frames, axes and limits, masses, sensors, names."""
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import NamedTuple
+
+from twinform.ir import Mesh
+from twinform.ir.transform import Transform
+from twinform.view.figure import Figure, Handle, Rgb, rgb
+from twinform.view.joint_marks import joint_axes, joint_limits, skeleton
+from twinform.view.mass_marks import centers, inertias
+from twinform.view.names import shortened
+from twinform.view.sensor_marks import sensors
+
+_COLLISION: Rgb = (230, 90, 60)
+_SEE_THROUGH = 0.35
+
+
+def _visuals(figure: Figure) -> Iterator[Handle]:
+    for link, name, shape in figure.shapes("visual"):
+        color = figure.look.color or rgb(shape.color)
+        opacity = figure.look.opacity or (shape.color[3] if shape.color else None)
+        handle = figure.draw(shape, name, color, opacity)
+        _make_clickable(handle, figure, link)
+        yield handle
+
+
+def _collisions(figure: Figure) -> Iterator[Handle]:
+    for link, name, shape in figure.shapes("collision"):
+        handle = figure.draw(shape, name, figure.look.color or _COLLISION, _SEE_THROUGH)
+        _make_clickable(handle, figure, link)
+        yield handle
+
+
+def _make_clickable(handle: Handle, figure: Figure, link: str) -> None:
+    told = figure.on_click
+    if told is not None:
+
+        @handle.on_click
+        def _(event: object) -> None:
+            del event
+            told(link)
+
+
+def _link_frames(figure: Figure) -> Iterator[Handle]:
+    for link in figure.scene.links:
+        yield figure.axes(f"{figure.node_name(link.name)}/frame", Transform())
+
+
+def _named_frames(figure: Figure) -> Iterator[Handle]:
+    for number, frame in enumerate(figure.scene.frames):
+        yield figure.axes(f"{figure.node_name(frame.link)}/frames/{number}", frame.pose)
+
+
+def _mesh_origins(figure: Figure) -> Iterator[Handle]:
+    for role in ("visual", "collision"):
+        for _, name, shape in figure.shapes(role):
+            if isinstance(shape.shape, Mesh):
+                yield figure.axes(f"{name}-origin", shape.pose)
+
+
+def _link_names(figure: Figure) -> Iterator[Handle]:
+    for link in figure.scene.links:
+        yield figure.api.add_label(f"{figure.node_name(link.name)}/name", shortened(link.name))
+
+
+def _joint_names(figure: Figure) -> Iterator[Handle]:
+    for number, joint in enumerate(figure.scene.joints):
+        at = figure.from_world(joint.child).apply(joint.frame.translation)
+        name = f"{figure.node_name(joint.child)}/joints/{number}"
+        yield figure.api.add_label(name, shortened(joint.name), position=at)
+
+
+class Layer(NamedTuple):
+    """A layer: what it is called, whether it is shown at first, and what draws it."""
+
+    label: str
+    shown: bool
+    draw: Callable[[Figure], Iterable[Handle]]
+
+
+LAYERS: tuple[Layer, ...] = (
+    Layer("Visuals", shown=True, draw=_visuals),
+    Layer("Collisions", shown=False, draw=_collisions),
+    Layer("Skeleton", shown=False, draw=skeleton),
+    Layer("Link frames", shown=False, draw=_link_frames),
+    Layer("Named frames", shown=False, draw=_named_frames),
+    Layer("Joint axes", shown=False, draw=joint_axes),
+    Layer("Joint limits", shown=False, draw=joint_limits),
+    Layer("Inertias", shown=False, draw=inertias),
+    Layer("Centers of mass", shown=False, draw=centers),
+    Layer("Sensors", shown=False, draw=sensors),
+    Layer("Mesh origins", shown=False, draw=_mesh_origins),
+    Layer("Link names", shown=False, draw=_link_names),
+    Layer("Joint names", shown=False, draw=_joint_names),
+)

@@ -1,0 +1,53 @@
+"""Pages with a 3D view that open without a server and ask for nothing: for reports and notebooks."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from twinform.compiler.scene import build_scene
+from twinform.compiler.search.uris import SearchPath
+from twinform.ir import Document
+from twinform.view.errors import ViewerMissingError
+from twinform.view.subject import Subject
+
+if TYPE_CHECKING:
+    from twinform.view.viewer import Viewer
+
+
+def new_viewer(port: int = 0) -> "Viewer":
+    """A viewer; what it is made with is imported here.
+
+    Raises:
+        ViewerMissingError: the libraries are not installed.
+        PortTakenError: the port is not free.
+    """
+    try:
+        import viser  # noqa: F401, PLC0415 # pyright: ignore[reportUnusedImport] - an extra
+
+        from twinform.view.viewer import Viewer  # noqa: PLC0415 - it needs the extra
+    except ImportError as error:
+        raise ViewerMissingError(error.name or "viser") from error
+    return Viewer(port)
+
+
+def standalone_page(
+    first: Document, second: Document | None = None, *, dark: bool = False, search: SearchPath | None = None
+) -> str:
+    """The text of an HTML page that shows a document, or two over each other, with every joint at zero.
+
+    Meshes are looked for beside the files that the documents were read from, and in the folders of `search`.
+
+    Raises:
+        ViewerMissingError: the libraries are not installed.
+    """
+    viewer = new_viewer()
+    try:
+        folders = search or SearchPath.of()
+        viewer.show([_subject(each, folders) for each in (first, second) if each is not None])
+        return viewer.page(dark=dark)
+    finally:
+        viewer.stop()
+
+
+def _subject(document: Document, search: SearchPath) -> Subject:
+    file = document.location.file
+    return Subject(document, build_scene(document), file if file and Path(file).is_file() else "", search)

@@ -1,0 +1,123 @@
+"""The triangles of shapes: of primitives as they are defined, of meshes as their files say."""
+
+import importlib
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from twinform.ir import Box, Capsule, Cone, Cylinder, Ellipsoid, Mesh, Plane, Sphere
+from twinform.ir.defaults import sizes
+from twinform.ir.geometry import ShapeNode
+from twinform.view.mesh_drawings import MeshDrawings
+
+np: Any = importlib.import_module("numpy")
+trimesh: Any = importlib.import_module("trimesh")
+Array = Any
+"""A numpy array."""
+
+STAND_IN = 0.1
+"""The side in meters of the box that stands for what cannot be drawn."""
+_SHARP = 0.6
+_ROUND = 3
+"""How often the sides of an icosahedron are halved for a sphere."""
+_LARGEST_PLANE = 100.0
+_SMALLEST, _LARGEST = 1e-9, 1e6
+
+
+@dataclass(frozen=True, slots=True)
+class Triangles:
+    """Points in meters as rows of x, y, z in the frame of the shape, three indices of them for each triangle.
+
+    `colors` are rows of four bytes for each point, where the shape has its own. A `problem` says why this is only a
+    box that stands for the shape.
+    """
+
+    points: Array
+    faces: Array
+    colors: Array | None = None
+    problem: str = ""
+
+
+def triangles_of(shape: ShapeNode, meshes: MeshDrawings) -> Triangles:
+    """What is drawn of a shape; a box where it cannot be drawn."""
+    if isinstance(shape, Mesh):
+        return _of_mesh(shape, meshes)
+    make = _MAKERS.get(type(shape))
+    if make is None:
+        return _stand_in(f"a {shape.model_dump()['kind']} is not drawn")
+    lengths = (shape.size or (1.0, 1.0)) if isinstance(shape, Plane) else sizes(shape)
+    if not all(math.isfinite(each) and _SMALLEST < abs(each) < _LARGEST for each in lengths):
+        return _stand_in("its size is zero, or not finite, or beyond what can be drawn")
+    made = make(shape, *map(abs, lengths))
+    return Triangles(np.asarray(made.vertices, dtype=np.float32), np.asarray(made.faces, dtype=np.uint32))
+
+
+def _of_mesh(shape: Mesh, meshes: MeshDrawings) -> Triangles:
+    found = meshes.drawing(shape)
+    if isinstance(found, str):
+        return _stand_in(found)
+    scale = np.asarray(shape.scale or (1.0, 1.0, 1.0), dtype=np.float32)
+    if not (np.isfinite(scale).all() and scale.all()):
+        return _stand_in("its scale is zero or not finite")
+    points = np.frombuffer(found["points"], dtype=np.float32).reshape(-1, 3) * scale
+    faces = np.frombuffer(found["faces"], dtype=np.uint32).reshape(-1, 3)
+    colors = np.frombuffer(found["colors"], dtype=np.uint8).reshape(-1, 4) if "colors" in found else None
+    return Triangles(points, faces if scale.prod() > 0 else faces[:, ::-1], colors)
+
+
+def _stand_in(problem: str) -> Triangles:
+    made = trimesh.creation.box((STAND_IN, STAND_IN, STAND_IN))
+    return Triangles(np.asarray(made.vertices, np.float32), np.asarray(made.faces, np.uint32), None, problem)
+
+
+def _box(_: ShapeNode, x: float, y: float, z: float) -> Any:
+    return _edged(trimesh.creation.box((x, y, z)))
+
+
+def _cylinder(_: ShapeNode, radius: float, length: float) -> Any:
+    return _edged(trimesh.creation.cylinder(radius, length, sections=48))
+
+
+def _cone(_: ShapeNode, radius: float, length: float) -> Any:
+    made = trimesh.creation.cone(radius, length, sections=48)
+    made.apply_translation((0, 0, -length / 2))
+    return _edged(made)
+
+
+def _capsule(_: ShapeNode, radius: float, length: float) -> Any:
+    made = trimesh.creation.capsule(length, radius, count=(24, 24))
+    made.apply_translation((0, 0, -made.bounds.mean(axis=0)[2]))
+    return made
+
+
+def _sphere(_: ShapeNode, radius: float) -> Any:
+    return trimesh.creation.icosphere(_ROUND, radius)
+
+
+def _ellipsoid(_: ShapeNode, x: float, y: float, z: float) -> Any:
+    made = trimesh.creation.icosphere(_ROUND, 1.0)
+    made.apply_scale((x, y, z))
+    return made
+
+
+def _plane(shape: ShapeNode, x: float, y: float) -> Any:
+    """A rectangle about the origin, as far as it is drawn; planes of worlds are larger."""
+    half = min(x, _LARGEST_PLANE) / 2, min(y, _LARGEST_PLANE) / 2
+    corners = [(-half[0], -half[1], 0), (half[0], -half[1], 0), (half[0], half[1], 0), (-half[0], half[1], 0)]
+    made = trimesh.Trimesh(corners, [(0, 1, 2), (0, 2, 3)], process=False)
+    normal = shape.normal if isinstance(shape, Plane) else None
+    if normal is not None and any(normal):
+        made.apply_transform(trimesh.geometry.align_vectors((0, 0, 1), normal))
+    return made
+
+
+def _edged(made: Any) -> Any:
+    """The mesh with points for each side of an edge, so that light makes it one."""
+    return trimesh.graph.smooth_shade(made, angle=_SHARP)
+
+
+_MAKERS: Mapping[type[ShapeNode], Callable[..., Any]] = {
+    Box: _box, Cylinder: _cylinder, Cone: _cone, Capsule: _capsule, Sphere: _sphere, Ellipsoid: _ellipsoid,
+    Plane: _plane,
+}  # fmt: skip

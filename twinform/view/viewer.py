@@ -1,0 +1,132 @@
+"""The 3D view in a browser: a server on this machine alone, which shows one robot, or two over each other."""
+
+import contextlib
+import importlib
+import io
+import math
+import socket
+from collections.abc import Sequence
+from contextlib import AbstractContextManager
+from threading import Lock
+from typing import Any
+
+from twinform.compiler.compare.comparison import Comparison
+from twinform.view.errors import PortTakenError
+from twinform.view.figure import Figure, Look
+from twinform.view.mesh_drawings import MeshDrawings
+from twinform.view.panel import Panel
+from twinform.view.subject import Subject
+
+viser: Any = importlib.import_module("viser")
+
+HOST = "127.0.0.1"
+_SECOND = Look(color=(60, 130, 220), opacity=0.45)
+"""How B is drawn over A."""
+_FROM = (1.0, -1.35, 0.8)
+"""Where the camera is from the middle of what is shown, in units of its size."""
+
+
+class Viewer:
+    """A server that shows subjects; `port` 0 takes a free one.
+
+    Raises:
+        PortTakenError: the port is not free.
+    """
+
+    def __init__(self, port: int = 0) -> None:
+        with _silence():
+            self._server: Any = viser.ViserServer(host=HOST, port=_free(port), label="twinform", verbose=False)
+        self._lock = Lock()
+        self._panel: Panel | None = None
+        self._server.gui.configure_theme(
+            control_layout="collapsible", control_width="large", show_logo=False, show_share_button=False
+        )
+
+    @property
+    def address(self) -> str:
+        """Where a browser finds it."""
+        return f"http://{HOST}:{self._server.get_port()}"
+
+    @property
+    def figures(self) -> Sequence[Figure]:
+        """What is shown."""
+        return self._panel.figures if self._panel else ()
+
+    def show(self, subjects: Sequence[Subject], comparison: Comparison | None = None) -> None:
+        """Show one subject, or a second one over it, in place of what is shown; joints and cameras stay."""
+        with self._lock, self._server.atomic():
+            positions = dict(self._panel.positions) if self._panel else {}
+            is_first = self._panel is None
+            self._server.scene.reset()
+            self._server.gui.reset()
+            figures = draw(self._server.scene, subjects, self.select)
+            self._panel = Panel(self._server.gui, subjects, figures, comparison, positions)
+            self._panel.build()
+            for figure in figures:
+                figure.move(self._panel.positions)
+            self._panel.mark_differences()
+            if is_first:
+                aim(self._server, figures)
+        self._server.flush()
+
+    def select(self, link: str) -> None:
+        """Mark a link, as a click on it does."""
+        if self._panel is not None:
+            self._panel.select(link)
+
+    def page(self, *, dark: bool = False) -> str:
+        """What is shown as a page of its own, which opens without a server; the joints stand where they are."""
+        return self._server.scene.as_html(dark_mode=dark)
+
+    def stop(self) -> None:
+        """End the server; browsers say that it has gone."""
+        with _silence():
+            self._server.stop()
+
+
+def draw(api: Any, subjects: Sequence[Subject], on_click: Any = None) -> list[Figure]:
+    """The figures of subjects in a scene of viser, the second one in a color of its own, and a grid below them."""
+    figures: list[Figure] = []
+    for subject, root, look in zip(subjects, ("/A", "/B"), (Look(), _SECOND), strict=False):
+        meshes = MeshDrawings(subject.search, subject.beside)
+        figures.append(Figure(api, root, subject.scene, meshes, look, on_click))
+    size = max(figure.size for figure in figures)
+    floor = min(float(figure.bounds()[0][2]) for figure in figures)
+    cell = _power_of_ten(size)
+    height = min(floor, 0.0)
+    api.add_grid("/grid", size * 6, size * 6, cell_size=cell, section_size=10 * cell, position=(0.0, 0.0, height))
+    return figures
+
+
+def aim(server: Any, figures: Sequence[Figure]) -> None:
+    """Put the camera of who comes to where all is seen."""
+    least, greatest = figures[0].bounds()
+    middle = (least + greatest) / 2
+    size = max(figure.size for figure in figures)
+    server.initial_camera.look_at = tuple(map(float, middle))
+    server.initial_camera.position = tuple(float(m + size * f) for m, f in zip(middle, _FROM, strict=True))
+    server.initial_camera.near, server.initial_camera.far = size / 100, size * 100
+
+
+def _power_of_ten(length: float) -> float:
+    """The largest one that is not longer."""
+    return 10.0 ** math.floor(math.log10(length))
+
+
+def _silence() -> AbstractContextManager[object]:
+    """Viser says on standard output that it begins and ends."""
+    return contextlib.redirect_stdout(io.StringIO())
+
+
+def _free(port: int) -> int:
+    """The port, or one that the system gives.
+
+    Raises:
+        PortTakenError: it is not free.
+    """
+    with socket.socket() as probe:
+        try:
+            probe.bind((HOST, port))
+        except (OSError, OverflowError) as error:
+            raise PortTakenError(port) from error
+        return int(probe.getsockname()[1])
