@@ -20,7 +20,7 @@ PEERS := .venv/.peers
 ROBOTS := .venv/.robots
 DEMO := out/demo
 
-.PHONY: help sync fmt generate lint wheel test demo report bench latency vsix before prove coverage fuzz clean
+.PHONY: help sync fmt generate lint site pictures wheel test demo report bench latency vsix before prove coverage fuzz clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -52,6 +52,9 @@ generate: $(SYNCED) ## write the files that are made from tables: schemas and re
 	$(BIN)/python -m twinform.passes.legalise.page docs/explanation/pipeline.md
 	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md
 	$(BIN)/python -m twinform.profiles.page docs/reference/profiles.md
+	$(BIN)/python -m twinform.cli.pages docs/reference/commands.md
+	$(BIN)/python -m twinform.server.mapping.pages urdf docs/reference/urdf.md
+	$(BIN)/python -m twinform.server.mapping.pages sdf docs/reference/sdf.md
 	$(BIN)/python -m reports libsdformat_codes
 	$(BIN)/python -m reports mapping
 	$(BIN)/python -m reports.mapping.destinations twinform/server/mapping/destinations.json
@@ -70,10 +73,20 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/python -m twinform.passes.legalise.page docs/explanation/pipeline.md --check
 	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md --check
 	$(BIN)/python -m twinform.profiles.page docs/reference/profiles.md --check
+	$(BIN)/python -m twinform.cli.pages docs/reference/commands.md --check
+	$(BIN)/python -m twinform.server.mapping.pages urdf docs/reference/urdf.md --check
+	$(BIN)/python -m twinform.server.mapping.pages sdf docs/reference/sdf.md --check
 	$(BIN)/python -m reports libsdformat_codes --check
 	$(BIN)/python -m reports mapping --check
 	$(BIN)/python -m reports.mapping.destinations twinform/server/mapping/destinations.json --check
 	$(MAKE) --no-print-directory wheel
+
+site: $(SYNCED) ## build the documentation site into out/site; every warning is an error
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet
+	@echo "open out/site/index.html"
+
+pictures: $(SYNCED) ## take the pictures of the README and the site in a real browser
+	$(BIN)/python -m reports.pictures
 
 wheel: $(SYNCED) # build the wheel, list it, install it into an empty environment and run the command
 	rm -rf dist .wheel-venv

@@ -15,6 +15,9 @@ _PAGES = [
     _ROOT / "README.md",
     *sorted((_ROOT / "docs").glob("how-to/*.md")),
     *sorted((_ROOT / "docs").glob("tutorial/*.md")),
+    *sorted((_ROOT / "docs").glob("start/*.md")),
+    _ROOT / "docs/index.md",
+    _ROOT / "docs/reference/api.md",
 ]
 _ERROR = re.compile(r"(^Error| error): ")
 """What a command prints that is meant to fail; `diff` and `--diff` end with 1 where there is a difference."""

@@ -127,7 +127,7 @@ def _refusals(refused: list[Trip]) -> str:
 def _pair_section(pairs: list[Pair], why: dict[str, str]) -> str:
     """The differences are those of the files: two versions of a model are seldom the same model."""
     about = f"The older file converted to the version of the newer one, and the newer one. {_pair_totals(pairs)}"
-    rows = [(pair.newer, pair.first, why[pair.newer] or UNEXPLAINED) for pair in pairs if pair.first]
+    rows = [(pair.newer, f"`{pair.first}`", why[pair.newer] or UNEXPLAINED) for pair in pairs if pair.first]
     columns = ["newer file", "first difference (the older, the newer)", "cause"]
     return section("One model at two versions", about, table(columns, rows))
 

@@ -31,7 +31,7 @@ _BETWEEN = 0.15
 """Seconds between two pictures that are compared."""
 _SECOND = Look(color=(60, 130, 220), opacity=0.45)
 """How B is drawn over A."""
-_FROM = (0.75, -1.0, 0.55)
+_FROM = (0.85, -1.15, 0.65)
 """Where the camera is from the middle of what is shown, in units of its size."""
 
 
@@ -48,7 +48,6 @@ class Viewer:
         self._lock = Lock()
         self._panel: Panel | None = None
         self._server.gui.configure_theme(control_width="large", show_logo=False, show_share_button=False)
-        self._server.gui.main_panel.dock_right()
 
     @property
     def address(self) -> str:
@@ -70,6 +69,7 @@ class Viewer:
             figures = draw(self._server.scene, subjects, self.select)
             self._panel = Panel(self._server.gui, subjects, figures, comparison, positions)
             self._panel.build()
+            self._server.gui.main_panel.dock_right()
             for figure in figures:
                 figure.move(self._panel.positions)
             self._panel.mark_differences()

@@ -1,0 +1,39 @@
+// Search in pages that were opened from the disk, where browsers allow no workers: a worker in a hidden frame instead.
+if (location.protocol === "file:") {
+  window.Worker = class extends EventTarget {
+    constructor(address) {
+      super();
+      const frame = document.createElement("iframe");
+      frame.hidden = true;
+      this.waiting = [];
+      frame.onload = () => {
+        const inside = frame.contentWindow;
+        const load = url => new Promise((done, failed) => {
+          const script = inside.document.createElement("script");
+          script.src = url;
+          script.onload = done;
+          script.onerror = failed;
+          inside.document.body.append(script);
+        });
+        const receive = data => {
+          const event = new MessageEvent("message", { data });
+          this.dispatchEvent(event);
+          if (this.onmessage) this.onmessage(event);
+        };
+        inside.importScripts = (...urls) =>
+          urls.reduce((before, url) => before.then(() => load(url)), Promise.resolve());
+        inside.postMessage = receive;
+        load(new URL(address, location.href).href).then(() => {
+          this.inside = inside;
+          this.waiting.forEach(data => this.postMessage(data));
+        });
+      };
+      document.body.append(frame);
+    }
+    postMessage(data) {
+      if (!this.inside) { this.waiting.push(data); return; }
+      this.inside.dispatchEvent(new MessageEvent("message", { data }));
+    }
+    terminate() {}
+  };
+}

@@ -1,0 +1,1 @@
+"""`python -m reports.pictures`: makes the pictures of the README and of the site, in a real browser."""

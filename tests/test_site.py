@@ -1,0 +1,100 @@
+"""The documentation site: it builds without a warning, links lead somewhere, and nobody else is asked for anything."""
+
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from functools import cache
+from html.parser import HTMLParser
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+import pytest
+
+_ROOT = Path(__file__).parents[1]
+_LOADED = {"script": "src", "img": "src", "iframe": "src", "source": "src"}
+_QUESTIONS = 10
+
+
+class _Links(HTMLParser):
+    """The links, anchors and loaded files of a page."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.links: list[str] = []
+        self.anchors: set[str] = set()
+        self.loaded: list[str] = []
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        """Note what a tag leads to."""
+        found = {name: value for name, value in attrs if value is not None}
+        self.anchors |= {found[name] for name in ("id", "name") if name in found}
+        if tag == "a" and "href" in found:
+            self.links.append(found["href"])
+        if tag == "link" and found.get("rel") in {"stylesheet", "icon"}:
+            self.loaded.append(found["href"])
+        if tag in _LOADED and _LOADED[tag] in found:
+            self.loaded.append(found[_LOADED[tag]])
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The site, built in a process of its own."""
+    pytest.importorskip("mkdocs", reason="mkdocs is not installed")
+    folder = tmp_path_factory.mktemp("site")
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", str(folder)]
+    environment = {**os.environ, "NO_MKDOCS_2_WARNING": "1"}
+    done = subprocess.run(command, cwd=_ROOT, env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert "WARNING" not in done.stderr
+    return folder
+
+
+@cache
+def _links(page: Path) -> _Links:
+    return _Links(page.read_text(encoding="utf-8"))
+
+
+def _pages(site: Path) -> Iterator[Path]:
+    return (page for page in site.rglob("*.html") if page.name != "404.html")
+
+
+def _target(page: Path, link: str) -> tuple[Path, str]:
+    parts = urlsplit(link)
+    return (page.parent / unquote(parts.path)).resolve() if parts.path else page, unquote(parts.fragment)
+
+
+def test_every_link_leads_somewhere(site: Path) -> None:
+    pages = list(_pages(site))
+    assert len(pages) > 80
+    wrong: list[str] = []
+    for page in pages:
+        for link in _links(page).links:
+            if re.match(r"(https?|mailto):", link):
+                continue
+            target, anchor = _target(page, link)
+            if target.is_dir():
+                target /= "index.html"
+            is_there = target.exists() and (not anchor or target.suffix != ".html" or anchor in _links(target).anchors)
+            wrong += [] if is_there else [f"{page.relative_to(site)}: {link}"]
+    assert wrong == []
+
+
+def test_nothing_is_loaded_from_elsewhere(site: Path) -> None:
+    loaded = {each for page in _pages(site) for each in _links(page).loaded}
+    assert loaded
+    assert [each for each in loaded if re.match(r"(https?:)?//", each)] == []
+
+
+def test_ten_questions_are_answered_within_two_clicks(site: Path) -> None:
+    start = site / "index.html"
+    first = {_target(start, link)[0] for link in _links(start).links}
+    questions = site / "start" / "questions.html"
+    assert questions in first
+    text = (_ROOT / "docs/start/questions.md").read_text(encoding="utf-8")
+    answers = re.findall(r"^\d+\. .*\? \[.*\]\((.*)\.md\)$", text, re.MULTILINE)
+    assert len(answers) == _QUESTIONS
+    second = {_target(questions, link)[0] for link in _links(questions).links}
+    assert [answer for answer in answers if (questions.parent / f"{answer}.html").resolve() not in second] == []
