@@ -9,7 +9,7 @@ from pathlib import Path
 from reports.harness.report import Report, run
 
 _FOLDER = Path(__file__).parent
-_NO_REPORTS = {"__main__", "harness"}
+_NO_REPORTS = {"__main__", "harness", "pictures"}
 _MODULES = {each.name: each.ispkg for each in pkgutil.iter_modules([str(_FOLDER)]) if each.name not in _NO_REPORTS}
 
 
