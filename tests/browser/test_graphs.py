@@ -12,7 +12,7 @@ from twinform.compiler.graph.labels import shortened
 from twinform.compiler.graph.mermaid import mermaid
 from twinform.compiler.graph.svg import svg
 
-from .conftest import Watched
+from .watched import Watched
 
 _MODULES = Path(os.environ.get("TWINFORM_NODE_MODULES", Path(__file__).parents[2] / "out/readers/node_modules"))
 _MERMAID = _MODULES / "mermaid/dist/mermaid.min.js"

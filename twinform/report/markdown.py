@@ -124,7 +124,8 @@ def _numbers(report: Report, _: int) -> Iterator[str]:
         models = (*(model for world in found.worlds for model in world.models), *found.models) if found else ()
         for number, model in enumerate(islice(models, 10)):
             yield "" if number == 0 else "  "
-            words = (count(model.links, "link"), count(sum(model.joints.values()), "joint"), f"{model.dof} freedoms")
+            freedom = f"{count(model.dof, 'degree')} of freedom"
+            words = (count(model.links, "link"), count(sum(model.joints.values()), "joint"), freedom)
             yield f"{escaped(model.name)}: {', '.join(words)}, {model.mass:.6g} kg"
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from twinform.compiler.compare.comparison import Comparison
-from twinform.compiler.scene import Degree, SceneJoint
+from twinform.compiler.scene import Degree, Positions, SceneJoint
 from twinform.view import words
 from twinform.view.figure import MARK, Figure, Rgb
 from twinform.view.layers import LAYERS
@@ -54,6 +54,15 @@ class Panel:
         for figure in self.figures:
             figure.mark({link: MARK})
         self._part.content = text + "".join(words.part(link, subject) for subject in self.subjects)
+
+    def move(self, positions: Positions) -> None:
+        """Put joints to positions, and their sliders."""
+        self.positions |= positions
+        for key, slider in self._sliders.items():
+            if key in positions:
+                slider.value = min(max(positions[key], slider.min), slider.max)
+        for figure in self.figures:
+            figure.move(self.positions)
 
     def _joints(self) -> None:
         """A slider for each degree of freedom that follows no other."""

@@ -5,24 +5,33 @@ import importlib
 import io
 import math
 import socket
+import time
 from collections.abc import Sequence
 from contextlib import AbstractContextManager
 from threading import Lock
 from typing import Any
 
 from twinform.compiler.compare.comparison import Comparison
-from twinform.view.errors import PortTakenError
+from twinform.compiler.scene import Positions
+from twinform.view.camera import Camera
+from twinform.view.errors import PortTakenError, ViewError
 from twinform.view.figure import Figure, Look
 from twinform.view.mesh_drawings import MeshDrawings
 from twinform.view.panel import Panel
 from twinform.view.subject import Subject
 
+np: Any = importlib.import_module("numpy")
 viser: Any = importlib.import_module("viser")
+Array = Any
+"""A numpy array."""
 
 HOST = "127.0.0.1"
+GRID = "/grid"
+_BETWEEN = 0.15
+"""Seconds between two pictures that are compared."""
 _SECOND = Look(color=(60, 130, 220), opacity=0.45)
 """How B is drawn over A."""
-_FROM = (1.0, -1.35, 0.8)
+_FROM = (0.75, -1.0, 0.55)
 """Where the camera is from the middle of what is shown, in units of its size."""
 
 
@@ -38,9 +47,8 @@ class Viewer:
             self._server: Any = viser.ViserServer(host=HOST, port=_free(port), label="twinform", verbose=False)
         self._lock = Lock()
         self._panel: Panel | None = None
-        self._server.gui.configure_theme(
-            control_layout="collapsible", control_width="large", show_logo=False, show_share_button=False
-        )
+        self._server.gui.configure_theme(control_width="large", show_logo=False, show_share_button=False)
+        self._server.gui.main_panel.dock_right()
 
     @property
     def address(self) -> str:
@@ -66,8 +74,52 @@ class Viewer:
                 figure.move(self._panel.positions)
             self._panel.mark_differences()
             if is_first:
-                aim(self._server, figures)
+                self._aim(figures)
         self._server.flush()
+
+    def _aim(self, figures: Sequence[Figure]) -> None:
+        """Put the camera of who comes to where all is seen."""
+        camera, start = camera_for(figures), self._server.initial_camera
+        start.position, start.look_at, start.fov = camera.position, camera.target, camera.fov
+        away = math.dist(camera.position, camera.target)
+        start.near, start.far = away / 100, away * 100
+
+    def move(self, positions: Positions) -> None:
+        """Put joints to positions, as the sliders do."""
+        if self._panel is not None:
+            self._panel.move(positions)
+
+    def picture(self, camera: Camera, width: int, height: int, *, seconds: float = 60.0) -> Array:
+        """What a camera sees of the robots alone, as the first browser that is connected draws it.
+
+        Rows of pixels with red, green, blue and alpha, which is 0 where there is no robot. It is drawn until it stays
+        the same: a browser needs some frames for what is new.
+
+        Raises:
+            ViewError: no browser is connected.
+        """
+        clients = list(self._server.get_clients().values())
+        if not clients:
+            raise ViewError("no browser is connected")
+        grid = self._server.scene.get_handle_by_name(GRID)
+        grid.visible = False
+        try:
+            return self._settled(clients[0], camera, width, height, seconds)
+        finally:
+            grid.visible = True
+
+    def _settled(self, client: Any, camera: Camera, width: int, height: int, seconds: float) -> Array:
+        end, before = time.monotonic() + seconds, None
+        while True:
+            self._server.flush()
+            picture = client.get_render(
+                height, width, wxyz=camera.wxyz, position=camera.position, fov=camera.fov, transport_format="png",
+                timeout=seconds,
+            )  # fmt: skip
+            if time.monotonic() > end or (before is not None and np.array_equal(before, picture)):
+                return picture
+            before = picture
+            time.sleep(_BETWEEN)
 
     def select(self, link: str) -> None:
         """Mark a link, as a click on it does."""
@@ -92,20 +144,19 @@ def draw(api: Any, subjects: Sequence[Subject], on_click: Any = None) -> list[Fi
         figures.append(Figure(api, root, subject.scene, meshes, look, on_click))
     size = max(figure.size for figure in figures)
     floor = min(float(figure.bounds()[0][2]) for figure in figures)
-    cell = _power_of_ten(size)
+    cell = _power_of_ten(size / 4)
     height = min(floor, 0.0)
-    api.add_grid("/grid", size * 6, size * 6, cell_size=cell, section_size=10 * cell, position=(0.0, 0.0, height))
+    api.add_grid(GRID, size * 6, size * 6, cell_size=cell, section_size=10 * cell, position=(0.0, 0.0, height))
     return figures
 
 
-def aim(server: Any, figures: Sequence[Figure]) -> None:
-    """Put the camera of who comes to where all is seen."""
-    least, greatest = figures[0].bounds()
-    middle = (least + greatest) / 2
-    size = max(figure.size for figure in figures)
-    server.initial_camera.look_at = tuple(map(float, middle))
-    server.initial_camera.position = tuple(float(m + size * f) for m, f in zip(middle, _FROM, strict=True))
-    server.initial_camera.near, server.initial_camera.far = size / 100, size * 100
+def camera_for(figures: Sequence[Figure]) -> Camera:
+    """A camera that sees all of some figures."""
+    bounds = [figure.bounds() for figure in figures]
+    least, greatest = np.min([each for each, _ in bounds], axis=0), np.max([each for _, each in bounds], axis=0)
+    x, y, z = (float(each) for each in (least + greatest) / 2)
+    away = max(figure.size for figure in figures)
+    return Camera((x + away * _FROM[0], y + away * _FROM[1], z + away * _FROM[2]), (x, y, z))
 
 
 def _power_of_ten(length: float) -> float:

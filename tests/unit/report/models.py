@@ -6,7 +6,10 @@ from xml.sax.saxutils import quoteattr
 from twinform.ir import Document
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
-PAGE = '<!doctype html><html><head></head><body><script>document.title = "view"</script></body></html>'
+PAGE = (
+    '<!doctype html><html lang="en"><head></head><body><button>reset</button>'
+    '<script>document.title = "view"</script></body></html>'
+)
 EVIL = '<script>alert(1)</script>\'"onclick="alert(2)</style>'
 
 
@@ -27,8 +30,8 @@ def hostile(name: str = EVIL, mass: float = 1) -> str:
       <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
       <visual name={evil}><geometry><mesh filename={evil}/></geometry></visual></link>
     <link name={other}/><joint name={evil} type="revolute"><parent link={evil}/><child link={other}/>
-      <limit lower="0" upper="1" effort="1" velocity="1"/><calibration rising={evil}/></joint>
-    <transmission name={evil}><type>{"a"}</type><joint name={evil}/></transmission>
+      <limit lower="0" upper="1" effort="1" velocity="1"/><calibration rising="1"/></joint>
+    <transmission name={evil}><type>a</type><joint name={evil}/></transmission>
     <gazebo reference={other}><sensor name={evil} type="imu"/></gazebo></robot>"""
 
 

@@ -60,7 +60,7 @@ def test_the_verdict_comes_first_and_losses_are_listed() -> None:
     assert "* in SDF: 478 expressed, 40 carried, 0 approximated, 0 dropped" in lines
     assert "<details><summary>Differences: 55</summary>" in lines
     assert "```mermaid" in lines
-    assert "rover: 9 links, 8 joints, 4 freedoms, 10.44 kg" in lines
+    assert "rover: 9 links, 8 joints, 4 degrees of freedom, 10.44 kg" in lines
 
 
 def test_errors_are_in_it() -> None:
