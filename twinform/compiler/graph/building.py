@@ -121,12 +121,14 @@ class _GraphBuilder:
 
     def _end(self, name: str | None, place: _Place) -> str:
         """The node that an end of a joint is: a frame where those are shown, else the link that it moves with."""
-        if not name or name == WORLD:
-            return self._once("world" if name else "missing", name or "(not written)", place, prefix="")
+        if not name:
+            return self._once("missing", "(not written)", place, prefix="")
         scoped = place.prefix + name
         found = self._known.get((place.number, "link", scoped)) or self._known.get((place.number, "frame", scoped))
-        if found:
+        if found:  # a link of URDF may be called `world`
             return found
+        if name == WORLD:
+            return self._once("world", name, place, prefix="")
         try:
             body = place.graph.body(scoped)
         except FrameError:

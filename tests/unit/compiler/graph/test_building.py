@@ -117,3 +117,11 @@ def test_a_link_and_a_joint_of_one_name_are_two() -> None:
 def test_an_empty_world_is_an_empty_graph() -> None:
     graph = graph_of('<sdf version="1.11"><world name="w"/></sdf>')
     assert (graph.nodes, graph.joints, graph.summary()) == ((), (), "no links")
+
+
+def test_a_link_of_urdf_that_is_called_world_is_a_link() -> None:
+    graph = graph_of(
+        '<robot name="r"><link name="world"/><link name="b"/>'
+        '<joint name="j" type="fixed"><parent link="world"/><child link="b"/></joint></robot>'
+    )
+    assert [(node.kind, node.name) for node in graph.nodes] == [("link", "world"), ("link", "b")]
