@@ -7,6 +7,8 @@ import pytest
 
 from reports.harness.browser import chromium, missing
 
+from .watched import Watched
+
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
 
@@ -33,3 +35,11 @@ def page(browser: "Browser") -> "Iterator[Page]":
     yield opened
     context.close()
     assert not faults
+
+
+@pytest.fixture
+def watched(browser: "Browser") -> "Iterator[Watched]":
+    """A new page without a network, which keeps what goes wrong in it for the test to look at."""
+    context = browser.new_context(offline=True)
+    yield Watched(context.new_page())
+    context.close()

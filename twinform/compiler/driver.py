@@ -57,6 +57,12 @@ class Conversion:
         """The XML that it was made from, for those who count: `twinform.compiler.audit`. A file is parsed once more."""
         return read_tree_again(self.origin) if isinstance(self.origin, bytes) else self.origin
 
+    def _repr_html_(self) -> str:
+        """What a notebook shows of it."""
+        from twinform.report.notebook import conversion_html  # noqa: PLC0415 - see the contracts in pyproject.toml
+
+        return conversion_html(self)
+
 
 def plan(
     source: Document,

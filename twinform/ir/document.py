@@ -28,3 +28,9 @@ class Document(Node):
     models: tuple[Model, ...] = ()
     lights: tuple[Light, ...] = ()
     includes: tuple[Include, ...] = ()
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows of it."""
+        from twinform.report.notebook import document_html  # noqa: PLC0415 - see the contracts in pyproject.toml
+
+        return document_html(self)

@@ -53,16 +53,20 @@ def axes_of(joint: Joint) -> tuple[Axis, ...]:
 def spanning_tree(joints: Iterable[AnyJoint]) -> Mapping[str, AnyJoint]:
     """The joints that make a tree, by the links that hang from them: of several, a fixed one, or the first by name."""
     above: dict[str, AnyJoint] = {}
+    tops: dict[str, str] = {}
     for joint in sorted(joints, key=lambda joint: (joint.type != "fixed", joint.name)):
-        if joint.child not in above and not _is_below(joint.parent, joint.child, above):
+        if joint.child not in above and _top(tops, joint.parent) != joint.child:
             above[joint.child] = joint
+            tops[joint.child] = joint.parent
     return above
 
 
-def _is_below(link: str, ancestor: str, above: Mapping[str, AnyJoint]) -> bool:
-    while link != ancestor and link in above:
-        link = above[link].parent
-    return link == ancestor
+def _top(tops: dict[str, str], link: str) -> str:
+    """The link that all others hang from, of those that this one hangs with."""
+    while (above := tops.get(link, link)) != link:
+        tops[link] = tops.get(above, above)  # half the way for the next one who asks
+        link = above
+    return link
 
 
 def slide(axis: Vector3, distance: float) -> Transform:

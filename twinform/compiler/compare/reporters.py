@@ -18,7 +18,7 @@ Reporter = Callable[[Comparison], str]
 def text(comparison: Comparison, paint: Paint = lambda word, _: word) -> str:
     """A heading for each link, joint or frame, and a line for each difference: `places: severity: what`."""
     lines: list[str] = []
-    for heading, items in groupby(comparison.items, key=_heading):
+    for heading, items in groupby(comparison.items, key=heading_of):
         lines.append(printable(heading))
         lines += [f"  {_line(item, comparison, paint)}" for item in items]
     return "".join(f"{line}\n" for line in lines)
@@ -54,20 +54,21 @@ def _count(items: tuple[Difference, ...], word: str) -> str:
     return f"{len(items)} {word}{'' if len(items) == 1 else 's'}"
 
 
-def _heading(item: Difference) -> str:
+def heading_of(item: Difference) -> str:
+    """The part that it is about."""
     words = f"{item.group} {item.name!r}" if item.name else item.group
     return f"{words} of model {item.model!r}" if item.model and item.group != "model" else words
 
 
 def _line(item: Difference, comparison: Comparison, paint: Paint) -> str:
-    places = ", ".join(_places(item, comparison))
-    amounts = [] if item.group == "kinematics" else list(_amounts(item))
+    places = ", ".join(places_of(item, comparison))
+    amounts = list(amounts_of(item))
     amount = f" ({', '.join(amounts)})" if amounts else ""
     severity = paint(str(item.severity), item.severity)
-    return f"{places}{': ' if places else ''}{severity}: {printable(_what(item))}{amount}"
+    return f"{places}{': ' if places else ''}{severity}: {printable(what_differs(item))}{amount}"
 
 
-def _what(item: Difference) -> str:
+def what_differs(item: Difference) -> str:
     """What differs, without what the heading has."""
     short = item.severity is Severity.DIFFERENCE and item.group != "kinematics"
     if short and item.a.text is not None and item.b.text is not None:
@@ -75,7 +76,8 @@ def _what(item: Difference) -> str:
     return item.message
 
 
-def _places(item: Difference, comparison: Comparison) -> Iterator[str]:
+def places_of(item: Difference, comparison: Comparison) -> Iterator[str]:
+    """Where it is in the files."""
     seen: set[Location] = set()
     for file, side in ((comparison.a, item.a), (comparison.b, item.b)):
         where = side.location
@@ -84,7 +86,10 @@ def _places(item: Difference, comparison: Comparison) -> Iterator[str]:
             yield f"{printable(where.file or file)}:{where.line}"
 
 
-def _amounts(item: Difference) -> Iterator[str]:
+def amounts_of(item: Difference) -> Iterator[str]:
+    """By how much the values differ, and which share of the larger one that is; the messages on places have these."""
+    if item.group == "kinematics":
+        return
     if item.absolute is not None and math.isfinite(item.absolute):
         yield f"by {item.absolute:.6g}{f' {item.unit}' if item.unit else ''}"
     if item.relative is not None:

@@ -1,0 +1,47 @@
+"""A page with what went wrong in it, and what it asked for."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from playwright.sync_api import ConsoleMessage, Dialog, Page
+
+_QUIET = frozenset({"log", "info", "debug"})
+_KNOWN = ("THREE.Clock: This module has been deprecated.", "GPU stall due to ReadPixels")
+"""Warnings of viser's client, and of renderers in software."""
+
+
+class Watched:
+    """A page; `complaints` are warnings, errors and dialogs, in frames too."""
+
+    def __init__(self, page: "Page") -> None:
+        self.page = page
+        self.complaints: list[str] = []
+        self.requests: list[str] = []
+        page.on("console", self._listen)
+        page.on("pageerror", lambda error: self.complaints.append(str(error)))
+        page.on("dialog", self._refuse)
+        page.on("request", lambda request: self.requests.append(request.url))
+
+    def open(self, path: Path) -> "Page":
+        """Open a file, and wait until all of it is there."""
+        self.page.goto(path.as_uri())
+        return self.page
+
+    @property
+    def outside(self) -> list[str]:
+        """What was asked for besides the file itself and what is in it."""
+        inside = ("data:", "blob:", "about:srcdoc")
+        return [url for url in self.requests if url.partition("#")[0] != self._own and not url.startswith(inside)]
+
+    @property
+    def _own(self) -> str:
+        return self.page.url.partition("#")[0]
+
+    def _listen(self, message: "ConsoleMessage") -> None:
+        if message.type not in _QUIET and not any(known in message.text for known in _KNOWN):
+            self.complaints.append(f"{message.type}: {message.text}")
+
+    def _refuse(self, dialog: "Dialog") -> None:
+        self.complaints.append(f"dialog: {dialog.message}")
+        dialog.dismiss()

@@ -1,0 +1,181 @@
+"""Builds the graph of a document; what it names and does not have is in it too, so that broken models can be drawn."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from twinform.compiler.graph.graph import Attachment, Cluster, Follower, Graph, GraphJoint, GraphNode, NodeKind
+from twinform.compiler.graph.labels import following, limits_of
+from twinform.diagnostics import NOWHERE, DiagnosticSink, Location
+from twinform.ir import Document, Format, Frame, Joint, Model, World
+from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
+from twinform.passes import PassError, Pipeline
+
+
+def build_graph(document: Document, *, frames: bool = False, mimics: bool = False) -> Graph:
+    """The graph of a document, on request with its named frames and with which joints follow others."""
+    document = _with_extensions(document)
+    work = _GraphBuilder(document.format, with_frames=frames, with_mimics=mimics)
+    for world in document.worlds:
+        work.add_holder(world)
+    for model in document.models:
+        work.add_holder(model)
+    holders = [*document.worlds, *document.models]
+    title = holders[0].name if len(holders) == 1 else f"{len(holders)} models"
+    return Graph(
+        title,
+        tuple(work.clusters),
+        tuple(work.nodes),
+        tuple(work.joints),
+        tuple(work.attachments),
+        tuple(work.followers),
+    )
+
+
+def _with_extensions(document: Document) -> Document:
+    """The document with the joints of `<gazebo>` elements among the others, where these can be understood."""
+    if document.format is not Format.URDF:
+        return document
+    from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo  # noqa: PLC0415 - SDF does not need it
+
+    try:
+        return Pipeline((FoldGazebo(carriers=False),)).run(document, DiagnosticSink())
+    except PassError:
+        return document
+
+
+@dataclass(frozen=True, slots=True)
+class _Place:
+    """A model or world that is walked: the number of its graph, its prefix there, and its cluster."""
+
+    graph: FrameGraph
+    number: int
+    prefix: str
+    cluster: str
+
+
+@dataclass(slots=True)
+class _GraphBuilder:
+    format: Format
+    with_frames: bool
+    with_mimics: bool
+    clusters: list[Cluster] = field(default_factory=list[Cluster])
+    nodes: list[GraphNode] = field(default_factory=list[GraphNode])
+    joints: list[GraphJoint] = field(default_factory=list[GraphJoint])
+    attachments: list[Attachment] = field(default_factory=list[Attachment])
+    followers: list[Follower] = field(default_factory=list[Follower])
+    _known: dict[tuple[int, str, str], str] = field(default_factory=dict[tuple[int, str, str], str])
+    """Ids by the number of a graph, what sort of thing it is, and its name in the graph."""
+
+    def add_holder(self, holder: World | Model) -> None:
+        """A world, or a model that is in none, with all that is nested in it."""
+        top = _Place(FrameGraph(holder), len(self.clusters), "", f"c{len(self.clusters)}")
+        kind = "world" if isinstance(holder, World) else "model"
+        self.clusters.append(Cluster(top.cluster, kind, holder.name))
+        places: list[tuple[World | Model, _Place]] = [(holder, top)]
+        for one, place in places:  # grows while it is walked
+            self._add_nodes(one, place)
+            for inner in one.models:
+                cluster = f"c{len(self.clusters)}"
+                self.clusters.append(Cluster(cluster, "model", inner.name, place.cluster))
+                places.append((inner, _Place(top.graph, top.number, f"{place.prefix}{inner.name}::", cluster)))
+        for one, place in places:
+            for joint in one.joints:
+                self._add_joint(joint, place)
+            if self.with_frames:
+                self._attach(one.frames, place)
+        if self.with_mimics:
+            for one, place in places:
+                self._add_followers(one.joints, place)
+
+    def _add_nodes(self, holder: World | Model, place: _Place) -> None:
+        for link in holder.links if isinstance(holder, Model) else ():
+            self._add("link", link.name, place, link.location)
+        for include in holder.includes:
+            name = include.name or (include.uri or "").rstrip("/").rpartition("/")[2] or "include"
+            self._add("include", name, place, include.location)
+        for frame in holder.frames if self.with_frames else ():
+            self._add("frame", frame.name, place, frame.location)
+
+    def _add(self, kind: NodeKind, label: str, place: _Place, where: Location = NOWHERE) -> str:
+        """A node; of several of one name the first is what others mean by it."""
+        node = f"n{len(self.nodes)}"
+        name = place.prefix + label
+        self.nodes.append(GraphNode(node, kind, name, label, place.cluster, where))
+        self._known.setdefault((place.number, kind, name), node)
+        return node
+
+    def _add_joint(self, joint: Joint, place: _Place) -> None:
+        found = GraphJoint(
+            f"j{len(self.joints)}",
+            place.prefix + joint.name,
+            joint.name,
+            joint.type,
+            self._end(joint.parent, place),
+            self._end(joint.child, place),
+            limits_of(joint, self.format),
+            place.cluster,
+            joint.location,
+        )
+        self.joints.append(found)
+        self._known.setdefault((place.number, "joint", found.name), found.id)
+
+    def _end(self, name: str | None, place: _Place) -> str:
+        """The node that an end of a joint is: a frame where those are shown, else the link that it moves with."""
+        if not name:
+            return self._once("missing", "(not written)", place, prefix="")
+        scoped = place.prefix + name
+        found = self._known.get((place.number, "link", scoped)) or self._known.get((place.number, "frame", scoped))
+        if found:  # a link of URDF may be called `world`
+            return found
+        if name == WORLD:
+            return self._once("world", name, place, prefix="")
+        try:
+            body = place.graph.body(scoped)
+        except FrameError:
+            return self._include(scoped, place) or self._once("missing", name, place, prefix=place.prefix)
+        if body in {WORLD, MODEL}:
+            return self._once("world", WORLD, place, prefix="")
+        return self._known.get((place.number, "link", body)) or self._once("missing", name, place, prefix=place.prefix)
+
+    def _include(self, scoped: str, place: _Place) -> str | None:
+        """The include that a name leads into."""
+        while "::" in scoped:
+            scoped = scoped.rpartition("::")[0]
+            if found := self._known.get((place.number, "include", scoped)):
+                return found
+        return None
+
+    def _once(self, kind: NodeKind, label: str, place: _Place, *, prefix: str) -> str:
+        """A node that is there because something names it."""
+        found = self._known.get((place.number, kind, prefix + label))
+        if found:
+            return found
+        top = f"c{place.number}"
+        inside = place if prefix else _Place(place.graph, place.number, "", top)
+        return self._add(kind, label, inside)
+
+    def _attach(self, frames: Iterable[Frame], place: _Place) -> None:
+        for frame in frames:
+            own = self._known[place.number, "frame", place.prefix + frame.name]
+            holder = self._end(frame.attached_to or self._default(frame, place), place)
+            if holder != own:
+                self.attachments.append(Attachment(own, holder))
+
+    def _default(self, frame: Frame, place: _Place) -> str | None:
+        """The link that a frame without `attached_to` moves with, as a name in its model."""
+        try:
+            body = place.graph.body(place.prefix + frame.name, kind="frame")
+        except FrameError:
+            return None
+        return WORLD if body in {WORLD, MODEL} else body.removeprefix(place.prefix)
+
+    def _add_followers(self, joints: Iterable[Joint], place: _Place) -> None:
+        for joint in joints:
+            for axis in (joint.axis, joint.axis2):
+                mimic = axis.mimic if axis else None
+                if mimic is None or not mimic.joint:
+                    continue
+                own = self._known[place.number, "joint", place.prefix + joint.name]
+                leader = self._known.get((place.number, "joint", place.prefix + mimic.joint))
+                leader = leader or self._once("missing", mimic.joint, place, prefix=place.prefix)
+                self.followers.append(Follower(own, leader, following(mimic)))

@@ -1,0 +1,162 @@
+"""What a report says of one file or two: each part from the module of the compiler that knows it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from twinform.compiler.compare import Comparison, compare_files
+from twinform.compiler.compare.driver import TOLERANCE
+from twinform.compiler.driver import run_conversion
+from twinform.compiler.errors import CompileError
+from twinform.compiler.graph import Graph, build_graph
+from twinform.compiler.includes.expanding import expand
+from twinform.compiler.input.finding_spans import with_columns
+from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, read
+from twinform.compiler.input.options import name_of_input
+from twinform.compiler.input.source_files import SourceFiles
+from twinform.compiler.inspection import inspect
+from twinform.compiler.request import ConversionRequest
+from twinform.compiler.scene import Scene, build_scene
+from twinform.compiler.search.uris import SearchPath
+from twinform.compiler.statistics import FileStatistics, measure
+from twinform.diagnostics import Diagnostic, Ledger, Severity
+from twinform.diagnostics.reporters import Findings
+from twinform.ir import Document, Format
+from twinform.passes import PassError
+from twinform.view import ViewError, standalone_page
+
+View = Callable[[Document, Document | None, SearchPath], str]
+"""Makes the page of the 3D view."""
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """One file. Where it has errors, there may be no document, and no numbers."""
+
+    name: str
+    loaded: LoadResult
+    findings: Findings
+    document: Document | None = None
+    statistics: FileStatistics | None = None
+    scene: Scene | None = None
+    graph: Graph | None = None
+
+    @property
+    def title(self) -> str:
+        """What the model or world is called, or else the file."""
+        return (self.graph.title if self.graph else "") or Path(self.name).name
+
+    def count(self, severity: Severity) -> int:
+        """How many findings are so bad."""
+        return sum(each.severity is severity for each in self.findings.diagnostics)
+
+
+@dataclass(frozen=True, slots=True)
+class Converted:
+    """What became of a file in the other format: a ledger, or the reasons why there is none."""
+
+    target: Format
+    ledger: Ledger | None = None
+    reasons: tuple[Diagnostic, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """Everything. `view` is a page of its own. Where there is none, or no comparison, there is the reason."""
+
+    first: Subject
+    second: Subject | None = None
+    comparison: Comparison | None = None
+    without_comparison: str = ""
+    converted: Converted | None = None
+    view: str = field(default="", repr=False)
+    without_view: str = ""
+
+    @property
+    def subjects(self) -> tuple[Subject, ...]:
+        """The file or both."""
+        return (self.first,) if self.second is None else (self.first, self.second)
+
+    @property
+    def unreadable(self) -> bool:
+        """Whether a file is no model at all."""
+        return any(each.loaded.unreadable for each in self.subjects)
+
+    @property
+    def accepted(self) -> bool:
+        """Whether no file has an error."""
+        return all(each.loaded.accepted for each in self.subjects)
+
+
+def make_page(first: Document, second: Document | None, search: SearchPath) -> str:
+    """The 3D view, by `twinform.view`."""
+    return standalone_page(first, second, search=search)
+
+
+def build_report(
+    first: Input,
+    second: Input | None = None,
+    load_options: LoadOptions | None = None,
+    *,
+    names: tuple[str, str] = ("", ""),
+    model: str | None = None,
+    tolerance: float = TOLERANCE,
+    meshes: bool = True,
+    view: View | None = make_page,
+) -> Report:
+    """Find out everything about a file or document, and how it differs from a second one.
+
+    `model` is the one that is converted and compared where there are several. `meshes` selects whether mesh files are
+    read for numbers, and `view` makes the page of the 3D view; without it there is none.
+    """
+    load_options = load_options or LoadOptions()
+    one = _subject(first, names[0], load_options, meshes=meshes)
+    two = None if second is None else _subject(second, names[1], load_options, meshes=meshes)
+    comparison, problem = None, ""
+    if second is not None and two is not None:
+        try:
+            comparison = compare_files(
+                first, second, load_options, names=(one.name, two.name), model=model, tolerance=tolerance
+            )
+        except CompileError as error:
+            problem = str(error)
+    converted = _converted(first, one, load_options, model)
+    page, reason = _view(one, two, load_options.search, view)
+    return Report(one, two, comparison, problem, converted, page, reason)
+
+
+def _subject(source: Input, name: str, load_options: LoadOptions, *, meshes: bool) -> Subject:
+    """All about one file, with what its includes name."""
+    loaded = inspect(expand(read(source, load_options, name=name), load_options), load_options)
+    files, name = SourceFiles.of(loaded), name or name_of_input(source)
+    findings = Findings(loaded.path, with_columns(loaded.diagnostics, files), files)
+    document = loaded.document
+    if document is None:
+        return Subject(name, loaded, findings)
+    numbers = measure(loaded, document, load_options.search, meshes=meshes) if loaded.accepted else None
+    scene = build_scene(document) if loaded.accepted else None
+    graph = build_graph(document, mimics=True)
+    return Subject(name, loaded, findings, document, numbers, scene, graph)
+
+
+def _converted(source: Input, subject: Subject, load_options: LoadOptions, model: str | None) -> Converted | None:
+    if subject.document is None or not subject.loaded.accepted:
+        return None
+    target = Format.SDF if subject.document.format is Format.URDF else Format.URDF
+    request = ConversionRequest(to=target.value, model=model)
+    try:
+        return Converted(target, run_conversion(request, source, load_options, name=subject.name).ledger)
+    except CompileError as error:
+        return Converted(target, reasons=tuple(each for each in error.diagnostics if each.is_error))
+
+
+def _view(one: Subject, two: Subject | None, search: SearchPath, view: View | None) -> tuple[str, str]:
+    if view is None:
+        return "", "it was not asked for"
+    if one.document is None or not one.loaded.accepted:
+        return "", "the file has errors"
+    other = two.document if two and two.loaded.accepted else None
+    try:
+        return view(one.document, other, search), ""
+    except (ViewError, PassError) as error:
+        return "", str(error)

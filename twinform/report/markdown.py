@@ -1,0 +1,138 @@
+"""The report as Markdown for a comment in a pull request: short, in GitHub's flavor, and never too long for one."""
+
+import re
+from collections.abc import Iterator, Sequence
+from itertools import islice
+
+from twinform.compiler.compare import Severity as Sameness
+from twinform.compiler.compare.reporters import amounts_of, heading_of, places_of, summary, what_differs
+from twinform.compiler.graph.mermaid import fits, mermaid
+from twinform.diagnostics import Diagnostic, Fate, Severity
+from twinform.diagnostics.reporters import printable
+from twinform.report.content import Report, Subject
+from twinform.report.page import outcome
+from twinform.report.parts import count, place
+
+LARGEST = 65_536
+"""What GitHub takes as a comment; counted in bytes, which is never less than in characters."""
+_LISTED = (25, 10, 3, 0)
+"""So many rows are in a list; fewer, where the whole would be too long."""
+_LONGEST = 300
+_DRAWN = 60
+_SIGNS = re.compile(r"[!\"#$%&'()*+\-./:;<=>?@\[\\\]^_`{|}~]")
+_JOINED = re.compile(r"[@#]|://|(?<=www)\.|(?<=GH)-", re.IGNORECASE)
+"""What GitHub makes links of: mentions, issues and addresses."""
+_BREAK = "\N{ZERO WIDTH SPACE}"
+
+
+def markdown(report: Report) -> str:
+    """Verdict, differences, findings, what a conversion loses, numbers and a small drawing."""
+    text = ""
+    for most in _LISTED:
+        text = "\n".join(_blocks(report, most)) + "\n"
+        if len(text.encode()) <= LARGEST:
+            break
+    return text
+
+
+def escaped(text: str) -> str:
+    """A text in which nothing means anything to GitHub, of at most 300 characters."""
+    text = printable(text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}\N{HORIZONTAL ELLIPSIS}")
+    return _SIGNS.sub(lambda sign: f"\\{sign[0]}", _JOINED.sub(lambda found: found[0] + _BREAK, text))
+
+
+def _blocks(report: Report, most: int) -> Iterator[str]:
+    yield f"## {' and '.join(escaped(each.title) for each in report.subjects)}"
+    yield ""
+    for subject in report.subjects:
+        yield f"* {escaped(subject.name)}: {_counts(subject)}"
+    if report.comparison:
+        yield f"* {summary(report.comparison)}"
+    elif report.second:
+        yield f"* the files cannot be compared: {escaped(report.without_comparison)}"
+    if report.converted:
+        yield f"* {outcome(report.converted)}"
+    for block in (_differences, _findings, _losses, _numbers, _drawing):
+        yield from block(report, most)
+
+
+def _counts(subject: Subject) -> str:
+    words = ((Severity.ERROR, "error"), (Severity.WARNING, "warning"), (Severity.INFO, "note"))
+    return ", ".join(count(subject.count(severity), word) for severity, word in words)
+
+
+def _differences(report: Report, most: int) -> Iterator[str]:
+    found = report.comparison
+    if found is None or found.same:
+        return
+    rows = [
+        (heading_of(item), what_differs(item), ", ".join(amounts_of(item)), ", ".join(places_of(item, found)))
+        for item in found.items
+        if item.severity is Sameness.DIFFERENCE
+    ]
+    yield from _table("Differences", ("Part", "What", "By", "Where"), rows, most)
+
+
+def _findings(report: Report, most: int) -> Iterator[str]:
+    for severity, title in ((Severity.ERROR, "Errors"), (Severity.WARNING, "Warnings")):
+        rows = [
+            _finding(each, subject)
+            for subject in report.subjects
+            for each in subject.findings.diagnostics
+            if each.severity is severity
+        ]
+        yield from _table(title, ("Where", "What", "Rule"), rows, most)
+
+
+def _finding(each: Diagnostic, subject: Subject) -> tuple[str, str, str]:
+    help_ = f" ({each.help})" if each.help else ""
+    return place(each.location, subject.findings.path), f"{each.message}{help_}", each.rule.name
+
+
+def _losses(report: Report, most: int) -> Iterator[str]:
+    converted = report.converted
+    if converted is None:
+        return
+    if converted.ledger is None:
+        rows = [(place(each.location, ""), each.message) for each in converted.reasons]
+        yield from _table(f"Why it is not converted to {converted.target.upper()}", ("Where", "Why"), rows, most)
+        return
+    for fate in (Fate.DROPPED, Fate.APPROXIMATED):
+        rows = [(place(e.location, ""), e.message) for e in converted.ledger.entries if e.fate is fate]
+        title = f"{fate.value.capitalize()} in {converted.target.upper()}"
+        yield from _table(title, ("Where", "What"), rows, most)
+
+
+def _table(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]], most: int) -> Iterator[str]:
+    if not rows:
+        return
+    yield f"\n<details{' open' if len(rows) <= most else ''}><summary>{title}: {len(rows):,}</summary>\n"
+    if most:
+        yield f"| {' | '.join(heads)} |"
+        yield f"| {' | '.join('---' for _ in heads)} |"
+        for row in islice(rows, most):
+            yield f"| {' | '.join(escaped(' '.join(cell.split())) for cell in row)} |"
+    if len(rows) > most:
+        yield f"\nand {len(rows) - most:,} more"
+    yield "\n</details>"
+
+
+def _numbers(report: Report, _: int) -> Iterator[str]:
+    """A line for each model."""
+    for subject in report.subjects:
+        found = subject.statistics
+        models = (*(model for world in found.worlds for model in world.models), *found.models) if found else ()
+        for number, model in enumerate(islice(models, 10)):
+            yield "" if number == 0 else "  "
+            freedom = f"{count(model.dof, 'degree')} of freedom"
+            words = (count(model.links, "link"), count(sum(model.joints.values()), "joint"), freedom)
+            yield f"{escaped(model.name)}: {', '.join(words)}, {model.mass:.6g} kg"
+
+
+def _drawing(report: Report, most: int) -> Iterator[str]:
+    graph = report.first.graph
+    if graph is None or not most or not 1 < len(graph.nodes) <= _DRAWN:
+        return
+    text = mermaid(graph)
+    if fits(graph, text):
+        yield f"\n<details><summary>Links and joints</summary>\n\n```mermaid\n{text}```\n\n</details>"

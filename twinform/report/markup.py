@@ -1,0 +1,46 @@
+"""HTML that escapes by type: what is no `Markup` is text, so no name of a file can become a tag."""
+
+from collections.abc import Iterable
+from html import escape
+
+from twinform.diagnostics.reporters import printable
+
+_WITHOUT_END = frozenset({"meta", "img", "br"})
+_LINES = frozenset({"\n", "\t"})
+
+
+class Markup(str):
+    """A text that is HTML already."""
+
+    __slots__ = ()
+
+
+Part = Markup | str | None
+"""What stands in an element; None is nothing."""
+Value = str | int | float | bool | None
+"""Of an attribute: true is one without a value, and None or false none at all."""
+
+
+def element(tag: str, *parts: Part, **attributes: Value) -> Markup:
+    """An element; in the names of attributes `_` is `-`, and one at the end is left out, as in `class_`."""
+    words = [tag]
+    for written, value in attributes.items():
+        name = written.rstrip("_").replace("_", "-")
+        if value is True:
+            words.append(name)
+        elif value is not None and value is not False:
+            words.append(f'{name}="{plain(str(value))}"')
+    start = f"<{' '.join(words)}>"
+    return Markup(start) if tag in _WITHOUT_END else Markup(f"{start}{join(parts)}</{tag}>")
+
+
+def join(parts: Iterable[Part], between: str = "") -> Markup:
+    """Several parts as one."""
+    return Markup(plain(between).join(part if isinstance(part, Markup) else plain(part) for part in parts if part))
+
+
+def plain(text: str) -> Markup:
+    """A text, with an escape for what a browser would obey or could not show."""
+    if not text.isprintable():
+        text = "".join(each if each in _LINES else printable(each) for each in text)
+    return Markup(escape(text))

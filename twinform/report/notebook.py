@@ -1,0 +1,107 @@
+"""What notebooks show: a summary of a document or conversion by itself, and the 3D view where it is asked for."""
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from twinform.compiler.graph import build_graph
+from twinform.compiler.graph.svg import svg
+from twinform.diagnostics import Fate, Severity
+from twinform.diagnostics.reporters.grouping import grouped
+from twinform.ir import Document
+from twinform.report.markup import Markup, element, join
+from twinform.report.parts import count, place
+
+if TYPE_CHECKING:
+    from twinform.compiler import Conversion
+    from twinform.diagnostics import Diagnostic
+
+_LISTED = 10
+_DRAWN = 60
+_CODE = "overflow-wrap:anywhere"
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """A page in a frame of a notebook; `page` is the HTML."""
+
+    page: str = field(repr=False)
+    height: int
+
+    def _repr_html_(self) -> str:
+        return element(
+            "iframe",
+            srcdoc=self.page,
+            sandbox="allow-scripts",
+            title="3D view",
+            width="100%",
+            height=self.height,
+            style="border:0",
+        )
+
+
+def show(first: Document, second: Document | None = None, *, height: int = 480, dark: bool = False) -> Shown:
+    """The 3D view of a document, or of two over each other, for the last line of a cell.
+
+    It is about 0.8 MB, which the notebook keeps: that is why no document shows it by itself.
+
+    Raises:
+        ViewError: what draws it is not installed.
+    """
+    from twinform.view import standalone_page  # noqa: PLC0415 - summaries have no view
+
+    return Shown(standalone_page(first, second, dark=dark), height)
+
+
+def document_html(document: Document) -> str:
+    """What a document is, in short: its numbers, its findings, and a drawing of a small one."""
+    from twinform.compiler import check  # noqa: PLC0415 - it is the compiler, which reads documents too
+
+    graph = build_graph(document, mimics=True)
+    version = f" {document.version}" if document.version else ""
+    head = element("p", element("b", graph.title), f": {document.format.upper()}{version}, {graph.summary()}")
+    picture = element("details", element("summary", "Links and joints"), Markup(_inner(svg(graph))))
+    found = check(document).diagnostics
+    return join((head, _findings(found), picture if 1 < len(graph.nodes) <= _DRAWN else None))
+
+
+def conversion_html(conversion: "Conversion") -> str:
+    """What a conversion made, and what became of the parts of the source."""
+    ledger, document = conversion.ledger, conversion.document
+    version = f" {document.version}" if document.version else ""
+    size = f"{document.format.upper()}{version}, {count(len(conversion.text.splitlines()), 'line')}"
+    fates = ", ".join((f"{ledger.expressed:,} expressed", *(f"{ledger.count(fate):,} {fate.value}" for fate in Fate)))
+    entries = sorted(ledger.entries, key=lambda entry: entry.fate is not Fate.DROPPED)
+    rows = [f"{entry.fate.value}: {entry.message}" for entry in entries]
+    return join((
+        element("p", element("b", "Conversion"), f" to {size}"),
+        element("p", fates),
+        _folded("What was not expressed", rows),
+        _findings(conversion.diagnostics),
+    ))  # fmt: skip
+
+
+def _findings(found: "tuple[Diagnostic, ...]") -> Markup:
+    worst = [each for each in found if each.severity > Severity.INFO]
+    errors = sum(each.is_error for each in worst)
+    words = (count(errors, "error"), count(len(worst) - errors, "warning"), count(len(found) - len(worst), "note"))
+    rows = [
+        f"{place(group.first.location, '')} {group.first.severity}: {group.first.message}".strip()
+        for group in grouped(worst)
+    ]
+    return join((element("p", ", ".join(words)), _folded("Findings", rows)))
+
+
+def _folded(title: str, rows: list[str]) -> Markup | None:
+    if not rows:
+        return None
+    more = [f"and {len(rows) - _LISTED:,} more"] if len(rows) > _LISTED else []
+    items = (element("li", row, style=_CODE) for row in (*rows[:_LISTED], *more))
+    return element("details", element("summary", title), element("ul", *items))
+
+
+def _inner(drawing: str) -> str:
+    """A drawing as a picture, whose styles stay in it."""
+    from base64 import b64encode  # noqa: PLC0415 - few need it
+
+    data = b64encode(drawing.encode()).decode()
+    return element("img", src=f"data:image/svg+xml;base64,{data}", alt="links and joints", style="max-width:100%")

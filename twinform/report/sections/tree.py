@@ -1,0 +1,113 @@
+"""Links below what moves them, with joints, masses and how many findings are about each; and the drawing of it."""
+
+from base64 import b64encode
+from collections import Counter, defaultdict
+from collections.abc import Iterator, Mapping
+
+from twinform.compiler.graph import Graph, GraphJoint, GraphNode
+from twinform.compiler.graph.svg import svg
+from twinform.ir.motion import spanning_tree
+from twinform.report.content import Report, Subject
+from twinform.report.markup import Markup, Part, element, join
+from twinform.report.parts import count, folded
+
+_DEEPEST = 40
+"""Browsers nest no deeper than about 500 elements: below this level the rest stands in one list."""
+_OPEN = 300
+"""Larger trees begin folded."""
+_DRAWN = 400
+"""Larger trees have no drawing."""
+
+
+def tree(report: Report) -> Markup | None:
+    """The tree of the first file, and its drawing, folded."""
+    graph = report.first.graph
+    if graph is None or not graph.nodes:
+        return None
+    listed = element("ul", *_rows(report.first, graph), class_="tree")
+    return join((element("p", graph.summary()), listed, _drawing(graph)))
+
+
+def _drawing(graph: Graph) -> Markup | None:
+    if len(graph.nodes) > _DRAWN:
+        return None
+    data = b64encode(svg(graph).encode()).decode()
+    picture = element("img", src=f"data:image/svg+xml;base64,{data}", alt=f"{graph.title}: {graph.summary()}")
+    scroller = element("div", picture, class_="scroller", tabindex="0", role="region", aria_label="Drawing of the tree")
+    return folded("Drawing", scroller)
+
+
+def _rows(subject: Subject, graph: Graph) -> Iterator[Markup]:
+    """An item for each root, made from the leaves up so that nothing recurses."""
+    held = spanning_tree(joint for joint in graph.joints if joint.type != "gearbox")
+    across: dict[str, list[GraphJoint]] = defaultdict(list)
+    children: dict[str, list[GraphNode]] = defaultdict(list)
+    for joint in graph.joints:
+        if held.get(joint.child) is not joint:
+            across[joint.parent].append(joint)
+    for node in graph.nodes:
+        if node.id in held:
+            children[held[node.id].parent].append(node)
+    names = {node.id: node.name for node in graph.nodes}
+    notes, masses = _findings(subject, graph), _masses(subject)
+    order = _order([node for node in graph.nodes if node.id not in held], children)
+    is_open = len(graph.nodes) <= _OPEN
+    made: dict[str, list[Markup]] = {}
+    for node, level in reversed(order):
+        loops = (f"{each.name} ({each.type}) closes a loop to {names[each.child]}" for each in across[node.id])
+        words = _words(node, held.get(node.id), masses.get(node.name), notes[node.id], loops)
+        below = [item for child in children[node.id] for item in made.pop(child.id)]
+        if not below or level >= _DEEPEST:
+            own = element(
+                "li", *words, element("span", f" level {level}", class_="quiet") if level > _DEEPEST else None
+            )
+            made[node.id] = [own, *below]
+        else:
+            made[node.id] = [element("li", folded(join(words), element("ul", *below), open_=is_open))]
+    for node, level in order:
+        if level == 0:
+            yield from made[node.id]
+
+
+def _order(roots: list[GraphNode], children: Mapping[str, list[GraphNode]]) -> list[tuple[GraphNode, int]]:
+    order: list[tuple[GraphNode, int]] = []
+    stack = [(node, 0) for node in reversed(roots)]
+    while stack:
+        node, level = stack.pop()
+        order.append((node, level))
+        stack += [(child, level + 1) for child in reversed(children.get(node.id, []))]
+    return order
+
+
+def _words(
+    node: GraphNode, joint: GraphJoint | None, mass: float | None, notes: int, loops: Iterator[str]
+) -> list[Part]:
+    words: list[Part] = [element("b", node.name, class_=node.kind)]
+    if node.kind != "link":
+        words.append(f" ({node.kind})")
+    if joint:
+        words.append(element("span", f" {joint.name}: {', '.join((joint.type, *joint.details))}", class_="quiet"))
+    if mass is not None:
+        words.append(element("span", f" {mass:.4g} kg", class_="quiet"))
+    if notes:
+        words += [" ", element("a", count(notes, "finding"), href="#findings", class_="badge warning")]
+    words += [element("span", f" {each}", class_="quiet") for each in loops]
+    return words
+
+
+def _masses(subject: Subject) -> dict[str, float]:
+    return {link.name: link.mass.mass for link in (subject.scene.links if subject.scene else ()) if link.mass}
+
+
+def _findings(subject: Subject, graph: Graph) -> Counter[str]:
+    """How many findings are about each node; those about a joint are with what it moves."""
+    parts = {node.where.path: node.id for node in graph.nodes} | {each.where.path: each.child for each in graph.joints}
+    parts.pop("", None)
+    found: Counter[str] = Counter()
+    for each in subject.findings.diagnostics:
+        path = each.location.path
+        while path and path not in parts:
+            path = path.rpartition("/")[0]
+        if path:
+            found[parts[path]] += 1
+    return found
