@@ -18,7 +18,14 @@ class Format(StrEnum):
 class Document(Node):
     """All that one file holds, in the terms of `format`.
 
-    `version` is that of the file; `None` where it has none. `namespaces` are the prefixes that it declares.
+    Attributes:
+        format: the language of the file.
+        version: that of the language, as the file writes it; `None` where it has none.
+        namespaces: the prefixes that it declares and what they stand for, in their order.
+        worlds: of SDF.
+        models: exactly one in URDF, which is the robot; in SDF those beside the worlds.
+        lights: of SDF, beside the worlds.
+        includes: of SDF, beside the worlds.
     """
 
     format: Format

@@ -10,10 +10,16 @@ Attributes = tuple[tuple[str, str], ...]
 
 
 class Element(Sourced):
-    """A subtree without a typed form. Names are in Clark notation, `{namespace}name`, where they have a namespace.
+    """A subtree without a typed form.
 
-    `text` is the text before the first child and `tail` the text after the end tag, both stripped; `None` where blank.
     Only what stands in free content, such as `<gazebo>`, knows where it was written.
+
+    Attributes:
+        name: in Clark notation, `{namespace}name`, where it has a namespace.
+        attributes: names, in Clark notation too, and values as written, in their order.
+        text: the text before the first child, stripped; `None` where it is blank.
+        children: the elements in it, in their order.
+        tail: the text after the end tag, stripped; `None` where it is blank.
     """
 
     name: str
@@ -43,10 +49,15 @@ class Element(Sourced):
 
 
 class Opaque(Sourced):
-    """A part of a node that has no typed field: an element, an attribute or text, kept where it was.
+    """A part of a node that has no typed field, kept where it was: an element, an attribute or text.
 
-    `at` is the path from the node's own element to the one that holds the part, such as `limit`; `""` is the node's
-    own. Exactly one of `element`, `attribute` and `text` is there.
+    Exactly one of `element`, `attribute` and `text` is there.
+
+    Attributes:
+        at: the path from the node's own element to the one that holds it, such as `limit`; `""` is the node's own.
+        element: the element with all below it.
+        attribute: the name and the value.
+        text: the text.
     """
 
     at: str = ""

@@ -5,7 +5,12 @@ from twinform.ir.node import Node
 
 
 class GazeboExtension(Node):
-    """What URDF has no elements for and Gazebo reads, for the link or joint `reference`; without one, for the model."""
+    """A `<gazebo>` element: what URDF has no elements for and Gazebo reads.
+
+    Attributes:
+        reference: the link or joint that it is about; `None` for the model.
+        content: the elements in it, in their order.
+    """
 
     reference: str | None = None
     content: tuple[Element, ...] = ()

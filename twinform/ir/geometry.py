@@ -21,14 +21,25 @@ class ShapeNode(Node):
 
 
 class Box(ShapeNode):
-    """A box about the origin; `size` is its full extent along x, y, z."""
+    """A box about the origin.
+
+    Attributes:
+        kind: `box`.
+        size: the full extent along x, y, z; m.
+    """
 
     kind: Literal["box"] = "box"
     size: Vector3 | None = None
 
 
 class Cylinder(ShapeNode):
-    """A cylinder about the origin with its axis along z."""
+    """A cylinder about the origin with its axis along z.
+
+    Attributes:
+        kind: `cylinder`.
+        radius: m.
+        length: from end to end; m.
+    """
 
     kind: Literal["cylinder"] = "cylinder"
     radius: float | None = None
@@ -36,14 +47,25 @@ class Cylinder(ShapeNode):
 
 
 class Sphere(ShapeNode):
-    """A sphere about the origin."""
+    """A sphere about the origin.
+
+    Attributes:
+        kind: `sphere`.
+        radius: m.
+    """
 
     kind: Literal["sphere"] = "sphere"
     radius: float | None = None
 
 
 class Capsule(ShapeNode):
-    """A cylinder along z with half spheres on both ends; `length` is the cylinder's alone."""
+    """A cylinder along z with half spheres on both ends, about the origin.
+
+    Attributes:
+        kind: `capsule`.
+        radius: of the cylinder and of the half spheres; m.
+        length: of the cylinder alone; m.
+    """
 
     kind: Literal["capsule"] = "capsule"
     radius: float | None = None
@@ -51,7 +73,13 @@ class Capsule(ShapeNode):
 
 
 class Cone(ShapeNode):
-    """A cone along z, its base at -length/2 and its tip at +length/2."""
+    """A cone along z, its base at -length/2 and its tip at +length/2.
+
+    Attributes:
+        kind: `cone`.
+        radius: of the base; m.
+        length: from base to tip; m.
+    """
 
     kind: Literal["cone"] = "cone"
     radius: float | None = None
@@ -59,14 +87,25 @@ class Cone(ShapeNode):
 
 
 class Ellipsoid(ShapeNode):
-    """An ellipsoid about the origin with these semi-axes along x, y, z."""
+    """An ellipsoid about the origin.
+
+    Attributes:
+        kind: `ellipsoid`.
+        radii: the semi-axes along x, y, z; m.
+    """
 
     kind: Literal["ellipsoid"] = "ellipsoid"
     radii: Vector3 | None = None
 
 
 class Plane(ShapeNode):
-    """A plane through the origin; `size` is the extent that is drawn."""
+    """A plane through the origin.
+
+    Attributes:
+        kind: `plane`.
+        normal: the direction that it faces, in the frame of the shape; without a unit, of any length.
+        size: the extent that is drawn, along x and y of the plane; m. What collides has no end.
+    """
 
     kind: Literal["plane"] = "plane"
     normal: Vector3 | None = None
@@ -74,7 +113,13 @@ class Plane(ShapeNode):
 
 
 class Mesh(ShapeNode):
-    """A mesh file, scaled along x, y, z. `submesh` names one part of the file."""
+    """A mesh file. Which part of it is meant, `<submesh>`, stays in `opaque`.
+
+    Attributes:
+        kind: `mesh`.
+        uri: the file, as it is written.
+        scale: the factors along x, y, z of the file's own frame.
+    """
 
     kind: Literal["mesh"] = "mesh"
     uri: str | None = None
@@ -82,27 +127,46 @@ class Mesh(ShapeNode):
 
 
 class Empty(ShapeNode):
-    """No shape, written explicitly."""
+    """No shape, written explicitly.
+
+    Attributes:
+        kind: `empty`.
+    """
 
     kind: Literal["empty"] = "empty"
 
 
 class Heightmap(ShapeNode):
-    """A terrain; its parameters stay as they are written."""
+    """A terrain; its parameters stay as they are written.
+
+    Attributes:
+        kind: `heightmap`.
+        uri: the image or elevation file, as it is written.
+    """
 
     kind: Literal["heightmap"] = "heightmap"
     uri: str | None = None
 
 
 class Image(ShapeNode):
-    """An image that is extruded into boxes; its parameters stay as they are written."""
+    """An image that is extruded into boxes; its parameters stay as they are written.
+
+    Attributes:
+        kind: `image`.
+        uri: the image, as it is written.
+    """
 
     kind: Literal["image"] = "image"
     uri: str | None = None
 
 
 class Polyline(ShapeNode):
-    """An extruded outline; its points stay as they are written."""
+    """An extruded outline; its points stay as they are written.
+
+    Attributes:
+        kind: `polyline`.
+        height: along z; m.
+    """
 
     kind: Literal["polyline"] = "polyline"
     height: float | None = None
@@ -115,6 +179,10 @@ Shape = Annotated[
 
 
 class Geometry(Node):
-    """The one shape of a visual or collision."""
+    """The one shape of a visual or collision.
+
+    Attributes:
+        shape: the shape, in the frame of the visual or collision; `None` where nothing was written.
+    """
 
     shape: Shape | None = None

@@ -13,7 +13,19 @@ JointType = Literal[
 
 
 class Limit(Node):
-    """Limits of one degree of freedom: rad or m, N m or N, and their derivatives in time."""
+    """Limits of one degree of freedom, of which lengths are meant along an axis and angles about one.
+
+    Attributes:
+        lower: the least position; rad or m.
+        upper: the greatest position; rad or m.
+        effort: the greatest torque or force; N m or N.
+        velocity: the greatest speed; rad/s or m/s.
+        acceleration: the greatest; rad/s^2 or m/s^2.
+        deceleration: the greatest when it slows down; rad/s^2 or m/s^2.
+        jerk: the greatest; rad/s^3 or m/s^3.
+        stiffness: of the stops at both ends; N m/rad or N/m.
+        dissipation: of the stops at both ends; N m s/rad or N s/m.
+    """
 
     lower: float | None = None
     upper: float | None = None
@@ -29,8 +41,11 @@ class Limit(Node):
 class Dynamics(Node):
     """Passive forces along one degree of freedom.
 
-    `damping` in N m s/rad or N s/m, `friction` in N m or N; the spring pulls towards `spring_reference` (rad or m) with
-    `spring_stiffness` (N m/rad or N/m).
+    Attributes:
+        damping: against the velocity; N m s/rad or N s/m.
+        friction: against the motion; N m or N.
+        spring_reference: the position that the spring pulls to; rad or m.
+        spring_stiffness: of the spring; N m/rad or N/m.
     """
 
     damping: float | None = None
@@ -40,7 +55,15 @@ class Dynamics(Node):
 
 
 class Mimic(Node):
-    """Position follows another joint: multiplier * (leader - reference) + offset, in rad or m."""
+    """A position that follows another joint: multiplier * (leader - reference) + offset.
+
+    Attributes:
+        joint: the name of the leader.
+        axis: which axis of the leader, `axis` or `axis2`; of SDF.
+        multiplier: the follower's way for one unit of the leader's.
+        offset: the position of the follower where the leader is at `reference`; rad or m.
+        reference: a position of the leader; rad or m; of SDF.
+    """
 
     joint: str | None = None
     axis: str | None = None
@@ -50,9 +73,15 @@ class Mimic(Node):
 
 
 class Axis(Node):
-    """One degree of freedom along or about `xyz`, in the joint frame or in the one that `expressed_in` names.
+    """One degree of freedom, along or about a direction.
 
-    `use_parent_model_frame` is the same question as SDF before 1.7 asked it: true means the model frame.
+    Attributes:
+        xyz: the direction, in the joint frame or in the one that `expressed_in` names; without a unit, of any length.
+        expressed_in: the frame of `xyz`; `None` for the joint frame.
+        use_parent_model_frame: the same question as SDF before 1.7 asked it: true means the model frame.
+        limit: how far, how fast and how hard.
+        dynamics: damping, friction and a spring.
+        mimic: the joint that it follows.
     """
 
     xyz: Vector3 | None = None
@@ -64,10 +93,21 @@ class Axis(Node):
 
 
 class Joint(Node):
-    """Connects the frames `parent` and `child`.
+    """What connects two frames and lets them move.
 
-    `pose` is in the child's frame unless it names another; a joint of URDF names its parent link.
-    `screw_thread_pitch` is in m per revolution, right-handed; the older `thread_pitch` in rad/m, left-handed.
+    Attributes:
+        name: unique in its model.
+        type: how they move; URDF and SDF have types that the other lacks.
+        parent: the frame that it stands on: in URDF a link, in SDF a link, frame, model or `world`.
+        child: the frame that it moves, likewise.
+        pose: of the joint frame: in the parent link's frame in URDF, in the child's in SDF unless it names another.
+        axis: the first degree of freedom.
+        axis2: the second one, of `universal` and `revolute2`.
+        gearbox_ratio: of `gearbox`: turns of the one side for one of the other.
+        gearbox_reference_body: of `gearbox`: the link that both angles are taken from.
+        thread_pitch: of `screw`, as older files write it: rad/m, left-handed.
+        screw_thread_pitch: of `screw`: m per revolution, right-handed.
+        sensors: on the joint, such as `force_torque`.
     """
 
     name: str

@@ -5,7 +5,18 @@ from twinform.ir.pose import Pose
 
 
 class Light(Node):
-    """A light of a world or on a link: `point`, `directional` or `spot`; `pose` is in the frame of its holder."""
+    """A light of a world or on a link.
+
+    Attributes:
+        name: unique in its holder.
+        type: `point`, `directional` or `spot`.
+        pose: of the light, in the frame of its holder unless it names another.
+        cast_shadows: whether it does.
+        intensity: a factor of both colors.
+        diffuse: the color of what it lights; red, green, blue and perhaps alpha, each from 0 to 1.
+        specular: the color of its reflections, likewise.
+        direction: where it shines, in the frame of the light; without a unit.
+    """
 
     name: str | None = None
     type: str | None = None

@@ -12,7 +12,17 @@ from twinform.ir.visual import Material
 
 
 class Include(Node):
-    """Another file's model, put here by its URI."""
+    """Another file's model, put here by its URI.
+
+    Attributes:
+        uri: of the model, as it is written.
+        name: of the model here; `None` for the one that its file gives it.
+        pose: of the model, in the frame of the holder unless it names another; `None` for the one in its file.
+        static: whether it never moves; `None` for what its file says.
+        placement_frame: the frame of the model that `pose` places; `None` for the model frame.
+        merge: whether its parts become parts of the holder, without a model of their own.
+        plugins: that are added to it.
+    """
 
     uri: str | None = None
     name: str | None = None
@@ -24,9 +34,25 @@ class Include(Node):
 
 
 class Model(Node):
-    """Links and joints that belong together; `pose` is in the frame of the world or model around it.
+    """Links and joints that belong together: a robot or a thing.
 
-    `materials` and `extensions` are URDF's shared materials and `<gazebo>` elements.
+    Attributes:
+        name: unique in its holder.
+        pose: of the model frame, in the frame of the world or model around it unless it names another.
+        static: whether it never moves.
+        self_collide: whether its links collide with each other.
+        allow_auto_disable: whether a simulator may let it sleep when it rests.
+        enable_wind: whether wind acts on its links.
+        canonical_link: the link that the model frame is attached to; `None` for the first one.
+        placement_frame: the frame that `pose` places; `None` for the model frame.
+        materials: of URDF, which visuals name.
+        links: in their order.
+        joints: in their order.
+        frames: the named frames, of SDF.
+        models: the nested models, of SDF.
+        includes: models of other files, of SDF.
+        plugins: code that a simulator loads with it.
+        extensions: the `<gazebo>` elements of URDF.
     """
 
     name: str

@@ -19,8 +19,10 @@ Color = Annotated[tuple[float, ...], Field(min_length=3, max_length=4)]
 class Node(Sourced):
     """A part of a model. A field that is `None` was not written; a default is never filled in.
 
-    `opaque` holds what has no typed field. `spelling` has how values were written that have several spellings (`1` for
-    `true`); like `source`, it takes no part in equality.
+    Attributes:
+        opaque: what has no typed field, kept where it was.
+        spelling: how values were written that have several spellings (`1` for `true`), by the names of the fields; like
+            `source`, it takes no part in equality.
     """
 
     opaque: tuple[Opaque, ...] = ()

@@ -5,7 +5,14 @@ from twinform.ir.node import Node
 
 
 class Plugin(Node):
-    """A shared library, the class in it and its parameters, which only the plugin understands."""
+    """Code that a simulator loads, with parameters that only the plugin understands.
+
+    Attributes:
+        name: in Gazebo the class in the library; in Gazebo Classic any name.
+        filename: the shared library.
+        text: the text in it, where it is not made of elements.
+        content: its parameters, in their order.
+    """
 
     name: str | None = None
     filename: str | None = None

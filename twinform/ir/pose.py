@@ -6,10 +6,15 @@ from twinform.ir.node import Node, Quaternion, Vector3
 class Pose(Node):
     """Where a frame is, in another frame.
 
-    Translation `xyz` in meters; rotation either `rpy` (fixed-axis roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll); in
-    radians, or in degrees where `degrees` is true) or `quat_xyzw`. What is `None` was not written and means zero.
-    `relative_to` names the frame that the pose is expressed in; where it is `None`, it is that of the holder.
-    `rotation_format` is SDF's attribute, kept because it may be written for rpy too.
+    What is `None` was not written and means zero.
+
+    Attributes:
+        xyz: the translation; m.
+        rpy: the rotation as fixed-axis roll, pitch, yaw, R = Rz(yaw) Ry(pitch) Rx(roll); rad, or degrees if `degrees`.
+        quat_xyzw: the rotation as a quaternion x, y, z, w, in place of `rpy`.
+        degrees: whether `rpy` is in degrees.
+        rotation_format: the attribute of SDF, `euler_rpy` or `quat_xyzw`, kept because it may be written for `rpy` too.
+        relative_to: the frame that the pose is expressed in; `None` for that of the holder.
     """
 
     xyz: Vector3 | None = None
@@ -21,9 +26,12 @@ class Pose(Node):
 
 
 class Frame(Node):
-    """A frame that moves with what it is attached to: a link, joint, frame or model; the model itself where not given.
+    """A frame that moves with what it is attached to.
 
-    `pose` is in the frame that it names, or else in the one that this is attached to.
+    Attributes:
+        name: unique in its model or world.
+        attached_to: a link, joint, frame or model; `None` for the model or world that it is in.
+        pose: of the frame, in the one that it names, or else in the one that this is attached to.
     """
 
     name: str

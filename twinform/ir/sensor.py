@@ -28,9 +28,21 @@ RENAMED_ELEMENTS: Mapping[str, str] = {"ray": "lidar", "gps": "navsat"}
 
 
 class Sensor(Node):
-    """A sensor on a link or joint; `pose` is in the frame of its holder.
+    """A sensor on a link or joint.
 
     The parameters of its type (`<camera>`, `<imu>`, ...) stay in `opaque`, checked by the schema.
+
+    Attributes:
+        name: unique in its holder.
+        type: such as `imu`, `camera` or `gpu_lidar`.
+        pose: of the sensor, in the frame of its holder unless it names another.
+        always_on: whether it measures although nobody listens.
+        update_rate: Hz; 0 for every step.
+        visualize: whether a simulator shows what it sees.
+        topic: where it publishes.
+        frame_id: the frame that its messages name.
+        enable_metrics: whether it publishes how fast it is.
+        plugins: code that a simulator loads with it.
     """
 
     name: str | None = None

@@ -16,7 +16,11 @@ _UNSEEN = frozenset({"source", "spelling"})
 
 
 class Sourced(BaseModel):
-    """A frozen part of a document. `source`, the place it was read from, takes no part in equality or in JSON."""
+    """A frozen part of a document.
+
+    Attributes:
+        source: the place it was read from; it takes no part in equality or in JSON.
+    """
 
     __slots__ = ("_census",)  # what `twinform.ir.census` has found, once it was asked
 

@@ -7,17 +7,30 @@ from twinform.ir.pose import Pose
 
 
 class Script(Node):
-    """A material of Gazebo Classic by name, with the URIs of the scripts that define it."""
+    """A material of Gazebo Classic by name.
+
+    Attributes:
+        uris: of the scripts that define it.
+        name: of the material in them.
+    """
 
     uris: tuple[str, ...] = ()
     name: str | None = None
 
 
 class Material(Node):
-    """The colors and textures of a visual.
+    """The colors and textures of a visual. Colors are red, green, blue and perhaps alpha, each from 0 to 1.
 
-    `name`, `color` and `texture` (an image's URI) are URDF's; the light model's four colors, the `script` and the
-    metal-rough `albedo_map` (an image's URI) are SDF's.
+    Attributes:
+        name: of URDF, where visuals share a material.
+        color: of URDF.
+        texture: the URI of an image, of URDF.
+        script: a material of Gazebo Classic, of SDF.
+        ambient: the color in the light from everywhere, of SDF.
+        diffuse: the color in the light from somewhere, of SDF.
+        specular: the color of reflections, of SDF.
+        emissive: the color that it has without light, of SDF.
+        albedo_map: the URI of an image, of SDF's metal-rough materials.
     """
 
     name: str | None = None
@@ -32,11 +45,22 @@ class Material(Node):
 
 
 class Surface(Node):
-    """Contact parameters of a collision: the part of SDF's `surface` that the `<gazebo>` tags of URDF have.
+    """Contact parameters of a collision, for the ODE solver.
 
-    `mu`, `mu2`: Coulomb friction along and across `fdir1` (a direction in the collision frame); `slip1`, `slip2`: force
-    dependent slip (m/(N s)); `kp`, `kd`: stiffness (N/m) and damping (N s/m) of the contact; `max_vel`: the fastest
-    correction (m/s); `min_depth`: the penetration that is left alone (m). All are those of the ODE solver.
+    They are the part of SDF's `surface` that the `<gazebo>` tags of URDF have; the rest stays in `opaque`.
+
+    Attributes:
+        mu: Coulomb friction along `fdir1`; without a unit.
+        mu2: Coulomb friction across `fdir1`; without a unit.
+        fdir1: a direction in the collision frame; without a unit.
+        slip1: force dependent slip along `fdir1`; m/(N s).
+        slip2: force dependent slip across `fdir1`; m/(N s).
+        kp: stiffness of the contact; N/m.
+        kd: damping of the contact; N s/m.
+        max_vel: the fastest correction of a penetration; m/s.
+        min_depth: the penetration that is left alone; m.
+        restitution_coefficient: how much of the speed a bounce keeps, from 0 to 1.
+        threshold: the speed above which it bounces; m/s.
     """
 
     mu: float | None = None
@@ -53,7 +77,15 @@ class Surface(Node):
 
 
 class Visual(Node):
-    """A shape that is seen; `pose` is in the link frame."""
+    """A shape that is seen.
+
+    Attributes:
+        name: unique in its link.
+        pose: of the shape, in the link frame unless it names another.
+        geometry: the shape.
+        material: how it looks.
+        plugins: code that a simulator loads with it.
+    """
 
     name: str | None = None
     pose: Pose | None = None
@@ -63,7 +95,16 @@ class Visual(Node):
 
 
 class Collision(Node):
-    """A shape that touches; `pose` is in the link frame."""
+    """A shape that touches.
+
+    Attributes:
+        name: unique in its link.
+        pose: of the shape, in the link frame unless it names another.
+        geometry: the shape.
+        surface: what happens where it touches.
+        max_contacts: how many points of contact a simulator keeps.
+        laser_retro: the intensity that a lidar gets back.
+    """
 
     name: str | None = None
     pose: Pose | None = None

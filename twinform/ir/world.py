@@ -9,7 +9,18 @@ from twinform.ir.pose import Frame
 
 
 class World(Node):
-    """Models, lights and frames in one frame; `gravity` in m/s^2. Physics, scene and the like stay in `opaque`."""
+    """Models, lights and frames in one frame. Physics, scene and the like stay in `opaque`.
+
+    Attributes:
+        name: unique in its file.
+        gravity: the acceleration in the frame of the world; m/s^2.
+        models: in their order.
+        includes: models of other files.
+        lights: in their order.
+        frames: the named frames.
+        joints: between models, or of one to the world.
+        plugins: the systems that a simulator runs.
+    """
 
     name: str
     gravity: Vector3 | None = None

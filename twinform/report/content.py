@@ -25,7 +25,7 @@ from twinform.ir import Document, Format
 from twinform.passes import PassError
 from twinform.view import ViewError, standalone_page
 
-View = Callable[[Document, Document | None, SearchPath], str]
+View = Callable[[Document, Document | None, Comparison | None, SearchPath], str]
 """Makes the page of the 3D view."""
 
 
@@ -88,9 +88,9 @@ class Report:
         return all(each.loaded.accepted for each in self.subjects)
 
 
-def make_page(first: Document, second: Document | None, search: SearchPath) -> str:
+def make_page(first: Document, second: Document | None, comparison: Comparison | None, search: SearchPath) -> str:
     """The 3D view, by `twinform.view`."""
-    return standalone_page(first, second, search=search)
+    return standalone_page(first, second, comparison, search=search)
 
 
 def build_report(
@@ -121,7 +121,7 @@ def build_report(
         except CompileError as error:
             problem = str(error)
     converted = _converted(first, one, load_options, model)
-    page, reason = _view(one, two, load_options.search, view)
+    page, reason = _view(one, two, comparison, load_options.search, view)
     return Report(one, two, comparison, problem, converted, page, reason)
 
 
@@ -150,13 +150,15 @@ def _converted(source: Input, subject: Subject, load_options: LoadOptions, model
         return Converted(target, reasons=tuple(each for each in error.diagnostics if each.is_error))
 
 
-def _view(one: Subject, two: Subject | None, search: SearchPath, view: View | None) -> tuple[str, str]:
+def _view(
+    one: Subject, two: Subject | None, comparison: Comparison | None, search: SearchPath, view: View | None
+) -> tuple[str, str]:
     if view is None:
         return "", "it was not asked for"
     if one.document is None or not one.loaded.accepted:
         return "", "the file has errors"
     other = two.document if two and two.loaded.accepted else None
     try:
-        return view(one.document, other, search), ""
+        return view(one.document, other, comparison, search), ""
     except (ViewError, PassError) as error:
         return "", str(error)

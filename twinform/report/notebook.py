@@ -40,16 +40,19 @@ class Shown:
 
 
 def show(first: Document, second: Document | None = None, *, height: int = 480, dark: bool = False) -> Shown:
-    """The 3D view of a document, or of two over each other, for the last line of a cell.
+    """The 3D view of a document, or of two over each other with what differs in red, for the last line of a cell.
 
     It is about 0.8 MB, which the notebook keeps: that is why no document shows it by itself.
 
     Raises:
         ViewError: what draws it is not installed.
+        CompileError: the two cannot be compared.
     """
-    from twinform.view import standalone_page  # noqa: PLC0415 - summaries have no view
+    from twinform.compiler.compare import diff  # noqa: PLC0415 - summaries have no view
+    from twinform.view import standalone_page  # noqa: PLC0415 - see above
 
-    return Shown(standalone_page(first, second, dark=dark), height)
+    comparison = diff(first, second) if second else None
+    return Shown(standalone_page(first, second, comparison, dark=dark), height)
 
 
 def document_html(document: Document) -> str:

@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from twinform.compiler.compare.comparison import Comparison
 from twinform.compiler.scene import build_scene
 from twinform.compiler.search.uris import SearchPath
 from twinform.ir import Document
@@ -30,11 +31,17 @@ def new_viewer(port: int = 0) -> "Viewer":
 
 
 def standalone_page(
-    first: Document, second: Document | None = None, *, dark: bool = False, search: SearchPath | None = None
+    first: Document,
+    second: Document | None = None,
+    comparison: Comparison | None = None,
+    *,
+    dark: bool = False,
+    search: SearchPath | None = None,
 ) -> str:
     """The text of an HTML page that shows a document, or two over each other, with every joint at zero.
 
-    Meshes are looked for beside the files that the documents were read from, and in the folders of `search`.
+    What the comparison of both found is red. Meshes are looked for beside the files that the documents were read from,
+    and in the folders of `search`.
 
     Raises:
         ViewerMissingError: the libraries are not installed.
@@ -42,7 +49,7 @@ def standalone_page(
     viewer = new_viewer()
     try:
         folders = search or SearchPath.of()
-        viewer.show([_subject(each, folders) for each in (first, second) if each is not None])
+        viewer.show([_subject(each, folders) for each in (first, second) if each is not None], comparison)
         return viewer.page(dark=dark)
     finally:
         viewer.stop()

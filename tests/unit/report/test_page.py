@@ -11,6 +11,7 @@ from click.testing import CliRunner
 import twinform
 from twinform.cli import main
 from twinform.compiler import LoadOptions, check
+from twinform.compiler.compare import Comparison
 from twinform.compiler.search.uris import SearchPath
 from twinform.diagnostics import Fate
 from twinform.ir import Document
@@ -182,7 +183,7 @@ def test_documents_in_memory_have_a_report() -> None:
 def test_the_view_looks_for_meshes_in_the_folders_of_the_call(tmp_path: Path) -> None:
     seen: list[object] = []
 
-    def look(_: Document, __: Document | None, search: SearchPath) -> str:
+    def look(_: Document, __: Document | None, ___: Comparison | None, search: SearchPath) -> str:
         seen.append(search)
         return "<html></html>"
 
@@ -213,3 +214,15 @@ def test_numbers_are_those_of_stats() -> None:
     text = _page(EXAMPLES / "rover.urdf").text
     assert f"{model['mass']:.6g} kg" in text
     assert f"Degrees of freedom{model['dof']}" in text
+
+
+def test_the_view_gets_what_differs():
+    seen: list[object] = []
+
+    def page(first: Document, second: Document | None, comparison: Comparison | None, _: SearchPath) -> str:
+        seen.extend((first.models[0].name, second and second.models[0].name, comparison and comparison.same))
+        return stand_in()
+
+    text = html(build_report(EXAMPLES / "gripper.urdf", EXAMPLES / "arm.urdf", view=page))
+    assert seen == ["gripper", "arm", False]
+    assert "what differs is red" in text

@@ -24,6 +24,8 @@ def view(report: Report) -> Markup | None:
 def _words(report: Report) -> Markup:
     graph = report.first.graph
     summary = f"It shows {graph.summary()}, with every joint at zero. " if graph else ""
+    if report.comparison and not report.comparison.same:
+        summary = "The second robot is blue over the first one, and what differs is red, with every joint at zero. "
     return element(
         "p",
         f"{summary}Drag to turn, scroll to come nearer. The same parts are listed under ",

@@ -1,0 +1,182 @@
+"""`KinematicTree`: links and joints by name, and what hangs from what."""
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
+from typing import NamedTuple, TypeVar
+
+from twinform.diagnostics.did_you_mean import did_you_mean
+from twinform.ir.frames import WORLD, FrameGraph
+from twinform.ir.joint import Joint
+from twinform.ir.link import Link
+from twinform.ir.model import Model
+from twinform.ir.motion import spanning_tree
+from twinform.ir.world import World
+
+AnyPart = TypeVar("AnyPart")
+
+
+class JointBetween(NamedTuple):
+    """A joint and the links that its ends move with, which differ from what it names where that is a frame."""
+
+    name: str
+    type: str
+    parent: str
+    child: str
+    joint: Joint
+
+
+class KinematicTree:
+    """The links and joints of a model or world.
+
+    Those of nested models are called `inner::link`, as they are in the scope of the whole. Of several with one name the
+    first is meant. Where joints close a loop, the tree has a fixed one or the first by name; `closing` has the others.
+
+    Attributes:
+        links: by their names, in the order of the file.
+        joints: by their names, in the order of the file.
+        frames: where all of these are.
+        closing: the joints that are not in the tree: they would give a link a second parent, or make a circle.
+
+    Raises:
+        FrameError: an end of a joint is not known, or frames go round in a circle.
+    """
+
+    def __init__(self, holder: Model | World) -> None:
+        scopes = [*_scopes(holder)]
+        self.frames = FrameGraph(holder)
+        self.links: Mapping[str, Link] = _by_name(
+            (prefix + link.name, link) for prefix, each in scopes if isinstance(each, Model) for link in each.links
+        )
+        self.joints: Mapping[str, Joint] = _by_name(
+            (prefix + joint.name, joint) for prefix, each in scopes for joint in each.joints
+        )
+        between = [found for prefix, each in scopes for found in _between(each, prefix, self.frames)]
+        self._above = spanning_tree(between)
+        self._below: dict[str, list[JointBetween]] = defaultdict(list)
+        for each in between:
+            if self._above.get(each.child) is each:
+                self._below[each.parent].append(each)
+        self.closing = tuple(each for each in between if self._above.get(each.child) is not each)
+
+    def link(self, name: str) -> Link:
+        """The link of a name.
+
+        Raises:
+            KeyError: there is none; the message has the name that may be meant.
+        """
+        return _found(self.links, name, "link")
+
+    def joint(self, name: str) -> Joint:
+        """The joint of a name.
+
+        Raises:
+            KeyError: there is none; the message has the name that may be meant.
+        """
+        return _found(self.joints, name, "joint")
+
+    @property
+    def roots(self) -> tuple[str, ...]:
+        """The links that hang from no other link: one in a robot of URDF."""
+        return tuple(name for name in self.links if self.parent(name) not in self.links)
+
+    def joint_above(self, link: str) -> JointBetween | None:
+        """The joint that a link hangs from; None where it hangs from nothing.
+
+        Raises:
+            KeyError: there is no such link.
+        """
+        self._look_up(link)
+        return self._above.get(link)
+
+    def joints_below(self, link: str) -> tuple[JointBetween, ...]:
+        """The joints that hang from a link, or from `world`, in the order of the file.
+
+        Raises:
+            KeyError: there is no such link.
+        """
+        self._look_up(link)
+        return tuple(self._below.get(link, ()))
+
+    def parent(self, link: str) -> str | None:
+        """The link, or `world`, that a link hangs from; None where it hangs from nothing.
+
+        Raises:
+            KeyError: there is no such link.
+        """
+        above = self.joint_above(link)
+        return above.parent if above else None
+
+    def children(self, link: str) -> tuple[str, ...]:
+        """The links that hang from a link.
+
+        Raises:
+            KeyError: there is no such link.
+        """
+        return tuple(each.child for each in self.joints_below(link))
+
+    def below(self, link: str) -> Iterator[str]:
+        """All links that move with a link when it moves: it, and what hangs from it at any depth, parents first.
+
+        Raises:
+            KeyError: there is no such link.
+        """
+        self._look_up(link)
+        waiting = [link]
+        while waiting:
+            here = waiting.pop()
+            yield here
+            waiting += [each.child for each in reversed(self._below.get(here, ()))]
+
+    def chain(self, base: str, tip: str) -> tuple[JointBetween, ...]:
+        """The joints from a link to another one that hangs from it at any depth, in their order.
+
+        Raises:
+            KeyError: there is no such link.
+            ValueError: the tip does not hang from the base.
+        """
+        self._look_up(base)
+        found, here = list[JointBetween](), tip
+        while here != base:
+            above = self.joint_above(here)
+            if above is None:
+                raise ValueError(f"{tip!r} does not hang from {base!r}")
+            found.append(above)
+            here = above.parent
+        return tuple(reversed(found))
+
+    def _look_up(self, link: str) -> None:
+        if link != WORLD or WORLD in self.links:
+            self.link(link)
+
+
+def _scopes(holder: Model | World, prefix: str = "") -> Iterator[tuple[str, Model | World]]:
+    """A model or world and all models in it, with what stands before the names in them."""
+    yield prefix, holder
+    for model in holder.models:
+        yield from _scopes(model, f"{prefix}{model.name}::")
+
+
+def _between(holder: Model | World, prefix: str, frames: FrameGraph) -> Iterator[JointBetween]:
+    for joint in holder.joints:
+        if joint.parent and joint.child:
+            parent, child = (_end(joint, name, prefix, frames) for name in (joint.parent, joint.child))
+            yield JointBetween(prefix + joint.name, joint.type, parent, child, joint)
+
+
+def _end(joint: Joint, name: str, prefix: str, frames: FrameGraph) -> str:
+    scoped = name if name == WORLD and not frames.knows(prefix + name) else prefix + name
+    return frames.body(scoped, source=joint.source)
+
+
+def _by_name(parts: Iterable[tuple[str, AnyPart]]) -> dict[str, AnyPart]:
+    found: dict[str, AnyPart] = {}
+    for name, part in parts:
+        found.setdefault(name, part)
+    return found
+
+
+def _found(parts: Mapping[str, AnyPart], name: str, kind: str) -> AnyPart:
+    if name in parts:
+        return parts[name]
+    help_ = did_you_mean(name, parts)
+    raise KeyError(f"there is no {kind} {name!r}{f'; {help_}' if help_ else ''}")
