@@ -1,4 +1,4 @@
-"""A browser for all tests of a process, and pages in which nothing may go wrong."""
+"""A browser for all tests of a file, and pages in which nothing may go wrong."""
 
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 _OWN = ("http://127.0.0.1:", "ws://127.0.0.1:", "file:", "data:", "blob:", "about:")
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> "Iterator[Browser]":
-    """Chromium, where it is installed."""
+    """Chromium, where it is installed, for the tests of a file: where it runs, no other test may have an event loop."""
     if why := missing():
         pytest.skip(why)
     with chromium() as found:
@@ -27,7 +27,7 @@ def browser() -> "Iterator[Browser]":
 @pytest.fixture
 def page(browser: "Browser") -> "Iterator[Page]":
     """An empty page; what goes wrong in it, and what it asks other machines for, fails the test."""
-    context = browser.new_context(viewport={"width": 1000, "height": 700})
+    context = browser.new_context(viewport={"width": 640, "height": 400})
     opened, faults = context.new_page(), list[str]()
     opened.on("console", lambda message: faults.append(message.text) if message.type == "error" else None)
     opened.on("pageerror", lambda error: faults.append(str(error)))

@@ -21,7 +21,7 @@ COMMANDS: Mapping[str, str] = {
     "stats": "Print in numbers what models are made of.",
     "view": "Show a robot or world in a browser, or two over each other.",
     "report": "Write a report on a model, or on two, that opens offline.",
-    "graph": "Draw the links and joints of a model.",
+    "graph": "Draw the links and joints of a model or world.",
     "package": "Put a model and all its files into a folder.",
     "batch": "Work on every model of a folder, on several processors or machines.",
     "fuel": "Fill the local cache of Gazebo Fuel.",

@@ -54,10 +54,10 @@ def command(
     tolerance: float,
     **input_options: Unpack[InputOptions],
 ) -> None:
-    """Write a report on a model, or on what two differ in.
+    """Write a report on a model, or on two, that opens offline.
 
-    One file: the 3D view, the tree, findings with their lines, what becomes of each part in the other format, numbers,
-    masses and inertias; with B what differs and by how much. It opens offline and asks for nothing. A and B are URDF,
+    One page: the 3D view, the tree, findings with their lines, what becomes of each part in the other format, numbers,
+    masses and inertias; with B what differs and by how much. It asks for nothing from elsewhere. A and B are URDF,
     SDF, xacro or JSON files; - is standard input. Arguments of xacro are written NAME:=VALUE. Exit code: 0 without
     errors, 1 where a file has errors, which are in the report, 2 where one could not be read: then there is none.
     """

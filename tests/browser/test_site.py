@@ -8,11 +8,15 @@ from collections.abc import Iterator
 from functools import cache
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import TYPE_CHECKING
 from urllib.parse import unquote, urlsplit
 
 import pytest
 
-_ROOT = Path(__file__).parents[1]
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+_ROOT = Path(__file__).parents[2]
 _LOADED = {"script": "src", "img": "src", "iframe": "src", "source": "src"}
 _QUESTIONS = 10
 
@@ -98,3 +102,15 @@ def test_ten_questions_are_answered_within_two_clicks(site: Path) -> None:
     assert len(answers) == _QUESTIONS
     second = {_target(questions, link)[0] for link in _links(questions).links}
     assert [answer for answer in answers if (questions.parent / f"{answer}.html").resolve() not in second] == []
+
+
+def test_the_search_works_from_the_disk(site: Path, page: "Page") -> None:
+    page.context.set_offline(True)
+    page.goto((site / "index.html").as_uri())
+    page.keyboard.press("/")
+    page.keyboard.type("mimic")
+    link = page.locator(".md-search-result__link[href*='h=mimic']").first
+    link.wait_for()
+    found = link.get_attribute("href")
+    assert found
+    assert Path(unquote(urlsplit(found).path)).is_file()
