@@ -51,7 +51,7 @@ BALLS = """<sdf version="1.11"><model name="balls">
 </model></sdf>
 """
 PLANAR = """<robot name="planar">
-  <link name="floor"><visual><geometry><box size="1 1 0.02"/></geometry></visual></link>
+  <link name="floor"><visual><geometry><box size="0.2 0.2 0.02"/></geometry></visual></link>
   <link name="puck"><visual><geometry><box size="0.3 0.1 0.1"/></geometry></visual></link>
   <joint name="drift" type="planar"><parent link="floor"/><child link="puck"/><origin xyz="0 0 0.1"/>
     <axis xyz="0 0 1"/></joint>
@@ -100,19 +100,21 @@ def _until(happened: Callable[[], bool]) -> None:
         time.sleep(0.05)
 
 
-@pytest.mark.parametrize("text", [ARM, BALLS, PLANAR], ids=["arm", "balls", "planar"])
-def test_pixels_are_where_the_silhouette_is(page: "Page", viewer: Viewer, text: str) -> None:
-    viewer.show([_subject(text)])
+def test_pixels_are_where_the_silhouette_is(page: "Page", viewer: Viewer) -> None:
+    """One page for all robots: what takes time is the first picture of a page."""
+    viewer.show([_subject(ARM)])
     _open(page, viewer)
-    (figure,) = viewer.figures
-    camera = camera_for([figure])
-    positions: dict[tuple[str, int], float] = {}
-    for moved in POSITIONS[text]:
-        positions |= moved
-        viewer.move(moved)
-        drawn = viewer.picture(camera, WIDTH, HEIGHT)[:, :, 3] > 0
-        expected = silhouette(figure.scene, positions, camera, WIDTH, HEIGHT)
-        assert overlap(drawn, expected) > 0.9
+    for text, moves in POSITIONS.items():
+        viewer.show([_subject(text)])
+        (figure,) = viewer.figures
+        camera = camera_for([figure])
+        positions: dict[tuple[str, int], float] = {}
+        for moved in moves:
+            positions |= moved
+            viewer.move(moved)
+            drawn = viewer.picture(camera, WIDTH, HEIGHT)[:, :, 3] > 0
+            expected = silhouette(figure.scene, positions, camera, WIDTH, HEIGHT)
+            assert overlap(drawn, expected) > 0.9, positions
 
 
 def test_a_slider_moves_its_link(page: "Page", viewer: Viewer) -> None:

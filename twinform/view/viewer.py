@@ -26,7 +26,6 @@ Array = Any
 """A numpy array."""
 
 HOST = "127.0.0.1"
-GRID = "/grid"
 _BETWEEN = 0.15
 """Seconds between two pictures that are compared."""
 _SECOND = Look(color=(60, 130, 220), opacity=0.45)
@@ -47,6 +46,7 @@ class Viewer:
             self._server: Any = viser.ViserServer(host=HOST, port=_free(port), label="twinform", verbose=False)
         self._lock = Lock()
         self._panel: Panel | None = None
+        self._shown = 0
         self._server.gui.configure_theme(control_width="large", show_logo=False, show_share_button=False)
 
     @property
@@ -66,7 +66,8 @@ class Viewer:
             is_first = self._panel is None
             self._server.scene.reset()
             self._server.gui.reset()
-            figures = draw(self._server.scene, subjects, self.select)
+            self._shown += 1
+            figures = draw(self._server.scene, subjects, self._root, self.select)
             self._panel = Panel(self._server.gui, subjects, figures, comparison, positions)
             self._panel.build()
             self._server.gui.main_panel.dock_right()
@@ -76,6 +77,11 @@ class Viewer:
             if is_first:
                 self._aim(figures)
         self._server.flush()
+
+    @property
+    def _root(self) -> str:
+        """Above all that is shown; new each time: where a name comes again, browsers keep the pose that it had."""
+        return f"/{self._shown}"
 
     def _aim(self, figures: Sequence[Figure]) -> None:
         """Put the camera of who comes to where all is seen."""
@@ -101,7 +107,7 @@ class Viewer:
         clients = list(self._server.get_clients().values())
         if not clients:
             raise ViewError("no browser is connected")
-        grid = self._server.scene.get_handle_by_name(GRID)
+        grid = self._server.scene.get_handle_by_name(f"{self._root}/grid")
         grid.visible = False
         try:
             return self._settled(clients[0], camera, width, height, seconds)
@@ -136,17 +142,18 @@ class Viewer:
             self._server.stop()
 
 
-def draw(api: Any, subjects: Sequence[Subject], on_click: Any = None) -> list[Figure]:
-    """The figures of subjects in a scene of viser, the second one in a color of its own, and a grid below them."""
+def draw(api: Any, subjects: Sequence[Subject], root: str, on_click: Any = None) -> list[Figure]:
+    """The figures of subjects below a node of viser, the second one in a color of its own, and a grid under them."""
     figures: list[Figure] = []
-    for subject, root, look in zip(subjects, ("/A", "/B"), (Look(), _SECOND), strict=False):
+    for subject, name, look in zip(subjects, "AB", (Look(), _SECOND), strict=False):
         meshes = MeshDrawings(subject.search, subject.beside)
-        figures.append(Figure(api, root, subject.scene, meshes, look, on_click))
+        figures.append(Figure(api, f"{root}/{name}", subject.scene, meshes, look, on_click))
     size = max(figure.size for figure in figures)
     floor = min(float(figure.bounds()[0][2]) for figure in figures)
     cell = _power_of_ten(size / 4)
     height = min(floor, 0.0)
-    api.add_grid(GRID, size * 6, size * 6, cell_size=cell, section_size=10 * cell, position=(0.0, 0.0, height))
+    where = (0.0, 0.0, height)
+    api.add_grid(f"{root}/grid", size * 6, size * 6, cell_size=cell, section_size=10 * cell, position=where)
     return figures
 
 
