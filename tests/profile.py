@@ -13,8 +13,8 @@ from twinform.testing.profiles import PROFILES
 PROFILE = os.environ.get("TWINFORM_PROFILE", "smoke")
 DEEP = PROFILE == "deep"
 REPEATED = PROFILE == "smoke"
-_CHEAP = 100
-"""How many examples a property is tried with that does not ask for `examples`, at any depth."""
+_CHEAP = 50 if REPEATED else 100
+"""How many examples a property is tried with that does not ask for `examples`."""
 
 settings.register_profile(
     "tests", settings.get_profile(f"twinform-{PROFILE}"), derandomize=REPEATED, max_examples=_CHEAP
