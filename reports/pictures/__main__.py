@@ -1,7 +1,10 @@
-"""Pictures of `twinform view` on the examples: what is shown, and what was clicked before."""
+"""Pictures of `twinform view` and `twinform report` on the examples: what is shown, and what was clicked before."""
 
+import contextlib
 import io
+import shutil
 import sys
+import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +15,7 @@ from PIL import Image
 import twinform
 from reports.harness.browser import chromium, missing
 from tests.corpus.files import ROOT
+from twinform import report
 from twinform.compiler import LoadOptions
 from twinform.view import Subject, new_viewer, read_subject
 
@@ -22,6 +26,7 @@ if TYPE_CHECKING:
 
 FOLDER = ROOT / "docs" / "images"
 _WIDTH, _HEIGHT = 1200, 720
+_REPORT_WIDTH, _REPORT_HEIGHT = 1000, 1220
 _COLORS = 192
 _MILLISECONDS = 2500
 """Until all is drawn, in a renderer without a graphics card."""
@@ -39,6 +44,7 @@ class Picture:
     """What is another text in the second file."""
 
 
+_LONGER = ('<origin xyz="0 0 0.27"', '<origin xyz="0 0 0.34"')
 PICTURES = (
     Picture("view", ("examples/rover.urdf",), ("Show", "Joint axes", "Sensors")),
     Picture("masses", ("examples/rover.urdf",), ("Show", "Visuals", "Skeleton", "Inertias", "Centers of mass")),
@@ -47,7 +53,7 @@ PICTURES = (
         ("examples/arm.urdf", "examples/arm.urdf"),
         ("Differences",),
         (("joint_2", 0.5), ("joint_3", 0.8), ("joint_5", 0.7)),
-        ('<origin xyz="0 0 0.27"', '<origin xyz="0 0 0.34"'),
+        _LONGER,
     ),
 )
 
@@ -71,6 +77,9 @@ def main() -> int:
                 page.close()
                 viewer.stop()
             print(f"docs/images/{picture.name}.png")
+        page = browser.new_page(viewport={"width": _REPORT_WIDTH, "height": _REPORT_HEIGHT})
+        _write(FOLDER / "report.png", _report(page))
+        print("docs/images/report.png")
     return 0
 
 
@@ -90,6 +99,24 @@ def _taken(picture: Picture, viewer: "Viewer", page: "Page") -> bytes:
         notice.click()
     page.wait_for_timeout(_MILLISECONDS)
     return page.screenshot()
+
+
+def _report(page: "Page") -> bytes:
+    """The first screen of a report on two files."""
+    first, second = Path("arm.urdf"), Path("longer_arm.urdf")
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+        shutil.copytree(ROOT / "examples", ".", dirs_exist_ok=True)
+        second.write_text(first.read_text(encoding="utf-8").replace(*_LONGER), encoding="utf-8")
+        path = Path("report.html").resolve()
+        path.write_text(report.html(report.build_report(first, second)), encoding="utf-8")
+        page.goto(path.as_uri())
+        frame = page.frame_locator("iframe")
+        frame.locator("canvas").first.wait_for()
+        page.wait_for_timeout(2 * _MILLISECONDS)
+        for notice in frame.locator("button.mantine-Notification-closeButton").all():
+            notice.click()
+        page.wait_for_timeout(_MILLISECONDS)
+        return page.screenshot()
 
 
 def _subjects(texts: Sequence[str], files: Sequence[str]) -> list[Subject]:

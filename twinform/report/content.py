@@ -106,6 +106,7 @@ def build_report(
 ) -> Report:
     """Find out everything about a file or document, and how it differs from a second one.
 
+    `names` are what the files are called, by default their paths; meshes for the view are looked for beside them.
     `model` is the one that is converted and compared where there are several. `meshes` selects whether mesh files are
     read for numbers, and `view` makes the page of the 3D view; without it there is none.
     """
