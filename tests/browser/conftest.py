@@ -7,12 +7,10 @@ import pytest
 
 from reports.harness.browser import chromium, missing
 
-from .watched import Watched
+from .watched import Watched, strict_page
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
-
-_OWN = ("http://127.0.0.1:", "ws://127.0.0.1:", "file:", "data:", "blob:", "about:")
 
 
 @pytest.fixture(scope="module")
@@ -26,14 +24,9 @@ def browser() -> "Iterator[Browser]":
 
 @pytest.fixture
 def page(browser: "Browser") -> "Iterator[Page]":
-    """An empty page; what goes wrong in it, and what it asks other machines for, fails the test."""
-    context = browser.new_context(viewport={"width": 640, "height": 400})
-    opened, faults = context.new_page(), list[str]()
-    opened.on("console", lambda message: faults.append(message.text) if message.type == "error" else None)
-    opened.on("pageerror", lambda error: faults.append(str(error)))
-    opened.on("request", lambda request: faults.append(request.url) if not request.url.startswith(_OWN) else None)
-    yield opened
-    context.close()
+    """An empty page in which nothing may go wrong."""
+    with strict_page(browser) as (opened, faults):
+        yield opened
     assert not faults
 
 

@@ -6,7 +6,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 from xml.sax.saxutils import quoteattr
 
 import pytest
@@ -20,8 +20,12 @@ pytest.importorskip("viser", reason="viser is not installed")
 from twinform.view import Subject, read_subject, standalone_page
 from twinform.view.viewer import Viewer, camera_for
 
+from .watched import strict_page
+
 if TYPE_CHECKING:
-    from playwright.sync_api import Page
+    from playwright.sync_api import Browser, Page
+
+    from twinform.compiler.compare.comparison import Comparison
 
 WIDTH, HEIGHT = 480, 360
 ARM = """<robot name="arm">
@@ -39,6 +43,7 @@ ARM = """<robot name="arm">
     <mimic joint="shoulder" multiplier="-1"/></joint>
 </robot>
 """
+NOTHING = '<robot name="nothing"><link name="only"/></robot>'
 BALLS = """<sdf version="1.11"><model name="balls">
   <link name="a"><visual name="v"><geometry><box><size>0.2 0.2 0.2</size></box></geometry></visual></link>
   <link name="b"><pose>0 0 0.5 0 0 0</pose>
@@ -72,6 +77,7 @@ POSITIONS: dict[str, tuple[dict[tuple[str, int], float], ...]] = {
     BALLS: ({}, {("ball", 0): 0.5, ("ball", 1): -0.4, ("two", 1): 0.6}, {("ball", 2): 1.0, ("two", 0): -0.8}),
     PLANAR: ({}, {("drift", 0): 0.3, ("drift", 2): 0.8}, {("drift", 1): -0.4}),
 }
+ZERO = {key: 0.0 for moves in POSITIONS.values() for moved in moves for key in moved}
 
 
 def _subject(text: str | bytes | Path) -> Subject:
@@ -81,16 +87,38 @@ def _subject(text: str | bytes | Path) -> Subject:
     return subject
 
 
+class Stage(NamedTuple):
+    """A viewer, the page on which it shows, and what went wrong there."""
+
+    viewer: Viewer
+    page: "Page"
+    faults: list[str]
+
+    def show(self, *models: str | bytes | Path, comparison: "Comparison | None" = None) -> None:
+        """Show models in place of what was shown, with all joints at zero."""
+        self.viewer.show([_subject(model) for model in models], comparison)
+        self.viewer.move(ZERO)
+
+
+@pytest.fixture(scope="module")
+def theater(browser: "Browser") -> Iterator[Stage]:
+    """One page for all tests: what takes time is the first picture of a page."""
+    viewer = Viewer()
+    viewer.show([_subject(NOTHING)])
+    with strict_page(browser) as (page, faults):
+        page.goto(viewer.address)
+        page.get_by_text("Joints", exact=True).wait_for()
+        yield Stage(viewer, page, faults)
+    viewer.stop()
+
+
 @pytest.fixture
-def viewer() -> Iterator[Viewer]:
-    made = Viewer()
-    yield made
-    made.stop()
-
-
-def _open(page: "Page", viewer: Viewer) -> None:
-    page.goto(viewer.address)
-    page.get_by_text("Joints", exact=True).wait_for()
+def stage(theater: Stage) -> Iterator[Stage]:
+    """The page for one test, in which nothing may go wrong."""
+    yield theater
+    faults = [*theater.faults]
+    theater.faults.clear()
+    assert not faults
 
 
 def _until(happened: Callable[[], bool]) -> None:
@@ -100,27 +128,25 @@ def _until(happened: Callable[[], bool]) -> None:
         time.sleep(0.05)
 
 
-def test_pixels_are_where_the_silhouette_is(page: "Page", viewer: Viewer) -> None:
-    """One page for all robots: what takes time is the first picture of a page."""
-    viewer.show([_subject(ARM)])
-    _open(page, viewer)
-    for text, moves in POSITIONS.items():
-        viewer.show([_subject(text)])
-        (figure,) = viewer.figures
-        camera = camera_for([figure])
-        positions: dict[tuple[str, int], float] = {}
-        for moved in moves:
-            positions |= moved
-            viewer.move(moved)
-            drawn = viewer.picture(camera, WIDTH, HEIGHT)[:, :, 3] > 0
-            expected = silhouette(figure.scene, positions, camera, WIDTH, HEIGHT)
-            assert overlap(drawn, expected) > 0.9, positions
+@pytest.mark.parametrize("text", POSITIONS, ids=["arm", "balls", "planar"])
+def test_pixels_are_where_the_silhouette_is(stage: Stage, text: str) -> None:
+    stage.show(text)
+    viewer, (figure,) = stage.viewer, stage.viewer.figures
+    camera = camera_for([figure])
+    positions: dict[tuple[str, int], float] = {}
+    for moved in POSITIONS[text]:
+        positions |= moved
+        viewer.move(moved)
+        drawn = viewer.picture(camera, WIDTH, HEIGHT)[:, :, 3] > 0
+        expected = silhouette(figure.scene, positions, camera, WIDTH, HEIGHT)
+        assert overlap(drawn, expected) > 0.9, positions
 
 
-def test_a_slider_moves_its_link(page: "Page", viewer: Viewer) -> None:
-    viewer.show([_subject(ARM)])
-    _open(page, viewer)
+def test_a_slider_moves_its_link(stage: Stage) -> None:
+    stage.show(ARM)
+    viewer, page, _ = stage
     before = dict(viewer.figures[0].poses)
+    page.get_by_text("shoulder", exact=True).wait_for()
     field = page.locator("input[type=text], input[inputmode=decimal]").first
     field.fill("1")
     field.press("Enter")
@@ -134,12 +160,12 @@ def test_a_slider_moves_its_link(page: "Page", viewer: Viewer) -> None:
     assert overlap(drawn, expected) > 0.9
 
 
-def test_a_planted_difference_is_red(page: "Page", viewer: Viewer) -> None:
+def test_a_planted_difference_is_red(stage: Stage) -> None:
     other = ARM.replace('radius="0.05" length="0.5"', 'radius="0.09" length="0.5"')
     comparison = twinform.diff(ARM.encode(), other.encode())
     assert not comparison.same
-    viewer.show([_subject(ARM), _subject(other)], comparison)
-    _open(page, viewer)
+    stage.show(ARM, other, comparison=comparison)
+    viewer, page, _ = stage
     page.get_by_text("Differences", exact=True).click()
     page.get_by_text("what differs is red").wait_for()
     picture = viewer.picture(camera_for(viewer.figures), WIDTH, HEIGHT).astype(int)
@@ -164,12 +190,12 @@ HOSTILE = {
 }
 
 
-def test_hostile_names_do_nothing(page: "Page", viewer: Viewer) -> None:
+def test_hostile_names_do_nothing(stage: Stage) -> None:
     text = ARM
     for name, hostile in HOSTILE.items():
         text = text.replace(f'"{name}"', quoteattr(hostile))
-    viewer.show([_subject(text)])
-    _open(page, viewer)
+    stage.show(text)
+    viewer, page, _ = stage
     page.get_by_text("Show", exact=True).click()
     for layer in ("Link names", "Joint names", "Skeleton", "Joint axes"):
         page.get_by_text(layer, exact=True).click()
@@ -181,7 +207,7 @@ def test_hostile_names_do_nothing(page: "Page", viewer: Viewer) -> None:
     assert page.evaluate("window.hit") is None
 
 
-def test_a_thousand_links_are_drawn_smoothly(page: "Page", viewer: Viewer) -> None:
+def test_a_thousand_links_are_drawn_smoothly(stage: Stage) -> None:
     links = "".join(
         f'<link name="l{i}"><visual><geometry><box size="0.08 0.08 0.08"/></geometry></visual></link>'
         for i in range(1000)
@@ -191,10 +217,9 @@ def test_a_thousand_links_are_drawn_smoothly(page: "Page", viewer: Viewer) -> No
         f'<origin xyz="{0.1 * (i % 32):.2f} {0.1 * (i // 32):.2f} 0"/></joint>'
         for i in range(1, 1000)
     )
-    viewer.show([_subject(f'<robot name="many">{links}{joints}</robot>')])
-    _open(page, viewer)
+    stage.show(f'<robot name="many">{links}{joints}</robot>')
     # a renderer without a graphics card takes some seconds before the first frames
-    _until(lambda: page.evaluate(_FRAMES_A_SECOND) > 20)
+    _until(lambda: stage.page.evaluate(_FRAMES_A_SECOND) > 20)
 
 
 def test_a_page_opens_without_a_server(page: "Page", tmp_path: Path) -> None:
@@ -205,10 +230,10 @@ def test_a_page_opens_without_a_server(page: "Page", tmp_path: Path) -> None:
     page.locator("canvas").first.wait_for()
 
 
-def test_a_missing_mesh_is_a_box_with_a_finding(page: "Page", viewer: Viewer) -> None:
+def test_a_missing_mesh_is_a_box_with_a_finding(stage: Stage) -> None:
     text = ARM.replace('<sphere radius="0.08"/>', '<mesh filename="gone.stl"/>')
-    viewer.show([_subject(text)])
-    _open(page, viewer)
+    stage.show(text)
+    viewer, page, _ = stage
     page.get_by_text("Findings", exact=True).click()
     page.get_by_text("not drawn: visual").wait_for()
     assert [link for link, _, _ in viewer.figures[0].problems()] == ["follower"]

@@ -1,11 +1,14 @@
-"""A page with what went wrong in it, and what it asked for."""
+"""Pages with what went wrong in them, and what they asked for."""
 
+from collections.abc import Generator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from playwright.sync_api import ConsoleMessage, Dialog, Page
+    from playwright.sync_api import Browser, ConsoleMessage, Dialog, Page
 
+_OWN = ("http://127.0.0.1:", "ws://127.0.0.1:", "file:", "data:", "blob:", "about:")
 _QUIET = frozenset({"log", "info", "debug"})
 _KNOWN = ("THREE.Clock: This module has been deprecated.", "GPU stall due to ReadPixels")
 """Warnings of viser's client, and of renderers in software."""
@@ -45,3 +48,15 @@ class Watched:
     def _refuse(self, dialog: "Dialog") -> None:
         self.complaints.append(f"dialog: {dialog.message}")
         dialog.dismiss()
+
+
+@contextmanager
+def strict_page(browser: "Browser") -> "Generator[tuple[Page, list[str]]]":
+    """An empty page, with what goes wrong in it and what it asks other machines for."""
+    context = browser.new_context(viewport={"width": 640, "height": 400})
+    opened, faults = context.new_page(), list[str]()
+    opened.on("console", lambda message: faults.append(message.text) if message.type == "error" else None)
+    opened.on("pageerror", lambda error: faults.append(str(error)))
+    opened.on("request", lambda request: faults.append(request.url) if not request.url.startswith(_OWN) else None)
+    yield opened, faults
+    context.close()
