@@ -53,6 +53,7 @@ WITHOUT_CASE = {
     "unread-part": "unit/profiles/reading/test_reading.py",
     "unread-text": "unit/profiles/reading/test_reading.py",
     "unread-value": "unit/profiles/reading/test_reading.py",
+    "uncertain-inertia": "portability/gazebo.toml",
     "uncontrolled-joint": "unit/compiler/packaging/ros2/test_controllers.py",
     "unpackaged-file": "unit/cli/test_package.py",
     "unpackaged-include": "unit/cli/test_package.py",

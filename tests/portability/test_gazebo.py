@@ -20,6 +20,8 @@ _INERTIAL = (
 _PROBES: list[dict[str, Any]] = tomllib.loads(Path(__file__).with_name("gazebo.toml").read_text("utf-8"))["probe"]
 _SETTINGS = gazebo.Settings(steps=200, dt=0.001, start=0.5)
 _ENGINES = {"dart": gazebo.PhysicsEngine.DART, "bullet": gazebo.PhysicsEngine.BULLET}
+_BY_ROUNDING = ["uncertain-inertia"]
+"""What it refuses or takes by how it rounds."""
 _named = pytest.mark.parametrize("probe", _PROBES, ids=lambda probe: str(probe["name"]))
 
 
@@ -44,7 +46,7 @@ def test_the_profile_finds_what_engines_mind(probe: dict[str, Any]) -> None:
     found = _assessed(_text(probe))
     assert sorted({each.finding.rule.name for each in found.judgments}) == probe.get("rules", [])
     if {"refuses", "ends"} & {probe.get(engine) for engine in _ENGINES}:
-        assert found.by(Effect.REFUSES)
+        assert found.by(Effect.REFUSES) or probe["rules"] == _BY_ROUNDING
     if {"freezes", "leaves out"} & {probe.get(engine) for engine in _ENGINES}:
         assert found.judgments
 

@@ -193,6 +193,7 @@ BUILT_IN: Mapping[str, str] = {
     "unbalanced-inertia": "inertia",
     "unbounded-limit": "to_urdf",
     "unbridged-topic": "plugins",
+    "uncertain-inertia": "portability_engines",
     "uncontrolled-joint": "ros2",
     "unconverted-transmission": "control",
     "unexpanded-xacro": "xacro",

@@ -28,6 +28,14 @@ FLAT_COLLISION = Rule(
     example="`<collision name='c'><geometry><sphere><radius>0</radius></sphere></geometry></collision>`.",
     better="Leave the collision out, or give it a size; `drop-flat-shapes` leaves all of them out.",
 )
+UNCERTAIN_INERTIA = Rule(
+    name="uncertain-inertia",
+    severity=Severity.INFO,
+    finds="An inertia with products of which eight digits do not say whether a body can have it.",
+    matters="Readers find its axes first, and round: libsdformat takes one such inertia and refuses the next.",
+    example="The inertia of a thin rod that is not parallel to an axis of its frame.",
+    better="Give the body some extent along every axis; `balance-inertia` does so.",
+)
 WEIGHTLESS_MOVER = Rule(
     name="weightless-mover",
     severity=Severity.INFO,

@@ -9,13 +9,13 @@ from twinform.diagnostics import DiagnosticSink, Severity
 from twinform.diagnostics.rules.inertia import BALANCED_INERTIA, UNBALANCED_INERTIA
 from twinform.ir import Document, Format, Inertial, Link, rewrite
 from twinform.ir.defaults import MOMENT
-from twinform.ir.principal_moments import Symmetric, principal_moments, relative_moments, times_each
+from twinform.ir.principal_moments import Symmetric, principal_moments, times_each
 from twinform.ir.scaling import common_exponent, times_power
 from twinform.ir.solids import with_tensor
 from twinform.ir.verify.inertia import inertia_matrix
 from twinform.passes.framework.base import Pass
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
-from twinform.passes.inertia.physical_consistency import distance, has_mass, nearest_possible, second_moments
+from twinform.passes.inertia.physical_consistency import distance, has_mass, is_clearly_possible, nearest_possible
 
 _NOTHING_MUCH = 1e-3
 """A change of so small a part of an inertia is that of digits which were cut off, and no news."""
@@ -27,13 +27,15 @@ class BalanceInertia(Pass):
 
     Changes the `<inertia>` of links whose name matches `links`, where
 
-    1. a principal moment is zero or less;
+    1. a principal moment is zero or less, or less than `least`;
     2. a principal moment exceeds the sum of the other two, be it by a digit that was cut off: libsdformat refuses that;
     3. in URDF, a link has a mass and no `<inertia>`, which is taken as zero.
 
-    Nearest means the least sum of squared changes of the nine elements. So that engines need not divide by zero, the
-    mass is left with some extent along every axis: `thickness`, or the part `margin` of the trace if that is more. It
-    runs only where it is asked for: the numbers that come out are possible, not measured.
+    Where the axes of the matrix have to be found, rounding may put a moment on either side of such a bound, in each
+    engine on another one: there a moment has to be clear of it. Nearest means the least sum of squared changes of the
+    nine elements. So that engines need not divide by zero, the mass is left with some extent along every axis:
+    `thickness`, or the part `margin` of the trace if that is more. It runs only where it is asked for: the numbers that
+    come out are possible, not measured.
 
     Never touches: an inertia that is possible, masses, centers of mass, and inertias that the simulator computes.
     Diagnostics: `balanced-inertia` with the change for each link, and `unbalanced-inertia` for links without a positive
@@ -57,6 +59,12 @@ class BalanceInertia(Pass):
         allow_inf_nan=False,
         description="The least second moment of mass along an axis, as a part of the trace: digits are cut off again.",
     )
+    least: float = Field(
+        default=0.0,
+        ge=0,
+        le=1e50,
+        description="The least principal moment, in kg m^2: MuJoCo takes those below 1e-14 for none.",
+    )
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document with inertias that bodies can have."""
@@ -74,7 +82,7 @@ class BalanceInertia(Pass):
 
     def _balance(self, link: Link, inertial: Inertial, matrix: Symmetric, sink: DiagnosticSink) -> Link:
         finite = all(map(math.isfinite, matrix))
-        if finite and _is_possible(matrix):
+        if finite and is_clearly_possible(matrix) and principal_moments(matrix)[0] >= self.least:
             return link
         if not finite or not has_mass(inertial):
             what = "has no positive mass" if finite else "is not finite"
@@ -92,17 +100,10 @@ class BalanceInertia(Pass):
         return link.model_copy(update={"inertial": inertial.model_copy(update={"inertia": inertia})})
 
     def _floor(self, mass: float, matrix: Symmetric) -> float:
-        """The least second moment of mass along an axis, in kg m^2."""
+        """The least second moment of mass along an axis, in kg m^2: a principal moment is the sum of two."""
         exponent = common_exponent(matrix)
         trace = abs(sum(times_each(matrix, -exponent)[:3]))
-        return max(times_power(self.margin * trace, exponent), mass * self.thickness * self.thickness)
-
-
-def _is_possible(matrix: Symmetric) -> bool:
-    """Whether there is a body with this inertia, without forgiving any rounding but our own."""
-    moments = relative_moments(matrix)
-    least = -1e-15 * abs(sum(moments))
-    return moments[0] > 0 and min(second_moments(moments)) >= least
+        return max(times_power(self.margin * trace, exponent), mass * self.thickness * self.thickness, self.least / 2)
 
 
 def _part(old: Symmetric, new: Symmetric) -> float:

@@ -18,6 +18,9 @@ from twinform.ir.verify.inertia import inertia_matrix
 
 ROUNDING = 1e-15
 """What ten operations on doubles leave of a moment that is exactly zero, as a part of the trace."""
+FOUND_AXES = 1e-8
+"""What libsdformat loses of the largest moment where it finds the axes of an inertia, by the roots of a cubic equation:
+two equal ones cost half of the digits. Others lose less."""
 DIGITS = 1e-6
 """What files lose by cutting digits off, as a part of the trace."""
 
@@ -35,6 +38,33 @@ def is_possible(inertial: Inertial, format_: Format) -> bool:
     smallest, middle, largest = relative_moments(matrix)
     trace = abs(smallest + middle + largest)
     return smallest > ROUNDING * trace and largest - smallest - middle <= DIGITS * trace
+
+
+def clearances(matrix: Symmetric) -> tuple[float, float]:
+    """The smallest principal moment, and what the largest lacks to the sum of the others, as parts of the largest.
+
+    An inertia of which one is less than zero is that of no body. All elements have to be finite.
+    """
+    smallest, middle, largest = relative_moments(matrix)
+    size = abs(largest) or 1.0
+    return smallest / size, (smallest + middle - largest) / size
+
+
+def doubt(matrix: Symmetric) -> float:
+    """How much of the clearances its readers lose: nothing where they need not find its axes."""
+    return FOUND_AXES if any(matrix[3:]) else 0.0
+
+
+def is_clearly_possible(matrix: Symmetric) -> bool:
+    """Whether a body can have this inertia, and every engine finds it so."""
+    smallest, gap = clearances(matrix)
+    lost = doubt(matrix)
+    return smallest > lost and gap >= lost
+
+
+def is_doubtful(matrix: Symmetric) -> bool:
+    """Whether one engine finds that a body can have this inertia, and another one does not, by how they round."""
+    return any(matrix[3:]) and abs(min(clearances(matrix))) <= doubt(matrix)
 
 
 Moments = tuple[float, float, float]

@@ -33,6 +33,7 @@ DETECTORS = (
             portability_engines.NESTED_IN_ENGINE,
             portability_engines.RARE_JOINT_TYPE,
             portability_engines.THREADLESS_SCREW,
+            portability_engines.UNCERTAIN_INERTIA,
             portability_engines.UNUSABLE_AXIS,
             portability_engines.WEIGHTLESS_MOVER,
         ),

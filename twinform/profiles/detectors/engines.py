@@ -12,14 +12,18 @@ from twinform.diagnostics.rules.portability_engines import (
     NESTED_IN_ENGINE,
     RARE_JOINT_TYPE,
     THREADLESS_SCREW,
+    UNCERTAIN_INERTIA,
     UNUSABLE_AXIS,
     WEIGHTLESS_MOVER,
 )
-from twinform.ir import Collision, Document, Format, Joint, Link, Material, Model, Sensor, walk
+from twinform.ir import Collision, Document, Format, Inertial, Joint, Link, Material, Model, Sensor, walk
+from twinform.ir.defaults import MOMENT
 from twinform.ir.solids import written_solid
+from twinform.ir.verify.inertia import inertia_matrix
 from twinform.passes.analyses.moving_bodies import Body, moving_bodies
 from twinform.passes.analyses.shapes import is_flat
 from twinform.passes.appearance.drop_bare_scripts import is_bare
+from twinform.passes.inertia.physical_consistency import is_doubtful
 from twinform.passes.limits.order_limits import is_usable
 from twinform.profiles.subject import Subject
 
@@ -39,18 +43,24 @@ def find_engine_faults(subject: Subject, sink: DiagnosticSink) -> None:
             _find_in_joint(node, sink)
         elif isinstance(node, Collision) and is_flat(node):
             sink.report(FLAT_COLLISION, f"collision {node.name!r} has no extent", node.location)
+        elif isinstance(node, Inertial) and _is_uncertain(node):
+            sink.report(UNCERTAIN_INERTIA, "whether a body has the inertia is a matter of rounding", node.location)
         elif isinstance(node, Material) and node.script is not None and is_bare(node.script):
             sink.report(BARE_SCRIPT, "a material script has no name, or no URI", node.script.location)
         elif isinstance(node, Sensor) and node.type in _LATE_SENSORS:
             sink.report(LATE_SENSOR, f"sensor {node.name!r} is of type {node.type}", node.location)
         elif isinstance(node, Model):
-            for nested in node.models:
-                message = f"model {nested.name!r} is in model {node.name!r}"
-                sink.report(NESTED_IN_ENGINE, message, nested.location)
+            _find_in_model(node, sink)
     for body in _weightless(document):
         link = body[0]
         message = f"link {link.name!r} moves, and has no mass or no inertia with what is fixed to it"
         sink.report(WEIGHTLESS_MOVER, message, link.location)
+
+
+def _find_in_model(model: Model, sink: DiagnosticSink) -> None:
+    for nested in model.models:
+        message = f"model {nested.name!r} is in model {model.name!r}"
+        sink.report(NESTED_IN_ENGINE, message, nested.location)
 
 
 def _find_in_joint(joint: Joint, sink: DiagnosticSink) -> None:
@@ -64,6 +74,12 @@ def _find_in_joint(joint: Joint, sink: DiagnosticSink) -> None:
             sink.report(UNUSABLE_AXIS, message, axis.location)
     if joint.type == "screw" and 0.0 in {joint.thread_pitch, joint.screw_thread_pitch}:
         sink.report(THREADLESS_SCREW, f"joint {joint.name!r} is a screw of pitch 0", joint.location)
+
+
+def _is_uncertain(inertial: Inertial) -> bool:
+    """Whether it is by rounding that an engine finds the inertia possible, or not."""
+    matrix = inertia_matrix(inertial.inertia, MOMENT[Format.SDF])
+    return not inertial.auto and matrix is not None and all(map(math.isfinite, matrix)) and is_doubtful(matrix)
 
 
 def _weightless(document: Document) -> Iterator[Body]:

@@ -14,7 +14,9 @@ _LIGHTEST = 1e-15
 _SMALLEST = 1e-14
 """In kg m2: principal moments below it are none to MuJoCo."""
 _SLACK = 1e-9
-"""By so much of it the largest moment may be more than the sum of the others."""
+"""By so much of it the largest moment may be more than the sum of the others, to Drake."""
+_ROUNDING = 1e-14
+"""What is lost where the axes of an inertia are found, as a part of its largest moment."""
 _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
@@ -30,6 +32,20 @@ class Body(NamedTuple):
     def is_empty(self) -> bool:
         """Whether all moments are 0."""
         return not any(self.moments)
+
+    @property
+    def excess(self) -> float | None:
+        """By how much the largest moment exceeds the sum of the others; None where it is none, or the world's."""
+        if self.principal is None or self.principal[0] <= 0 or _name(self.node) == "world":
+            return None
+        low, middle, high = self.principal
+        return high - (low + middle)
+
+    @property
+    def lost(self) -> float:
+        """What rounding does to a moment where the axes have to be found, in kg m2."""
+        _, xy, xz, _, yz, _ = self.moments
+        return _ROUNDING * self.principal[2] if self.principal is not None and (xy or xz or yz) else 0.0
 
 
 def bodies(root: Node) -> Iterator[Body]:
@@ -63,14 +79,15 @@ def indefinite(root: Node) -> Fact:
 def unbalanced(root: Node) -> Fact:
     """Inertias of which the largest moment is more than the other two together; the world has none."""
     for body in bodies(root):
-        is_real = body.principal is not None and body.principal[0] > 0 and _name(body.node) != "world"
-        if is_real and body.principal is not None and _is_unbalanced(body.principal):
+        if (excess := body.excess) is not None and excess > body.lost:
             yield body.node, f"link {_name(body.node)!r} has a moment above the sum of the other two"
 
 
-def _is_unbalanced(principal: tuple[float, ...]) -> bool:
-    low, middle, high = principal
-    return low + middle < high * (1 - _SLACK)
+def uncertain(root: Node) -> Fact:
+    """Inertias of which the largest moment is the sum of the other two, but for what rounding does with it."""
+    for body in bodies(root):
+        if (excess := body.excess) is not None and -body.lost < excess <= body.lost:
+            yield body.node, f"link {_name(body.node)!r} has a moment next to the sum of the other two"
 
 
 def unphysical(root: Node) -> Fact:
@@ -80,6 +97,11 @@ def unphysical(root: Node) -> Fact:
         wrong = principal is None or principal[0] < -_SLACK * abs(principal[2]) or _is_unbalanced(principal)
         if wrong or mass < 0 or (mass == 0 and not body.is_empty):
             yield body.node, f"link {_name(body.node)!r} has an inertia that no body has"
+
+
+def _is_unbalanced(principal: tuple[float, ...]) -> bool:
+    low, middle, high = principal
+    return low + middle < high * (1 - _SLACK)
 
 
 def weightless(root: Node) -> Fact:

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from twinform.ir import Pose
-from twinform.ir.principal_moments import Symmetric, principal_moments
+from twinform.ir.principal_moments import Symmetric
 from twinform.ir.solids import ORIGIN, Solid, combined, placed
 from twinform.ir.transform import Transform
+from twinform.passes.inertia.physical_consistency import clearances, doubt, is_doubtful
 from twinform.profiles.reading.extensions import fixed_joints, foreign_ends, is_static
 from twinform.profiles.reading.forms import FORMS
 from twinform.profiles.reading.nodes import Node
@@ -173,9 +174,7 @@ def _left(root: Node) -> tuple[_Body, ...]:
 
 
 def _is_possible(inertia: Symmetric) -> bool:
-    least, middle, greatest = sorted(principal_moments(inertia))
-    slack = _ROUNDING * abs(greatest)
-    return least >= -slack and least + middle >= greatest - slack
+    return min(clearances(inertia)) >= -max(_ROUNDING, doubt(inertia))
 
 
 def _impossible_when_lumped(root: Node) -> Fact:
@@ -186,6 +185,13 @@ def _impossible_when_lumped(root: Node) -> Fact:
             yield body.link, f"link {body.name!r} has the mass {one.mass:g} kg with what is fixed to it"
         elif _is_finite(one) and not _is_possible(one.inertia):
             yield body.link, f"no body has the inertia of link {body.name!r} with what is fixed to it"
+
+
+def _uncertain_when_lumped(root: Node) -> Fact:
+    """Bodies of which one reader finds that their inertia is possible, and another one does not."""
+    for body in _left(root):
+        if _is_finite(body.solid()) and is_doubtful(body.solid().inertia):
+            yield body.link, f"whether a body has the inertia of link {body.name!r} is a matter of rounding"
 
 
 def _placeless(root: Node) -> Fact:
@@ -214,6 +220,7 @@ def _foreign_ends(root: Node) -> Fact:
 
 FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "impossible-lumped-inertia": _impossible_when_lumped,
+    "uncertain-lumped-inertia": _uncertain_when_lumped,
     "placeless-lump": _placeless,
     "weightless-branch": _dropped,
     "nothing-left": _nothing_left,

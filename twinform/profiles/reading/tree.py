@@ -309,6 +309,7 @@ FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "unknown-child": _of_nowhere(1),
     "indefinite-inertia": bodies.indefinite,
     "unbalanced-inertia": bodies.unbalanced,
+    "uncertain-inertia": bodies.uncertain,
     "unphysical-inertia": bodies.unphysical,
     "shared-name": _shared_names,
     "weightless-body": bodies.weightless,
