@@ -19,6 +19,10 @@ _IMPOSSIBLE = """\
 </robot>
 """
 
+_STICKER = """<link name="a">
+    <inertial><mass value="1e-7"/><inertia ixx="3e-22" iyy="3e-22" izz="5e-22" ixy="0" ixz="0" iyz="0"/></inertial>
+  </link>"""
+
 
 def test_a_row_for_each_consumer(run: Run) -> None:
     done = run("advise", "-", text=_IMPOSSIBLE)
@@ -35,6 +39,16 @@ def test_what_a_consumer_minds_and_what_helps(run: Run) -> None:
     assert "refuses" in row
     assert "* changes the physics" in done.stdout
     assert ": line 4: " in done.stdout
+
+
+def test_a_pass_is_named_once_for_people_and_with_its_options_for_programs(run: Run) -> None:
+    text = _IMPOSSIBLE.replace('<link name="a"/>', _STICKER)
+    said = run("advise", "-", "--for", "mujoco", text=text).stdout
+    (row,) = [line for line in said.splitlines() if line.startswith("MuJoCo") and "balance-inertia" in line]
+    assert row.count("balance-inertia") == 1
+    assert "refuses: line 2: link 'a' has a moment that is not positive, or next to nothing, and 1 more" in said
+    found = json.loads(run("advise", "-", "--for", "mujoco", "--format", "json", text=text).stdout)
+    assert found["consumers"][0]["passes"] == ["balance-inertia{least=2e-14}", "balance-inertia"]
 
 
 def test_the_same_for_programs(run: Run) -> None:

@@ -9,6 +9,7 @@ from twinform.compiler.advice.advising import Advice
 from twinform.compiler.advice.consumers import Reading
 from twinform.diagnostics.reporters import printable
 from twinform.ir import Format
+from twinform.passes import Pipeline
 from twinform.profiles import Assessment, Effect, Judgment
 from twinform.profiles.remedies import changes_physics, remedies
 
@@ -86,7 +87,7 @@ def _cell(assessment: Assessment | None) -> str:
 def _help(assessment: Assessment | None) -> str:
     """The passes, in their order; a star is for those that change the physics."""
     steps = remedies([assessment]) if assessment else ()
-    return ", ".join(f"{step.name}{'*' if changes_physics(step) else ''}" for step in steps)
+    return ", ".join(dict.fromkeys(f"{step.name}{'*' if changes_physics(step) else ''}" for step in steps))
 
 
 def _details(advice: Advice) -> Iterator[str]:
@@ -107,7 +108,8 @@ def _told(reading: Reading, advice: Advice) -> Iterator[str]:
         judgments = [each for effect in effects for each in assessment.by(effect)]
         if judgments:
             first = judgments[0]
-            more = f", and {len(judgments) - 1} more" if len(judgments) > 1 else ""
+            others = len(assessment.by(first.row.effect)) - 1
+            more = f", and {others} more" if others else ""
             what = f" the {format_.upper()}" if len(reading.forms) > 1 else ""
             place = f"line {first.finding.location.line}: " if first.finding.location.line else ""
             yield printable(f"{reading.profile.label} {first.row.effect}{what}: {place}{first.finding.message}{more}")
@@ -121,7 +123,7 @@ def _consumer(reading: Reading) -> dict[str, object]:
         "version": profile.release or profile.seen,
         "tested": profile.tested,
         "forms": {str(format_): _form(each) for format_, each in reading.forms.items()},
-        "passes": [step.name for step in remedies(reading.forms.values())],
+        "passes": [str(Pipeline((step,))) for step in remedies(reading.forms.values())],
     }
 
 
