@@ -37,6 +37,7 @@ WITHOUT_CASE = {
     "no-differential-drive": "unit/compiler/packaging/ros2/test_controllers.py",
     "no-joint-states": "unit/compiler/packaging/ros2/test_packages.py",
     "no-thumbnail": "unit/compiler/packaging/gazebo_model/test_thumbnail.py",
+    "narrow-view": "portability/gazebo.toml",
     "nested-in-engine": "portability/gazebo.toml",
     "nothing-to-add-to": "unit/passes/plugins/test_add_plugin.py",
     "open-mesh": "unit/passes/analyses/test_meshes.py",

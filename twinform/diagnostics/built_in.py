@@ -117,6 +117,7 @@ BUILT_IN: Mapping[str, str] = {
     "moved-frame": "to_urdf",
     "name-clash": "edits",
     "name-made": "sdf_versions",
+    "narrow-view": "portability_engines",
     "negative-dynamics": "limits",
     "nested-in-engine": "portability_engines",
     "nested-model": "to_urdf",

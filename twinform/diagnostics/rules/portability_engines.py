@@ -68,6 +68,14 @@ LATE_SENSOR = Rule(
     example="`<sensor name='pitot' type='air_speed'>` under `--for gazebo@fortress`.",
     better="Leave the sensor out for Fortress: `drop{sensors=pitot}`.",
 )
+NARROW_VIEW = Rule(
+    name="narrow-view",
+    severity=Severity.INFO,
+    finds="A camera whose horizontal field of view is below 0.1 rad.",
+    matters="libsdformat 12 refuses the whole file; newer ones take views from 0.001 rad.",
+    example="`<horizontal_fov>0.088</horizontal_fov>` under `--for gazebo@fortress`.",
+    better="Write 0.1 for Fortress, or leave the sensor out: `drop{sensors=flow}`.",
+)
 MODEL_JOINT_END = Rule(
     name="model-joint-end",
     severity=Severity.INFO,

@@ -30,6 +30,7 @@ DETECTORS = (
             portability_engines.FLAT_COLLISION,
             portability_engines.LATE_SENSOR,
             portability_engines.MODEL_JOINT_END,
+            portability_engines.NARROW_VIEW,
             portability_engines.NESTED_IN_ENGINE,
             portability_engines.RARE_JOINT_TYPE,
             portability_engines.THREADLESS_SCREW,

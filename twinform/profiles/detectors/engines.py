@@ -9,6 +9,7 @@ from twinform.diagnostics.rules.portability_engines import (
     FLAT_COLLISION,
     LATE_SENSOR,
     MODEL_JOINT_END,
+    NARROW_VIEW,
     NESTED_IN_ENGINE,
     RARE_JOINT_TYPE,
     THREADLESS_SCREW,
@@ -25,10 +26,13 @@ from twinform.passes.analyses.shapes import is_flat
 from twinform.passes.appearance.drop_bare_scripts import is_bare
 from twinform.passes.inertia.physical_consistency import is_doubtful
 from twinform.passes.limits.order_limits import is_usable
+from twinform.profiles.reading.forms import number_in
 from twinform.profiles.subject import Subject
 
 _LATE_SENSORS = frozenset({"air_speed"})
 """What SDF 1.9 has no sensor of."""
+_NARROW = 0.1
+"""The least field of view of a camera in SDF 1.9 as libsdformat 12 has it, in rad."""
 _COMMON = frozenset({"revolute", "fixed"})
 """The types of joints that every engine has."""
 
@@ -47,8 +51,8 @@ def find_engine_faults(subject: Subject, sink: DiagnosticSink) -> None:
             sink.report(UNCERTAIN_INERTIA, "whether a body has the inertia is a matter of rounding", node.location)
         elif isinstance(node, Material) and node.script is not None and is_bare(node.script):
             sink.report(BARE_SCRIPT, "a material script has no name, or no URI", node.script.location)
-        elif isinstance(node, Sensor) and node.type in _LATE_SENSORS:
-            sink.report(LATE_SENSOR, f"sensor {node.name!r} is of type {node.type}", node.location)
+        elif isinstance(node, Sensor):
+            _find_in_sensor(node, sink)
         elif isinstance(node, Model):
             _find_in_model(node, sink)
     for body in _weightless(document):
@@ -61,6 +65,23 @@ def _find_in_model(model: Model, sink: DiagnosticSink) -> None:
     for nested in model.models:
         message = f"model {nested.name!r} is in model {model.name!r}"
         sink.report(NESTED_IN_ENGINE, message, nested.location)
+
+
+def _find_in_sensor(sensor: Sensor, sink: DiagnosticSink) -> None:
+    if sensor.type in _LATE_SENSORS:
+        sink.report(LATE_SENSOR, f"sensor {sensor.name!r} is of type {sensor.type}", sensor.location)
+    for view in _views(sensor):
+        if view < _NARROW:
+            message = f"a camera of sensor {sensor.name!r} sees {view:g} rad"
+            sink.report(NARROW_VIEW, message, sensor.location, found=f"{view:g}", expected=f"at least {_NARROW:g}")
+
+
+def _views(sensor: Sensor) -> Iterator[float]:
+    """How wide each camera sees, in rad."""
+    for part in sensor.opaque:
+        view = part.element.find("horizontal_fov") if part.element and part.element.name == "camera" else None
+        if view is not None and (width := number_in(view.text or "")) is not None:
+            yield width
 
 
 def _find_in_joint(joint: Joint, sink: DiagnosticSink) -> None:
