@@ -79,7 +79,24 @@ def test_a_file_that_the_library_does_not_survive_spoils_no_other(tmp_path: Path
     assert verdicts[good].ok
 
 
-@pytest.mark.parametrize("name", ["frame_link", "gazebo_joint", "gazebo_tags", "world_link"])
+def test_names_with_scopes_are_refused_but_in_plugins_and_behind_prefixes(tmp_path: Path):
+    elements = {
+        "plain": "<api name='a::b'/>",
+        "inner": "<api><part name='a::b'/></api>",
+        "plugin": "<plugin name='a::b' filename='p'><api name='a::b'/></plugin>",
+        "prefix": "<v:api xmlns:v='urn:v' name='a::b'><part name='a::b'/></v:api>",
+    }
+    paths = {name: tmp_path / f"{name}.sdf" for name in elements}
+    for name, path in paths.items():
+        path.write_text(f"<sdf version='1.9'><model name='m'><link name='a'>{elements[name]}</link></model></sdf>")
+    verdicts = libsdformat.judge(paths.values())
+    taken = {name for name, path in paths.items() if verdicts[path].ok}
+    assert taken == {"plugin", "prefix"}
+    ours = {name for name, path in paths.items() if not any(d.is_error for d in twinform.check(path).diagnostics)}
+    assert taken == ours
+
+
+@pytest.mark.parametrize("name", ["frame_link", "gazebo_joint", "gazebo_tags", "scoped_elements", "world_link"])
 def test_what_is_carried_is_passed_over_in_silence(name: str, tmp_path: Path):
     """Carriers and annotations are no concern of Gazebo."""
     made = twinform.convert(CASES / f"{name}.urdf", to="sdf", sdf_version=SDF_VERSION).text

@@ -164,6 +164,7 @@ BUILT_IN: Mapping[str, str] = {
     "replaced-shape": "appearance",
     "reserved-name": "model",
     "schema-disagreement": "structure",
+    "scoped-element": "to_sdf",
     "sdf-only": "to_urdf",
     "self-joint": "model",
     "sensor-mismatch": "bodies",

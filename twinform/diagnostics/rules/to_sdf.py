@@ -12,6 +12,15 @@ URDF_ONLY = Rule(
     better="Nothing needs doing: it is kept in a carrier, which every other reader skips. `--no-carriers` leaves it "
     "out.",
 )
+SCOPED_ELEMENT = Rule(
+    name="scoped-element",
+    severity=Severity.INFO,
+    finds="An element that SDF does not know, with `::` in its name, on the way into SDF 1.8 or newer.",
+    matters="libsdformat looks at the name of every element, and refuses the whole file for such a one.",
+    example="`<api name='ati::Sensor'/>` in a sensor of a `<gazebo>` element.",
+    better="Nothing needs doing: it is kept in a carrier, which every other reader skips. `--no-carriers` leaves it "
+    "out.",
+)
 MATERIAL_NAME = Rule(
     name="material-name",
     severity=Severity.INFO,

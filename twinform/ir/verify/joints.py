@@ -24,17 +24,18 @@ _ROUNDING = 1e-3
 """How far from 1 the length of an axis may be: files write three digits."""
 
 
-def verify_joint(joint: Joint, sink: DiagnosticSink) -> None:
-    """Report what is wrong with a joint by itself."""
+def verify_joint(joint: Joint, sink: DiagnosticSink, *, every_axis: bool = False) -> None:
+    """Report what is wrong with a joint by itself; `every_axis` is whether readers look at unused axes, too."""
     if joint.parent is not None and joint.parent == joint.child:
         message = f"joint {joint.name!r} connects {joint.parent!r} to itself"
         sink.report(names.SELF_JOINT, message, joint.location, found=joint.parent)
     freedoms = _FREEDOMS.get(joint.type, 0)
     axis, axis2 = joint.axis, joint.axis2
-    if axis is not None:
-        _verify_axis(joint, "axis", axis, sink, moves=freedoms > 0)
-    if axis2 is not None:
-        _verify_axis(joint, "axis2", axis2, sink, moves=freedoms > 1)
+    for number, (name, each) in enumerate((("axis", axis), ("axis2", axis2))):
+        if each is not None and freedoms > number:
+            _verify_axis(joint, name, each, sink)
+        elif each is not None:
+            _verify_unused(joint, name, each, sink, is_read=every_axis)
     if freedoms and (axis is None or axis.xyz is None):
         _missing(joint, "axis", sink)
     if freedoms > 1 and (axis2 is None or axis2.xyz is None):
@@ -46,11 +47,14 @@ def _missing(joint: Joint, name: str, sink: DiagnosticSink) -> None:
     sink.report(rules.MISSING_AXIS, message, joint.location, expected=f"<{name}>")
 
 
-def _verify_axis(joint: Joint, name: str, axis: Axis, sink: DiagnosticSink, *, moves: bool) -> None:
-    if not moves:
-        message = f"{joint.type} joint {joint.name!r} has an <{name}>, which nothing turns about or slides along"
-        sink.report(rules.UNUSED_AXIS, message, _place(joint, name, axis), found=f"<{name}>")
-        return
+def _verify_unused(joint: Joint, name: str, axis: Axis, sink: DiagnosticSink, *, is_read: bool) -> None:
+    message = f"{joint.type} joint {joint.name!r} has an <{name}>, which nothing turns about or slides along"
+    sink.report(rules.UNUSED_AXIS, message, _place(joint, name, axis), found=f"<{name}>")
+    if is_read and axis.xyz is not None and not any(axis.xyz):
+        _verify_length(joint, axis.xyz, _place(joint, name, axis), sink)
+
+
+def _verify_axis(joint: Joint, name: str, axis: Axis, sink: DiagnosticSink) -> None:
     if axis.xyz is not None:
         x, y, z = axis.xyz
         if x * x + y * y + z * z != 1.0:

@@ -4,7 +4,9 @@ from collections.abc import Iterable
 
 from twinform.diagnostics import DiagnosticSink, Severity
 from twinform.diagnostics.rules import model as rules
+from twinform.ir.document import Document
 from twinform.ir.node import Node
+from twinform.ir.scoped_elements import scoped_elements, scoped_parts_below
 
 Kinds = Iterable[tuple[str, Iterable[Node]]]
 """What shares a scope: the word for a kind, and the nodes of that kind."""
@@ -76,3 +78,12 @@ def report_reserved(kinds: Kinds, severity: Severity, sink: DiagnosticSink, *, s
             else:
                 continue
             sink.report(rules.RESERVED_NAME, message, where, found=name, severity=severity)
+
+
+def report_scoped_elements(document: Document, sink: DiagnosticSink) -> None:
+    """Report elements that SDF does not know and that have `::` in their names: libsdformat looks at these, too."""
+    for part in scoped_parts_below(document):
+        for element in scoped_elements(part.element) if part.element else ():
+            name = element.get("name")
+            message = f"<{element.name}> {name!r} has '::' in its name; libsdformat refuses the file for it"
+            sink.report(rules.RESERVED_NAME, message, part.location, found=name, severity=Severity.ERROR)

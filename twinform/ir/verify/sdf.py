@@ -14,7 +14,7 @@ from twinform.ir.model import Include, Model
 from twinform.ir.pose import Pose
 from twinform.ir.verify.inertia import verify_inertial
 from twinform.ir.verify.joints import verify_joint, verify_mimics
-from twinform.ir.verify.names import Kinds, report_names, report_reserved, report_scope
+from twinform.ir.verify.names import Kinds, report_names, report_reserved, report_scope, report_scoped_elements
 from twinform.ir.verify.plain_frames import has_plain_frames
 from twinform.ir.verify.poses import verify_rotation
 from twinform.ir.verify.references import References
@@ -74,6 +74,8 @@ class _Verifier:
             self.sink.report(rules.SEVERAL_AT_TOP, message, alone[1].location, related=(alone[0].location,))
         for model in document.models:
             self._at_top(model)
+        if self.scoped:
+            report_scoped_elements(document, self.sink)
 
     def _at_top(self, model: Model) -> None:
         """A model that stands in no world has nothing around it to be relative to."""
@@ -110,7 +112,7 @@ class _Verifier:
             self.model(nested)
 
     def _joint(self, joint: Joint) -> None:
-        verify_joint(joint, self.sink)
+        verify_joint(joint, self.sink, every_axis=True)  # libsdformat refuses any of length zero
         if joint.type == "continuous":
             message = f"joint {joint.name!r} is continuous, which no physics engine of Gazebo supports"
             where = joint.location.at("@type")

@@ -12,6 +12,7 @@ from twinform.passes.legalise.to_sdf.fold_gearboxes import FoldGearboxes
 from twinform.passes.legalise.to_sdf.fold_joints import FoldJoints
 from twinform.passes.legalise.to_sdf.follow_lumped_names import FollowLumpedNames
 from twinform.passes.legalise.to_sdf.frame_links import FrameLinks
+from twinform.passes.legalise.to_sdf.hide_scoped_elements import HideScopedElements
 from twinform.passes.legalise.to_sdf.joints import UrdfJoints
 from twinform.passes.legalise.to_sdf.leave_inertias import LeaveInertias
 from twinform.passes.legalise.to_sdf.mesh_uris import MeshUris
@@ -71,5 +72,6 @@ def to_sdf(
         DeclareQuaternions.unchecked(),
         *(lower_meaning(version) if mixed else lower_version(None, version, carriers=carriers)),
         *([RestoreNames.unchecked(to=Format.SDF, apart=True)] if before_named_frames else []),
+        *([HideScopedElements.unchecked(carriers=carriers)] if parse_version(version) >= _NAMES_MEAN_MODELS else []),
         RetargetSdf.unchecked(version=version, carriers=carriers, mixed=mixed_source),
     )

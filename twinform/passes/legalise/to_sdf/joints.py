@@ -106,7 +106,12 @@ class UrdfJoints(ModelPass):
                 return joint
 
     def _ball(self, joint: Joint, sink: DiagnosticSink) -> Joint:
-        """Any axis of a ball joint stays: its damping is that of the joint."""
+        """Any axis of a ball joint stays: its damping is that of the joint. SDF has none of length zero."""
+        if joint.axis is not None and joint.axis.xyz is not None and not any(joint.axis.xyz):
+            written = " ".join(format_value(each) for each in joint.axis.xyz)
+            joint = joint.model_copy(update={"axis": joint.axis.model_copy(update={"xyz": None})})
+            pieces = [Opaque.unchecked(at="axis", attribute=("xyz", written))]
+            joint = self._keep(joint, pieces, f"the axis of joint {joint.name!r} has no direction", sink)
         limit = joint.axis.limit if joint.axis else None
         if joint.axis is None or limit is None:
             return joint

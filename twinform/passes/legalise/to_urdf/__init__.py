@@ -25,6 +25,7 @@ from twinform.passes.legalise.to_urdf.restore_materials import RestoreMaterials
 from twinform.passes.legalise.to_urdf.restore_shapes import RestoreShapes
 from twinform.passes.legalise.to_urdf.select_model import SelectModel
 from twinform.passes.legalise.to_urdf.share_visuals import ShareVisuals
+from twinform.passes.legalise.to_urdf.show_scoped_elements import ShowScopedElements
 from twinform.passes.legalise.to_urdf.turn_frames_into_links import TurnFramesIntoLinks
 from twinform.passes.legalise.to_urdf.unfold_joints import UnfoldJoints
 from twinform.passes.legalise.to_urdf.unpack_urdf import UnpackUrdf
@@ -50,6 +51,7 @@ def to_urdf(
     shapes: UrdfVersion = "1.2" if mixed else urdf_version
     return (
         SelectModel.unchecked(model=model),
+        ShowScopedElements.unchecked(),
         UpgradeSdf.unchecked(carriers=carriers, mixed=mixed_source),
         GatherImuNoise.unchecked(version=versions_of("sdf")[-1], annotated=True),
         FlattenForUrdf.unchecked(carriers=carriers),

@@ -1,0 +1,40 @@
+"""Hiding unknown elements with `::` in their names from readers of SDF, which refuse the whole file for one."""
+
+from typing import ClassVar
+
+from twinform.diagnostics import DiagnosticSink, Fate
+from twinform.diagnostics.rules import to_sdf
+from twinform.ir import PLAIN, Model, Node, rewrite
+from twinform.ir.scoped_elements import scoped_parts
+from twinform.passes.carriers.carriers import carry
+from twinform.passes.framework.base import ModelPass
+
+
+class HideScopedElements(ModelPass):
+    """Put unknown elements with `::` in their names into carriers.
+
+    Changes: elements without a type, such as `<api name='ati::Sensor'/>` in a sensor of a `<gazebo>` element. Since SDF
+    1.8 no name has `::`, and libsdformat refuses a file with one in an element that it does not even know. With
+    `carriers` false they are left out.
+    Never touches: plugins and what is in them, and elements with a prefix.
+    Diagnostics: none; ledger entries under `scoped-element`.
+    """
+
+    name: ClassVar[str] = "hide-scoped-elements"
+    carriers: bool = True
+
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
+        """The model without such elements but in carriers."""
+        return rewrite(model, Node, lambda node: self._hidden(node, sink), having=PLAIN)
+
+    def _hidden(self, node: Node, sink: DiagnosticSink) -> Node:
+        scoped = scoped_parts(node)
+        if not scoped:
+            return node
+        fate = Fate.CARRIED if self.carriers else Fate.DROPPED
+        for part in scoped:
+            message = f"{part.name} has '::' in a name, which readers of SDF refuse since 1.8"
+            sink.account(fate, to_sdf.SCOPED_ELEMENT, message, part.location, part.weight)
+        rest = tuple(part for part in node.opaque if part not in scoped)
+        node = node.model_copy(update={"opaque": rest})
+        return carry(node, scoped, "sdf") if self.carriers else node
