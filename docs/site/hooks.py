@@ -1,4 +1,4 @@
-"""Hooks of the site's build: the lists of how-to and evidence pages, and links that lead out of docs/.
+"""Hooks of the site's build: the list of evidence pages, what the search puts first, and links that lead out of docs/.
 
 A page of docs/ links to files of the repository, such as cases and examples, as a code host wants it. Here such a file
 goes into the site as it is, below `source/`; a link to a folder becomes its text.
@@ -15,7 +15,9 @@ from mkdocs.structure.pages import Page
 _ROOT = Path(__file__).parents[2]
 _LINK = re.compile(r"\[(?P<text>(?:[^\[\]]|\[[^\]]*\])*)\]\((?P<path>(?:\.\./)+[^)#\s]*)(?P<anchor>#[^)\s]*)?\)")
 _TITLE = re.compile(r"^# (.+)$", re.MULTILINE)
-_LISTED = {"How-to": "how-to", "Evidence": "evidence"}
+_LISTED = {"Evidence": "evidence"}
+_LATER = {"evidence": 0.2, "explanation": 0.4}
+"""What the search makes of matches in pages of a folder: who looks for a word wants to use it first."""
 _copied: dict[str, File] = {}
 
 
@@ -48,8 +50,9 @@ def on_files(files: Files, config: Any) -> Files:
 
 
 def on_page_markdown(markdown: str, *, page: Page, config: Any, files: Files) -> str:
-    """Let links out of docs/ lead to the copies."""
+    """Let links out of docs/ lead to the copies, and say how much the search makes of the page."""
     del config, files
+    page.meta["search"] = {"boost": _LATER.get(posixpath.dirname(page.file.src_uri), 1.0)}
 
     def changed(match: re.Match[str]) -> str:
         target = _outside(page.file.src_uri, match["path"])

@@ -50,7 +50,8 @@ def test_an_svg_is_dark_on_a_dark_screen(watched: Watched, tmp_path: Path) -> No
     for scheme in ("light", "dark"):
         page.emulate_media(color_scheme=scheme)
         colors.append(page.evaluate("() => getComputedStyle(document.querySelector('.page')).fill"))
-    assert colors == ["rgb(255, 255, 255)", "rgb(18, 24, 31)"]
+        colors.append(page.evaluate("() => getComputedStyle(document.documentElement).backgroundColor"))
+    assert colors == ["rgb(255, 255, 255)"] * 2 + ["rgb(18, 24, 31)"] * 2, "beside the drawing too"
 
 
 @pytest.mark.skipif(not _MERMAID.is_file(), reason="Mermaid is not here: npm install --prefix out/readers mermaid")

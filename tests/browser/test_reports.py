@@ -133,6 +133,30 @@ def test_nothing_is_wider_than_a_narrow_screen(watched: Watched, tmp_path: Path)
     assert page.evaluate("() => document.documentElement.scrollWidth") <= 360
 
 
+def test_names_are_readable_on_a_narrow_screen(watched: Watched, tmp_path: Path) -> None:
+    watched.page.set_viewport_size({"width": 360, "height": 700})
+    page = _open(watched, tmp_path, EXAMPLES / "rover.urdf")
+    lines = page.evaluate(
+        "() => [...document.querySelectorAll('#masses tbody th, #reach tbody th')]"
+        ".map(each => { const range = document.createRange(); range.selectNodeContents(each);"
+        " return new Set([...range.getClientRects()].map(box => box.top)).size })"
+    )
+    assert lines
+    assert max(lines) <= 2
+    page.locator("#masses .scroller").evaluate("each => each.scrollLeft = 400")
+    box = page.locator("#masses tbody th").first.bounding_box()
+    assert box
+    assert box["x"] >= 0, "the names stay where the numbers scroll"
+
+
+def test_a_badge_in_the_tree_leads_to_its_finding_though_it_is_folded(watched: Watched, tmp_path: Path) -> None:
+    page = _open(watched, tmp_path, EXAMPLES / "four_wheels.urdf", view=None)
+    finding = page.locator("#note-a0")
+    assert not finding.is_visible()
+    page.locator(".tree a.badge").first.click()
+    assert finding.is_visible()
+
+
 def test_it_can_be_printed(watched: Watched, tmp_path: Path) -> None:
     page = _open(watched, tmp_path, EXAMPLES / "rover.urdf")
     page.emulate_media(media="print")

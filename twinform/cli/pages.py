@@ -39,11 +39,11 @@ def _chapter(name: str, command: click.Command) -> str:
     context = click.Context(command, info_name=name, max_content_width=_WIDTH, terminal_width=_WIDTH)
     usage = " ".join([name, *command.collect_usage_pieces(context)])
     records = (parameter.get_help_record(context) for parameter in command.get_params(context))
-    options = "\n".join(f"| `{_cell(names)}` | {_cell(text)} |" for names, text in filter(None, records))
+    options = "\n".join(f"| `{_cell(names)}` | {_cell(text)} |" for names, text in filter(None, records) if text)
     shown = command.examples.items() if isinstance(command, Command) else ()
-    examples = "\n".join(f"{what}:\n\n    {typed}\n" for what, typed in shown)
+    examples = "\n".join(f"{what}:\n\n```sh\n{typed}\n```\n" for what, typed in shown)
     about = "\n\n".join(_plain(part) for part in (command.help or "").split("\n\n"))
-    return f"## {name}\n\n    {usage}\n\n{about}\n\n| option | |\n| --- | --- |\n{options}\n\n{examples}"
+    return f"## {name}\n\n```text\n{usage}\n```\n\n{about}\n\n| option | |\n| --- | --- |\n{options}\n\n{examples}"
 
 
 def _plain(text: str) -> str:

@@ -103,7 +103,7 @@ class Joint(Node):
         pose: of the joint frame: in the parent link's frame in URDF, in the child's in SDF unless it names another.
         axis: the first degree of freedom.
         axis2: the second one, of `universal` and `revolute2`.
-        gearbox_ratio: of `gearbox`: turns of the one side for one of the other.
+        gearbox_ratio: of `gearbox`: turns of the one side for one of the other; without a unit.
         gearbox_reference_body: of `gearbox`: the link that both angles are taken from.
         thread_pitch: of `screw`, as older files write it: rad/m, left-handed.
         screw_thread_pitch: of `screw`: m per revolution, right-handed.

@@ -12,9 +12,9 @@ class Light(Node):
         type: `point`, `directional` or `spot`.
         pose: of the light, in the frame of its holder unless it names another.
         cast_shadows: whether it does.
-        intensity: a factor of both colors.
+        intensity: a factor of both colors; without a unit.
         diffuse: the color of what it lights; red, green, blue and perhaps alpha, each from 0 to 1.
-        specular: the color of its reflections, likewise.
+        specular: the color of its reflections; red, green, blue and perhaps alpha, each from 0 to 1.
         direction: where it shines, in the frame of the light; without a unit.
     """
 

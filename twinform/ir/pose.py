@@ -11,7 +11,7 @@ class Pose(Node):
     Attributes:
         xyz: the translation; m.
         rpy: the rotation as fixed-axis roll, pitch, yaw, R = Rz(yaw) Ry(pitch) Rx(roll); rad, or degrees if `degrees`.
-        quat_xyzw: the rotation as a quaternion x, y, z, w, in place of `rpy`.
+        quat_xyzw: the rotation as a quaternion x, y, z, w, in place of `rpy`; without a unit.
         degrees: whether `rpy` is in degrees.
         rotation_format: the attribute of SDF, `euler_rpy` or `quat_xyzw`, kept because it may be written for `rpy` too.
         relative_to: the frame that the pose is expressed in; `None` for that of the holder.

@@ -8,6 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field, SkipValidation
 from pydantic.json_schema import SkipJsonSchema
 
 from twinform.diagnostics import NOWHERE, Location, Source
+from twinform.ir.signature import FieldSignature
 
 Values = ParamSpec("Values")
 AnyPart = TypeVar("AnyPart", bound="Sourced")
@@ -23,6 +24,8 @@ class Sourced(BaseModel):
     """
 
     __slots__ = ("_census",)  # what `twinform.ir.census` has found, once it was asked
+
+    __signature__ = FieldSignature()  # pyright: ignore[reportAssignmentType] - it is one where it is read
 
     model_config = ConfigDict(frozen=True, extra="forbid", ser_json_inf_nan="strings", defer_build=True)
 

@@ -23,13 +23,13 @@ class Material(Node):
 
     Attributes:
         name: of URDF, where visuals share a material.
-        color: of URDF.
+        color: of URDF; each part from 0 to 1.
         texture: the URI of an image, of URDF.
         script: a material of Gazebo Classic, of SDF.
-        ambient: the color in the light from everywhere, of SDF.
-        diffuse: the color in the light from somewhere, of SDF.
-        specular: the color of reflections, of SDF.
-        emissive: the color that it has without light, of SDF.
+        ambient: the color in the light from everywhere, of SDF; each part from 0 to 1.
+        diffuse: the color in the light from somewhere, of SDF; each part from 0 to 1.
+        specular: the color of reflections, of SDF; each part from 0 to 1.
+        emissive: the color that it has without light, of SDF; each part from 0 to 1.
         albedo_map: the URI of an image, of SDF's metal-rough materials.
     """
 
@@ -103,7 +103,7 @@ class Collision(Node):
         geometry: the shape.
         surface: what happens where it touches.
         max_contacts: how many points of contact a simulator keeps.
-        laser_retro: the intensity that a lidar gets back.
+        laser_retro: the intensity that a lidar gets back; without a unit.
     """
 
     name: str | None = None

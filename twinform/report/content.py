@@ -18,7 +18,7 @@ from twinform.compiler.inspection import inspect
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.scene import Scene, build_scene
 from twinform.compiler.search.uris import SearchPath
-from twinform.compiler.statistics import FileStatistics, measure
+from twinform.compiler.statistics import FileStatistics, MeshCost, ModelStatistics, measure
 from twinform.diagnostics import Diagnostic, Ledger, Severity
 from twinform.diagnostics.reporters import Findings
 from twinform.ir import Document, Format
@@ -45,6 +45,17 @@ class Subject:
     def title(self) -> str:
         """What the model or world is called, or else the file."""
         return (self.graph.title if self.graph else "") or Path(self.name).name
+
+    @property
+    def models(self) -> tuple[ModelStatistics, ...]:
+        """The numbers of every model, those of worlds first; nothing where the file has errors."""
+        found = self.statistics
+        return (*(model for world in found.worlds for model in world.models), *found.models) if found else ()
+
+    @property
+    def meshes(self) -> tuple[MeshCost, ...]:
+        """The mesh files of all models, each once."""
+        return tuple({each.uri: each for model in self.models for each in model.meshes}.values())
 
     def count(self, severity: Severity) -> int:
         """How many findings are so bad."""

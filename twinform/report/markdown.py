@@ -120,9 +120,7 @@ def _table(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]], most
 def _numbers(report: Report, _: int) -> Iterator[str]:
     """A line for each model."""
     for subject in report.subjects:
-        found = subject.statistics
-        models = (*(model for world in found.worlds for model in world.models), *found.models) if found else ()
-        for number, model in enumerate(islice(models, 10)):
+        for number, model in enumerate(islice(subject.models, 10)):
             yield "" if number == 0 else "  "
             freedom = f"{count(model.dof, 'degree')} of freedom"
             words = (count(model.links, "link"), count(sum(model.joints.values()), "joint"), freedom)

@@ -1,12 +1,14 @@
 """HTML that escapes by type: what is no `Markup` is text, so no name of a file can become a tag."""
 
+import re
 from collections.abc import Iterable
 from html import escape
 
 from twinform.diagnostics.reporters import printable
 
-_WITHOUT_END = frozenset({"meta", "img", "br"})
+_WITHOUT_END = frozenset({"meta", "img", "br", "wbr"})
 _LINES = frozenset({"\n", "\t"})
+_PIECES = re.compile(r"[^/_:.]*[/_:.]*")
 
 
 class Markup(str):
@@ -34,9 +36,13 @@ def element(tag: str, *parts: Part, **attributes: Value) -> Markup:
     return Markup(start) if tag in _WITHOUT_END else Markup(f"{start}{join(parts)}</{tag}>")
 
 
-def join(parts: Iterable[Part], between: str = "") -> Markup:
+def join(parts: Iterable[Part], between: Markup | str = "") -> Markup:
     """Several parts as one."""
-    return Markup(plain(between).join(part if isinstance(part, Markup) else plain(part) for part in parts if part))
+    return Markup(_markup(between).join(_markup(part) for part in parts if part))
+
+
+def _markup(part: Markup | str) -> Markup:
+    return part if isinstance(part, Markup) else plain(part)
 
 
 def plain(text: str) -> Markup:
@@ -44,3 +50,8 @@ def plain(text: str) -> Markup:
     if not text.isprintable():
         text = "".join(each if each in _LINES else printable(each) for each in text)
     return Markup(escape(text))
+
+
+def breakable(text: str) -> Markup:
+    """A name or path that may be broken between its words, which browsers break anywhere or nowhere."""
+    return join(filter(None, map(plain, _PIECES.findall(text))), between=element("wbr"))

@@ -9,7 +9,7 @@ from twinform.diagnostics import Fate, Severity
 from twinform.package_files import package_files
 from twinform.report.content import Converted, Report
 from twinform.report.frame import framed, policy
-from twinform.report.markup import Markup, element, join
+from twinform.report.markup import Markup, breakable, element, join
 from twinform.report.parts import count
 from twinform.report.sections import SECTIONS
 
@@ -53,12 +53,12 @@ def _head(report: Report, title: str) -> Markup:
 def verdicts(report: Report) -> Iterator[Markup]:
     """What there is to know first, each in a few words."""
     for each in report.subjects:
-        name = f"{each.name}: " if report.second else ""
+        file = join((breakable(each.name), ": ")) if report.second else None
         errors, warnings = each.count(Severity.ERROR), each.count(Severity.WARNING)
         tone = "error" if errors else "warning" if warnings else None
         notes = each.count(Severity.INFO)
         words = ", ".join((count(errors, "error"), count(warnings, "warning"), count(notes, "note")))
-        yield element("li", name + words, class_=tone)
+        yield element("li", file, words, class_=tone)
     if report.comparison:
         yield element("li", summary(report.comparison), class_=None if report.comparison.same else "warning")
     if report.converted:
@@ -75,7 +75,7 @@ def outcome(converted: Converted) -> str:
 
 
 def _files(report: Report) -> Markup:
-    names = [element("code", each.name) for each in report.subjects]
+    names = [element("code", breakable(each.name)) for each in report.subjects]
     return element("p", join(names, " and "), class_="quiet")
 
 

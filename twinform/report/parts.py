@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from twinform.diagnostics import Location
-from twinform.report.markup import Markup, Part, element, join
+from twinform.report.markup import Markup, Part, breakable, element, join
 
 MOST_ROWS = 2000
 """Longer tables are cut, and say so."""
@@ -59,7 +59,7 @@ def table(
     more = element("p", f"and {count(left, 'more row')}") if left > 0 else None
     made = element(
         "table",
-        element("caption", caption),
+        element("caption", element("span", caption)),
         element("thead", head),
         body,
         element("tfoot", total) if total else None,
@@ -78,7 +78,7 @@ def _head(text: str, *, sortable: bool) -> Markup:
 
 def _row(cells: Sequence[Cell | Part]) -> Markup:
     first, *rest = cells
-    return element("tr", element("th", _text(first), scope="row"), *map(_cell, rest))
+    return element("tr", element("th", _name(first), scope="row"), *map(_cell, rest))
 
 
 def _cell(cell: Cell | Part) -> Markup:
@@ -88,8 +88,9 @@ def _cell(cell: Cell | Part) -> Markup:
     return element("td", cell)
 
 
-def _text(cell: Cell | Part) -> Part:
-    return cell.text if isinstance(cell, Cell) else cell
+def _name(cell: Cell | Part) -> Part:
+    text = cell.text if isinstance(cell, Cell) else cell
+    return text if text is None or isinstance(text, Markup) else breakable(text)
 
 
 def place(where: Location, file: str) -> str:

@@ -1,6 +1,11 @@
 """Hypothesis profiles, by how deep they search: `settings.load_profile("twinform-deep")`."""
 
 import sys
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from hypothesis.strategies import SearchStrategy
 
 PROFILES = {"smoke": 15, "default": 100, "deep": 1000}
 """How many examples each property is tried with."""
@@ -23,14 +28,20 @@ def register() -> None:
 
 
 def register_types() -> None:
-    """Let `st.from_type(Document)` and the like draw models that are valid."""
+    """Let `st.from_type(Document)` and the like draw models that are valid.
+
+    The strategies are imported when one is drawn from: it may be they who import Hypothesis, and are not ready yet.
+    """
     from hypothesis import strategies as st  # noqa: PLC0415 - few programs test
 
     from twinform.ir import Document, Inertial, Joint, Link, Pose  # noqa: PLC0415 - as above
-    from twinform.testing import strategies  # noqa: PLC0415 - as above
 
-    st.register_type_strategy(Document, strategies.robots() | strategies.sdf_models())
-    st.register_type_strategy(Inertial, strategies.inertials())
-    st.register_type_strategy(Joint, strategies.joints())
-    st.register_type_strategy(Link, strategies.links())
-    st.register_type_strategy(Pose, strategies.poses())
+    st.register_type_strategy(Document, lambda _: _strategy("robots") | _strategy("sdf_models"))
+    st.register_type_strategy(Inertial, lambda _: _strategy("inertials"))
+    st.register_type_strategy(Joint, lambda _: _strategy("joints"))
+    st.register_type_strategy(Link, lambda _: _strategy("links"))
+    st.register_type_strategy(Pose, lambda _: _strategy("poses"))
+
+
+def _strategy(name: str) -> "SearchStrategy[Any]":
+    return getattr(import_module("twinform.testing.strategies"), name)()

@@ -1,8 +1,10 @@
 """Every field of every node is described where `help` and the reference of the IR read it: in the class's docstring."""
 
 import importlib
+import inspect
 import pkgutil
 import pydoc
+import re
 from collections.abc import Iterator
 
 import pytest
@@ -39,6 +41,33 @@ def test_every_field_is_described(name: str):
     assert all(description.endswith(".") for description in described.values())
 
 
+_UNIT = re.compile(r"\b(m|rad|kg|s|Hz|N|m\\^2|m/s|rad/s|degrees|pixels)\b|without a unit|from 0 to 1|from -1 to 1")
+
+
+@pytest.mark.parametrize("name", sorted(KINDS))
+def test_every_number_has_a_unit_or_says_that_it_has_none(name: str):
+    kind = KINDS[name]
+    described = _described(kind)
+    numbers = {
+        field for field, info in kind.model_fields.items() if re.search(r"\bfloat\b", str(info.annotation))
+    } & described.keys()
+    assert [field for field in numbers if not _UNIT.search(described[field])] == []
+
+
 def test_help_begins_with_the_fields():
     shown = pydoc.plain(pydoc.render_doc(twinform.ir.Link))
     assert shown.index("inertial: mass, center of mass and inertia") < shown.index("Method resolution order")
+
+
+@pytest.mark.parametrize("name", sorted(KINDS))
+def test_help_has_the_types_and_defaults_of_the_fields(name: str):
+    kind = KINDS[name]
+    parameters = inspect.signature(kind).parameters
+    for field, info in kind.model_fields.items():
+        if not info.exclude:
+            assert parameters[field].annotation is not inspect.Parameter.empty
+            assert (parameters[field].default is inspect.Parameter.empty) == info.is_required()
+
+
+def test_a_part_itself_has_no_signature():
+    assert not hasattr(twinform.ir.Link(name="base"), "__signature__")

@@ -2,7 +2,7 @@
 
 import pytest
 
-from twinform.report.markup import Markup, element, join, plain
+from twinform.report.markup import Markup, breakable, element, join, plain
 
 
 def test_text_is_escaped_and_markup_is_not() -> None:
@@ -30,3 +30,9 @@ def test_lines_stay_lines() -> None:
 
 def test_joined_parts_are_escaped_with_what_is_between() -> None:
     assert join(("<", None, Markup("<br>")), " & ") == "&lt; &amp; <br>"
+
+
+def test_names_can_be_broken_behind_their_words_and_nowhere_else() -> None:
+    assert breakable("package://a_b/left::wheel.dae") == "package://<wbr>a_<wbr>b/<wbr>left::<wbr>wheel.<wbr>dae"
+    assert breakable("<b>") == "&lt;b&gt;"
+    assert breakable("") == ""

@@ -226,3 +226,32 @@ def test_the_view_gets_what_differs():
     text = html(build_report(EXAMPLES / "gripper.urdf", EXAMPLES / "arm.urdf", view=page))
     assert seen == ["gripper", "arm", False]
     assert "what differs is red" in text
+
+
+def test_a_badge_in_the_tree_is_as_bad_as_the_worst_finding_and_leads_to_it() -> None:
+    page = _page(Path(__file__).parents[2] / "cases/check/all_at_once.urdf")
+    (badge,) = [found for found in page.all("a") if "badge" in (found.get("class") or "")]
+    assert badge["class"] == "badge error"
+    assert badge["href"] == "#error-a0"
+    assert page.all("li")[-1] != badge
+    assert [found["id"] for found in page.all("li") if "id" in found] == [
+        "error-a0", "error-a1", "warning-a0", "note-a0",
+    ]  # fmt: skip
+
+
+def test_findings_of_two_files_have_anchors_of_their_own() -> None:
+    page = _page(WRONG.encode(), WRONG.encode())
+    anchors = [found["id"] for _, found in page.tags if "id" in found]
+    assert {"error-a0", "error-b0"} <= set(anchors)
+    assert len(anchors) == len(set(anchors))
+
+
+def test_boxes_for_meshes_that_are_not_there_are_explained(tmp_path: Path) -> None:
+    robot = '<robot name="r"><link name="l"><visual><geometry><mesh filename="{}"/></geometry></visual></link></robot>'
+    page = _page(robot.format("gone.stl").encode())
+    assert "Wire boxes stand for 1 mesh file that could not be read: why." in page.text
+    assert "#meshes" in {found.get("href") for found in page.all("a")}
+    facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet"
+    (tmp_path / "here.stl").write_text(f"solid a\n{facet}\nendsolid a\n")
+    (tmp_path / "robot.urdf").write_text(robot.format("here.stl"))
+    assert "Wire boxes" not in _page(tmp_path / "robot.urdf").text

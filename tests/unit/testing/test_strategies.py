@@ -1,5 +1,7 @@
 """What the strategies draw is valid, and what breaks shrinks to little."""
 
+import subprocess
+import sys
 from collections.abc import Callable
 from random import Random
 from typing import Any, Literal
@@ -97,3 +99,13 @@ def test_types_have_strategies(kind: type[Node]) -> None:
 def test_hypothesis_knows_the_profiles() -> None:
     for name, examples in profiles.PROFILES.items():
         assert settings.get_profile(f"twinform-{name}").max_examples == examples
+
+
+@pytest.mark.parametrize("first", ["twinform.testing", "twinform.ir", "hypothesis"])
+def test_the_kit_may_be_imported_in_any_order(first: str) -> None:
+    """Hypothesis calls the kit when it is imported, also where the kit is what imports it."""
+    program = (
+        f"import {first}\nfrom twinform.testing import strategies\nfrom hypothesis import strategies as st\n"
+        "from twinform.ir import Link\nassert st.from_type(Link).validate() is None"
+    )
+    subprocess.run([sys.executable, "-c", program], check=True)

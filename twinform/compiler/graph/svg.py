@@ -23,14 +23,16 @@ _SORTS: Mapping[str, str] = {
 }
 """Classes of joints that have a color; the type stands at each."""
 _STYLE = """
-.page{fill:#fff}.link,.world{fill:#eef3f9;stroke:#52677d}.frame{fill:none;stroke:#52677d;stroke-dasharray:5 3}
+:root:is(svg){background:#fff}.page{fill:#fff}
+.link,.world{fill:#eef3f9;stroke:#52677d}.frame{fill:none;stroke:#52677d;stroke-dasharray:5 3}
 .include{fill:#f6f0e0;stroke:#80631d}.missing{fill:none;stroke:#b3261e;stroke-dasharray:5 3}.world{stroke-width:3}
 .cluster{fill:#52677d;fill-opacity:.06;stroke:#8496a9}.edge{fill:none;stroke:#6a7a8a;stroke-width:1.5}
 .turns{stroke:#1f5fa8}.slides{stroke:#1c7a45}.moves{stroke:#7b3fa0}.attached{stroke-dasharray:3 3}
 .across{stroke-dasharray:7 4}.follows{stroke:#a3480f;stroke-dasharray:2 4}
 text{font:13px system-ui,sans-serif;fill:#1b2733}.small{font-size:11px;fill:#43566a}
 .name{font-size:11px;font-weight:600}.title{font-size:16px;font-weight:600}.gone{fill:#b3261e}.how{font-size:11px;fill:#8a3c0b}
-@media (prefers-color-scheme:dark){.page{fill:#12181f}.link,.world{fill:#1f2a36;stroke:#8fa3b8}.frame{stroke:#8fa3b8}
+@media (prefers-color-scheme:dark){:root:is(svg){background:#12181f}.page{fill:#12181f}
+.link,.world{fill:#1f2a36;stroke:#8fa3b8}.frame{stroke:#8fa3b8}
 .include{fill:#2f2915;stroke:#d0ac55}.missing{stroke:#ff8a80}.cluster{fill:#8fa3b8;stroke:#5d7186}.edge{stroke:#8b9cad}
 .turns{stroke:#78b4f5}.slides{stroke:#6fd39b}.moves{stroke:#cf9bf0}.follows{stroke:#f0a06c}
 text{fill:#e8eef5}.small{fill:#b3c1d0}.gone{fill:#ff8a80}.how{fill:#f0a06c}}

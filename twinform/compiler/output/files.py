@@ -15,7 +15,7 @@ _PREFIX = 64
 """So much of its name has a file that is being written, which must not be longer than the name that it will have."""
 
 
-def write_atomically(path: Path, text: str | bytes) -> None:
+def write_atomically(path: str | Path, text: str | bytes) -> None:
     """Put the text where `path` is, all of it or nothing: it is written beside it and then moved over it.
 
     Folders that are missing are made. The permissions of a file that is replaced stay. A symbolic link is followed. A
@@ -24,7 +24,7 @@ def write_atomically(path: Path, text: str | bytes) -> None:
     Raises:
         OSError: the text could not be written; the old file is untouched.
     """
-    write_all_atomically({path: text})
+    write_all_atomically({Path(path): text})
 
 
 def write_all_atomically(

@@ -2,10 +2,10 @@
 
 from collections.abc import Sequence
 
-from twinform.diagnostics import Fate, Ledger
+from twinform.diagnostics import Diagnostic, Fate, Ledger
 from twinform.diagnostics.ledger import Entry
 from twinform.report.content import Converted, Report
-from twinform.report.markup import Markup, element, join
+from twinform.report.markup import Markup, breakable, element, join
 from twinform.report.parts import Cell, bar, count, folded, place, table
 
 _MEANINGS = {
@@ -28,7 +28,7 @@ def conversion(report: Report) -> Markup | None:
     ledger, path, target = converted.ledger, report.first.findings.path, converted.target.upper()
     counts = {"expressed": ledger.expressed} | {fate.value: ledger.count(fate) for fate in _MEANINGS}
     whole = sum(counts.values())
-    rows = ((name, Cell(f"{parts:,}", parts), bar(parts, whole)) for name, parts in counts.items())
+    rows = ((fate, Cell(f"{parts:,}", parts), bar(parts, whole)) for fate, parts in counts.items())
     return join((
         element("p", f"What became of the {whole:,} elements and attributes of the source in {target}:"),
         table("Elements and attributes by fate", ("Fate", "How many", "Share"), rows),
@@ -39,8 +39,12 @@ def conversion(report: Report) -> Markup | None:
 def _refused(converted: Converted) -> Markup:
     return join((
         element("p", f"The model cannot be converted to {converted.target.upper()} as it is:"),
-        element("ul", *(element("li", each.message) for each in converted.reasons[:_OPEN])),
+        element("ul", *map(_reason, converted.reasons[:_OPEN])),
     ))  # fmt: skip
+
+
+def _reason(each: Diagnostic) -> Markup:
+    return element("li", each.message, f" ({each.help})" if each.help else None)
 
 
 def _listed(fate: Fate, ledger: Ledger, path: str) -> Markup | None:
@@ -59,7 +63,7 @@ def _rows(entries: Sequence[Entry], path: str) -> list[tuple[Cell | Markup | str
             place(entry.location, path).rpartition(":")[2] if entry.location.line else "",
             entry.message,
             Cell(str(entry.weight), entry.weight),
-            element("code", entry.location.path),
+            element("code", breakable(entry.location.path)),
             element("code", entry.rule.name),
         )
         for entry in entries

@@ -6,7 +6,7 @@ from itertools import groupby
 from twinform.compiler.compare import Comparison, Difference, Severity
 from twinform.compiler.compare.reporters import amounts_of, heading_of, places_of, summary, what_differs
 from twinform.report.content import Report
-from twinform.report.markup import Markup, Part, element, join
+from twinform.report.markup import Markup, Part, breakable, element, join
 from twinform.report.parts import count, folded, table
 
 _HEADS = ("Part", "What", "In A", "In B", "By", "Where")
@@ -41,7 +41,7 @@ def _rows(found: Comparison, severity: Severity) -> Iterator[tuple[Part, ...]]:
                 heading,
                 *_values(item),
                 ", ".join(amounts_of(item)),
-                element("code", ", ".join(places_of(item, found))),
+                element("code", breakable(", ".join(places_of(item, found)))),
             )
 
 

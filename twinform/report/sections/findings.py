@@ -4,53 +4,56 @@ from collections.abc import Iterator
 
 from twinform.diagnostics import Diagnostic, Severity
 from twinform.diagnostics.reporters.excerpt import excerpt
-from twinform.diagnostics.reporters.grouping import Group, grouped
+from twinform.diagnostics.reporters.grouping import Group
 from twinform.report.content import Report, Subject
-from twinform.report.markup import Markup, element, join
+from twinform.report.listed_findings import MOST, WORDS, anchor, groups_of
+from twinform.report.markup import Markup, breakable, element, join
 from twinform.report.parts import count, folded, place
 
-_MOST = 300
-"""So many findings of a severity are listed."""
 _SHOWN = 5
-_WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 
 
 def findings(report: Report) -> Markup:
     """The findings of each file, the worst first; notes are folded."""
-    return join(_of(subject, several=report.second is not None) for subject in report.subjects)
+    several = report.second is not None
+    return join(_of(subject, number, several=several) for number, subject in enumerate(report.subjects))
 
 
-def _of(subject: Subject, *, several: bool) -> Markup:
+def _of(subject: Subject, number: int, *, several: bool) -> Markup:
     found = subject.findings.diagnostics
     heading = element("h3", subject.name) if several else None
     if not found:
         return join((heading, element("p", "Nothing was found.")))
-    return join((heading, *(_listed(subject, severity) for severity in _WORDS)))
+    return join((heading, *(_listed(subject, number, severity) for severity in WORDS)))
 
 
-def _listed(subject: Subject, severity: Severity) -> Markup | None:
-    groups = grouped(each for each in subject.findings.diagnostics if each.severity is severity)
+def _listed(subject: Subject, number: int, severity: Severity) -> Markup | None:
+    groups = groups_of(subject, severity)
     if not groups:
         return None
-    left = len(groups) - _MOST
-    more = (
-        element("p", f"and {count(left, f'more {_WORDS[severity]}')}: twinform check lists all") if left > 0 else None
+    left = len(groups) - MOST
+    more = element("p", f"and {count(left, f'more {WORDS[severity]}')}: twinform check lists all") if left > 0 else None
+    items = (_item(each, subject, anchor(severity, index, number)) for index, each in enumerate(groups[:MOST]))
+    title = count(subject.count(severity), WORDS[severity])
+    return folded(
+        title, element("ul", *items, class_="findings"), more, open_=severity > Severity.INFO, class_=WORDS[severity]
     )
-    items = element("ul", *(_item(each, subject) for each in groups[:_MOST]), class_="findings")
-    title = count(subject.count(severity), _WORDS[severity])
-    return folded(title, items, more, open_=severity > Severity.INFO, class_=_WORDS[severity])
 
 
-def _item(group: Group, subject: Subject) -> Markup:
+def _item(group: Group, subject: Subject, anchor_: str) -> Markup:
     one, others = group
     where = one.location
     times = element("span", f" {len(others) + 1} times", class_="quiet") if others else None
-    word = _WORDS[one.severity]
+    word = WORDS[one.severity]
     return element(
         "li",
         element("p", element("strong", word, class_=f"badge {word}"), " ", one.message.strip(), times),
         element(
-            "p", element("code", place(where, subject.findings.path)), " ", element("code", where.path), class_="quiet"
+            "p",
+            element("code", breakable(place(where, subject.findings.path))),
+            " ",
+            element("code", breakable(where.path)),
+            class_="quiet",
         ),
         _excerpt(one, subject),
         element("p", f"also at {_also(others)}", class_="quiet") if others else None,
@@ -62,6 +65,7 @@ def _item(group: Group, subject: Subject) -> Markup:
             element("p", one.rule.finds),
             element("p", one.rule.matters),
         ),
+        id=anchor_,
     )
 
 

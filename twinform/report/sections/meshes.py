@@ -5,18 +5,14 @@ from twinform.report.content import Report
 from twinform.report.markup import Markup, Part
 from twinform.report.parts import Cell, bar, table
 
-_HEADS = ("File", "Triangles", "Of the most", "Bytes", "Visuals", "Collisions", "Remark")
+_HEADS = ("File", "Triangles", "Of the largest", "Bytes", "Visuals", "Collisions", "Remark")
 
 
 def meshes(report: Report) -> Markup | None:
     """A table that can be sorted, with a bar for the triangles of each."""
-    found = report.first.statistics
-    if found is None:
-        return None
-    models = (*(model for world in found.worlds for model in world.models), *found.models)
-    costs = {each.uri: each for model in models for each in model.meshes}
-    most = max((each.triangles or 0 for each in costs.values()), default=0)
-    rows = (_row(each, most) for each in costs.values())
+    costs = report.first.meshes
+    most = max((each.triangles or 0 for each in costs), default=0)
+    rows = (_row(each, most) for each in costs)
     return table("Mesh files, and the triangles in them", _HEADS, rows, sortable=True) if costs else None
 
 

@@ -2,15 +2,15 @@
 
 from collections.abc import Iterator, Mapping
 
-from twinform.compiler.statistics import FileStatistics, ModelStatistics
+from twinform.compiler.statistics import ModelStatistics
 from twinform.report.content import Report
-from twinform.report.markup import Markup, Part, element, join
+from twinform.report.markup import Markup, Part, breakable, element, join
 from twinform.report.parts import table
 
 
 def statistics(report: Report) -> Markup | None:
     """A table with a column for each model, of both files."""
-    columns = [column for each in report.subjects if each.statistics for column in _models(each.statistics)]
+    columns = [(each.name, model) for each in report.subjects for model in each.models]
     if not columns:
         return None
     several = report.second is not None
@@ -24,19 +24,9 @@ def statistics(report: Report) -> Markup | None:
 
 
 def _files(report: Report) -> Markup:
-    words = (f"{each.path}: {each.format.upper()} {each.version or ''}".strip() for each in _measured(report))
-    return element("p", "; ".join(words))
-
-
-def _measured(report: Report) -> Iterator[FileStatistics]:
-    for each in report.subjects:
-        if each.statistics:
-            yield each.statistics
-
-
-def _models(found: FileStatistics) -> Iterator[tuple[str, ModelStatistics]]:
-    for model in (*(model for world in found.worlds for model in world.models), *found.models):
-        yield found.path, model
+    measured = [each.statistics for each in report.subjects if each.statistics]
+    words = (f"{each.path}: {each.format.upper()} {each.version or ''}".strip() for each in measured)
+    return element("p", breakable("; ".join(words)))
 
 
 def _facts(model: ModelStatistics) -> Iterator[tuple[str, Part]]:

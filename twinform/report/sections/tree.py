@@ -1,13 +1,15 @@
 """Links below what moves them, with joints, masses and how many findings are about each; and the drawing of it."""
 
 from base64 import b64encode
-from collections import Counter, defaultdict
-from collections.abc import Iterator, Mapping
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
 
 from twinform.compiler.graph import Graph, GraphJoint, GraphNode
 from twinform.compiler.graph.svg import svg
+from twinform.diagnostics import Diagnostic
 from twinform.ir.motion import spanning_tree
 from twinform.report.content import Report, Subject
+from twinform.report.listed_findings import WORDS, anchors, worst
 from twinform.report.markup import Markup, Part, element, join
 from twinform.report.parts import count, folded
 
@@ -49,13 +51,13 @@ def _rows(subject: Subject, graph: Graph) -> Iterator[Markup]:
         if node.id in held:
             children[held[node.id].parent].append(node)
     names = {node.id: node.name for node in graph.nodes}
-    notes, masses = _findings(subject, graph), _masses(subject)
+    about, places, masses = _findings(subject, graph), anchors(subject), _masses(subject)
     order = _order([node for node in graph.nodes if node.id not in held], children)
     is_open = len(graph.nodes) <= _OPEN
     made: dict[str, list[Markup]] = {}
     for node, level in reversed(order):
         loops = (f"{each.name} ({each.type}) closes a loop to {names[each.child]}" for each in across[node.id])
-        words = _words(node, held.get(node.id), masses.get(node.name), notes[node.id], loops)
+        words = _words(node, held.get(node.id), masses.get(node.name), _badge(about[node.id], places), loops)
         below = [item for child in children[node.id] for item in made.pop(child.id)]
         if not below or level >= _DEEPEST:
             own = element(
@@ -80,7 +82,7 @@ def _order(roots: list[GraphNode], children: Mapping[str, list[GraphNode]]) -> l
 
 
 def _words(
-    node: GraphNode, joint: GraphJoint | None, mass: float | None, notes: int, loops: Iterator[str]
+    node: GraphNode, joint: GraphJoint | None, mass: float | None, badge: Markup | None, loops: Iterator[str]
 ) -> list[Part]:
     words: list[Part] = [element("b", node.name, class_=node.kind)]
     if node.kind != "link":
@@ -89,8 +91,8 @@ def _words(
         words.append(element("span", f" {joint.name}: {', '.join((joint.type, *joint.details))}", class_="quiet"))
     if mass is not None:
         words.append(element("span", f" {mass:.4g} kg", class_="quiet"))
-    if notes:
-        words += [" ", element("a", count(notes, "finding"), href="#findings", class_="badge warning")]
+    if badge:
+        words += [" ", badge]
     words += [element("span", f" {each}", class_="quiet") for each in loops]
     return words
 
@@ -99,15 +101,24 @@ def _masses(subject: Subject) -> dict[str, float]:
     return {link.name: link.mass.mass for link in (subject.scene.links if subject.scene else ()) if link.mass}
 
 
-def _findings(subject: Subject, graph: Graph) -> Counter[str]:
-    """How many findings are about each node; those about a joint are with what it moves."""
+def _badge(about: Sequence[Diagnostic], places: Mapping[int, str]) -> Markup | None:
+    """How many findings there are about a node, and where the worst one is."""
+    if not about:
+        return None
+    first = worst(about)
+    href = f"#{places.get(id(first), 'findings')}"
+    return element("a", count(len(about), "finding"), href=href, class_=f"badge {WORDS[first.severity]}")
+
+
+def _findings(subject: Subject, graph: Graph) -> Mapping[str, list[Diagnostic]]:
+    """The findings about each node; those about a joint are with what it moves."""
     parts = {node.where.path: node.id for node in graph.nodes} | {each.where.path: each.child for each in graph.joints}
     parts.pop("", None)
-    found: Counter[str] = Counter()
+    found: dict[str, list[Diagnostic]] = defaultdict(list)
     for each in subject.findings.diagnostics:
         path = each.location.path
         while path and path not in parts:
             path = path.rpartition("/")[0]
         if path:
-            found[parts[path]] += 1
+            found[parts[path]].append(each)
     return found

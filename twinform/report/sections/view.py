@@ -3,6 +3,7 @@
 from twinform.report.content import Report
 from twinform.report.frame import framed
 from twinform.report.markup import Markup, element, join
+from twinform.report.parts import count
 
 
 def view(report: Report) -> Markup | None:
@@ -17,8 +18,17 @@ def view(report: Report) -> Markup | None:
             title=f"3D view of {both}",
             aria_describedby="view-in-words",
         )
-        return join((frame, _words(report)))
+        return join((frame, _boxes(report), _words(report)))
     return element("p", f"There is no 3D view: {report.without_view}.")
+
+
+def _boxes(report: Report) -> Markup | None:
+    """That boxes stand for meshes, which would else be taken for the robot."""
+    missing = sum(bool(each.problem and each.visuals) for each in report.first.meshes)
+    if not missing:
+        return None
+    words = f"Wire boxes stand for {count(missing, 'mesh file')} that could not be read: "
+    return element("p", words, element("a", "why", href="#meshes"), ".", class_="warning")
 
 
 def _words(report: Report) -> Markup:

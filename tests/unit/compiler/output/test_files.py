@@ -146,3 +146,8 @@ def test_a_link_that_leads_to_itself_is_an_error_with_a_message(tmp_path: Path) 
     with pytest.raises(OSError, match=r"a symbolic link that leads to itself.*round\.sdf"):
         write_atomically(link, "new")
     assert link.is_symlink()
+
+
+def test_a_path_may_be_a_text(tmp_path: Path) -> None:
+    write_atomically(str(tmp_path / "new/robot.urdf"), "<robot/>")
+    assert (tmp_path / "new/robot.urdf").read_text() == "<robot/>"

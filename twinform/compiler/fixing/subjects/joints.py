@@ -6,7 +6,7 @@ from lxml import etree
 
 from twinform.compiler.fixing.numbers_text import numbers_of, text_of_numbers
 from twinform.compiler.fixing.site import Fixers, Site, safe, unsafe
-from twinform.diagnostics import Fix, TextEdit
+from twinform.diagnostics import Fix, TextEdit, nearest_name
 from twinform.diagnostics.rules import joints, limits, model
 from twinform.schemas import XmlElement
 
@@ -113,6 +113,16 @@ def _make_continuous(site: Site) -> Fix | None:
     return unsafe("Make it continuous: it turns without end", site.edit.set_attribute(joint, "type", "continuous"))
 
 
+def _missing_limit(site: Site) -> Fix | None:
+    """A joint turns without end, unless its limit is there under another name: then that is what to mend."""
+    row = site.file.row_of(site.element)
+    known = {each.name for each in row.children} if row else set[str]()
+    unknown = {str(each.tag) for each in site.element.iterchildren("*")} - known
+    if any(nearest_name(each, ["limit"]) for each in unknown):
+        return None
+    return _make_continuous(site)
+
+
 def _empty_range(site: Site) -> Fix | None:
     written = {"lower", "upper"} & set(map(str, site.element.attrib))
     return _make_continuous(site) if not written else None
@@ -143,7 +153,7 @@ FIXERS: Fixers = {
     joints.CONTINUOUS_IN_SDF.name: _continuous,
     joints.EMPTY_DYNAMICS.name: _empty_dynamics,
     limits.EMPTY_RANGE.name: _empty_range,
-    model.MISSING_LIMIT.name: _make_continuous,
+    model.MISSING_LIMIT.name: _missing_limit,
     model.WORLD_CHILD.name: _world_child,
     model.ZERO_AXIS.name: _zero_axis,
 }
