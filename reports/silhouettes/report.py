@@ -22,7 +22,7 @@ from twinform.compiler.scene import Positions, Scene
 from twinform.ir import Format
 from twinform.view import Subject, new_viewer, read_subject
 from twinform.view.camera import Camera
-from twinform.view.panel import slider_range
+from twinform.view.joint_controls import slider_range
 from twinform.view.viewer import Viewer, camera_for
 
 if TYPE_CHECKING:

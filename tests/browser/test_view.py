@@ -1,10 +1,12 @@
 """The 3D view in a real browser."""
 
+import json
 import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 from xml.sax.saxutils import quoteattr
@@ -18,6 +20,7 @@ from twinform.compiler import LoadOptions
 pytest.importorskip("viser", reason="viser is not installed")
 
 from twinform.view import Subject, read_subject, standalone_page
+from twinform.view.names import shortened
 from twinform.view.viewer import Viewer, camera_for
 
 from .watched import strict_page
@@ -26,6 +29,7 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
 
     from twinform.compiler.compare.comparison import Comparison
+    from twinform.ir import Vector3
 
 WIDTH, HEIGHT = 480, 360
 ARM = """<robot name="arm">
@@ -167,7 +171,7 @@ def test_a_planted_difference_is_red(stage: Stage) -> None:
     stage.show(ARM, other, comparison=comparison)
     viewer, page, _ = stage
     page.get_by_text("Differences", exact=True).click()
-    page.get_by_text("what differs is red").wait_for()
+    page.get_by_text("in both, and different").wait_for()
     picture = viewer.picture(camera_for(viewer.figures), WIDTH, HEIGHT).astype(int)
     red = (picture[:, :, 0] - picture[:, :, 1] > 60) & (picture[:, :, 0] - picture[:, :, 2] > 60)
     only_upper = silhouette(_without(viewer.figures[1].scene, "upper"), {}, camera_for(viewer.figures), WIDTH, HEIGHT)
@@ -190,11 +194,15 @@ HOSTILE = {
 }
 
 
-def test_hostile_names_do_nothing(stage: Stage) -> None:
+def _hostile() -> str:
     text = ARM
     for name, hostile in HOSTILE.items():
         text = text.replace(f'"{name}"', quoteattr(hostile))
-    stage.show(text)
+    return text
+
+
+def test_hostile_names_do_nothing(stage: Stage) -> None:
+    stage.show(_hostile())
     viewer, page, _ = stage
     page.get_by_text("Show", exact=True).click()
     for layer in ("Link names", "Joint names", "Skeleton", "Joint axes"):
@@ -205,6 +213,199 @@ def test_hostile_names_do_nothing(stage: Stage) -> None:
     viewer.select(HOSTILE["base"])
     page.get_by_text("shapes", exact=True).wait_for()
     assert page.evaluate("window.hit") is None
+
+
+def _pixel(stage: Stage, link: str, point: "Vector3") -> tuple[float, float]:
+    """Where on the page a point of a link is, for the camera with which pages begin."""
+    canvas = stage.page.locator("canvas").first.bounding_box()
+    assert canvas is not None
+    (figure,) = stage.viewer.figures
+    at = camera_for([figure]).pixels([figure.poses[link].apply(point)], int(canvas["width"]), int(canvas["height"]))
+    return canvas["x"] + float(at[0][0]), canvas["y"] + float(at[0][1])
+
+
+def _assert_hover(stage: Stage, link: str, point: "Vector3", expected: str) -> None:
+    """The page says what is expected with the mouse over a point of a link, as soon as that is drawn where it is."""
+    x, y = _pixel(stage, link, point)
+    tip = stage.page.locator("#twinform-tip")
+    text = None
+    for step in range(30):
+        stage.page.mouse.move(x + step % 2, y)
+        time.sleep(0.2)
+        text = tip.inner_text() if tip.is_visible() else ""
+        if text == expected:
+            return
+    assert text == expected
+
+
+@pytest.fixture
+def fresh(browser: "Browser") -> Iterator[Stage]:
+    """A viewer and a page of its own, whose camera nobody has moved."""
+    viewer = Viewer()
+    with strict_page(browser) as (page, faults):
+        page.set_viewport_size({"width": 1000, "height": 600})  # room for the robot beside the panel
+        yield Stage(viewer, page, faults)
+    viewer.stop()
+    assert not faults
+
+
+def _open(stage: Stage, *models: str | bytes | Path) -> None:
+    stage.show(*models)
+    stage.page.goto(stage.viewer.address)
+    stage.page.get_by_text("Joints", exact=True).wait_for()
+    stage.viewer.picture(camera_for(stage.viewer.figures), 64, 64)  # everything is there
+    for notice in stage.page.locator(".mantine-Notification-closeButton").all():
+        notice.click()
+
+
+def test_names_are_shown_on_hover(fresh: Stage) -> None:
+    _open(fresh, ARM)
+    _assert_hover(fresh, "base", (0.15, -0.15, 0.0), "base")
+    _assert_hover(fresh, "upper", (0.0, 0.0, 0.3), "upper\nrevolute joint shoulder")
+    fresh.viewer.move({("shoulder", 0): 0.8})
+    fresh.viewer.picture(camera_for(fresh.viewer.figures), 64, 64)
+    _assert_hover(fresh, "slider", (0.15, 0.0, 0.0), "slider\nprismatic joint slide")
+    fresh.page.mouse.move(5, 5)
+    fresh.page.locator("#twinform-tip").wait_for(state="hidden")
+
+
+def test_what_is_hidden_has_no_name_on_hover_and_marks_have_one(fresh: Stage) -> None:
+    _open(fresh, ARM)
+    fresh.page.get_by_text("Show", exact=True).click()
+    fresh.page.get_by_text("Visuals", exact=True).click()
+    fresh.page.get_by_text("Skeleton", exact=True).click()
+    fresh.viewer.picture(camera_for(fresh.viewer.figures), 64, 64)
+    says = "joint shoulder\nrevolute, from base to upper\nfrom -1.5 to 1.5 rad"
+    _assert_hover(fresh, "upper", (0.0, 0.0, 0.0), says)
+    _assert_hover(fresh, "base", (0.19, -0.19, 0.0), "")
+
+
+def test_hostile_names_are_text_on_hover_and_in_the_tree(fresh: Stage) -> None:
+    _open(fresh, _hostile())
+    _assert_hover(fresh, HOSTILE["base"], (0.15, -0.15, 0.0), HOSTILE["base"])
+    says = f"{HOSTILE['upper']}\nrevolute joint {shortened(HOSTILE['shoulder'])}"
+    _assert_hover(fresh, HOSTILE["upper"], (0.0, 0.0, 0.3), says)
+    fresh.page.get_by_text("Tree", exact=True).click()
+    for name in HOSTILE.values():
+        row = fresh.page.locator("[data-twinform-link]").filter(has_text=name[:20])
+        if row.count():
+            row.first.click()
+    fresh.page.locator("[aria-current=true]").wait_for()
+    assert fresh.page.evaluate("window.hit") is None
+
+
+def test_where_the_client_is_another_one_there_are_no_names_and_no_errors(fresh: Stage) -> None:
+    _open(fresh, ARM)
+    fresh.page.evaluate("window.__viserMutable.scene = {}")
+    x, y = _pixel(fresh, "upper", (0.0, 0.0, 0.3))
+    fresh.page.mouse.move(x, y)
+    time.sleep(0.3)
+    assert not fresh.page.locator("#twinform-tip").is_visible()
+    fresh.page.evaluate("delete window.__viserMutable")
+    fresh.page.mouse.move(x + 1, y)
+    time.sleep(0.3)
+    assert not fresh.page.locator("#twinform-tip").is_visible()
+
+
+def test_a_click_in_the_tree_selects_the_link_and_a_selected_link_is_marked_there(stage: Stage) -> None:
+    stage.show(ARM)
+    viewer, page, _ = stage
+    page.get_by_text("Tree", exact=True).click()
+    page.get_by_role("button", name="slider", exact=True).click()
+    page.get_by_text("slide (prismatic) on upper").wait_for()
+    assert page.locator("[aria-current=true]").inner_text() == "slider"
+    assert _orange(viewer) > 100
+    viewer.select("base")
+    page.locator("[aria-current=true]", has_text="base").wait_for()
+    assert page.locator("[aria-current=true]").count() == 1
+    page.get_by_role("button", name="slider", exact=True).click()  # the same again
+    page.locator("[aria-current=true]", has_text="slider").wait_for()
+
+
+def _orange(viewer: Viewer) -> int:
+    picture = viewer.picture(camera_for(viewer.figures), WIDTH, HEIGHT).astype(int)
+    return int(((picture[:, :, 0] - picture[:, :, 2] > 60) & (picture[:, :, 3] > 0)).sum())
+
+
+def test_a_link_is_found_by_what_is_typed(stage: Stage) -> None:
+    stage.show(ARM)
+    page = stage.page
+    page.get_by_text("Tree", exact=True).click()
+    field = page.locator(".mantine-TextInput-input:visible").last
+    for typed, found in (
+        ("foll", "follower"),
+        ("SLIDE", "slider"),
+        ("shoulder", "upper"),
+        ("nothing like it", "upper"),
+    ):
+        field.fill(typed)
+        page.locator("[aria-current=true]", has_text=found).wait_for()
+
+
+def test_a_dragged_part_moves_its_joint_and_its_slider(fresh: Stage) -> None:
+    _open(fresh, ARM)
+    (x, y), page = _pixel(fresh, "upper", (0.0, 0.0, 0.3)), fresh.page
+    page.keyboard.down("Shift")
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for step in range(1, 8):
+        page.mouse.move(x + 5 * step, y)
+        time.sleep(0.08)
+    page.mouse.up()
+    page.keyboard.up("Shift")
+    (figure,) = fresh.viewer.figures
+    _until(lambda: figure.poses["upper"].rpy()[1] > 0.15)
+    turned = figure.poses["upper"].rpy()[1]
+    _until(lambda: abs(float(page.locator("input[inputmode=decimal]").first.input_value()) - turned) < 0.01)
+    assert figure.poses["base"] == figure.kinematics.at_zero["base"]
+
+
+def test_degrees_limits_poses_and_text_are_one_set_of_positions(stage: Stage) -> None:
+    stage.show(ARM)
+    viewer, page, _ = stage
+    page.get_by_text("Degrees", exact=True).click()
+    field = page.locator("input[inputmode=decimal]:visible").first
+    page.get_by_text("85.94", exact=True).wait_for()  # 1.5 rad
+    field.fill("45")
+    field.press("Enter")
+    _until(lambda: abs(viewer.figures[0].poses["upper"].rpy()[1] - 0.7854) < 1e-3)
+    page.get_by_text("Ignore limits", exact=True).click()
+    page.get_by_text("360", exact=True).wait_for()
+    page.get_by_text("Positions as text").click()
+    text = page.locator("textarea:visible")
+    assert json.loads(text.input_value())["shoulder"] == pytest.approx(0.7854, abs=1e-3)
+    text.fill('{"shoulder": 1.75, "slide": 0.1, "no such joint": 3}')
+    _until(lambda: abs(viewer.figures[0].poses["upper"].rpy()[1] - 1.3916) < 1e-3)  # pi - 1.75: beyond a quarter turn
+    _until(lambda: abs(float(field.input_value()) - 100.268) < 0.1)
+    page.get_by_role("button", name="Zero").click()
+    _until(lambda: viewer.figures[0].poses == viewer.figures[0].kinematics.at_zero)
+    page.get_by_role("button", name="Random").click()
+    _until(lambda: viewer.figures[0].poses != viewer.figures[0].kinematics.at_zero)
+    page.get_by_text("Ignore limits", exact=True).click()
+    page.get_by_text("Degrees", exact=True).click()
+    page.get_by_text("-1.5", exact=True).wait_for()
+
+
+def test_added_and_removed_links_have_colors_of_their_own(stage: Stage) -> None:
+    box = '<visual><origin xyz="-0.3 -0.3 0"/><geometry><box size="0.2 0.2 0.2"/></geometry></visual>'
+    more = f'<link name="more">{box}</link>'
+    joint = '<joint name="j" type="fixed"><parent link="base"/><child link="more"/></joint>'
+    longer = ARM.replace("</robot>", f"{more}{joint}</robot>")
+    for a, b, says, channel in ((ARM, longer, "in B only", 1), (longer, ARM, "in A only", 2)):
+        stage.show(a, b, comparison=twinform.diff(a.encode(), b.encode()))
+        stage.page.get_by_text("Differences", exact=True).click()
+        stage.page.get_by_text(says).wait_for()
+        picture = stage.viewer.picture(camera_for(stage.viewer.figures), WIDTH, HEIGHT).astype(int)
+        of_box = silhouette(
+            _without(_scene_with(stage.viewer, "more"), "more"), {}, camera_for(stage.viewer.figures), WIDTH, HEIGHT
+        )
+        colors = picture[of_box & (picture[:, :, 3] > 0)][:, :3]
+        others = [each for each in range(3) if each != channel]
+        assert (colors[:, channel] - colors[:, others[0]] > 15).mean() > 0.5, says
+
+
+def _scene_with(viewer: Viewer, link: str) -> Any:
+    return next(figure.scene for figure in viewer.figures if link in figure.poses)
 
 
 def test_a_thousand_links_are_drawn_smoothly(stage: Stage) -> None:
@@ -222,12 +423,23 @@ def test_a_thousand_links_are_drawn_smoothly(stage: Stage) -> None:
     _until(lambda: stage.page.evaluate(_FRAMES_A_SECOND) > 20)
 
 
+TIPS = {"upper\nrevolute joint shoulder", "slider\nprismatic joint slide", "base", "follower\nrevolute joint mimic"}
+
+
+def _tip_after_a_move(page: "Page") -> str:
+    page.mouse.move(291, 200)  # on the robot
+    page.mouse.move(292, 200)
+    time.sleep(0.2)
+    return page.locator("#twinform-tip").inner_text()
+
+
 def test_a_page_opens_without_a_server(page: "Page", tmp_path: Path) -> None:
     text = standalone_page(twinform.loads(ARM))
     (tmp_path / "arm.html").write_text(text)
     page.context.set_offline(True)
     page.goto((tmp_path / "arm.html").as_uri())
     page.locator("canvas").first.wait_for()
+    _until(lambda: _tip_after_a_move(page) in TIPS)
 
 
 def test_a_missing_mesh_is_a_box_with_a_finding(stage: Stage) -> None:
@@ -239,20 +451,47 @@ def test_a_missing_mesh_is_a_box_with_a_finding(stage: Stage) -> None:
     assert [link for link, _, _ in viewer.figures[0].problems()] == ["follower"]
 
 
+@contextmanager
+def _killed(process: subprocess.Popen[str]) -> Generator[None]:
+    """A test that fails leaves no process behind, and does not wait for one."""
+    try:
+        yield
+    finally:
+        process.kill()
+
+
 def test_a_saved_file_is_shown_again(page: "Page", tmp_path: Path) -> None:
     pytest.importorskip("watchfiles", reason="watchfiles is not installed")
     robot = tmp_path / "arm.urdf"
     robot.write_text(ARM)
     program = [sys.executable, "-m", "twinform", "view", str(robot), "--watch", "--no-open"]
-    with subprocess.Popen(program, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as running:
+    with (
+        subprocess.Popen(program, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as running,
+        _killed(running),
+    ):
         assert running.stdout is not None
         address = next(word for word in running.stdout.readline().split() if word.startswith("http")).rstrip(";")
         page.goto(address)
         page.get_by_text("shoulder", exact=True).wait_for()
         robot.write_text(ARM.replace("shoulder", "hip"))
         page.get_by_text("hip", exact=True).wait_for()
-        robot.write_text("<robot")  # half saved: what could be read last stays
-        time.sleep(1.5)
+        robot.write_text("<robot")  # half saved: what could be read last stays, and the page says why
+        page.get_by_text("what could be read last is shown").wait_for()
         assert page.get_by_text("hip", exact=True).count()
-        running.send_signal(signal.SIGINT)
+        robot.write_text(ARM)
+        page.get_by_text("what could be read last is shown").wait_for(state="detached")
+        running.send_signal(signal.SIGTERM)
         assert running.wait(timeout=20) == 0
+
+
+def test_what_is_chosen_stays_when_a_file_is_shown_again(fresh: Stage) -> None:
+    _open(fresh, ARM)
+    viewer, page, _ = fresh
+    viewer.move({("shoulder", 0): 0.5})
+    page.get_by_text("Show", exact=True).click()
+    page.get_by_text("Joint axes", exact=True).click()
+    _until(lambda: any("axes" in name for name in viewer.figures[0].labels))
+    before = viewer.figures[0].poses["upper"]
+    viewer.show([_subject(ARM.replace("0.08", "0.09"))])
+    assert viewer.figures[0].poses["upper"] == before
+    assert any("axes" in name for name in viewer.figures[0].labels)

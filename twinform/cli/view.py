@@ -1,9 +1,10 @@
 """`twinform view`."""
 
 import contextlib
+import signal
 import threading
 import webbrowser
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Unpack
 
@@ -16,6 +17,7 @@ from twinform.cli.findings import show
 from twinform.cli.inputs import InputOptions, file_options, inputs, load_options_of
 from twinform.cli.source import Source
 from twinform.compiler import CompileError, LoadOptions
+from twinform.diagnostics import Diagnostic
 from twinform.diagnostics.reporters import Findings
 
 if TYPE_CHECKING:
@@ -67,6 +69,23 @@ def command(
         session.stop()
 
 
+def _line(found: Diagnostic) -> str:
+    place = found.location
+    return f"line {place.line}: {found.message}" if place.line else found.message
+
+
+@contextlib.contextmanager
+def _until_stopped() -> Generator[None]:
+    """Run the block until Ctrl-C, or until something asks the program to end."""
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    except KeyboardInterrupt:
+        pass
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
 @dataclass(slots=True)
 class _Session:
     """The server, and what it shows."""
@@ -76,12 +95,13 @@ class _Session:
     port: int
     opens: bool
     viewer: "Viewer | None" = field(default=None, init=False)
+    complaints: list[tuple[str, list[str]]] = field(default_factory=list[tuple[str, list[str]]], init=False)
 
     def run(self) -> int:
         """Show the files until Ctrl-C."""
         if not self.show():
             return UNUSABLE
-        with contextlib.suppress(KeyboardInterrupt):
+        with _until_stopped():
             threading.Event().wait()
         return 0
 
@@ -90,7 +110,8 @@ class _Session:
         from twinform.cli.watching import watch_models  # noqa: PLC0415 - it seldom happens
 
         round_ = _Round(self)
-        watch_models(lambda: inputs(words)[0], lambda: round_, lambda source, _: round_.read(source))
+        with _until_stopped():
+            watch_models(lambda: inputs(words)[0], lambda: round_, lambda source, _: round_.read(source))
         return 0
 
     def show(self) -> bool:
@@ -103,17 +124,19 @@ class _Session:
 
         subject, loaded = read_subject(source.content, self.load_options, name=source.name)
         if subject is None:
-            show(Findings(loaded.path, loaded.diagnostics), notes=False, on_stderr=True)
+            self._complain(f"{source.name} cannot be shown", loaded.path, loaded.diagnostics)
         return subject
 
     def show_subjects(self, subjects: "Sequence[Subject | None]") -> bool:
         """Show what could be read; False where something could not."""
         found = [subject for subject in subjects if subject is not None]
         if len(found) < len(subjects) or not found:
+            self._warn("; what could be read last is shown")
             return False
         viewer, is_new = self.viewer or self._start(), self.viewer is None
         self.viewer = viewer
         viewer.show(found, self._comparison())
+        self._warn()
         if is_new:
             click.echo(
                 f"showing {' and '.join(source.name for source in self.sources)} at {viewer.address}; Ctrl-C ends"
@@ -121,6 +144,13 @@ class _Session:
             if self.opens:
                 webbrowser.open(viewer.address)
         return True
+
+    def _warn(self, but: str = "") -> None:
+        """Say in the page what went wrong since it was said last."""
+        for title, lines in self.complaints:
+            if self.viewer is not None:
+                self.viewer.warn(f"{title}{but}", lines)
+        self.complaints.clear()
 
     def stop(self) -> None:
         """End the server."""
@@ -144,8 +174,13 @@ class _Session:
         try:
             return compare_files(a.content, b.content, self.load_options, names=(a.name, b.name))
         except CompileError as error:
-            show(Findings(a.name, error.diagnostics), notes=False, on_stderr=True)
+            self._complain("the two cannot be compared", a.name, error.diagnostics)
             return None
+
+    def _complain(self, title: str, name: str, diagnostics: tuple[Diagnostic, ...]) -> None:
+        """Say what is wrong, on the terminal and in the page if there is one."""
+        show(Findings(name, diagnostics), notes=False, on_stderr=True)
+        self.complaints.append((title, [_line(each) for each in diagnostics if each.is_error]))
 
 
 @dataclass(slots=True)

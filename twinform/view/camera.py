@@ -8,6 +8,7 @@ from typing import Any
 from twinform.ir import Quaternion, Vector3
 from twinform.ir.motion import unit
 from twinform.ir.transform import Transform
+from twinform.view.vectors import cross, minus
 
 np: Any = importlib.import_module("numpy")
 Array = Any
@@ -25,9 +26,9 @@ class Camera:
     @property
     def pose(self) -> Transform:
         """Its frame in the world: x to the right of the picture, y down, z into it."""
-        fx, fy, fz = forward = unit(_minus(self.target, self.position))
-        right = unit(_cross(forward, _UP)) if math.hypot(fx, fy) else (0.0, -1.0, 0.0)
-        (rx, ry, rz), (dx, dy, dz) = right, _cross(forward, right)
+        fx, fy, fz = forward = unit(minus(self.target, self.position))
+        right = unit(cross(forward, _UP)) if math.hypot(fx, fy) else (0.0, -1.0, 0.0)
+        (rx, ry, rz), (dx, dy, dz) = right, cross(forward, right)
         return Transform(self.position, (rx, dx, fx, ry, dy, fy, rz, dz, fz))
 
     @property
@@ -43,11 +44,3 @@ class Camera:
         depth = np.where(turned[:, 2] > 0, turned[:, 2], np.nan)
         focal = height / 2 / math.tan(self.fov / 2)
         return turned[:, :2] / depth[:, None] * focal + np.asarray([width / 2, height / 2])
-
-
-def _minus(a: Vector3, b: Vector3) -> Vector3:
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
-
-
-def _cross(a: Vector3, b: Vector3) -> Vector3:
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])

@@ -10,6 +10,7 @@ from twinform.compiler.scene import Kinematics, Positions, Scene, SceneShape
 from twinform.ir import Vector3
 from twinform.ir.transform import Transform
 from twinform.view.mesh_drawings import MeshDrawings
+from twinform.view.names import shortened
 from twinform.view.triangles import Triangles, triangles_of
 
 np: Any = importlib.import_module("numpy")
@@ -42,19 +43,26 @@ class Look:
 
 @dataclass(slots=True)
 class Figure:
-    """A scene as it is drawn below the node `root` of a viser scene."""
+    """A scene as it is drawn below the node `root` of a viser scene.
+
+    `listen` is told of each part that is drawn, with its link; `title` says which one of two robots this is. `labels`
+    say what nodes are, by their names.
+    """
 
     api: Any
     root: str
     scene: Scene
     meshes: MeshDrawings
     look: Look = field(default_factory=Look)
-    on_click: Callable[[str], None] | None = None
+    listen: Callable[["Figure", Handle, str], None] | None = None
+    title: str = ""
     nodes: dict[str, Handle] = field(default_factory=dict[str, Handle], init=False)
     poses: dict[str, Transform] = field(default_factory=dict[str, Transform], init=False)
+    labels: dict[str, str] = field(default_factory=dict[str, str], init=False)
     base: Handle = field(init=False)
     kinematics: Kinematics = field(init=False)
     _layers: dict[str, list[Handle]] = field(default_factory=dict[str, "list[Handle]"], init=False)
+    _with_visuals: frozenset[str] = field(default=frozenset(), init=False)
     _marks: list[Handle] = field(default_factory=list[Handle], init=False)
     _size: float | None = field(default=None, init=False)
     _triangles: dict[SceneShape, Triangles] = field(default_factory=dict[SceneShape, Triangles], init=False)
@@ -67,6 +75,18 @@ class Figure:
             self.nodes[link.name] = self.api.add_frame(
                 f"{self.root}/links/{number}", show_axes=False, **placed(self.poses[link.name])
             )
+            self.called(self.nodes[link.name], self._about(link.name))
+        self._with_visuals = frozenset(link for link, _, _ in self.shapes("visual"))
+
+    def called(self, handle: Handle, *lines: str) -> Handle:
+        """What is drawn, of which the lines say what it is where the mouse is over it."""
+        self.labels[handle.name] = "\n".join(filter(None, (*lines, self.title)))
+        return handle
+
+    def _about(self, link: str) -> str:
+        joint = self.kinematics.hung.get(link)
+        by = f"\n{joint.type} joint {shortened(joint.name)}" if joint else ""
+        return f"{shortened(link)}{by}"
 
     def node_name(self, link: str) -> str:
         """What a link's node is called; that of the world for a link that is none."""
@@ -99,10 +119,11 @@ class Figure:
         pose = self.kinematics.at_zero.get(link)
         return pose.inverse() if pose else Transform()
 
-    def axes(self, name: str, pose: Transform) -> Handle:
-        """The axes of a frame."""
+    def axes(self, name: str, pose: Transform, *lines: str) -> Handle:
+        """The axes of a frame; the lines say of what."""
         length = self.size * _SHARE
-        return self.api.add_frame(name, axes_length=length, axes_radius=length * 0.04, **placed(pose))
+        drawn = self.api.add_frame(name, axes_length=length, axes_radius=length * 0.04, **placed(pose))
+        return self.called(drawn, *lines) if lines else drawn
 
     def show(self, layer: str, draw: Callable[["Figure"], Iterable[Handle]], *, visible: bool) -> None:
         """Show or hide a layer, which is drawn when it is first seen."""
@@ -147,18 +168,22 @@ class Figure:
         )
 
     def mark(self, links: Mapping[str, Rgb]) -> None:
-        """Color some links, and no others."""
+        """Color some links, and no others; a link without shapes has a ball at its frame."""
         for handle in self._marks:
             handle.remove()
         self._marks = []
+        bare = {link for link in links if link in self.nodes}
         for role in ("visual", "collision"):
             for link, name, shape in self.shapes(role):
-                if link in links and (role == "visual" or not self._has_visuals(link)):
+                if link in links and (role == "visual" or link not in self._with_visuals):
+                    bare.discard(link)
                     self._marks.append(self._mark(shape, f"{name}-mark", links[link]))
-
-    def _has_visuals(self, link: str) -> bool:
-        found = next(each for each in self.scene.links if each.name == link)
-        return any(shape.role == "visual" for shape in found.shapes)
+        for link in sorted(bare):
+            self._marks.append(
+                self.api.add_icosphere(
+                    f"{self.node_name(link)}/mark", self.size * _SHARE / 2, color=links[link], opacity=0.8
+                )
+            )
 
     def _mark(self, shape: SceneShape, name: str, color: Rgb) -> Handle:
         found = self.triangles(shape)
@@ -168,6 +193,12 @@ class Figure:
             name, points, found.faces, color=color, opacity=0.6, side="double",
             **placed(shape.pose),
         )  # fmt: skip
+
+    @property
+    def has_ground(self) -> bool:
+        """Whether there is something as wide as the ground of a world."""
+        every = (self.triangles(shape).points for _, _, shape in self.shapes("visual"))
+        return any(np.ptp(points, axis=0).max() >= _GROUND for points in every)
 
     def bounds(self) -> tuple[Array, Array]:
         """The least and greatest coordinates of what is drawn with all joints at zero, or of the links' frames."""
@@ -179,7 +210,7 @@ class Figure:
             corners = [each for each in corners if np.abs(each).max() < _FAR and np.ptp(each, axis=0).max() < _GROUND]
             if corners:
                 break
-        corners += [np.asarray([pose.translation]) for pose in self.poses.values() if _is_near(pose)]
+        corners += [np.asarray([pose.translation]) for pose in self.kinematics.at_zero.values() if _is_near(pose)]
         every = np.concatenate(corners) if corners else np.zeros((1, 3))
         return every.min(axis=0), every.max(axis=0)
 

@@ -10,6 +10,7 @@ from twinform.compiler.scene import Degree, SceneJoint
 from twinform.ir import Vector3
 from twinform.ir.motion import plane_across, slide, turn
 from twinform.view.figure import Figure, Handle, Rgb
+from twinform.view.names import shortened
 
 np: Any = importlib.import_module("numpy")
 
@@ -29,7 +30,7 @@ def joint_axes(figure: Figure) -> Iterator[Handle]:
         start = into.apply(joint.frame.translation)
         arrows = [(start, _plus(start, into.rotate(degree.axis), length)) for degree in joint.degrees]
         if arrows:
-            yield figure.api.add_arrows(
+            drawn = figure.api.add_arrows(
                 f"{figure.node_name(joint.child)}/axes/{number}",
                 np.asarray(arrows, dtype=np.float32),
                 _AXIS,
@@ -37,6 +38,19 @@ def joint_axes(figure: Figure) -> Iterator[Handle]:
                 head_radius=length * 0.1,
                 head_length=length * 0.25,
             )
+            yield figure.called(drawn, *about(joint))
+
+
+def about(joint: SceneJoint) -> Iterator[str]:
+    """What there is to say of a joint, line by line."""
+    yield f"joint {shortened(joint.name)}"
+    yield f"{joint.type}, from {shortened(joint.parent)} to {shortened(joint.child)}"
+    for degree in joint.degrees:
+        unit = "m" if degree.slides else "rad"
+        if math.isfinite(degree.lower) or math.isfinite(degree.upper):
+            yield f"from {degree.lower:.4g} to {degree.upper:.4g} {unit}"
+        if degree.leader:
+            yield f"follows {shortened(degree.leader.joint)}"
 
 
 def joint_limits(figure: Figure) -> Iterator[Handle]:
@@ -48,7 +62,8 @@ def joint_limits(figure: Figure) -> Iterator[Handle]:
         if segments:
             points = np.asarray([[into.apply(a), into.apply(b)] for a, b in segments], dtype=np.float32)
             name = f"{figure.node_name(joint.parent)}/limits/{number}"
-            yield figure.api.add_line_segments(name, points, _LIMIT, thickness=length * 0.05)
+            drawn = figure.api.add_line_segments(name, points, _LIMIT, thickness=length * 0.05)
+            yield figure.called(drawn, *about(joint))
 
 
 def _range(joint: SceneJoint, degree: Degree, length: float) -> Iterator[tuple[Vector3, Vector3]]:
@@ -78,10 +93,12 @@ def skeleton(figure: Figure) -> Iterator[Handle]:
             points.append(figure.kinematics.at_zero[joint.child].translation)
         lines = np.asarray([[into.apply(a), into.apply(b)] for a, b in pairwise(points)])
         name = f"{figure.node_name(joint.parent)}/bones/{number}"
-        yield figure.api.add_line_segments(name, lines.astype(np.float32), _BONE, thickness=thick)
+        bone = figure.api.add_line_segments(name, lines.astype(np.float32), _BONE, thickness=thick)
+        yield figure.called(bone, shortened(joint.parent))
         ball = f"{figure.node_name(joint.child)}/knuckles/{number}"
         at = figure.from_world(joint.child).apply(joint.frame.translation)
-        yield figure.api.add_icosphere(ball, thick * 1.6, color=_AXIS if joint.degrees else _BONE, position=at)
+        knuckle = figure.api.add_icosphere(ball, thick * 1.6, color=_AXIS if joint.degrees else _BONE, position=at)
+        yield figure.called(knuckle, *about(joint))
 
 
 def _plus(start: Vector3, direction: Vector3, length: float) -> Vector3:

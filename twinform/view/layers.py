@@ -11,6 +11,7 @@ from twinform.view.mass_marks import centers, inertias
 from twinform.view.names import shortened
 from twinform.view.sensor_marks import sensors
 
+SKELETON = "Skeleton"
 _COLLISION: Rgb = (230, 90, 60)
 _SEE_THROUGH = 0.35
 
@@ -19,43 +20,37 @@ def _visuals(figure: Figure) -> Iterator[Handle]:
     for link, name, shape in figure.shapes("visual"):
         color = figure.look.color or rgb(shape.color)
         opacity = figure.look.opacity or (shape.color[3] if shape.color else None)
-        handle = figure.draw(shape, name, color, opacity)
-        _make_clickable(handle, figure, link)
-        yield handle
+        yield _heard(figure, link, figure.draw(shape, name, color, opacity))
 
 
 def _collisions(figure: Figure) -> Iterator[Handle]:
     for link, name, shape in figure.shapes("collision"):
-        handle = figure.draw(shape, name, figure.look.color or _COLLISION, _SEE_THROUGH)
-        _make_clickable(handle, figure, link)
-        yield handle
+        yield _heard(figure, link, figure.draw(shape, name, figure.look.color or _COLLISION, _SEE_THROUGH))
 
 
-def _make_clickable(handle: Handle, figure: Figure, link: str) -> None:
-    told = figure.on_click
-    if told is not None:
-
-        @handle.on_click
-        def _(event: object) -> None:
-            del event
-            told(link)
+def _heard(figure: Figure, link: str, handle: Handle) -> Handle:
+    if figure.listen is not None:
+        figure.listen(figure, handle, link)
+    return handle
 
 
 def _link_frames(figure: Figure) -> Iterator[Handle]:
     for link in figure.scene.links:
-        yield figure.axes(f"{figure.node_name(link.name)}/frame", Transform())
+        yield figure.axes(f"{figure.node_name(link.name)}/frame", Transform(), f"frame of {shortened(link.name)}")
 
 
 def _named_frames(figure: Figure) -> Iterator[Handle]:
     for number, frame in enumerate(figure.scene.frames):
-        yield figure.axes(f"{figure.node_name(frame.link)}/frames/{number}", frame.pose)
+        lines = f"frame {shortened(frame.name)}", f"on {shortened(frame.link)}"
+        yield figure.axes(f"{figure.node_name(frame.link)}/frames/{number}", frame.pose, *lines)
 
 
 def _mesh_origins(figure: Figure) -> Iterator[Handle]:
     for role in ("visual", "collision"):
-        for _, name, shape in figure.shapes(role):
+        for link, name, shape in figure.shapes(role):
             if isinstance(shape.shape, Mesh):
-                yield figure.axes(f"{name}-origin", shape.pose)
+                lines = f"origin of {shortened(shape.shape.uri or 'a mesh')}", f"{role} of {shortened(link)}"
+                yield figure.axes(f"{name}-origin", shape.pose, *lines)
 
 
 def _link_names(figure: Figure) -> Iterator[Handle]:
@@ -81,7 +76,7 @@ class Layer(NamedTuple):
 LAYERS: tuple[Layer, ...] = (
     Layer("Visuals", shown=True, draw=_visuals),
     Layer("Collisions", shown=False, draw=_collisions),
-    Layer("Skeleton", shown=False, draw=skeleton),
+    Layer(SKELETON, shown=False, draw=skeleton),
     Layer("Link frames", shown=False, draw=_link_frames),
     Layer("Named frames", shown=False, draw=_named_frames),
     Layer("Joint axes", shown=False, draw=joint_axes),

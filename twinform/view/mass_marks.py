@@ -8,21 +8,37 @@ from twinform.ir.principal_moments import principal_axes
 from twinform.ir.solids import Solid
 from twinform.ir.transform import Transform
 from twinform.view.figure import Figure, Handle, Rgb, placed
+from twinform.view.names import shortened
 
 _INERTIA: Rgb = (60, 140, 230)
+_TOO_LARGE: Rgb = (220, 40, 40)
 _CENTER: Rgb = (20, 60, 160)
 _SHARE = 0.03
 """The radius of the ball of the heaviest link, as a share of the whole robot."""
 
 
 def inertias(figure: Figure) -> Iterator[Handle]:
-    """Boxes that have the mass and the inertia of the links, filled evenly."""
+    """Boxes that have the mass and the inertia of the links, filled evenly.
+
+    One that is larger than the whole robot, as of an inertia in a wrong unit, would hide it: it is cut, in red wire.
+    """
     for link in figure.scene.links:
         found = inertia_box(link.mass) if link.mass else None
         if found is not None:
             lengths, pose = found
-            name = f"{figure.node_name(link.name)}/inertia"
-            yield figure.api.add_box(name, _INERTIA, lengths, opacity=0.35, **placed(pose))
+            largest = max(lengths)
+            shown = min(1.0, figure.size / largest) if largest else 1.0
+            sides = " x ".join(f"{each:.3g}" for each in lengths)
+            cut = "" if shown == 1.0 else "larger than the whole robot: drawn smaller"
+            box = figure.api.add_box(
+                f"{figure.node_name(link.name)}/inertia",
+                _INERTIA if shown == 1.0 else _TOO_LARGE,
+                tuple(each * shown for each in lengths),
+                opacity=0.35,
+                wireframe=shown < 1.0,
+                **placed(pose),
+            )
+            yield figure.called(box, f"inertia of {shortened(link.name)}", f"a box of {sides} m", cut)
 
 
 def inertia_box(solid: Solid) -> tuple[Vector3, Transform] | None:
@@ -49,4 +65,5 @@ def centers(figure: Figure) -> Iterator[Handle]:
         if link.mass and all(map(math.isfinite, link.mass.center)):
             radius = figure.size * _SHARE * max(0.15, (link.mass.mass / max(weights)) ** (1 / 3))
             name = f"{figure.node_name(link.name)}/center"
-            yield figure.api.add_icosphere(name, radius, color=_CENTER, position=link.mass.center)
+            ball = figure.api.add_icosphere(name, radius, color=_CENTER, position=link.mass.center)
+            yield figure.called(ball, f"center of mass of {shortened(link.name)}", f"{link.mass.mass:g} kg")

@@ -1,44 +1,64 @@
 """The panel beside the 3D view: joints, layers, the tree, what was found, and the part that is looked at."""
 
-import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
+from threading import RLock
 from typing import Any
 
 from twinform.compiler.compare.comparison import Comparison
 from twinform.compiler.scene import Degree, Positions, SceneJoint
-from twinform.view import words
-from twinform.view.figure import MARK, Figure, Rgb
-from twinform.view.layers import LAYERS
+from twinform.diagnostics import Diagnostic
+from twinform.view import page_script, words
+from twinform.view.difference_colors import difference_colors, links_of
+from twinform.view.dragging import MODIFIER, Dragging
+from twinform.view.figure import MARK, Figure, Handle, Rgb
+from twinform.view.joint_controls import Choices, JointControls, slider_range
+from twinform.view.layers import LAYERS, SKELETON, Layer
 from twinform.view.names import shortened
 from twinform.view.subject import Subject
+from twinform.view.tree import Mark, tree
 
-_TURN, _WAY = math.pi, 1.0
-"""How far sliders go where there are no limits: rad to both sides, and m."""
-_STEPS = 200
 _MOST_ROWS = 100
-"""So many joints, findings or differences have controls of their own; the page says how many more there are."""
-_DIFFERENT: Rgb = (220, 40, 40)
+"""So many findings or differences have controls of their own; the page says how many more there are."""
+_FEW_DRAWN = 0.5
+"""With a smaller share of shapes than this, the skeleton is shown at first."""
 
 
 @dataclass(slots=True)
 class Panel:
-    """The controls of one or two figures."""
+    """The controls of one or two figures, which stand on a grid.
+
+    What people do is handled in threads of viser: under the `lock`, and not when the panel has `ended`, since there is
+    another one in its place.
+    """
 
     gui: Any
     subjects: Sequence[Subject]
     figures: Sequence[Figure]
+    grid: Handle
     comparison: Comparison | None = None
-    positions: dict[tuple[str, int], float] = field(default_factory=dict[tuple[str, int], float])
-    _part: Any = None
-    _sliders: dict[tuple[str, int], Any] = field(default_factory=dict[tuple[str, int], Any])
+    choices: Choices = field(default_factory=Choices)
+    lock: AbstractContextManager[object] = field(default_factory=RLock)
+    ended: bool = field(default=False, init=False)
+    _joints: JointControls = field(init=False)
+    _warning: Any = field(default=None, init=False)
+    _part: Any = field(default=None, init=False)
+    _page: Any = field(default=None, init=False)
+    _selected: tuple[str, ...] = field(default=(), init=False)
+    _colors: dict[str, Rgb] = field(default_factory=dict[str, Rgb], init=False)
 
     def build(self) -> None:
         """Put all controls into the panel."""
-        self._part = self.gui.add_html(words.paragraph("Click a part of the robot to see what it is."))
+        if self.comparison is not None:
+            self._colors = difference_colors(self.comparison, self.subjects)
+        self._joints = JointControls(self.gui, self.figures, self.choices)
+        self._page = self.gui.add_html("")
+        self._warning = self.gui.add_html("")
+        self._part = self.gui.add_html(words.welcome(self.subjects, MODIFIER))
         tabs = self.gui.add_tab_group()
         with tabs.add_tab("Joints"):
-            self._joints()
+            self._joints.build()
         with tabs.add_tab("Show"):
             self._layers()
         with tabs.add_tab("Tree"):
@@ -48,80 +68,84 @@ class Panel:
                 self._differences(self.comparison)
         with tabs.add_tab("Findings"):
             self._findings()
+        self._mark()
 
-    def select(self, link: str, text: str = "") -> None:
-        """Mark a link, and say what there is to know about it."""
-        for figure in self.figures:
-            figure.mark({link: MARK})
-        self._part.content = text + "".join(words.part(link, subject) for subject in self.subjects)
+    def select(self, links: Iterable[str], text: str = "") -> None:
+        """Mark links, and say what there is to know about them."""
+        with self.lock:
+            if self.ended:
+                return
+            self._selected = tuple(links)
+            parts = (words.part(link, subject) for link in self._selected for subject in self.subjects)
+            self._part.content = text + "".join(parts)
+            self._mark()
+
+    def warn(self, title: str, lines: Iterable[str]) -> None:
+        """Say above all controls what has gone wrong."""
+        self._warning.content = words.alert(title, lines)
 
     def move(self, positions: Positions) -> None:
         """Put joints to positions, and their sliders."""
-        self.positions |= positions
-        for key, slider in self._sliders.items():
-            if key in positions:
-                slider.value = min(max(positions[key], slider.min), slider.max)
-        for figure in self.figures:
-            figure.move(self.positions)
+        self._joints.move(positions)
 
-    def _joints(self) -> None:
-        """A slider for each degree of freedom that follows no other."""
-        moving = list(self._moving())
-        shown = moving[:_MOST_ROWS]
-        reset = self.gui.add_button("All joints to zero", disabled=not moving)
-        for joint, number, degree in shown:
-            self._slider(joint, number, degree)
-        if len(moving) > len(shown):
-            self.gui.add_html(words.more(len(moving) - len(shown), "joints"))
-        if not moving:
-            self.gui.add_html(words.paragraph("No joint moves."))
+    def listen(self, figure: Figure, handle: Handle, link: str) -> None:
+        """Select a link when its part is clicked, and move it when it is dragged."""
 
-        @reset.on_click
+        @handle.on_click
         def _(event: object) -> None:
             del event
-            for slider in self._sliders.values():
-                slider.value = min(max(0.0, slider.min), slider.max)
+            self.select([link])
 
-    def _moving(self) -> Iterator[tuple[SceneJoint, int, Degree]]:
-        """Each degree of freedom, by the names of joints; the first figure that has a joint says how it moves."""
-        known: set[str] = set()
+        Dragging(figure, self.choices.positions, self._drag).listen(handle, link)
+
+    def _drag(self, joint: SceneJoint, degree: Degree, position: float) -> None:
+        lower, upper = slider_range(degree, beyond=self.choices.beyond)
+        self.move({(joint.name, 0): min(max(position, lower), upper)})
+
+    def _mark(self) -> None:
+        """Color what is different, and what is selected."""
         for figure in self.figures:
-            for joint in figure.scene.joints:
-                if joint.name not in known:
-                    known.add(joint.name)
-                    yield from ((joint, i, each) for i, each in enumerate(joint.degrees) if each.leader is None)
+            figure.mark(self._colors | dict.fromkeys(self._selected, MARK))
+        self._tell_page()
 
-    def _slider(self, joint: SceneJoint, number: int, degree: Degree) -> None:
-        lower, upper = slider_range(degree)
-        key = (joint.name, number)
-        value = min(max(self.positions.get(key, 0.0), lower), upper)
-        self.positions[key] = value
-        label = shortened(joint.name if len(joint.degrees) == 1 else f"{joint.name} ({number + 1})")
-        unit = "m" if degree.slides else "rad"
-        step = (upper - lower) / _STEPS
-        slider = self.gui.add_slider(label, lower, upper, step, value, hint=f"{joint.type}, {unit}")
-        self._sliders[key] = slider
-
-        @slider.on_update
-        def _(event: object) -> None:
-            del event
-            self.positions[key] = slider.value
-            for figure in self.figures:
-                figure.move(self.positions)
+    def _tell_page(self) -> None:
+        labels = {name: text for figure in self.figures for name, text in figure.labels.items()}
+        self._page.content = page_script.control(labels, self._selected)
 
     def _layers(self) -> None:
         if len(self.figures) > 1:
             self._arrangement()
         for layer in LAYERS:
-            box = self.gui.add_checkbox(layer.label, layer.shown)
+            shown = layer.shown or (layer.label == SKELETON and _few_are_drawn(self.figures))
+            box = self.gui.add_checkbox(layer.label, self.choices.shown.setdefault(layer.label, shown))
             for figure in self.figures:
-                figure.show(layer.label, layer.draw, visible=layer.shown)
+                figure.show(layer.label, layer.draw, visible=box.value)
 
             @box.on_update
             def _(event: object, layer: Any = layer, box: Any = box) -> None:
                 del event
-                for figure in self.figures:
-                    figure.show(layer.label, layer.draw, visible=box.value)
+                self._show(layer, visible=box.value)
+
+        self._grid()
+
+    def _show(self, layer: Layer, *, visible: bool) -> None:
+        with self.lock:
+            self.choices.shown[layer.label] = visible
+            if self.ended:
+                return
+            for figure in self.figures:
+                figure.show(layer.label, layer.draw, visible=visible)
+            self._tell_page()
+
+    def _grid(self) -> None:
+        has_ground = any(figure.has_ground for figure in self.figures)
+        box = self.gui.add_checkbox("Grid", self.choices.shown.setdefault("Grid", not has_ground))
+        self.grid.visible = box.value
+
+        @box.on_update
+        def _(event: object) -> None:
+            del event
+            self.choices.shown["Grid"] = self.grid.visible = box.value
 
     def _arrangement(self) -> None:
         first, second = self.figures
@@ -135,75 +159,85 @@ class Panel:
             second.place((0.0, -aside if where.value == "beside A" else 0.0, 0.0), visible=where.value != "hidden")
 
     def _tree(self) -> None:
-        """The tree as text, and a field that finds a link in it."""
-        links = [link.name for link in self.subjects[0].scene.links]
-        labels = [f"{number}: {shortened(name)}" for number, name in enumerate(links)]
-        if links:
-            found = self.gui.add_dropdown("Look at", labels)
+        """A field that finds a link, which a click on a row of the tree fills too, and the trees."""
+        found = self.gui.add_text("Find", "", hint="A link or joint, or the beginning of its name")
 
-            @found.on_update
-            def _(event: object) -> None:
-                del event
-                self.select(links[labels.index(found.value)])
+        @found.on_update
+        def _(event: object) -> None:
+            del event
+            wanted = found.value.strip()
+            if wanted:
+                self._find(wanted)
 
-        for subject in self.subjects:
-            self.gui.add_html(words.tree(subject.scene))
+        for subject, figure in zip(self.subjects, self.figures, strict=True):
+            if figure.title:
+                self.gui.add_html(words.paragraph(figure.title))
+            self.gui.add_html(tree(subject.scene, self._marks(subject, figure)))
+
+    def _find(self, wanted: str) -> None:
+        names = {joint.name: joint.child for figure in self.figures for joint in figure.scene.joints}
+        names |= {link: link for subject in self.subjects for link in subject.links}
+        ranks = {name: rank for name in names if (rank := _rank(wanted, name)) is not None}
+        if ranks:
+            self.select([names[min(ranks, key=lambda name: (ranks[name], len(name)))]])
+
+    def _marks(self, subject: Subject, figure: Figure) -> dict[str, list[Mark]]:
+        """What there is to see about links in the tree."""
+        marks: dict[str, list[Mark]] = {}
+        for link, about in subject.about.items():
+            marks[link] = [words.mark(each) for each in about if isinstance(each, Diagnostic)]
+        for link, _, problem in figure.problems():
+            marks.setdefault(link, []).append(Mark("\N{WHITE SQUARE}", words.css(MARK), problem))
+        for link, color in self._colors.items():
+            marks.setdefault(link, []).append(Mark("\N{NOT EQUAL TO}", words.css(color), "differs"))
+        return marks
 
     def _findings(self) -> None:
         self.gui.add_html(words.verdict(self.subjects))
         for subject in self.subjects:
-            rows = subject.findings
+            rows = sorted(subject.findings, key=words.severity_rank)
             for found in rows[:_MOST_ROWS]:
                 label = f"{found.severity}: {found.rule.name}, line {found.location.line}"
-                self._row(label, words.finding(found), subject.link_at(found.location.path))
+                color = words.severity_color(found)
+                self._row(label, words.finding(found), subject.links_at(found.location), color)
             if len(rows) > _MOST_ROWS:
                 self.gui.add_html(words.more(len(rows) - _MOST_ROWS, "findings"))
         for figure in self.figures:
             for link, shape, problem in list(figure.problems())[:_MOST_ROWS]:
-                self._row(f"not drawn: {shortened(shape.name or shape.role)}", words.paragraph(problem), link)
+                self._row(f"not drawn: {shortened(shape.name or shape.role)}", words.paragraph(problem), [link], MARK)
 
     def _differences(self, comparison: Comparison) -> None:
         self.gui.add_html(words.compared(comparison))
         for found in comparison.differences[:_MOST_ROWS]:
-            label = shortened(f"{found.group} {found.name}: {found.aspect}")
-            self._row(label, words.difference(found), self._moved(found.group, found.name))
+            label = shortened(f"{found.group} {found.name}: {found.aspect}".rstrip(": "))
+            links = links_of(found, self.subjects)
+            color = next((self._colors[link] for link in links if link in self._colors), words.QUIET)
+            self._row(label, words.difference(found), links, color)
         if len(comparison.differences) > _MOST_ROWS:
             self.gui.add_html(words.more(len(comparison.differences) - _MOST_ROWS, "differences"))
 
-    def _moved(self, group: str, name: str) -> str | None:
-        """The link that a difference is seen on."""
-        if group in {"link", "kinematics"}:
-            return name
-        joints = {joint.name: joint for figure in self.figures for joint in figure.scene.joints}
-        return joints[name].child if group == "joint" and name in joints else None
-
-    def _row(self, label: str, text: str, link: str | None) -> None:
-        button = self.gui.add_button(label, hint="Show it")
+    def _row(self, label: str, text: str, links: Sequence[str], color: Rgb) -> None:
+        if not links:
+            self.gui.add_html(words.heading(label, color) + text)
+            return
+        button = self.gui.add_button(label, hint="Show the part that it is about", color=color)
         self.gui.add_html(text)
 
         @button.on_click
         def _(event: object) -> None:
             del event
-            if link is not None:
-                self.select(link, text)
-
-    def mark_differences(self) -> None:
-        """Color what is different."""
-        if self.comparison is None:
-            return
-        links = (self._moved(each.group, each.name) for each in self.comparison.differences)
-        colors = dict.fromkeys((each for each in links if each is not None), _DIFFERENT)
-        for figure in self.figures:
-            figure.mark(colors)
+            self.select(links, text)
 
 
-def slider_range(degree: Degree) -> tuple[float, float]:
-    """The ends of a slider, in rad or m: the limits, or a way to both sides; some way where both limits are one."""
-    usual = _WAY if degree.slides else _TURN
-    lower = degree.lower if math.isfinite(degree.lower) else -usual
-    upper = degree.upper if math.isfinite(degree.upper) else usual
-    if not math.isfinite(degree.lower) and upper <= lower:
-        lower = upper - usual
-    if lower >= upper:
-        lower, upper = min(lower, 0.0), max(upper, 0.0)
-    return (lower, upper) if lower < upper else (-usual, usual)
+def _few_are_drawn(figures: Sequence[Figure]) -> bool:
+    """Whether so little can be drawn that a robot cannot be known by it."""
+    every = [figure.triangles(shape) for figure in figures for _, _, shape in figure.shapes("visual")]
+    return sum(not each.problem for each in every) <= _FEW_DRAWN * len(every)
+
+
+def _rank(wanted: str, name: str) -> int | None:
+    """How well a name is what is wanted, 0 at best; None if it is not."""
+    low, part = name.lower(), wanted.lower()
+    if name == wanted:
+        return 0
+    return 1 if low.startswith(part) else 2 if part in low else None

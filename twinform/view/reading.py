@@ -1,6 +1,6 @@
 """Reads what is to be shown: a file with its findings, and what a conversion to the other format makes of its parts."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from twinform.compiler.driver import convert
 from twinform.compiler.errors import CompileError
@@ -9,8 +9,9 @@ from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, read
 from twinform.compiler.inspection import inspect
 from twinform.compiler.scene import build_scene
 from twinform.diagnostics.ledger import Entry
-from twinform.ir import Document, Format
+from twinform.ir import Document, Format, Model
 from twinform.passes import PassError
+from twinform.passes.analyses.candidates import candidates
 from twinform.view.subject import Subject
 
 _OTHER: Mapping[Format, Format] = {Format.URDF: Format.SDF, Format.SDF: Format.URDF}
@@ -22,14 +23,32 @@ def read_subject(source: Input, load_options: LoadOptions, *, name: str = "") ->
     document = loaded.document
     if document is None:
         return None, loaded
-    entries = _entries(document) if loaded.accepted else ()
     scene = build_scene(document)
-    return Subject(document, scene, loaded.path, load_options.search, loaded.diagnostics, entries), loaded
+    entries, unconverted = _ledger(document) if loaded.accepted else ((), ("it has errors",))
+    subject = Subject(
+        document, scene, loaded.path, load_options.search, loaded.diagnostics, entries, unconverted
+    )  # fmt: skip
+    return subject, loaded
 
 
-def _entries(document: Document) -> tuple[Entry, ...]:
-    """The ledger of a conversion to the other format; nothing where it ends with an error."""
-    try:
-        return convert(document, to=_OTHER[document.format].value).ledger.entries
-    except (CompileError, PassError):
-        return ()
+def _ledger(document: Document) -> tuple[tuple[Entry, ...], tuple[str, ...]]:
+    """What conversions to the other format make of each model alone, and why there is none of some."""
+    entries: list[Entry] = []
+    reasons: list[str] = []
+    for alone in _each_alone(document):
+        try:
+            entries += convert(alone, to=_OTHER[document.format].value).ledger.entries
+        except (CompileError, PassError) as error:
+            reasons.append(str(error).partition("\n")[0])
+    return tuple(entries), tuple(reasons)
+
+
+def _each_alone(document: Document) -> Iterator[Document]:
+    """A document for each model, since URDF holds one robot; where it is in a world does not matter to its parts."""
+    found = [each.model for each in candidates(document) if isinstance(each.model, Model)]
+    if len(found) < 2 and not document.worlds:
+        yield document
+        return
+    for model in found:
+        alone = model.model_copy(update={"pose": None})
+        yield document.model_copy(update={"worlds": (), "includes": (), "models": (alone,)})

@@ -8,6 +8,7 @@ from typing import Any
 from twinform.compiler.scene import Frustum
 from twinform.ir import Vector3
 from twinform.view.figure import Figure, Handle, Rgb, placed
+from twinform.view.names import shortened
 
 np: Any = importlib.import_module("numpy")
 
@@ -21,14 +22,16 @@ def sensors(figure: Figure) -> Iterator[Handle]:
     far = figure.size * _FAR
     for number, sensor in enumerate(figure.scene.sensors):
         name = f"{figure.node_name(sensor.link)}/sensors/{number}"
+        words = f"sensor {shortened(sensor.name)}", f"{sensor.type} on {shortened(sensor.link)}"
         lines = [piece for frustum in sensor.frustums for piece in _edges(frustum, far)]
         lines += [(ray.start, _cut(ray.start, ray.end, far)) for ray in sensor.rays]
         if not lines:
-            yield figure.axes(name, sensor.pose)
+            yield figure.axes(name, sensor.pose, *words)
             continue
         points = np.asarray(lines, dtype=np.float32)
         thick = figure.size * 0.003
-        yield figure.api.add_line_segments(name, points, _SENSOR, thickness=thick, **placed(sensor.pose))
+        drawn = figure.api.add_line_segments(name, points, _SENSOR, thickness=thick, **placed(sensor.pose))
+        yield figure.called(drawn, *words)
 
 
 def _edges(frustum: Frustum, far: float) -> Iterator[tuple[Vector3, Vector3]]:

@@ -1,5 +1,6 @@
 """What is looked at: a robot or world as a scene, what was found in it, and what a conversion makes of its parts."""
 
+from collections import defaultdict
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -7,14 +8,20 @@ from pathlib import Path
 
 from twinform.compiler.scene import Scene
 from twinform.compiler.search.uris import SearchPath
-from twinform.diagnostics import Diagnostic
+from twinform.diagnostics import Diagnostic, Location
 from twinform.diagnostics.ledger import Entry
 from twinform.ir import Document
+
+About = Diagnostic | Entry
+"""What is said about a place of the file: a finding, or what became of a piece."""
 
 
 @dataclass(frozen=True)
 class Subject:
-    """A document as it is shown. `path` is its file, beside which meshes are looked for."""
+    """A document as it is shown. `path` is its file, beside which meshes are looked for.
+
+    `unconverted` says why there are no `entries` of a model.
+    """
 
     document: Document
     scene: Scene
@@ -22,6 +29,7 @@ class Subject:
     search: SearchPath | None = None
     findings: tuple[Diagnostic, ...] = ()
     entries: tuple[Entry, ...] = ()
+    unconverted: tuple[str, ...] = ()
 
     @property
     def beside(self) -> Path | None:
@@ -29,15 +37,41 @@ class Subject:
         return Path(self.path) if self.path else None
 
     @cached_property
-    def _parts(self) -> Mapping[str, str]:
-        """The links that parts of the file are about, by the paths of links and joints."""
-        of_links = {link.where.path: link.name for link in self.scene.links}
-        return of_links | {joint.where.path: joint.child for joint in self.scene.joints}
+    def links(self) -> frozenset[str]:
+        """The names of all links."""
+        return frozenset(link.name for link in self.scene.links)
 
-    def link_at(self, path: str) -> str | None:
-        """The link that a place in the file is about; that which a joint moves, for one in a joint."""
+    @cached_property
+    def about(self) -> Mapping[str, tuple[About, ...]]:
+        """By the names of links: what was found on them and on the joints that move them, and what becomes of these."""
+        found: defaultdict[str, list[About]] = defaultdict(list)
+        for each in (*self.findings, *self.entries):
+            for link in self.links_at(each.location):
+                found[link].append(each)
+        return {link: tuple(each) for link, each in found.items()}
+
+    def links_at(self, place: Location) -> tuple[str, ...]:
+        """The links that a place in a file is about; for one in a joint, that which the joint moves.
+
+        A file that is included more than once has a link in each of its copies. Macros of xacro may be in another file
+        than what they are used in: then the path alone counts.
+        """
+        return self._at(place.file, place.path) or self._at(None, place.path)
+
+    def _at(self, file: str | None, path: str) -> tuple[str, ...]:
         while path:
-            if path in self._parts:
-                return self._parts[path]
+            if found := self._parts.get((file, path)):
+                return found
             path = path.rpartition("/")[0]
-        return None
+        return ()
+
+    @cached_property
+    def _parts(self) -> Mapping[tuple[str | None, str], tuple[str, ...]]:
+        """The links that parts of the files are about, by the file and path of links and joints, and by the path."""
+        found: defaultdict[tuple[str | None, str], tuple[str, ...]] = defaultdict(tuple)
+        places = [(link.where, link.name) for link in self.scene.links]
+        places += [(joint.where, joint.child) for joint in self.scene.joints if joint.child in self.links]
+        for where, link in places:
+            for file in {where.file, None}:
+                found[file, where.path] += (link,)
+        return found

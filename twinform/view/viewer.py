@@ -6,17 +6,21 @@ import io
 import math
 import socket
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager
-from threading import Lock
+from pathlib import Path
+from threading import RLock
 from typing import Any
 
 from twinform.compiler.compare.comparison import Comparison
 from twinform.compiler.scene import Positions
+from twinform.view import page_script
 from twinform.view.camera import Camera
 from twinform.view.errors import PortTakenError, ViewError
-from twinform.view.figure import Figure, Look
+from twinform.view.figure import Figure, Handle, Look
+from twinform.view.joint_controls import Choices
 from twinform.view.mesh_drawings import MeshDrawings
+from twinform.view.names import shortened
 from twinform.view.panel import Panel
 from twinform.view.subject import Subject
 
@@ -44,7 +48,7 @@ class Viewer:
     def __init__(self, port: int = 0) -> None:
         with _silence():
             self._server: Any = viser.ViserServer(host=HOST, port=_free(port), label="twinform", verbose=False)
-        self._lock = Lock()
+        self._lock = RLock()
         self._panel: Panel | None = None
         self._shown = 0
         self._server.gui.configure_theme(control_width="large", show_logo=False, show_share_button=False)
@@ -62,18 +66,19 @@ class Viewer:
     def show(self, subjects: Sequence[Subject], comparison: Comparison | None = None) -> None:
         """Show one subject, or a second one over it, in place of what is shown; joints and cameras stay."""
         with self._lock, self._server.atomic():
-            positions = dict(self._panel.positions) if self._panel else {}
+            choices = self._panel.choices if self._panel else Choices()
             is_first = self._panel is None
+            if self._panel is not None:
+                self._panel.ended = True
             self._server.scene.reset()
             self._server.gui.reset()
             self._shown += 1
-            figures = draw(self._server.scene, subjects, self._root, self.select)
-            self._panel = Panel(self._server.gui, subjects, figures, comparison, positions)
+            figures, grid = draw(self._server.scene, subjects, self._root, self._listen)
+            self._panel = Panel(self._server.gui, subjects, figures, grid, comparison, choices, self._lock)
             self._panel.build()
             self._server.gui.main_panel.dock_right()
             for figure in figures:
-                figure.move(self._panel.positions)
-            self._panel.mark_differences()
+                figure.move(choices.positions)
             if is_first:
                 self._aim(figures)
         self._server.flush()
@@ -107,7 +112,9 @@ class Viewer:
         clients = list(self._server.get_clients().values())
         if not clients:
             raise ViewError("no browser is connected")
-        grid = self._server.scene.get_handle_by_name(f"{self._root}/grid")
+        grid = self._panel.grid if self._panel else None
+        if grid is None or not grid.visible:
+            return self._settled(clients[0], camera, width, height, seconds)
         grid.visible = False
         try:
             return self._settled(clients[0], camera, width, height, seconds)
@@ -130,11 +137,21 @@ class Viewer:
     def select(self, link: str) -> None:
         """Mark a link, as a click on it does."""
         if self._panel is not None:
-            self._panel.select(link)
+            self._panel.select([link])
+
+    def warn(self, title: str, lines: Iterable[str] = ()) -> None:
+        """Say above the controls what has gone wrong; it stays until something is shown."""
+        if self._panel is not None:
+            self._panel.warn(title, lines)
 
     def page(self, *, dark: bool = False) -> str:
         """What is shown as a page of its own, which opens without a server; the joints stand where they are."""
-        return self._server.scene.as_html(dark_mode=dark)
+        labels = {name: text for figure in self.figures for name, text in figure.labels.items()}
+        return page_script.with_script(self._server.scene.as_html(dark_mode=dark), labels)
+
+    def _listen(self, figure: Figure, handle: Handle, link: str) -> None:
+        if self._panel is not None:
+            self._panel.listen(figure, handle, link)
 
     def stop(self) -> None:
         """End the server; browsers say that it has gone."""
@@ -142,19 +159,21 @@ class Viewer:
             self._server.stop()
 
 
-def draw(api: Any, subjects: Sequence[Subject], root: str, on_click: Any = None) -> list[Figure]:
+def draw(
+    api: Any, subjects: Sequence[Subject], root: str, listen: Callable[[Figure, Handle, str], None] | None = None
+) -> tuple[list[Figure], Handle]:
     """The figures of subjects below a node of viser, the second one in a color of its own, and a grid under them."""
     figures: list[Figure] = []
     for subject, name, look in zip(subjects, "AB", (Look(), _SECOND), strict=False):
         meshes = MeshDrawings(subject.search, subject.beside)
-        figures.append(Figure(api, f"{root}/{name}", subject.scene, meshes, look, on_click))
+        title = f"{name}: {shortened(Path(subject.path).name)}" if len(subjects) > 1 else ""
+        figures.append(Figure(api, f"{root}/{name}", subject.scene, meshes, look, listen, title))
     size = max(figure.size for figure in figures)
     floor = min(float(figure.bounds()[0][2]) for figure in figures)
     cell = _power_of_ten(size / 4)
-    height = min(floor, 0.0)
-    where = (0.0, 0.0, height)
-    api.add_grid(f"{root}/grid", size * 6, size * 6, cell_size=cell, section_size=10 * cell, position=where)
-    return figures
+    where = (0.0, 0.0, min(floor, 0.0))
+    grid = api.add_grid(f"{root}/grid", size * 6, size * 6, cell_size=cell, section_size=10 * cell, position=where)
+    return figures, grid
 
 
 def camera_for(figures: Sequence[Figure]) -> Camera:

@@ -1,18 +1,63 @@
-"""Text of the panel as HTML in which names do nothing: the tree, findings, differences, what is known of a part."""
+"""Text of the panel as HTML in which names do nothing: findings, differences, what is known of a part."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 
 from twinform.compiler.compare.comparison import Comparison, Difference
-from twinform.compiler.scene import Scene, SceneJoint, SceneLink
+from twinform.compiler.scene import SceneLink
 from twinform.diagnostics import Diagnostic, Severity
 from twinform.diagnostics.ledger import Entry
-from twinform.ir.motion import spanning_tree
+from twinform.view.difference_colors import MEANINGS
+from twinform.view.figure import Rgb
 from twinform.view.names import shortened
 from twinform.view.subject import Subject
+from twinform.view.tree import Mark
 
-_DEEPEST = 60
-"""Levels of a tree that are indented."""
+QUIET: Rgb = (110, 116, 125)
+_SEVERITIES: Mapping[Severity, tuple[str, Rgb]] = {
+    Severity.ERROR: ("\N{BLACK CIRCLE}", (200, 30, 30)),
+    Severity.WARNING: ("\N{BLACK CIRCLE}", (190, 105, 0)),
+    Severity.INFO: ("\N{WHITE CIRCLE}", QUIET),
+}
+
+
+def css(color: Rgb) -> str:
+    """A color as styles have it."""
+    return f"rgb{color}"
+
+
+def severity_color(found: Diagnostic) -> Rgb:
+    """The color of a finding."""
+    return _SEVERITIES[found.severity][1]
+
+
+def severity_rank(found: Diagnostic) -> int:
+    """The worst come first."""
+    return -found.severity
+
+
+def mark(found: Diagnostic) -> Mark:
+    """What stands in the tree for a finding."""
+    sign, color = _SEVERITIES[found.severity]
+    return Mark(sign, css(color), f"{found.severity}: {found.message}")
+
+
+def heading(text: str, color: Rgb) -> str:
+    """A line above a text, where there is no part of the robot to show."""
+    return f'<p style="margin:0.6em 0.75em 0;font-size:0.85em;font-weight:600;color:{css(color)}">{escape(text)}</p>'
+
+
+def alert(title: str, lines: Iterable[str]) -> str:
+    """What has gone wrong, in the color of errors."""
+    text = "".join(map(paragraph, lines))
+    return f'<div role="alert">{heading(title, _SEVERITIES[Severity.ERROR][1])}{text}</div>'
+
+
+def welcome(subjects: Sequence[Subject], key: str) -> str:
+    """What there is to do at first."""
+    if not any(subject.scene.links for subject in subjects):
+        return paragraph("There is no link in it, so there is nothing to see: Findings may say why.")
+    return paragraph(f"Click a part of the robot to see what it is; hold {key} and drag it to move its joint.")
 
 
 def paragraph(text: str) -> str:
@@ -25,29 +70,6 @@ def more(count: int, what: str) -> str:
     return paragraph(f"and {count:,} more {what}, which have no row here")
 
 
-def tree(scene: Scene) -> str:
-    """The links below those that move them, with the joints; a loop's joint is listed where it closes the loop."""
-    hung = spanning_tree(scene.joints)
-    below: dict[str, list[SceneJoint]] = {}
-    for joint in scene.joints:
-        below.setdefault(joint.parent, []).append(joint)
-    names = {link.name for link in scene.links}
-    roots = [link.name for link in scene.links if link.name not in hung or hung[link.name].parent not in names]
-    rows: list[str] = []
-    stack: list[tuple[str, SceneJoint | None, int]] = [(name, hung.get(name), 0) for name in reversed(roots)]
-    while stack:
-        link, joint, depth = stack.pop()
-        rows.append(_row(link, joint, depth))
-        if joint is None or hung.get(link) is joint:
-            stack += [(each.child, each, depth + 1) for each in reversed(below.get(link, []))]
-    return f'<div style="font-size:0.8em;margin:0.5em 0.75em;overflow-x:auto;white-space:nowrap">{"".join(rows)}</div>'
-
-
-def _row(link: str, joint: SceneJoint | None, depth: int) -> str:
-    by = f' <span style="opacity:0.6">{escape(joint.type)} {escape(shortened(joint.name))}</span>' if joint else ""
-    return f'<div style="padding-left:{min(depth, _DEEPEST)}em">{escape(shortened(link))}{by}</div>'
-
-
 def verdict(subjects: Sequence[Subject]) -> str:
     """How many findings there are."""
     found = [each for subject in subjects for each in subject.findings]
@@ -55,6 +77,7 @@ def verdict(subjects: Sequence[Subject]) -> str:
     warnings = sum(each.severity is Severity.WARNING for each in found)
     lines = [f"{errors} errors, {warnings} warnings, {len(found) - errors - warnings} notes"]
     lines += [f"left out: {reason}" for subject in subjects for reason in subject.scene.left_out]
+    lines += [f"no ledger, as it cannot be converted: {each}" for subject in subjects for each in subject.unconverted]
     return "".join(map(paragraph, lines))
 
 
@@ -67,7 +90,8 @@ def compared(comparison: Comparison) -> str:
     """Whether two robots are the same."""
     if comparison.same:
         return paragraph("Both files describe the same robot.")
-    return paragraph(f"{len(comparison.differences)} differences; what differs is red.")
+    legend = "".join(heading(f"\N{BLACK SQUARE} {text}", color) for text, color in MEANINGS.items())
+    return paragraph(f"{len(comparison.differences)} differences, on links of these colors:") + legend
 
 
 def difference(found: Difference) -> str:
@@ -82,7 +106,7 @@ def part(link: str, subject: Subject) -> str:
     if found is None:
         return ""
     rows = [*_facts(found, subject).items()]
-    about = [each for each in (*subject.findings, *subject.entries) if subject.link_at(each.location.path) == link]
+    about = subject.about.get(link, ())
     rows += [(str(each.fate if isinstance(each, Entry) else each.severity), each.message) for each in about]
     cells = "".join(f"<tr><th>{escape(shortened(name))}</th><td>{escape(value)}</td></tr>" for name, value in rows)
     return f'<table style="font-size:0.8em;margin:0.5em 0.75em;text-align:left">{cells}</table>'

@@ -14,9 +14,9 @@ from twinform.ir import Box, Capsule, Cone, Cylinder, Ellipsoid, Heightmap, Mesh
 from twinform.ir.geometry import ShapeNode
 from twinform.ir.solids import Solid
 from twinform.view.camera import Camera
+from twinform.view.joint_controls import slider_range
 from twinform.view.mass_marks import inertia_box
 from twinform.view.mesh_drawings import MeshDrawings
-from twinform.view.panel import slider_range
 from twinform.view.triangles import STAND_IN, triangles_of
 
 _SHAPES = [

@@ -1,0 +1,65 @@
+"""What moves when a part is dragged, and how far."""
+
+import math
+
+import pytest
+
+pytest.importorskip("viser", reason="viser is not installed")
+
+from tests.browser.test_view import ARM
+from twinform.compiler import LoadOptions
+from twinform.compiler.scene import Kinematics
+from twinform.view import read_subject
+from twinform.view.dragging import Drag, drag_of
+from twinform.view.figure import Figure
+from twinform.view.mesh_drawings import MeshDrawings
+
+
+class _Nothing:
+    """What draws nothing, with the names that viser would have."""
+
+    def __init__(self, name: str = "") -> None:
+        self.name = name
+        self.position, self.wxyz = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)
+
+    def add_frame(self, name: str, **_: object) -> "_Nothing":
+        return _Nothing(name)
+
+
+@pytest.fixture
+def figure() -> Figure:
+    subject, _ = read_subject(ARM.encode(), LoadOptions())
+    assert subject is not None
+    return Figure(_Nothing(), "/1/A", subject.scene, MeshDrawings())
+
+
+def _drag(figure: Figure, link: str, positions: dict[tuple[str, int], float], at: tuple[float, float, float]) -> Drag:
+    figure.move(positions)
+    found = drag_of(figure, link, figure.poses[link].apply(at), positions)
+    assert found is not None
+    return found
+
+
+def test_the_base_does_not_move(figure: Figure):
+    assert drag_of(figure, "base", (0, 0, 0), {}) is None
+
+
+@pytest.mark.parametrize(("link", "joint"), [("upper", "shoulder"), ("slider", "slide"), ("follower", "slide")])
+def test_the_nearest_joint_moves_that_follows_no_other(figure: Figure, link: str, joint: str):
+    assert _drag(figure, link, {}, (0, 0, 0.1)).joint.name == joint
+
+
+@pytest.mark.parametrize("shoulder", [0.0, 0.4, -1.0])
+@pytest.mark.parametrize(("link", "key", "target"), [("upper", ("shoulder", 0), 1.2), ("slider", ("slide", 0), 0.15)])
+def test_the_grip_follows_the_pointer(figure: Figure, shoulder: float, link: str, key: tuple[str, int], target: float):
+    """Wherever a part is after a motion of its joint, dragging its grip there gives that motion."""
+    before = {("shoulder", 0): shoulder}
+    grip = (0.02, 0.01, 0.3)
+    drag = _drag(figure, link, before, grip)
+    there = Kinematics(figure.scene).poses(before | {key: target})[link].apply(grip)
+    assert drag.position_at(there) == pytest.approx(target)
+
+
+def test_it_turns_the_shorter_way(figure: Figure):
+    drag = _drag(figure, "upper", {}, (0, 0, 0.3))
+    assert abs(drag.position_at((-0.001, 0, -1))) <= math.pi

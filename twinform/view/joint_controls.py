@@ -1,0 +1,241 @@
+"""The controls of joints: a slider for each degree of freedom, poses, units, and all positions as text."""
+
+import json
+import math
+import random
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, cast
+
+from twinform.compiler.scene import Degree, Positions, SceneJoint
+from twinform.view import words
+from twinform.view.figure import Figure
+from twinform.view.names import shortened
+
+_TURN, _WAY = math.pi, 1.0
+"""How far sliders go where there are no limits: rad to both sides, and m."""
+_BEYOND = 2
+"""So many times as far they go where limits are ignored."""
+_STEPS = 200
+_FINEST = 1e-3
+"""The step of sliders in their unit, unless that is too coarse for their way."""
+_FARTHEST = 1e6
+"""Positions beyond this, in rad or m, are not taken from text."""
+_MOST_ROWS = 100
+"""So many degrees of freedom have sliders; the page says how many more there are."""
+Key = tuple[str, int]
+
+
+@dataclass(slots=True)
+class Choices:
+    """What a person has chosen, which stays when a file is shown again."""
+
+    positions: dict[Key, float] = field(default_factory=dict[Key, float])
+    shown: dict[str, bool] = field(default_factory=dict[str, bool])
+    degrees: bool = False
+    beyond: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class _Movable:
+    """A degree of freedom that follows no other one."""
+
+    joint: SceneJoint
+    number: int
+    degree: Degree
+
+    @property
+    def key(self) -> Key:
+        return self.joint.name, self.number
+
+    @property
+    def label(self) -> str:
+        numbered = self.joint.name if len(self.joint.degrees) == 1 else f"{self.joint.name} ({self.number + 1})"
+        return shortened(numbered)
+
+
+@dataclass(slots=True)
+class JointControls:
+    """Sliders of all joints of some figures."""
+
+    gui: Any
+    figures: Sequence[Figure]
+    choices: Choices
+    _movable: list[_Movable] = field(default_factory=list[_Movable], init=False)
+    _sliders: dict[Key, Any] = field(default_factory=dict[Key, Any], init=False)
+    _folder: Any = field(default=None, init=False)
+    _text: Any = field(default=None, init=False)
+
+    def build(self) -> None:
+        """Put all controls into the panel."""
+        self._movable = list(_movable(self.figures))
+        if not self._movable:
+            self.gui.add_html(words.paragraph("No joint moves."))
+            return
+        self._poses()
+        self._choice("Degrees", self.choices.degrees, self._show_degrees)
+        self._choice("Ignore limits", self.choices.beyond, self._ignore_limits)
+        self._folder = self.gui.add_folder(None)
+        self._show_sliders()
+        if len(self._movable) > _MOST_ROWS:
+            self.gui.add_html(words.more(len(self._movable) - _MOST_ROWS, "joints"))
+        with self.gui.add_folder("Positions as text", expand_by_default=False):
+            self._as_text()
+
+    def move(self, positions: Positions) -> None:
+        """Put joints to positions, and their sliders."""
+        self._put(positions)
+        self._write()
+
+    def _put(self, positions: Positions) -> None:
+        self.choices.positions |= positions
+        for key, slider in self._sliders.items():
+            if key in positions:
+                slider.value = _within(positions[key] * self._unit(key), slider.min, slider.max)
+        for figure in self.figures:
+            figure.move(self.choices.positions)
+
+    def _unit(self, key: Key) -> float:
+        """How many of the unit that is shown are in a rad or m."""
+        slides = next(each.degree.slides for each in self._movable if each.key == key)
+        return math.degrees(1) if self.choices.degrees and not slides else 1.0
+
+    def _choice(self, label: str, value: bool, choose: Callable[[bool], None]) -> None:
+        box = self.gui.add_checkbox(label, value)
+
+        @box.on_update
+        def _(event: object) -> None:
+            del event
+            choose(box.value)
+            self._show_sliders()
+
+    def _show_degrees(self, chosen: bool) -> None:
+        self.choices.degrees = chosen
+
+    def _ignore_limits(self, chosen: bool) -> None:
+        self.choices.beyond = chosen
+
+    def _poses(self) -> None:
+        poses: Mapping[str, Callable[[Degree], float]] = {
+            "Zero": lambda _: 0.0,
+            "Middle": lambda degree: math.fsum(slider_range(degree)) / 2,
+            "Random": lambda degree: random.uniform(*slider_range(degree)),  # noqa: S311 - no secret
+        }
+        group = self.gui.add_button_group("Pose", tuple(poses), hint="All joints to zero, half way, or anywhere")
+
+        @group.on_click
+        def _(event: object) -> None:
+            del event
+            choose = poses[group.value]
+            self.move({each.key: _within(choose(each.degree), *slider_range(each.degree)) for each in self._movable})
+
+    def _show_sliders(self) -> None:
+        for slider in self._sliders.values():
+            slider.remove()
+        self._sliders = {}
+        with self._folder:
+            for each in self._movable[:_MOST_ROWS]:
+                self._slider(each)
+
+    def _slider(self, movable: _Movable) -> None:
+        key, degree = movable.key, movable.degree
+        unit = self._unit(key)
+        lower, upper = (each * unit for each in slider_range(degree, beyond=self.choices.beyond))
+        position = _within(self.choices.positions.get(key, 0.0), lower / unit, upper / unit)
+        self.choices.positions[key] = position
+        slider = self.gui.add_slider(
+            movable.label,
+            lower,
+            upper,
+            min(_FINEST * max(1.0, unit), (upper - lower) / _STEPS),
+            _within(position * unit, lower, upper),
+            marks=((lower, f"{lower:.4g}"), (upper, f"{upper:.4g}")),
+            hint=_hint(movable, degrees=unit != 1.0),
+        )
+        self._sliders[key] = slider
+
+        @slider.on_update
+        def _(event: Any) -> None:
+            if event.client is None:
+                return  # it was put there by a program, which moves the joints itself
+            self.choices.positions[key] = slider.value / unit
+            for figure in self.figures:
+                figure.move(self.choices.positions)
+            self._write()
+
+    def _as_text(self) -> None:
+        """A field to copy all positions from, or to put them into."""
+        self._text = self.gui.add_text("JSON", self._json(), multiline=True, hint="In rad and m, to copy or to write")
+
+        @self._text.on_update
+        def _(event: Any) -> None:
+            if event.client is not None:
+                known = {each.key for each in self._movable}
+                self._put({key: value for key, value in positions_of(self._text.value).items() if key in known})
+
+    def _write(self) -> None:
+        if self._text is not None:
+            self._text.value = self._json()
+
+    def _json(self) -> str:
+        found: dict[str, list[float]] = {}
+        for each in self._movable:
+            found.setdefault(each.joint.name, []).append(round(self.choices.positions.get(each.key, 0.0), 6))
+        return json.dumps({name: each[0] if len(each) == 1 else each for name, each in found.items()}, indent=1)
+
+
+def positions_of(text: str) -> dict[Key, float]:
+    """The positions that JSON says: numbers by the names of joints, or lists of them; nothing from other text."""
+    try:
+        found: object = json.loads(text)
+    except (ValueError, RecursionError):
+        return {}
+    if not isinstance(found, dict):
+        return {}
+    joints = cast("dict[str, object]", found)
+    return {(name, number): each for name, value in joints.items() for number, each in enumerate(_numbers(value))}
+
+
+def _numbers(value: object) -> Iterator[float]:
+    several = cast("list[object]", value) if isinstance(value, list) else [value]
+    for each in several:
+        if isinstance(each, int | float) and abs(each) < _FARTHEST:
+            yield float(each)
+
+
+def slider_range(degree: Degree, *, beyond: bool = False) -> tuple[float, float]:
+    """The ends of a slider, in rad or m: the limits, or a way to both sides; some way where both limits are one.
+
+    It goes at least as far as without limits where these are ignored, `beyond` them.
+    """
+    usual = _WAY if degree.slides else _TURN
+    lower = degree.lower if math.isfinite(degree.lower) else -usual
+    upper = degree.upper if math.isfinite(degree.upper) else usual
+    if not math.isfinite(degree.lower) and upper <= lower:
+        lower = upper - usual
+    if lower >= upper:
+        lower, upper = min(lower, 0.0), max(upper, 0.0)
+    if beyond:
+        return min(-_BEYOND * usual, lower - usual), max(_BEYOND * usual, upper + usual)
+    return (lower, upper) if lower < upper else (-usual, usual)
+
+
+def _movable(figures: Sequence[Figure]) -> Iterator[_Movable]:
+    """Each degree of freedom, by the names of joints; the first figure that has a joint says how it moves."""
+    known: set[str] = set()
+    for figure in figures:
+        for joint in figure.scene.joints:
+            if joint.name not in known:
+                known.add(joint.name)
+                yield from (_Movable(joint, i, each) for i, each in enumerate(joint.degrees) if each.leader is None)
+
+
+def _hint(movable: _Movable, *, degrees: bool) -> str:
+    degree = movable.degree
+    unit = "m" if degree.slides else "degrees" if degrees else "rad"
+    limited = math.isfinite(degree.lower) or math.isfinite(degree.upper)
+    return f"{movable.joint.type}, {unit}, {'within its limits' if limited else 'without limits'}"
+
+
+def _within(value: float, lower: float, upper: float) -> float:
+    return min(max(value, lower), upper)
