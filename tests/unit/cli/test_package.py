@@ -504,3 +504,13 @@ def test_an_image_of_a_folder_of_scripts_is_there_once(run: Run, tmp_path: Path)
     files = _package(run, write(tmp_path / "arm", folder) / "model.sdf", tmp_path / "out/arm")
     assert [path for path in files if path.endswith(".png")] == ["materials/textures/skin.png"]
     assert b"<uri>model://arm/materials/textures</uri>" in files["model.sdf"]
+
+
+def test_a_pointer_of_git_lfs_is_not_put_into_a_package(run: Run, tmp_path: Path) -> None:
+    source = arm(tmp_path)
+    pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 1\n"
+    write(tmp_path / "arm_description", {"meshes/collision/base.STL": pointer})
+    done = run("package", source, "-o", tmp_path / "out/arm", "--kind", "gazebo-model", *SAID)
+    assert done.exit_code == 1
+    assert "base.STL' is a pointer of Git LFS and not the file itself [unpackaged-file]" in done.stderr
+    assert "git lfs pull" in done.stderr
