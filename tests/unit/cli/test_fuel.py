@@ -111,3 +111,20 @@ def test_what_is_in_no_cache_has_no_address(run: Run, cache: Path, crate: Path) 
     assert "is in no local cache of Fuel" in done.stderr
     assert "[unmapped-uri]" in done.stderr
     assert not cache.exists()
+
+
+def test_the_cache_of_ignition_is_one_too(
+    run: Run, crate: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv("GZ_FUEL_CACHE_PATH", raising=False)
+    monkeypatch.setenv("IGN_FUEL_CACHE_PATH", str(tmp_path / "old"))
+    run("fuel", "add", crate, "--owner", "me", "--cache", tmp_path / "old")
+    assert run("fuel", "list").stdout.startswith("https://fuel.gazebosim.org/1.0/me/models/")
+
+
+def test_other_addresses_are_not_called_those_of_fuel(run: Run, tmp_path: Path) -> None:
+    mesh = '<visual><geometry><mesh filename="https://example.org/arm.stl"/></geometry></visual>'
+    (tmp_path / "r.urdf").write_text(f'<robot name="r"><link name="l">{mesh}</link></robot>')
+    done = run("package", tmp_path / "r.urdf", "-o", tmp_path / "out", "--kind", "gazebo-model")
+    assert "'https://example.org/arm.stl' is no address of Fuel, and nothing is fetched from example.org" in done.stderr
+    assert "gz fuel" not in done.stderr

@@ -461,3 +461,56 @@ def test_a_name_that_is_not_that_of_the_folder_cannot_be_for_both(run: Run, fold
 def test_exit_codes_are_those_of_convert(run: Run, folder: Path, file: str, code: int) -> None:
     assert run("package", folder / file, "-o", folder / "out", "--kind", "gazebo-model").exit_code == code
     assert not (folder / "out").exists()
+
+
+_EVERYWHERE = """<sdf version="1.9"><model name="arm"><link name="base">
+  <visual name="ground"><geometry><heightmap><uri>media/height.png</uri><size>1 1 1</size><texture>
+    <diffuse>media/dirt.png</diffuse><normal>media/bumps.png</normal><size>1</size></texture></heightmap></geometry>
+    <material><diffuse>1 0 0 1</diffuse></material></visual>
+  <particle_emitter name="smoke" type="point"><color_range_image>media/colors.png</color_range_image>
+    <material><pbr><metal><albedo_map>media/smoke.png</albedo_map></metal></pbr></material></particle_emitter>
+  <projector name="beamer"><texture>media/slide.png</texture></projector>
+  <audio_source><uri>media/beep.wav</uri></audio_source>
+</link></model></sdf>
+"""
+
+
+def test_files_are_found_wherever_an_element_names_one(run: Run, tmp_path: Path) -> None:
+    names = ("height.png", "dirt.png", "bumps.png", "colors.png", "smoke.png", "slide.png", "beep.wav")
+    write(tmp_path, {"arm.sdf": _EVERYWHERE.encode(), **{f"media/{name}": name.encode() for name in names}})
+    files = _package(run, tmp_path / "arm.sdf", tmp_path / "out/arm")
+    assert {Path(path).name for path in files} == {*names, "model.sdf", "model.config", ".twinform-package"}
+    uris = set(re.findall(r"model://arm/([^<]*)<", files["model.sdf"].decode()))
+    assert uris == {path for path in files if path.endswith((".png", ".wav"))}
+    assert "<diffuse>1 0 0 1</diffuse>" in files["model.sdf"].decode()
+
+
+def test_a_picture_of_the_sky_goes_with_the_world(run: Run, tmp_path: Path) -> None:
+    world = '<sdf version="1.9"><world name="w"><scene><sky><cubemap_uri>{}</cubemap_uri></sky></scene></world></sdf>'
+    write(tmp_path, {"media/sky.dds": b"sky", "w.sdf": world.format("media/sky.dds").encode()})
+    files = _package(run, tmp_path / "w.sdf", tmp_path / "out/w")
+    (name,) = re.findall("<cubemap_uri>(.*)</cubemap_uri>", files["worlds/w.sdf"].decode())
+    assert files[f"worlds/{name}"] == b"sky"
+
+
+def test_an_image_of_a_folder_of_scripts_is_there_once(run: Run, tmp_path: Path) -> None:
+    material = (
+        "<pbr><metal><albedo_map>model://arm/materials/textures/skin.png</albedo_map></metal></pbr>"
+        "<script><uri>model://arm/materials/textures</uri><name>Skin</name></script>"
+    )
+    shape = f"<geometry><box><size>1 1 1</size></box></geometry><material>{material}</material>"
+    sdf = f'<sdf version="1.9"><model name="arm"><link name="l"><visual name="v">{shape}</visual></link></model></sdf>'
+    folder = {"materials/textures/skin.png": PNG, "model.config": b"<model/>", "model.sdf": sdf.encode()}
+    files = _package(run, write(tmp_path / "arm", folder) / "model.sdf", tmp_path / "out/arm")
+    assert [path for path in files if path.endswith(".png")] == ["materials/textures/skin.png"]
+    assert b"<uri>model://arm/materials/textures</uri>" in files["model.sdf"]
+
+
+def test_a_pointer_of_git_lfs_is_not_put_into_a_package(run: Run, tmp_path: Path) -> None:
+    source = arm(tmp_path)
+    pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 1\n"
+    write(tmp_path / "arm_description", {"meshes/collision/base.STL": pointer})
+    done = run("package", source, "-o", tmp_path / "out/arm", "--kind", "gazebo-model", *SAID)
+    assert done.exit_code == 1
+    assert "base.STL' is a pointer of Git LFS and not the file itself [unpackaged-file]" in done.stderr
+    assert "git lfs pull" in done.stderr

@@ -1,5 +1,6 @@
 """The pass that puts the files of a document into a package, and writes the URIs that they have there."""
 
+from contextlib import suppress
 from typing import ClassVar, Self
 
 from pydantic import PrivateAttr
@@ -20,7 +21,7 @@ _STANDARD = "file://media/"
 """What Gazebo Classic brings itself begins so."""
 _KINDS: dict[Kind, frozenset[FileKind]] = {
     "mesh": frozenset({"mesh"}),
-    "texture": frozenset({"image", "script"}),
+    "texture": frozenset({"image", "script", "sound"}),
 }
 _KEPT_INCLUDES = ("model://", "http://", "https://")
 """Includes that lead to the same model from everywhere."""
@@ -70,7 +71,18 @@ class CollectFiles(AssetPass):
             return self._collection.layout.uri(place, scheme)
 
         report_plugin_files(document, self._collection.is_reserved, sink)
+        map_uris(document, self._collect_folders)
         return map_uris(document, change)
+
+    def _collect_folders(self, uri: str, kind: Kind, where: Location) -> str:
+        """Folders of scripts and images first, so that a file of one is not put elsewhere too; URIs stay."""
+        del where
+        if kind == "texture" and isinstance(self._assets, LocalAssets):
+            with suppress(AssetError, UncollectedError):  # which are reported where all files are collected
+                found = self._assets.find(uri.strip())
+                if found.is_dir():
+                    self._collection.add(found, _KINDS[kind], self._assets)
+        return uri
 
     def _collected(self, uri: str, kinds: frozenset[FileKind], made: MadeFiles) -> str:
         """The place of a file: of one that a pass has made, or of one that is there."""

@@ -18,10 +18,12 @@ from twinform.compiler.search.uris import LocalAssets
 from twinform.diagnostics import Rule
 from twinform.diagnostics.rules.files import URI_LEAVES_FOLDER
 from twinform.diagnostics.rules.packaging import UNPACKAGED_FILE
+from twinform.passes.analyses.mesh_files import POINTER, is_pointer
 from twinform.passes.framework.asset_access import AssetError
 
 _LARGEST_READ = 2**28
 """A file is only looked into up to this size."""
+_BEGINNING = 64
 _MOST_IN_FOLDER = 2000
 _TEXTURE_FOLDERS = ("", "../materials/textures", "../textures", "../../materials/textures")
 """Where an image may lie that is named without a folder, seen from the file that names it, as Gazebo looks."""
@@ -163,6 +165,9 @@ class Collection:
         if real != path and not origins.is_inside(real, path):
             message = f"{str(path)!r} leads to {str(real)!r}, outside of its package and of the folders that are known"
             raise UncollectedError(message, "name the folder with --path DIR if this is meant", URI_LEAVES_FOLDER)
+        with real.open("rb") as file:
+            if is_pointer(file.read(_BEGINNING)):
+                raise UncollectedError(f"{str(path)!r} is {POINTER}", "run `git lfs pull` in its repository")
         if kind_of(real) != kind_of(path):
             raise UncollectedError(f"{str(path)!r} leads to {str(real)!r}, which is another kind of file")
         return real

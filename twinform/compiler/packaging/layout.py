@@ -14,8 +14,12 @@ _FOLDERS: dict[str, tuple[str, ...]] = {
     "meshes": ("meshes", "mesh"),
     "textures": ("materials", "textures", "texture", "media"),
     "scripts": ("materials", "scripts"),
+    "sounds": ("sounds", "sound", "audio", "media"),
 }
 """What folders are called that the ones of a package stand for."""
+_ROLES: Mapping[FileKind, str] = {
+    "mesh": "meshes", "data": "meshes", "image": "textures", "script": "scripts", "sound": "sounds"
+}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +34,7 @@ class Layout:
     meshes: str = "meshes"
     textures: str = "materials/textures"
     scripts: str = "materials/scripts"
+    sounds: str = "sounds"
 
     def uri(self, path: str, scheme: str) -> str:
         """The URI of a file of the package."""
@@ -42,8 +47,10 @@ class Layout:
         """
         parts = tuple(map(safe_name, parts))
         among_meshes = any(part.lower() in _FOLDERS["meshes"] for part in parts[:-1])
-        role = "meshes" if among_meshes or kind in {"mesh", "data"} else "scripts" if kind == "script" else "textures"
-        folder = {"meshes": self.meshes, "scripts": self.scripts, "textures": self.textures}[role]
+        role = "meshes" if among_meshes else _ROLES[kind]
+        folder = {
+            "meshes": self.meshes, "scripts": self.scripts, "sounds": self.sounds, "textures": self.textures
+        }[role]  # fmt: skip
         above, inner = _around(parts, _FOLDERS[role])
         named = (*((safe_name(holder),) if holder else ()), *above)[-1:]
         for path in dict.fromkeys((inner, (*named, *inner), parts)):

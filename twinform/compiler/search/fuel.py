@@ -18,6 +18,8 @@ SERVER = FUEL_SERVERS[0]
 """The server that addresses are written for."""
 TIP = "tip"
 """What stands for the newest version in an address."""
+_VARIABLES = ("GZ_FUEL_CACHE_PATH", "IGN_FUEL_CACHE_PATH")
+"""What names the cache; the second one did until Fortress."""
 _TWINS = {SERVER: FUEL_SERVERS[1], FUEL_SERVERS[1]: SERVER}
 """One server under two names."""
 _ADDRESS = re.compile(r"/(?:\d+\.\d+/)?(?P<owner>[^/]+)/(?P<kind>models|worlds)/(?P<name>[^/]+)(?:/(?P<rest>.*))?")
@@ -71,13 +73,14 @@ class FuelName:
 
 def caches(environment: Mapping[str, str]) -> tuple[Path, ...]:
     """The folders in which the programs of Gazebo keep what they fetched."""
-    return _caches(environment.get("GZ_FUEL_CACHE_PATH"), environment.get("HOME") or str(Path.home()))
+    named = tuple(environment[name] for name in _VARIABLES if environment.get(name))
+    return _caches(named, environment.get("HOME") or str(Path.home()))
 
 
 @lru_cache(maxsize=16)
-def _caches(named: str | None, home: str) -> tuple[Path, ...]:
+def _caches(named: tuple[str, ...], home: str) -> tuple[Path, ...]:
     """Every file that is read asks for them, and few need them."""
-    return (*([Path(named)] if named else []), Path(home, ".gz", "fuel"), Path(home, ".ignition", "fuel"))
+    return (*map(Path, named), Path(home, ".gz", "fuel"), Path(home, ".ignition", "fuel"))
 
 
 def cached(uri: str, folders: Iterable[Path]) -> Path | None:

@@ -143,6 +143,9 @@ class SearchPath:
         found = fuel.cached(uri, self.fuel)
         if found is None:
             host = urlsplit(uri).hostname or "the network"
+            if fuel.FuelName.parse(uri) is None:
+                message = f"{uri!r} is no address of Fuel, and nothing is fetched from {host}"
+                raise UriError(rules.UNRESOLVED_URI, message, "put the file beside the model, and name it by its path")
             message = f"{uri!r} is not in the local cache of Fuel, and nothing is fetched from {host}"
             advice = f"run `gz fuel download -u '{uri}'`, or `twinform fuel add FOLDER --owner NAME` where you have it"
             raise UriError(rules.UNRESOLVED_URI, message, _searched(self.fuel, advice))

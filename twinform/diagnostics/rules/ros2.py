@@ -6,10 +6,12 @@ UNCONTROLLED_JOINT = Rule(
     name="uncontrolled-joint",
     severity=Severity.WARNING,
     finds="A joint, sensor or GPIO of `<ros2_control>` that no controller of the package commands or publishes, with "
-    "the reason: the robot has no such joint, or its interfaces mean nothing that is known.",
-    matters="It stays where it is, or its values are not published, until somebody writes a controller for it.",
+    "the reason: the robot has no such joint, it mimics another one, or its interfaces mean nothing that is known.",
+    matters="It stays where it is, or its values are not published, until somebody writes a controller for it. Since "
+    "ROS 2 Jazzy, the controller manager stops where a joint that mimics another one has a `<command_interface>`.",
     example="`<joint name='elbow'><command_interface name='stiffness'/></joint>`",
-    better="Correct the name of the joint, or add a controller for it to config/controllers.yaml. A sensor says by "
+    better="Correct the name of the joint, or add a controller for it to config/controllers.yaml. Take away the "
+    "`<command_interface>` of a joint that mimics another one, or write `mimic='false'` at it. A sensor says by "
     "`<param name='frame_id'>` which link its values are for.",
     references="ros2_control, `hardware_interface`; ros2_controllers.",
 )

@@ -13,18 +13,25 @@ READERS = frozenset({"trimesh", "collada"})
 """What the extra brings."""
 LARGEST = 2**28
 """A file of a quarter of a gigabyte has five million triangles."""
+POINTER = "a pointer of Git LFS and not the file itself"
+_POINTER = b"version https://git-lfs.github.com/spec/"
 
 Scene = Any
 """A `trimesh.Scene`."""
 
 
 class RefusedMeshError(ValueError):
-    """A mesh file that is not given to any reader; the message has the reason."""
+    """A mesh file that is not given to any reader, or that nothing can be made of; the message has the reason."""
 
 
 def kind_of(path: PurePath) -> str:
     """The format of a file, by its name."""
     return path.suffix.lower().removeprefix(".")
+
+
+def is_pointer(content: bytes) -> bool:
+    """Whether a file only says which one Git LFS would put in its place: that was never fetched."""
+    return content.startswith(_POINTER)
 
 
 def open_scene(path: Path, *, process: bool = True) -> Scene:
@@ -55,9 +62,11 @@ def scene_of(
 
     Raises:
         ImportError: the extra is not installed.
-        RefusedMeshError: it declares a document type.
+        RefusedMeshError: it is a pointer of Git LFS, or declares a document type.
         Exception: what the reader of the format raises.
     """
+    if is_pointer(content):
+        raise RefusedMeshError(f"it is {POINTER}: run `git lfs pull`")
     if kind == "dae" and b"\0" in content:
         raise RefusedMeshError("it is not in UTF-8")  # where the next line would not see what it looks for
     if kind == "dae" and b"<!" in content.replace(b"<!--", b"").replace(b"<![CDATA[", b""):

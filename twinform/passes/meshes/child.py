@@ -9,6 +9,7 @@ import sys
 from contextlib import suppress
 from typing import BinaryIO
 
+from twinform.passes.analyses.mesh_files import RefusedMeshError
 from twinform.passes.meshes.job import Job, Result
 
 _LIBRARIES = frozenset({"coacd", "collada", "fast_simplification", "numpy", "scipy", "trimesh"})
@@ -36,8 +37,11 @@ def done(job: Job) -> Result:
         return Result({}, trouble="missing", message=library)
     except MemoryError:
         return Result({}, trouble="unreadable", message="it needs more memory than it may have")
+    except RefusedMeshError as error:
+        return Result({}, trouble="unreadable", message=str(error))
     except Exception as error:  # noqa: BLE001 - readers of six formats raise whatever they like
-        return Result({}, trouble="unreadable", message=str(error) or type(error).__name__)
+        message = f"its reader stops at it ({type(error).__name__}: {error})"
+        return Result({}, trouble="unreadable", message=message)
 
 
 def _replies() -> BinaryIO:

@@ -25,8 +25,8 @@ class DecimateVisuals(MeshPass):
     Changes the visuals with a mesh whose name matches `visuals`, on links whose name matches `links`. Edges are
     collapsed until `triangles`, or a `share` of them, are left; where that is farther off than `max-error` or
     `max-relative-error`, as many are kept as the distance needs. With `levels` more than one, each level has that share
-    of the triangles of the one before. Neither URDF nor SDF has an element for levels of detail: all are written, as
-    `NAME_lod1` and so on, and the document names the one of `use`.
+    of the triangles of the one before, as long as the distance allows a coarser one. Neither URDF nor SDF has an
+    element for levels of detail: all are written, as `NAME_lod1` and so on, and the document names the one of `use`.
 
     The distance is the greatest between both surfaces, both ways; it is bounded triangle by triangle, not sampled. An
     STL file stays STL, and others become OBJ with their materials. (`pip install 'twinform[meshes]'`)
@@ -109,7 +109,9 @@ class DecimateVisuals(MeshPass):
             files = {name: data for name, data in outcome.result.files.items() if name.startswith(f"_lod{level}")}
             uris.append(bench.add(outcome.stem, files))
         words = [f"{each['triangles']:.0f} at most {length(each['error'])} off" for each in levels]
-        bench.sink.report(CHANGED_MESH, f"{what}: {before:.0f} triangles became {', '.join(words)}", visual.location)
+        rest = ", and no coarser level is within the distance" if len(levels) < self.levels else ""
+        message = f"{what}: {before:.0f} triangles became {', '.join(words)}{rest}"
+        bench.sink.report(CHANGED_MESH, message, visual.location)
         if not self.use:
             return visual
         changed = without_submesh(mesh).model_copy(update={"uri": uris[min(self.use, len(uris)) - 1]})

@@ -34,6 +34,9 @@ class SimplifyCollisions(MeshPass):
     2. `hull`: the convex hull of the mesh, as an OBJ file;
     3. `parts`: convex parts by CoACD, an OBJ file and a collision each, of which the first keeps the name.
 
+    Hulls and parts have as few triangles as the distance needs. They are taken only if these are fewer than the mesh
+    has; parts may be more where `how=parts` asks for nothing else.
+
     The distance is the greatest between the outsides of mesh and shape, both ways; what is inside of the shape, such as
     the motor in a housing, touches nothing and does not count. It is bounded triangle by triangle, not sampled, so that
     no point is farther off than is said. Files are written together with the result, below its folder.

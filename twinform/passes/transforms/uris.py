@@ -24,7 +24,7 @@ from twinform.ir.census import union_of
 from twinform.passes.transforms.nodes import map_elements
 
 Kind = Literal["mesh", "texture", "include"]
-"""What a file is for; a terrain and a script count as what they look like, textures."""
+"""What a file is for; terrains, scripts and all else that is seen or heard count as textures."""
 Change = Callable[[str, Kind, Location], str]
 """From a URI, what it is for and where it stands, to the URI as it is to be."""
 
@@ -40,10 +40,14 @@ _FIELDS: dict[type[Node], tuple[Kind, tuple[str, ...]]] = {
 _HAVING = OPAQUE | union_of(map(bits_of, (*_FIELDS, Script)))
 _ELEMENTS = frozenset(
     {"uri", "albedo_map", "normal_map", "roughness_map", "metalness_map", "emissive_map", "light_map",
-     "ambient_occlusion_map", "glossiness_map", "specular_map", "environment_map"}
+     "ambient_occlusion_map", "glossiness_map", "specular_map", "environment_map", "color_range_image", "cubemap_uri"}
 )  # fmt: skip
-_WITH_FILE_NAMES = frozenset({"skin", "animation"})
-"""Elements of actors whose `filename` is a path."""
+"""Elements whose text is a path wherever they stand."""
+_INNER_ELEMENTS = frozenset(
+    {("skin", "filename"), ("animation", "filename"), ("projector", "texture"), ("texture", "diffuse"),
+     ("texture", "normal")}
+)  # fmt: skip
+"""Those whose text is a path only in another one: a terrain's texture has images where a material has colors."""
 _HOLDERS: dict[str, Kind] = {"mesh": "mesh", "skin": "mesh", "animation": "mesh", "include": "include"}
 """What a file is for, by the element that its URI stands in."""
 
@@ -87,7 +91,7 @@ def _element(element: Element, change: Change, where: Location, inside: str = ""
         return element
     where = element.location if element.source else where
     text = element.text
-    is_uri = element.name in _ELEMENTS or (element.name == "filename" and inside in _WITH_FILE_NAMES)
+    is_uri = element.name in _ELEMENTS or (inside, element.name) in _INNER_ELEMENTS
     if is_uri and text and text.strip():
         text = change(text, _HOLDERS.get(inside, "texture"), where)
     children = tuple(_element(child, change, where, element.name) for child in element.children)

@@ -134,3 +134,14 @@ def test_the_cache_is_where_the_variables_say(monkeypatch: pytest.MonkeyPatch, t
 def test_a_folder_that_cannot_be_written_to_is_no_reason_to_fail(tmp_path: Path) -> None:
     (tmp_path / "file").write_bytes(b"")
     ResultsCache(tmp_path / "file" / "below").put(job(), Result({}))
+
+
+def test_what_stops_a_reader_is_said_as_that() -> None:
+    found = done(job(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99\n", "obj"))
+    assert found.message.startswith("its reader stops at it (IndexError: ")
+    assert done(job(b"", "stl")).message == "it has no triangles"
+
+
+def test_a_pointer_of_git_lfs_is_no_mesh() -> None:
+    pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 1\n"
+    assert done(job(pointer)).message == "it is a pointer of Git LFS and not the file itself: run `git lfs pull`"

@@ -21,7 +21,7 @@ ROBOT = """<robot name="r"><link name="base"/>
 <geometry><mesh filename="in/ball.stl"/></geometry></collision></link>
 <joint name="j" type="fixed"><parent link="base"/><child link="arm"/></joint></robot>"""
 HULL = "simplify-collisions{how=hull triangles=60 max-relative-error=0.3}"
-ALL = f"{HULL},decimate-visuals{{levels=2}},convert-meshes{{to=obj}}"
+ALL = f"{HULL},decimate-visuals{{levels=2 max-relative-error=0.2}},convert-meshes{{to=obj}}"
 
 
 @pytest.fixture

@@ -16,8 +16,8 @@ _FIXED = frozenset({"fixed", "floating", "planar"})
 class Contents:
     """The robot as the URDF of a package has it, the name and details of the package, and what was found out for it.
 
-    `controlled`: Gazebo runs the controllers. `folders` are those of the files that come from elsewhere, and `files`
-    those that lie beside `package.xml`.
+    `started` are those of the controllers that Gazebo runs. `folders` are those of the files that come from elsewhere,
+    and `files` those that lie beside `package.xml`.
     """
 
     package: str
@@ -25,7 +25,7 @@ class Contents:
     document: Document
     release: str
     controllers: Sequence[Controller] = ()
-    controlled: bool = False
+    started: Sequence[Controller] = ()
     bridges: Sequence[Bridge] = ()
     folders: Sequence[str] = ()
     files: Sequence[str] = ()
@@ -34,6 +34,11 @@ class Contents:
     def model(self) -> Model:
         """The robot."""
         return self.document.models[0]
+
+    @property
+    def controlled(self) -> bool:
+        """Whether Gazebo runs controllers."""
+        return bool(self.started)
 
     @property
     def moves(self) -> bool:

@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from twinform.compiler.packaging.ros2.drive import differential_drive
+from twinform.compiler.packaging.ros2.gazebo_control import runs_in_gazebo
 from twinform.compiler.packaging.ros2.systems import Component, System, systems_of
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import ros2 as rules
@@ -20,6 +21,10 @@ _LONGEST = 100
 _FORWARDED = ("velocity", "effort")
 """Commands that go on as they come: what a trajectory needs beside them are gains, which nobody can guess."""
 _UNMOVED = frozenset({"fixed", "floating", "planar"})
+_NAMING = ("joints", "left_wheel_names", "right_wheel_names", "sensor_name")
+"""Parameters that name joints and sensors."""
+_FORTRESS = "fortress"
+"""Its ROS, Humble, knows nothing of mimics in a URDF; later ones move such joints themselves."""
 _BROADCASTERS: Mapping[str, str] = {
     "orientation.": "imu_sensor_broadcaster/IMUSensorBroadcaster",
     "angular_velocity.": "imu_sensor_broadcaster/IMUSensorBroadcaster",
@@ -42,14 +47,21 @@ class Controller:
     type: str
     parameters: Mapping[str, Value] = field(default_factory=dict[str, Value])
 
+    def parts(self) -> frozenset[str]:
+        """The joints and sensors that it names; none of a broadcaster of all joints."""
+        named = (self.parameters.get(key, ()) for key in _NAMING)
+        return frozenset(str(part) for each in named for part in ((each,) if isinstance(each, str) else _items(each)))
+
     @property
     def package(self) -> str:
         """The ROS package that it comes in."""
         return self.type.partition("/")[0]
 
 
-def controllers_of(document: Document, sink: DiagnosticSink) -> tuple[Controller, ...]:
+def controllers_of(document: Document, sink: DiagnosticSink, release: str = "harmonic") -> tuple[Controller, ...]:
     """A broadcaster of joint states, and what commands the joints and publishes the sensors of a document of one model.
+
+    `release` is the one of Gazebo, which goes with a distribution of ROS.
 
     1. wheels that are a differential drive: `diff_drive_controller`;
     2. positions: one `joint_trajectory_controller` for each system;
@@ -60,7 +72,7 @@ def controllers_of(document: Document, sink: DiagnosticSink) -> tuple[Controller
     systems = systems_of(model, document.format)
     if not systems:
         return ()
-    groups = _by_group(model, systems, sink)
+    groups = _by_group(model, systems, release, sink)
     found = [Controller("joint_state_broadcaster", "joint_state_broadcaster/JointStateBroadcaster")]
     drive, wheels = _drive(document, groups, sink)
     found += drive
@@ -78,15 +90,27 @@ def controllers_yaml(controllers: Sequence[Controller]) -> str:
     return _HEAD + "\n".join(map(yaml_text, parts))
 
 
-def _by_group(model: Model, systems: Iterable[System], sink: DiagnosticSink) -> dict[str, list[Component]]:
+def controllers_in_gazebo(controllers: Iterable[Controller], document: Document, release: str) -> list[Controller]:
+    """Those that command no hardware that a release of Gazebo does not load."""
+    systems = systems_of(document.models[0], document.format)
+    of = {runs: {part for each in systems if runs_in_gazebo(each, release) is runs for part in each.parts()}
+          for runs in (True, False)}  # fmt: skip
+    return [each for each in controllers if each.parts().isdisjoint(of[False] - of[True])]
+
+
+def _by_group(
+    model: Model, systems: Iterable[System], release: str, sink: DiagnosticSink
+) -> dict[str, list[Component]]:
     """The joints that can be commanded by the name of their system; those of single actuators are one group."""
     moving = {joint.name for joint in model.joints if joint.type not in _UNMOVED}
+    knows_mimics = release != _FORTRESS
+    following = {each.name for each in model.joints if each.axis and each.axis.mimic and knows_mimics}
     groups: dict[str, list[Component]] = {}
     several = sum(system.kind == "system" for system in systems) > 1
     for system in systems:
         group = groups.setdefault(system.name if several and system.kind == "system" else "", [])
         for each in system.joints:
-            reason = _obstacle(each, moving)
+            reason = _obstacle(each, moving, following)
             if reason:
                 message = f"no controller is written for joint {each.name!r}: {reason}"
                 sink.report(rules.UNCONTROLLED_JOINT, message, system.location, found=each.name)
@@ -98,9 +122,11 @@ def _by_group(model: Model, systems: Iterable[System], sink: DiagnosticSink) -> 
     return groups
 
 
-def _obstacle(joint: Component, moving: set[str]) -> str:
+def _obstacle(joint: Component, moving: set[str], following: set[str]) -> str:
     if joint.name not in moving:
         return "the robot has no joint of this name that moves"
+    if joint.commands and joint.name in following and not joint.alone:
+        return "it mimics another one, and the controller manager stops where such a joint has a <command_interface>"
     if joint.commands and not {"position", *_FORWARDED} & set(joint.commands):
         return f"its commands are {', '.join(joint.commands)}, none of position, velocity and effort"
     return ""
@@ -179,6 +205,10 @@ def _broadcasters(model: Model, system: System, sink: DiagnosticSink) -> Iterato
             reason = "its values are those of no sensor known" if not types else "it names no frame"
             message = f"no broadcaster is written for sensor {sensor.name!r}: {reason}"
             sink.report(rules.UNCONTROLLED_JOINT, message, system.location, found=sensor.name)
+
+
+def _items(value: Value) -> Sequence[Value]:
+    return value if isinstance(value, list | tuple) else ()
 
 
 def _has(sensor: Component, begin: str) -> bool:

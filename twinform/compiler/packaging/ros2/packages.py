@@ -11,7 +11,7 @@ from twinform.compiler.packaging.collecting import Collection
 from twinform.compiler.packaging.order import Built, Order
 from twinform.compiler.packaging.package import Content, Package
 from twinform.compiler.packaging.ros2.contents import Contents
-from twinform.compiler.packaging.ros2.controllers import controllers_of
+from twinform.compiler.packaging.ros2.controllers import controllers_in_gazebo, controllers_of
 from twinform.compiler.packaging.ros2.gazebo_control import CONTROLLERS, ConnectControllers, has_gazebo_control
 from twinform.compiler.packaging.ros2.sensor_frames import report_frames
 from twinform.compiler.packaging.ros2.texts import generated_files
@@ -62,13 +62,15 @@ def _converted(order: Order, collection: Collection) -> Conversion:
 
 def _contents(order: Order, conversion: Conversion, files: Sequence[str], sink: DiagnosticSink) -> Contents:
     document = conversion.document
+    controllers = controllers_of(document, sink, order.release)
+    runs = has_gazebo_control(document, order.release, DiagnosticSink())
     contents = Contents(
         package=order.name,
         details=order.details,
         document=document,
         release=order.release,
-        controllers=controllers_of(document, sink),
-        controlled=has_gazebo_control(document, order.release, DiagnosticSink()),
+        controllers=controllers,
+        started=controllers_in_gazebo(controllers, document, order.release) if runs else (),
         bridges=bridges(document, order.release, sink, _WORLD),
         folders=sorted({path.partition("/")[0] for path in files if "/" in path}),
         files=sorted({path for path in files if "/" not in path}),
@@ -84,7 +86,9 @@ def _check_name(order: Order) -> None:
         return
     suggested = "_".join(re.findall(r"[a-z0-9]+", name.lower())) or "robot"
     suggested = suggested if suggested[0].isalpha() else f"robot_{suggested}"
-    message = f"{name!r} is no name for a package of ROS: it takes lower case letters, digits and single underscores"
+    suggested = suggested if len(suggested) > 1 else f"{suggested}_robot"
+    takes = "two or more lower case letters, digits and single underscores"
+    message = f"{name!r} is no name for a package of ROS: it takes {takes}"
     sink.report(rules.PACKAGE_NAME, message, found=name, help=f"call it {suggested}")
     raise CompileError(tuple(sink.diagnostics))
 

@@ -10,12 +10,16 @@ from twinform.passes.control.carried_elements import elements, place_of
 
 @dataclass(frozen=True, slots=True)
 class Component:
-    """A joint, sensor or GPIO with the names of its interfaces; `parameters` are its own."""
+    """A joint, sensor or GPIO with the names of its interfaces; `parameters` are its own.
+
+    `alone`: it moves by its own commands, whatever its joint mimics.
+    """
 
     name: str
     commands: tuple[str, ...] = ()
     states: tuple[str, ...] = ()
     parameters: tuple[tuple[str, str], ...] = ()
+    alone: bool = False
 
     def parameter(self, name: str) -> str | None:
         """The value of a parameter."""
@@ -33,6 +37,10 @@ class System:
     joints: tuple[Component, ...] = ()
     sensors: tuple[Component, ...] = ()
     gpios: tuple[Component, ...] = ()
+
+    def parts(self) -> frozenset[str]:
+        """The names of its joints and sensors."""
+        return frozenset(each.name for each in (*self.joints, *self.sensors))
 
 
 def systems_of(model: Model, format_: Format) -> tuple[System, ...]:
@@ -62,6 +70,7 @@ def _components(system: Element, kind: str) -> Iterator[Component]:
                 commands=_names(each, "command_interface"),
                 states=_names(each, "state_interface"),
                 parameters=tuple((child.get("name") or "", child.text or "") for child in _all(each, "param")),
+                alone=(each.get("mimic") or "").strip().lower() == "false",
             )
 
 

@@ -63,7 +63,7 @@ def _launch(contents: Contents, template: str) -> str:
         "package": contents.package,
         "robot": python_text(contents.model.name),
         "height": f"{_height(contents):g}",
-        "controllers": "\n".join(f"    {python_text(each.name)}," for each in contents.controllers),
+        "controllers": "\n".join(f"    {python_text(each.name)}," for each in contents.started),
     }
     moves, controlled = contents.moves, contents.controlled
     facts = {"moves": moves, "rigid": not moves, "controlled": controlled, "uncontrolled": not controlled}

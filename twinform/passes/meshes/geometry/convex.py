@@ -11,7 +11,11 @@ _CONCAVITIES = (0.1, 0.05, 0.02, 0.01)
 """Thresholds of CoACD that are tried, from few parts to many."""
 _MOST_FOR_PARTS = 20_000
 """Triangles that CoACD is given; a finer mesh is decimated first, and the error still measured to all of it."""
-_LEAST_FACES = 4
+_ITERATIONS = 60
+"""How long CoACD looks for a cut: with more, the parts are much the same."""
+_AT_ONCE = 16
+"""Of a hull with this many corners, one more is added at once."""
+_ROUNDING = 1e-9
 _BESIDE = 1e-4
 """How far beside a face it is asked whether another part lies there, as part of the size."""
 
@@ -35,14 +39,37 @@ def hull(points: Array) -> Surface:
     return Surface(found.points[used], index.reshape(-1, 3))
 
 
-def within_budget(convex: Surface, triangles: int) -> Surface:
-    """A hull of so many triangles at most, inside of the one that is given or nearly so."""
-    count = triangles
-    while len(convex.faces) > triangles and count >= _LEAST_FACES:
-        points, _ = fast_simplification.simplify(convex.points, convex.faces.astype(np.int64), target_count=count)
-        convex = hull(np.asarray(points, dtype=float))
-        count = int(count * 0.8)
-    return convex
+def reduced(convex: Surface, distance: float, triangles: int | None = None) -> Surface:
+    """The hull of some corners of a hull: of as few as leave none out by more than a distance, or a budget allows.
+
+    It begins with four, and what sticks out most is added; so it lies inside of the hull that is given.
+    """
+    most = len(convex.points) if triangles is None else (triangles + 4) // 2  # n corners make 2 n - 4 triangles
+    points, chosen = convex.points, _four_corners(convex.points)
+    left = points
+    while len(chosen) < most:
+        try:
+            sides = spatial.ConvexHull(chosen).equations
+        except spatial.QhullError:  # so thin that four corners have nothing between them
+            return convex
+        above = left @ sides[:, :3].T + sides[:, 3]
+        out = above.max(axis=1)
+        peaks = np.unique(above.argmax(axis=0))
+        peaks = peaks[np.argsort(-out[peaks], kind="stable")][: min(most - len(chosen), 1 + len(chosen) // _AT_ONCE)]
+        peaks = peaks[out[peaks] > max(distance, _ROUNDING * convex.diagonal)]
+        if not len(peaks):
+            break
+        chosen, left = np.concatenate([chosen, left[peaks]]), left[out > distance]
+    return hull(chosen)
+
+
+def _four_corners(points: Array) -> Array:
+    """Corners that are far apart: two, the one farthest from their line, and the one farthest from these three."""
+    a = points[points[:, 0].argmin()]
+    b = points[np.linalg.norm(points - a, axis=1).argmax()]
+    c = points[np.linalg.norm(np.cross(points - a, b - a), axis=1).argmax()]
+    d = points[np.abs((points - a) @ np.cross(b - a, c - a)).argmax()]
+    return np.stack([a, b, c, d])
 
 
 def decompositions(surface: Surface, most_parts: int) -> Iterator[list[Surface]]:
@@ -52,7 +79,11 @@ def decompositions(surface: Surface, most_parts: int) -> Iterator[list[Surface]]
     for concavity in _CONCAVITIES:
         coacd.set_log_level("off")
         made = coacd.run_coacd(
-            coacd.Mesh(mesh.points, mesh.faces), threshold=concavity, max_convex_hull=most_parts, seed=0
+            coacd.Mesh(mesh.points, mesh.faces),
+            threshold=concavity,
+            max_convex_hull=most_parts,
+            mcts_iterations=_ITERATIONS,
+            seed=0,
         )
         parts = [each for each in map(_part, made) if each is not None]
         if parts and len(parts) != before:

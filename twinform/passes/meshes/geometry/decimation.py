@@ -11,16 +11,22 @@ from twinform.passes.meshes.geometry.surface import Surface, joined
 _STEPS = 4
 """Between a number of triangles that is too small and one that is too large, this often the middle is tried."""
 _LEAST = 4
-_WORTH = 0.95
+WORTH = 0.95
 """A mesh that keeps more of its triangles than this is left as it is."""
+_HASTY, _CAREFUL = 7.0, 3.0
+"""How aggressive the library is: with less, it stops early and keeps shapes better."""
 
 
 class Decimated(NamedTuple):
-    """The parts of a mesh with fewer triangles, and how far both surfaces are apart at most."""
+    """The parts of a mesh with fewer triangles, how far both surfaces are apart at most, and the share asked for.
+
+    `reached`: the limit allowed that share; else as many triangles are kept as it needs.
+    """
 
     parts: list[tuple[str, Any]]
     triangles: int
     error: float
+    reached: bool = False
 
 
 def decimated(parts: Sequence[tuple[str, Any]], share: float, tolerance: float, limit: float) -> Decimated | None:
@@ -31,30 +37,87 @@ def decimated(parts: Sequence[tuple[str, Any]], share: float, tolerance: float, 
     low, high, best = share, 1.0, None
     tried = share
     for _ in range(_STEPS + 1):
-        made = _fewer(parts, tried)
-        error = _apart(whole, nearest, made, tolerance, limit)
-        if error <= limit:
-            best, high = Decimated(made, sum(len(part.faces) for _, part in made), error), tried
+        found = _best(parts, tried, whole, nearest, tolerance, limit)
+        if found is not None:
+            best, high = found._replace(reached=tried == share), tried
         else:
             low = tried
         if best is not None and (high == share or high - low < 0.05 * high):
             break
         tried = math.sqrt(low * high)
-    return best if best is not None and best.triangles <= _WORTH * before else None
+    return best if best is not None and best.triangles <= WORTH * before else None
 
 
-def _fewer(parts: Sequence[tuple[str, Any]], share: float) -> list[tuple[str, Any]]:
+def _best(
+    parts: Sequence[tuple[str, Any]], share: float, whole: Surface, nearest: Nearest, tolerance: float, limit: float
+) -> Decimated | None:
+    """What has the fewest triangles of what is within the limit."""
+    found: list[Decimated] = []
+    for careful in (False, True):
+        made = _fewer(parts, share, careful=careful)
+        error = _apart(whole, nearest, made, tolerance, limit)
+        if error <= limit:
+            found.append(Decimated(made, sum(len(part.faces) for _, part in made), error))
+    return min(found, key=lambda each: each.triangles, default=None)
+
+
+def _fewer(parts: Sequence[tuple[str, Any]], share: float, *, careful: bool) -> list[tuple[str, Any]]:
     found: list[tuple[str, Any]] = []
     for name, part in parts:
         welded = joined([(name, part)]) if len(part.faces) > _LEAST else None
         if welded is None or len(welded.faces) <= _LEAST:
             found.append((name, part))
             continue
-        count = max(_LEAST, round(share * len(part.faces)))
-        points, faces = fast_simplification.simplify(*_near_unit(welded), target_count=min(count, len(welded.faces)))
-        if len(faces):
-            found.append((name, _with_material(part, _restored(np.asarray(points, dtype=float), welded), faces)))
+        count = min(max(_LEAST, round(share * len(part.faces))), len(welded.faces))
+        made = _carefully_collapsed(welded, count) if careful else _collapsed(welded, count)
+        if len(made.faces):
+            found.append((name, _with_material(part, made.points, made.faces)))
     return found
+
+
+def _collapsed(surface: Surface, count: int) -> Surface:
+    points, faces = fast_simplification.simplify(*_near_unit(surface), target_count=count, agg=_HASTY)
+    return Surface(_restored(np.asarray(points, dtype=float), surface), faces)
+
+
+def _carefully_collapsed(surface: Surface, count: int) -> Surface:
+    """A surface with about so many triangles, which keeps its borders.
+
+    The library moves borders at no cost as long as the surface is flat there, until nothing is left. So each border
+    gets a skirt that stands on it and is taken off again: an edge with a skirt is as sharp as any other.
+    """
+    skirted, is_skirt = _with_skirt(surface)
+    target = round(count * len(skirted.faces) / len(surface.faces))
+    points, faces = _near_unit(skirted)
+    _, _, collapses = fast_simplification.simplify(
+        points, faces, target_count=target, agg=_CAREFUL, return_collapses=True
+    )
+    points, faces, became = fast_simplification.replay_simplification(points, faces, collapses)
+    of_skirt = np.zeros(len(points), dtype=bool)
+    of_skirt[became[is_skirt & (became >= 0)]] = True
+    faces = faces[~of_skirt[faces].any(axis=1)]
+    return Surface(_restored(np.asarray(points, dtype=float), skirted), faces)
+
+
+def _with_skirt(surface: Surface) -> tuple[Surface, Any]:
+    """A surface with a strip along each border, across the triangles there, and which points are the strip's own."""
+    edges = np.concatenate([surface.faces[:, [at, (at + 1) % 3]] for at in range(3)])
+    _, index, uses = np.unique(np.sort(edges, axis=1), axis=0, return_inverse=True, return_counts=True)
+    is_border = uses[index.ravel()] == 1
+    a, b = edges[is_border].T
+    corners = surface.triangles
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    upward = np.zeros_like(surface.points)
+    for ends in (a, b):
+        np.add.at(upward, ends, np.tile(normals, (3, 1))[is_border])
+    on_border = np.unique(np.concatenate([a, b]))
+    lengths = np.linalg.norm(upward[on_border], axis=1, keepdims=True)
+    steps = surface.diagonal * upward[on_border] / np.where(lengths > 0, lengths, 1.0)
+    above = np.zeros(len(surface.points), dtype=int)
+    above[on_border] = len(surface.points) + np.arange(len(on_border))
+    strip = np.concatenate([np.stack([b, a, above[a]], axis=1), np.stack([b, above[a], above[b]], axis=1)])
+    points = np.concatenate([surface.points, surface.points[on_border] + steps])
+    return Surface(points, np.concatenate([surface.faces, strip])), np.arange(len(points)) >= len(surface.points)
 
 
 def _near_unit(surface: Surface) -> tuple[Any, Any]:

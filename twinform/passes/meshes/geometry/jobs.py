@@ -1,11 +1,11 @@
 """The jobs that the child process knows: simplify a collision, decimate a visual, convert a file, draw one."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, cast
 
 from twinform.passes.meshes.geometry import convex, primitives
-from twinform.passes.meshes.geometry.decimation import decimated
+from twinform.passes.meshes.geometry.decimation import WORTH, decimated
 from twinform.passes.meshes.geometry.drawing import drawn
 from twinform.passes.meshes.geometry.formats import appearance_of, upright, written
 from twinform.passes.meshes.geometry.libraries import np, trimesh
@@ -22,6 +22,8 @@ from twinform.passes.meshes.job import Job, Result
 
 _ACCURACY = 0.05
 """How much more than the greatest distance that was seen may be said, as part of what is allowed."""
+_LEFT_OUT = (0.5, 0.2, 0.1, 0.05)
+"""How much of a convex shape is left out, as parts of what is allowed; the first that is near enough is taken."""
 
 
 def _parts(job: Job, *, appearance: bool = False) -> list[tuple[str, Any]]:
@@ -89,34 +91,40 @@ def _primitive(job: Job, surface: Surface, limit: float) -> Result | str:
 
 def _hull(job: Job, surface: Surface, limit: float) -> Result | str:
     budget = cast("int | None", job.options["triangles"])
-    found = convex.hull(surface.points[np.unique(surface.faces)])
-    found = found if budget is None else convex.within_budget(found, budget)
-    if budget is not None and len(found.faces) > budget:
-        return f"its hull needs {len(found.faces)} triangles"
-    if len(found.faces) >= len(surface.faces):
-        return "it has no more triangles than its convex hull"
-    error = convex.error_of(surface, [found], _tolerance(limit, surface), limit)
-    return _convex("hull", [found], error) if error <= limit else "its convex hull is farther off"
+    whole = convex.hull(surface.points[np.unique(surface.faces)])
+    for distance in _distances(limit):
+        found = convex.reduced(whole, distance, budget)
+        if len(found.faces) >= len(surface.faces):
+            return "it has no more triangles than its convex hull"
+        error = convex.error_of(surface, [found], _tolerance(limit, surface), limit)
+        if error <= limit:
+            return _convex("hull", [found], error)
+    return "its convex hull is farther off" if budget is None else "so is a convex hull with so few triangles"
 
 
 def _decomposition(job: Job, surface: Surface, limit: float) -> Result | str:
     budget = cast("int | None", job.options["triangles"])
-    best = math.inf
+    most = len(surface.faces) if len(cast("Sequence[str]", job.options["how"])) > 1 else math.inf
+    why = f"{job.options['parts']} convex parts are farther off"
     for parts in convex.decompositions(surface, cast("int", job.options["parts"])):
         each = None if budget is None else max(4, budget // len(parts))
-        made = parts if each is None else [convex.within_budget(part, each) for part in parts]
-        total = sum(len(part.faces) for part in made)
-        if (budget is not None and total > budget) or (len(made) == 1 and total >= len(surface.faces)):
-            continue
-        error = convex.error_of(surface, made, _tolerance(limit, surface), limit)
-        if error <= limit:
-            return _convex("parts", made, error)
-        best = min(best, error)
-    return (
-        f"{job.options['parts']} convex parts are farther off"
-        if budget is None
-        else "nor are parts with so few triangles"
-    )
+        for distance in _distances(limit):
+            made = [convex.reduced(part, distance, each) for part in parts]
+            total = sum(len(part.faces) for part in made)
+            if total > (budget or math.inf) or total >= (most if len(made) > 1 else len(surface.faces)):
+                why = "convex parts have more triangles"
+                break
+            error = convex.error_of(surface, made, _tolerance(limit, surface), limit)
+            if error <= limit:
+                return _convex("parts", made, error)
+    return why
+
+
+def _distances(limit: float) -> Iterator[float]:
+    """How much of a convex shape may be left out, at first much of what is allowed: the fewer triangles."""
+    if math.isfinite(limit):
+        yield from (share * limit for share in _LEFT_OUT)
+    yield 0.0
 
 
 def _convex(how: str, parts: Sequence[Surface], error: float) -> Result:
@@ -147,11 +155,13 @@ def decimate(job: Job) -> Result:
     for level in range(1, cast("int", job.options["levels"]) + 1):
         share = _share(job, before) ** level
         found = decimated(parts, max(share, 4 / before), _tolerance(limit, surface), limit)
-        if found is None:
+        if found is None or (levels and found.triangles > WORTH * cast("int", levels[-1]["triangles"])):
             break
         levels.append({"triangles": found.triangles, "error": found.error * stretch})
         for suffix, data in written(found.parts, kind, stem=f"{job.options['stem']}_lod{level}").items():
             files[f"_lod{level}{suffix}"] = data
+        if not found.reached:
+            break  # the distance allows no coarser one
     if not levels:
         return Result({**facts, "kept": "no fewer triangles are within the distance"})
     return Result({**facts, "levels": levels, "kind": kind}, files)

@@ -3,13 +3,13 @@
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from twinform.passes.analyses.mesh_files import scene_of
+from twinform.passes.analyses.mesh_files import RefusedMeshError, scene_of
 from twinform.passes.meshes.geometry.libraries import Array, np
 
 MOST_TRIANGLES = 5_000_000
 
 
-class UnusableMeshError(ValueError):
+class UnusableMeshError(RefusedMeshError):
     """Why nothing can be made of a mesh."""
 
 

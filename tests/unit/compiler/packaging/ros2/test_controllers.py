@@ -142,3 +142,29 @@ def test_the_file_is_one_of_parameters() -> None:
     assert manager["diff_drive_controller"] == {"type": "diff_drive_controller/DiffDriveController"}
     drive = read["diff_drive_controller"]["ros__parameters"]
     assert (drive["left_wheel_names"], drive["wheel_radius"]) == (["left_joint"], 0.2)
+
+
+FINGERS = (
+    link("left"), link("right"), joint("left_joint", "left", "prismatic"),
+    joint("right_joint", "right", "prismatic").replace("</joint>", '<mimic joint="left_joint"/></joint>'),
+)  # fmt: skip
+
+
+def test_a_joint_that_mimics_another_takes_no_commands() -> None:
+    both = interfaces("left_joint", "position") + interfaces("right_joint", "position")
+    controllers, said = found(robot(*FINGERS, system(both)))
+    assert controllers["joint_trajectory_controller"].parameters["joints"] == ["left_joint"]
+    (message,) = said
+    assert message.startswith(
+        "uncontrolled-joint: no controller is written for joint 'right_joint': it mimics another one"
+    )
+
+
+def test_a_mimic_that_is_lifted_takes_commands_and_so_does_one_of_humble() -> None:
+    both = interfaces("left_joint", "position") + interfaces("right_joint", "position")
+    lifted = robot(*FINGERS, system(both.replace('"right_joint"', '"right_joint" mimic="false"')))
+    for document, release in ((lifted, "jetty"), (robot(*FINGERS, system(both)), "fortress")):
+        sink = DiagnosticSink()
+        (_, controller) = controllers_of(document, sink, release)
+        assert controller.parameters["joints"] == ["left_joint", "right_joint"]
+        assert not sink.diagnostics

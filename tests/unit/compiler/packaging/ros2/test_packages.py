@@ -9,7 +9,7 @@ from twinform.compiler.packaging.order import Built, Details, Order
 from twinform.compiler.request import ConversionRequest
 from twinform.passes.framework.text import parse_pipeline
 
-from .robots import joint, link
+from .robots import interfaces, joint, link, system
 
 ROBOT = f'<robot name="r">{link("base")}{link("a")}{joint("j", "a")}</robot>'
 
@@ -40,7 +40,8 @@ def test_names_of_packages_are_taken(name: str) -> None:
     ("name", "suggested"),
     [
         ("My-Robot", "my_robot"),
-        ("a", "a"),
+        ("a", "a_robot"),
+        ("R", "r_robot"),
         ("2wheels", "robot_2wheels"),
         ("a__b_", "a_b"),
         ('"; rm -rf ~', "rm_rf"),
@@ -97,3 +98,18 @@ def test_a_robot_begins_on_the_ground_unless_the_world_holds_it(base: str, heigh
     content = built.package.files["launch/gazebo.launch.py"]
     assert isinstance(content, bytes)
     assert b"DeclareLaunchArgument('z', default_value='" + height + b"'" in content
+
+
+def test_gazebo_starts_no_controllers_of_other_hardware() -> None:
+    arm = system(interfaces("j", "position"))
+    tool = system(
+        interfaces("wrist", "", "force.x", tag="sensor", rest='<param name="frame_id">a</param>'),
+        name="tool", kind="sensor", hardware="driver/Sensor",
+    )  # fmt: skip
+    files = packaged(text=ROBOT.replace("</robot>", f"{arm}{tool}</robot>")).package.files
+    launch, controllers = (files[path] for path in ("launch/gazebo.launch.py", "config/controllers.yaml"))
+    assert isinstance(launch, bytes)
+    assert isinstance(controllers, bytes)
+    assert b"wrist_broadcaster" in controllers
+    assert b"joint_trajectory_controller" in launch
+    assert b"wrist_broadcaster" not in launch
