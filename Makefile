@@ -19,6 +19,8 @@ READERS := .venv/.readers
 PEERS := .venv/.peers
 ROBOTS := .venv/.robots
 DEMO := out/demo
+# tests start the command a thousand times: it must not be compiled each time
+unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: help sync fmt generate lint site pictures wheel test demo report bench latency vsix before prove coverage fuzz clean
 

@@ -47,7 +47,8 @@ ARM = """<robot name="arm">
     <mimic joint="shoulder" multiplier="-1"/></joint>
 </robot>
 """
-NOTHING = '<robot name="nothing"><link name="only"/></robot>'
+FIRST = """<robot name="first"><link name="only"><visual><geometry><sphere radius="1"/></geometry></visual></link></robot>"""
+"""What is shown before the first test; with shapes, since a robot without them is shown as a skeleton."""
 BALLS = """<sdf version="1.11"><model name="balls">
   <link name="a"><visual name="v"><geometry><box><size>0.2 0.2 0.2</size></box></geometry></visual></link>
   <link name="b"><pose>0 0 0.5 0 0 0</pose>
@@ -99,16 +100,17 @@ class Stage(NamedTuple):
     faults: list[str]
 
     def show(self, *models: str | bytes | Path, comparison: "Comparison | None" = None) -> None:
-        """Show models in place of what was shown, with all joints at zero."""
+        """Show models in place of what was shown, with all joints at zero, and the camera where all is seen."""
         self.viewer.show([_subject(model) for model in models], comparison)
         self.viewer.move(ZERO)
+        self.viewer.aim()
 
 
 @pytest.fixture(scope="module")
 def theater(browser: "Browser") -> Iterator[Stage]:
     """One page for all tests: what takes time is the first picture of a page."""
     viewer = Viewer()
-    viewer.show([_subject(NOTHING)])
+    viewer.show([_subject(FIRST)])
     with strict_page(browser) as (page, faults):
         page.goto(viewer.address)
         page.get_by_text("Joints", exact=True).wait_for()
@@ -205,13 +207,17 @@ def test_hostile_names_do_nothing(stage: Stage) -> None:
     stage.show(_hostile())
     viewer, page, _ = stage
     page.get_by_text("Show", exact=True).click()
-    for layer in ("Link names", "Joint names", "Skeleton", "Joint axes"):
+    layers = ("Link names", "Joint names", "Skeleton", "Joint axes")
+    for layer in layers:
         page.get_by_text(layer, exact=True).click()
     page.get_by_text("Tree", exact=True).click()
     for name in HOSTILE.values():
         viewer.select(name)
     viewer.select(HOSTILE["base"])
     page.get_by_text("shapes", exact=True).wait_for()
+    page.get_by_text("Show", exact=True).click()
+    for layer in layers:
+        page.get_by_text(layer, exact=True).click()
     assert page.evaluate("window.hit") is None
 
 
@@ -239,72 +245,73 @@ def _assert_hover(stage: Stage, link: str, point: "Vector3", expected: str) -> N
 
 
 @pytest.fixture
-def fresh(browser: "Browser") -> Iterator[Stage]:
-    """A viewer and a page of its own, whose camera nobody has moved."""
-    viewer = Viewer()
-    with strict_page(browser) as (page, faults):
-        page.set_viewport_size({"width": 1000, "height": 600})  # room for the robot beside the panel
-        yield Stage(viewer, page, faults)
-    viewer.stop()
-    assert not faults
+def roomy(stage: Stage) -> Iterator[Stage]:
+    """The page with room for the robot beside the panel."""
+    usual = stage.page.viewport_size
+    assert usual is not None
+    stage.page.set_viewport_size({"width": 1000, "height": 600})
+    yield stage
+    stage.page.set_viewport_size(usual)
 
 
-def _open(stage: Stage, *models: str | bytes | Path) -> None:
+def _begin(stage: Stage, *models: str | bytes | Path) -> None:
     stage.show(*models)
-    stage.page.goto(stage.viewer.address)
-    stage.page.get_by_text("Joints", exact=True).wait_for()
     stage.viewer.picture(camera_for(stage.viewer.figures), 64, 64)  # everything is there
     for notice in stage.page.locator(".mantine-Notification-closeButton").all():
         notice.click()
 
 
-def test_names_are_shown_on_hover(fresh: Stage) -> None:
-    _open(fresh, ARM)
-    _assert_hover(fresh, "base", (0.15, -0.15, 0.0), "base")
-    _assert_hover(fresh, "upper", (0.0, 0.0, 0.3), "upper\nrevolute joint shoulder")
-    fresh.viewer.move({("shoulder", 0): 0.8})
-    fresh.viewer.picture(camera_for(fresh.viewer.figures), 64, 64)
-    _assert_hover(fresh, "slider", (0.15, 0.0, 0.0), "slider\nprismatic joint slide")
-    fresh.page.mouse.move(5, 5)
-    fresh.page.locator("#twinform-tip").wait_for(state="hidden")
+def test_names_are_shown_on_hover(roomy: Stage) -> None:
+    _begin(roomy, ARM)
+    _assert_hover(roomy, "base", (0.15, -0.15, 0.0), "base")
+    _assert_hover(roomy, "upper", (0.0, 0.0, 0.3), "upper\nrevolute joint shoulder")
+    roomy.viewer.move({("shoulder", 0): 0.8})
+    roomy.viewer.picture(camera_for(roomy.viewer.figures), 64, 64)
+    _assert_hover(roomy, "slider", (0.15, 0.0, 0.0), "slider\nprismatic joint slide")
+    roomy.page.mouse.move(5, 5)
+    roomy.page.locator("#twinform-tip").wait_for(state="hidden")
 
 
-def test_what_is_hidden_has_no_name_on_hover_and_marks_have_one(fresh: Stage) -> None:
-    _open(fresh, ARM)
-    fresh.page.get_by_text("Show", exact=True).click()
-    fresh.page.get_by_text("Visuals", exact=True).click()
-    fresh.page.get_by_text("Skeleton", exact=True).click()
-    fresh.viewer.picture(camera_for(fresh.viewer.figures), 64, 64)
+def test_what_is_hidden_has_no_name_on_hover_and_marks_have_one(roomy: Stage) -> None:
+    _begin(roomy, ARM)
+    roomy.page.get_by_text("Show", exact=True).click()
+    roomy.page.get_by_text("Visuals", exact=True).click()
+    roomy.page.get_by_text("Skeleton", exact=True).click()
+    roomy.viewer.picture(camera_for(roomy.viewer.figures), 64, 64)
     says = "joint shoulder\nrevolute, from base to upper\nfrom -1.5 to 1.5 rad"
-    _assert_hover(fresh, "upper", (0.0, 0.0, 0.0), says)
-    _assert_hover(fresh, "base", (0.19, -0.19, 0.0), "")
+    _assert_hover(roomy, "upper", (0.0, 0.0, 0.0), says)
+    _assert_hover(roomy, "base", (0.19, -0.19, 0.0), "")
+    for layer in ("Visuals", "Skeleton"):
+        roomy.page.get_by_text(layer, exact=True).click()
 
 
-def test_hostile_names_are_text_on_hover_and_in_the_tree(fresh: Stage) -> None:
-    _open(fresh, _hostile())
-    _assert_hover(fresh, HOSTILE["base"], (0.15, -0.15, 0.0), HOSTILE["base"])
+def test_hostile_names_are_text_on_hover_and_in_the_tree(roomy: Stage) -> None:
+    _begin(roomy, _hostile())
+    _assert_hover(roomy, HOSTILE["base"], (0.15, -0.15, 0.0), HOSTILE["base"])
     says = f"{HOSTILE['upper']}\nrevolute joint {shortened(HOSTILE['shoulder'])}"
-    _assert_hover(fresh, HOSTILE["upper"], (0.0, 0.0, 0.3), says)
-    fresh.page.get_by_text("Tree", exact=True).click()
+    _assert_hover(roomy, HOSTILE["upper"], (0.0, 0.0, 0.3), says)
+    roomy.page.get_by_text("Tree", exact=True).click()
     for name in HOSTILE.values():
-        row = fresh.page.locator("[data-twinform-link]").filter(has_text=name[:20])
+        row = roomy.page.locator("[data-twinform-link]").filter(has_text=name[:20])
         if row.count():
             row.first.click()
-    fresh.page.locator("[aria-current=true]").wait_for()
-    assert fresh.page.evaluate("window.hit") is None
+    roomy.page.locator("[aria-current=true]").wait_for()
+    assert roomy.page.evaluate("window.hit") is None
 
 
-def test_where_the_client_is_another_one_there_are_no_names_and_no_errors(fresh: Stage) -> None:
-    _open(fresh, ARM)
-    fresh.page.evaluate("window.__viserMutable.scene = {}")
-    x, y = _pixel(fresh, "upper", (0.0, 0.0, 0.3))
-    fresh.page.mouse.move(x, y)
-    time.sleep(0.3)
-    assert not fresh.page.locator("#twinform-tip").is_visible()
-    fresh.page.evaluate("delete window.__viserMutable")
-    fresh.page.mouse.move(x + 1, y)
-    time.sleep(0.3)
-    assert not fresh.page.locator("#twinform-tip").is_visible()
+def test_where_the_client_is_another_one_there_are_no_names_and_no_errors(roomy: Stage) -> None:
+    _begin(roomy, ARM)
+    page, tip = roomy.page, roomy.page.locator("#twinform-tip")
+    x, y = _pixel(roomy, "upper", (0.0, 0.0, 0.3))
+    page.evaluate("window.own = window.__viserMutable")
+    for other in ("{...window.own, scene: {}}", "undefined"):
+        page.evaluate(f"window.__viserMutable = {other}")
+        page.mouse.move(x, y)
+        page.mouse.move(x + 1, y)
+        time.sleep(0.3)
+        assert not tip.is_visible()
+    page.evaluate("window.__viserMutable = window.own")
+    _assert_hover(roomy, "upper", (0.0, 0.0, 0.3), "upper\nrevolute joint shoulder")
 
 
 def test_a_click_in_the_tree_selects_the_link_and_a_selected_link_is_marked_there(stage: Stage) -> None:
@@ -342,9 +349,9 @@ def test_a_link_is_found_by_what_is_typed(stage: Stage) -> None:
         page.locator("[aria-current=true]", has_text=found).wait_for()
 
 
-def test_a_dragged_part_moves_its_joint_and_its_slider(fresh: Stage) -> None:
-    _open(fresh, ARM)
-    (x, y), page = _pixel(fresh, "upper", (0.0, 0.0, 0.3)), fresh.page
+def test_a_dragged_part_moves_its_joint_and_its_slider(roomy: Stage) -> None:
+    _begin(roomy, ARM)
+    (x, y), page = _pixel(roomy, "upper", (0.0, 0.0, 0.3)), roomy.page
     page.keyboard.down("Shift")
     page.mouse.move(x, y)
     page.mouse.down()
@@ -353,7 +360,7 @@ def test_a_dragged_part_moves_its_joint_and_its_slider(fresh: Stage) -> None:
         time.sleep(0.08)
     page.mouse.up()
     page.keyboard.up("Shift")
-    (figure,) = fresh.viewer.figures
+    (figure,) = roomy.viewer.figures
     _until(lambda: figure.poses["upper"].rpy()[1] > 0.15)
     turned = figure.poses["upper"].rpy()[1]
     _until(lambda: abs(float(page.locator("input[inputmode=decimal]").first.input_value()) - turned) < 0.01)
@@ -484,9 +491,9 @@ def test_a_saved_file_is_shown_again(page: "Page", tmp_path: Path) -> None:
         assert running.wait(timeout=20) == 0
 
 
-def test_what_is_chosen_stays_when_a_file_is_shown_again(fresh: Stage) -> None:
-    _open(fresh, ARM)
-    viewer, page, _ = fresh
+def test_what_is_chosen_stays_when_a_file_is_shown_again(stage: Stage) -> None:
+    _begin(stage, ARM)
+    viewer, page, _ = stage
     viewer.move({("shoulder", 0): 0.5})
     page.get_by_text("Show", exact=True).click()
     page.get_by_text("Joint axes", exact=True).click()
@@ -495,3 +502,5 @@ def test_what_is_chosen_stays_when_a_file_is_shown_again(fresh: Stage) -> None:
     viewer.show([_subject(ARM.replace("0.08", "0.09"))])
     assert viewer.figures[0].poses["upper"] == before
     assert any("axes" in name for name in viewer.figures[0].labels)
+    page.get_by_text("Show", exact=True).click()
+    page.get_by_text("Joint axes", exact=True).click()

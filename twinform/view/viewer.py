@@ -80,7 +80,7 @@ class Viewer:
             for figure in figures:
                 figure.move(choices.positions)
             if is_first:
-                self._aim(figures)
+                self.aim()
         self._server.flush()
 
     @property
@@ -88,12 +88,15 @@ class Viewer:
         """Above all that is shown; new each time: where a name comes again, browsers keep the pose that it had."""
         return f"/{self._shown}"
 
-    def _aim(self, figures: Sequence[Figure]) -> None:
-        """Put the camera of who comes to where all is seen."""
-        camera, start = camera_for(figures), self._server.initial_camera
-        start.position, start.look_at, start.fov = camera.position, camera.target, camera.fov
+    def aim(self) -> None:
+        """Put the cameras of all who look, and who come, to where all is seen."""
+        if not self.figures:
+            return
+        camera = camera_for(self.figures)
         away = math.dist(camera.position, camera.target)
-        start.near, start.far = away / 100, away * 100
+        for each in (self._server.initial_camera, *(it.camera for it in self._server.get_clients().values())):
+            each.position, each.look_at, each.fov = camera.position, camera.target, camera.fov
+            each.near, each.far = away / 100, away * 100
 
     def move(self, positions: Positions) -> None:
         """Put joints to positions, as the sliders do."""

@@ -47,7 +47,8 @@ def test_a_job_that_is_late_is_distinguished_from_one_that_died() -> None:
     late = dict(run(_linger, [0.0, 600.0], seconds=2, processes=1))
     assert late == {0.0: 0.0, 600.0: Failure("did not come to an end", late=True)}
     ((_, died),) = run(_die, [1])
-    assert died == Failure("the process died (exit code -9)")
+    # with no exit code where it died while it held the pipe of all, and they were started anew
+    assert died in {Failure("the process died (exit code -9)"), Failure("the process died")}
 
 
 def test_a_job_that_dies_or_hangs_harms_no_other():
