@@ -95,15 +95,22 @@ def test_nothing_is_loaded_from_elsewhere(site: Path) -> None:
 
 
 def test_ten_questions_are_answered_within_two_clicks(site: Path) -> None:
+    """The first click leads to a page with a short answer to each, the second to pages that say more."""
     start = site / "index.html"
     first = {_target(start, link)[0] for link in _links(start).links}
     questions = site / "start" / "questions.html"
     assert questions in first
     text = (_ROOT / "docs/start/questions.md").read_text(encoding="utf-8")
-    answers = re.findall(r"^\d+\. .*\? \[.*\]\((.*)\.md\)$", text, re.MULTILINE)
-    assert len(answers) == _QUESTIONS
+    _, *answers = re.split(r"^## ", text, flags=re.MULTILINE)
+    assert [answer.split(".")[0] for answer in answers] == [str(number) for number in range(1, _QUESTIONS + 1)]
     second = {_target(questions, link)[0] for link in _links(questions).links}
-    assert [answer for answer in answers if (questions.parent / f"{answer}.html").resolve() not in second] == []
+    for answer in answers:
+        question, _, said = answer.partition("\n")
+        assert question.endswith("?")
+        assert "```" in said, question
+        further = re.findall(r"\[[^\]]+\]\(([^)]+)\.md\)", said)
+        assert further, question
+        assert [page for page in further if (questions.parent / f"{page}.html").resolve() not in second] == []
 
 
 @pytest.fixture(params=["disk", "server"])

@@ -47,7 +47,10 @@ ARM = """<robot name="arm">
     <mimic joint="shoulder" multiplier="-1"/></joint>
 </robot>
 """
-FIRST = """<robot name="first"><link name="only"><visual><geometry><sphere radius="1"/></geometry></visual></link></robot>"""
+FIRST = """<robot name="first">
+  <link name="only"><visual><geometry><sphere radius="1"/></geometry></visual></link>
+</robot>
+"""
 """What is shown before the first test; with shapes, since a robot without them is shown as a skeleton."""
 BALLS = """<sdf version="1.11"><model name="balls">
   <link name="a"><visual name="v"><geometry><box><size>0.2 0.2 0.2</size></box></geometry></visual></link>
