@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from twinform.compiler.scene import Kinematics, Positions, Scene, SceneShape
-from twinform.ir import Vector3
+from twinform.ir import Plane, Vector3
 from twinform.ir.transform import Transform
 from twinform.view.mesh_drawings import MeshDrawings
 from twinform.view.names import shortened
@@ -196,23 +196,31 @@ class Figure:
 
     @property
     def has_ground(self) -> bool:
-        """Whether there is something as wide as the ground of a world."""
-        every = (self.triangles(shape).points for _, _, shape in self.shapes("visual"))
-        return any(np.ptp(points, axis=0).max() >= _GROUND for points in every)
+        """Whether there is something as wide as the ground of a world, or a plane that is wider than all else."""
+        return any(
+            (width := _width(self.triangles(shape).points)) >= _GROUND or (_is_plane(shape) and width > self.size)
+            for _, _, shape in self.shapes("visual")
+        )
 
     def bounds(self) -> tuple[Array, Array]:
-        """The least and greatest coordinates of what is drawn with all joints at zero, or of the links' frames."""
-        corners: list[Array] = []
-        for role in ("visual", "collision"):
-            for link, _, shape in self.shapes(role):
-                pose = self.kinematics.at_zero[link].compose(shape.pose)
-                corners.append(_box_around(self.triangles(shape).points, pose))
-            corners = [each for each in corners if np.abs(each).max() < _FAR and np.ptp(each, axis=0).max() < _GROUND]
-            if corners:
-                break
+        """The least and greatest coordinates of what is drawn with all joints at zero, or of the links' frames.
+
+        Planes count only where there is nothing else: they are the ground.
+        """
+        corners = next(filter(None, map(self._boxes, ("visual", "collision"))), [])
         corners += [np.asarray([pose.translation]) for pose in self.kinematics.at_zero.values() if _is_near(pose)]
         every = np.concatenate(corners) if corners else np.zeros((1, 3))
         return every.min(axis=0), every.max(axis=0)
+
+    def _boxes(self, role: str) -> list[Array]:
+        """The boxes around shapes that count for what is seen."""
+        solid: list[Array] = []
+        flat: list[Array] = []
+        for link, _, shape in self.shapes(role):
+            box = _box_around(self.triangles(shape).points, self.kinematics.at_zero[link].compose(shape.pose))
+            if np.abs(box).max() < _FAR and _width(box) < _GROUND:
+                (flat if _is_plane(shape) else solid).append(box)
+        return solid or flat
 
 
 def placed(pose: Transform) -> dict[str, Any]:
@@ -227,6 +235,15 @@ def rgb(color: Iterable[float] | None, usual: Rgb = UNPAINTED) -> Rgb:
         return usual
     red, green, blue, *_ = (round(255 * min(1.0, max(0.0, part))) if math.isfinite(part) else 0 for part in color)
     return red, green, blue
+
+
+def _is_plane(shape: SceneShape) -> bool:
+    return isinstance(shape.shape, Plane)
+
+
+def _width(points: Array) -> float:
+    """The longest edge of the box around points."""
+    return float(np.ptp(points, axis=0).max())
 
 
 def _is_near(pose: Transform) -> bool:

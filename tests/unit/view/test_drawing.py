@@ -1,6 +1,7 @@
 """What is drawn, in numbers: triangles of shapes, boxes of inertias, ends of sliders, and where a camera has points."""
 
 import math
+from unittest.mock import MagicMock
 
 import pytest
 
@@ -9,11 +10,13 @@ pytest.importorskip("viser", reason="viser is not installed")
 from hypothesis import given
 from hypothesis import strategies as st
 
-from twinform.compiler.scene import Degree
+import twinform
+from twinform.compiler.scene import Degree, build_scene
 from twinform.ir import Box, Capsule, Cone, Cylinder, Ellipsoid, Heightmap, Mesh, Plane, Sphere
 from twinform.ir.geometry import ShapeNode
 from twinform.ir.solids import Solid
 from twinform.view.camera import Camera
+from twinform.view.figure import Figure
 from twinform.view.joint_controls import slider_range
 from twinform.view.mass_marks import inertia_box
 from twinform.view.mesh_drawings import MeshDrawings
@@ -105,3 +108,27 @@ def test_a_camera_may_look_straight_down_or_up(height: float):
     camera = Camera((0, 0, height), (0, 0, 0))
     assert camera.pixels([(0, 0, 0)], 200, 100)[0] == pytest.approx((100, 50))
     assert math.hypot(*camera.wxyz) == pytest.approx(1)
+
+
+_PLANE = "<plane><normal>0 0 1</normal><size>{0} {0}</size></plane>"
+_MODEL = """<model name="{}"><link name="l"><visual name="v">
+<geometry>{}</geometry></visual></link></model>"""
+_CRATE = _MODEL.format("crate", "<box><size>1 2 1</size></box>")
+
+
+@pytest.mark.parametrize(
+    ("models", "size", "ground"),
+    [
+        ((_CRATE,), math.sqrt(6), False),
+        ((_MODEL.format("ground", _PLANE.format(30)), _CRATE), math.sqrt(6), True),
+        ((_MODEL.format("ground", _PLANE.format(1)), _CRATE), math.sqrt(6), False),
+        ((_MODEL.format("ground", "<box><size>60 60 1</size></box>"), _CRATE), math.sqrt(6), True),
+        ((_MODEL.format("ground", _PLANE.format(3)),), math.sqrt(18), False),
+    ],
+    ids=["alone", "on a plane", "on a mat", "on a wide box", "a plane alone"],
+)
+def test_what_is_seen_is_what_stands_on_the_ground(models: tuple[str, ...], size: float, ground: bool):
+    text = f'<sdf version="1.11"><world name="w">{"".join(models)}</world></sdf>'
+    figure = Figure(MagicMock(), "/A", build_scene(twinform.loads(text.encode())), MeshDrawings())
+    assert figure.size == pytest.approx(size)
+    assert figure.has_ground is ground
