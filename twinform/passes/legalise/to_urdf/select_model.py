@@ -74,15 +74,20 @@ def _choose(among: list[Candidate], name: str | None, where: Location, sink: Dia
 
 
 def _say_which(among: list[Candidate], name: str | None, count: int, where: Location, sink: DiagnosticSink) -> None:
-    names = ", ".join(one.full_name for one in among) or "none"
+    names, advice = ", ".join(one.full_name for one in among) or "none", None
     if not among:
         message = "there is no model in the file"
     elif name is None:
         message = f"there are {count} models, and a URDF file holds one robot; choose one of {names}"
+        advice = f"--model '{max(among, key=_joints).full_name}' takes that one"
     else:
         message = f"{count or 'no'} models are called {name!r}; there are {names}"
     related = tuple(one.model.location for one in among[:5])
-    sink.report(rules.MODEL_NOT_CHOSEN, message, where, found=name, expected=names, related=related)
+    sink.report(rules.MODEL_NOT_CHOSEN, message, where, found=name, expected=names, help=advice, related=related)
+
+
+def _joints(one: Candidate) -> int:
+    return len(one.model.joints) if isinstance(one.model, Model) else 0
 
 
 def _place(model: Model, world: World, sink: DiagnosticSink) -> Model:
