@@ -90,9 +90,10 @@ def command(
     """Put a model and all its files into a folder.
 
     IN is a URDF, SDF, xacro or JSON file. Its meshes, textures and scripts, and what these name themselves, are copied
-    into DIR, each once, and all URIs lead there. Of a world, each model gets a folder. The folder is written at once,
-    or, where there is an error, not at all. Exit code: 0 without errors, 1 with errors, 2 where a file could not be
-    read or written.
+    into DIR, each once, and all URIs lead there. Of a world, each model gets a folder. Who made the model, its license
+    and its version are those of the package.xml or model.config around IN, where no option says it. The folder is
+    written at once, or, where there is an error, not at all. Exit code: 0 without errors, 1 with errors, 2 where a file
+    could not be read or written.
     """
     sources, arguments = inputs(words)
     if len(sources) > 1:
@@ -113,7 +114,7 @@ def command(
         load_options=own.load_options,
         sdf_versions=tuple(dict.fromkeys(version_for(gazebo, each) for each in sdf_versions or (None,))),
         release=gazebo,
-        details=details_of(cast("DetailOptions", rest)),
+        details=details_of(cast("DetailOptions", rest), sources[0].content),
         allow_missing=allow_missing,
         thumbnail=thumbnail,
     )

@@ -207,7 +207,7 @@ class Figure:
 
         Planes count only where there is nothing else: they are the ground.
         """
-        corners = next(filter(None, map(self._boxes, ("visual", "collision"))), [])
+        corners = self._boxes("visual") or self._boxes("collision")
         corners += [np.asarray([pose.translation]) for pose in self.kinematics.at_zero.values() if _is_near(pose)]
         every = np.concatenate(corners) if corners else np.zeros((1, 3))
         return every.min(axis=0), every.max(axis=0)

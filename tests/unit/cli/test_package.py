@@ -111,6 +111,24 @@ def test_what_was_not_given_is_todo_with_a_warning(run: Run, tmp_path: Path) -> 
     assert b"TODO" in (tmp_path / "arm/model.config").read_bytes()
 
 
+def test_what_was_not_given_is_as_the_package_around_has_it(run: Run, tmp_path: Path) -> None:
+    source = arm(tmp_path)
+    manifest = source.parent.parent / "package.xml"
+    assert manifest.is_file()
+    manifest.write_text(
+        "<package><name>arm_description</name><version>2.1.0</version><description>An arm of steel.</description>"
+        "<maintainer email='ann@example.org'>Ann</maintainer><license>MIT</license></package>"
+    )
+    done = run("package", source, "-o", tmp_path / "arm", "--kind", "both", "--license", "BSD", "--no-thumbnail")
+    assert done.exit_code == 0
+    assert "TODO" not in done.stderr
+    made = (tmp_path / "arm/package.xml").read_text()
+    assert "<version>2.1.0</version>" in made
+    assert "<license>BSD</license>" in made
+    assert '<maintainer email="ann@example.org">Ann</maintainer>' in made
+    assert "<name>Ann</name>" in (tmp_path / "arm/model.config").read_text()
+
+
 def test_the_same_input_gives_the_same_bytes(run: Run, tmp_path: Path) -> None:
     source = arm(tmp_path)
     first = _package(run, source, tmp_path / "one/arm", "--thumbnail")

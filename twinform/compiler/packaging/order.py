@@ -1,7 +1,7 @@
 """The order of a package: what is put into it, what it is called, and who made it."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Self
 
 from twinform.compiler.driver import Conversion, run_conversion
@@ -25,6 +25,7 @@ PLACEHOLDERS: Mapping[str, str] = {
     "license": "TODO: License declaration",
 }
 """What stands where nobody has said it; tools for packages of ROS know these words."""
+_FIRST_VERSION = "0.1.0"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,7 +33,7 @@ class Details:
     """What a package says about itself; empty where nobody has said it."""
 
     description: str = ""
-    version: str = "0.1.0"
+    version: str = ""
     author: str = ""
     maintainer: str = ""
     email: str = ""
@@ -43,9 +44,16 @@ class Details:
         """What nobody has said and a package needs, by the names of the fields."""
         return tuple(name for name in PLACEHOLDERS if not getattr(self, name))
 
+    def or_else(self, others: Self) -> Self:
+        """The same, and what is empty as others have it; a name and an address of different people are not mixed."""
+        person = self if self.maintainer or self.email else others
+        told = {each.name: getattr(self, each.name) or getattr(others, each.name) for each in fields(self)}
+        return replace(self, **told | {"maintainer": person.maintainer, "email": person.email})
+
     def with_placeholders(self) -> Self:
         """The same, where what is missing says so."""
-        return replace(self, **{name: PLACEHOLDERS[name] for name in self.missing})
+        told = {name: PLACEHOLDERS[name] for name in self.missing}
+        return replace(self, **told, version=self.version or _FIRST_VERSION)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

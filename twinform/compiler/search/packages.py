@@ -8,7 +8,10 @@ from pathlib import Path
 
 from lxml import etree
 
-_MANIFEST = "package.xml"
+from twinform.schemas import XmlElement
+
+MANIFEST = "package.xml"
+"""What makes a folder a package."""
 _LARGEST = 2**20
 _DEEPEST = 5
 _MOST = 2000
@@ -23,14 +26,18 @@ def is_package(folder: Path, name: str) -> bool:
 
 def package_name(folder: Path) -> str | None:
     """What the package in a folder calls itself; None where there is none."""
-    manifest = folder / _MANIFEST
+    root = read_manifest(folder / MANIFEST)
+    return None if root is None else (root.findtext("name") or "").strip() or None
+
+
+def read_manifest(file: Path) -> XmlElement | None:
+    """The root of a small XML file that says what a folder is; None where there is none, or it is not well-formed."""
     try:
-        if not manifest.is_file() or manifest.stat().st_size > _LARGEST:
+        if not file.is_file() or file.stat().st_size > _LARGEST:
             return None
-        root = etree.fromstring(manifest.read_bytes(), etree.XMLParser(resolve_entities=False, no_network=True))
+        return etree.fromstring(file.read_bytes(), etree.XMLParser(resolve_entities=False, no_network=True))
     except (OSError, etree.XMLSyntaxError):
         return None
-    return (root.findtext("name") or "").strip() or None
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +77,7 @@ def _packages_below(root: Path) -> Iterator[tuple[str, Path]]:
     depth = len(root.parts)
     for place, folders, files in os.walk(root):
         here = Path(place)
-        name = package_name(here) if _MANIFEST in files else None
+        name = package_name(here) if MANIFEST in files else None
         if name is not None:
             yield name, here
         if name is not None or _SKIPPED.intersection(files) or len(here.parts) - depth >= _DEEPEST:

@@ -35,7 +35,8 @@ UNPACKAGED_PARAMETER = Rule(
 PLACEHOLDER = Rule(
     name="placeholder",
     severity=Severity.WARNING,
-    finds="A package whose author, maintainer, license or description was not given, so that TODO stands there.",
+    finds="A package whose maintainer, license or description was not given, and is not in a package.xml or "
+    "model.config around the model either, so that TODO stands there.",
     matters="Who publishes the package needs them: catkin and ament refuse a package.xml without a maintainer with an "
     "email address and without a license.",
     example="`<license>TODO: License declaration</license>`",
