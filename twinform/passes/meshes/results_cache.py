@@ -21,7 +21,7 @@ _LIBRARIES = ("twinform", "coacd", "fast-simplification", "numpy", "pycollada", 
 _MOST = 2**30
 """Bytes that are kept; beyond them, what was used longest ago goes."""
 _DIGEST = hashlib.sha256().digest_size
-FORMAT = "2"
+FORMAT = "3"
 """Changes where what a job makes changes otherwise than by a version."""
 
 

@@ -28,7 +28,10 @@ def test_a_flat_part_keeps_its_border() -> None:
     assert found is not None
     assert found.error <= 0.005
     assert found.triangles < 0.4 * len(lids.faces)
-    assert np.isclose(found.parts[0][1].area, lids.area, rtol=0.005)
+    ((_, made),) = found.parts
+    assert np.isclose(made.area, lids.area, rtol=0.005)
+    assert len(np.unique(made.faces)) == len(made.vertices), "readers count points without a triangle"
+    assert np.allclose(made.bounds, lids.bounds, atol=0.005)
 
 
 def test_levels_have_fewer_and_fewer_triangles() -> None:

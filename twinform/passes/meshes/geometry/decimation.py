@@ -96,7 +96,8 @@ def _carefully_collapsed(surface: Surface, count: int) -> Surface:
     of_skirt = np.zeros(len(points), dtype=bool)
     of_skirt[became[is_skirt & (became >= 0)]] = True
     faces = faces[~of_skirt[faces].any(axis=1)]
-    return Surface(_restored(np.asarray(points, dtype=float), skirted), faces)
+    used, faces = np.unique(faces, return_inverse=True)  # the skirt's points are far from the surface
+    return Surface(_restored(np.asarray(points[used], dtype=float), skirted), faces.reshape(-1, 3))
 
 
 def _with_skirt(surface: Surface) -> tuple[Surface, Any]:
