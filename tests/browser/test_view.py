@@ -298,7 +298,7 @@ def test_hostile_names_are_text_on_hover_and_in_the_tree(roomy: Stage) -> None:
         row = roomy.page.locator("[data-twinform-link]").filter(has_text=name[:20])
         if row.count():
             row.first.click()
-    roomy.page.locator("[aria-current=true]").wait_for()
+            roomy.page.locator("[aria-current=true]").filter(has_text=name[:20]).wait_for()
     assert roomy.page.evaluate("window.hit") is None
 
 

@@ -23,7 +23,7 @@ _DRIVE = (
 )
 TUTORIAL = (ROOT / "docs/tutorial/ros2-package.md").read_text(encoding="utf-8")
 _COURIER = next(
-    line for line in TUTORIAL.splitlines() if line.startswith("$ ") and "-o out/courier --kind ros2 --lic" in line
+    line for line in TUTORIAL.splitlines() if line.startswith("$ ") and "-o out/courier --kind ros2 --desc" in line
 )
 _COURIERS_PASSES = shlex.split(_COURIER)[-1]
 
