@@ -110,7 +110,7 @@ def test_no_model_stops_the_rest(run: Run, here: Path) -> None:
     Path("src/wrong.urdf").write_text(WRONG)
     Path("src/broken.urdf").write_text(BROKEN)
     Path("src/gone.urdf").symlink_to("nowhere")
-    arguments = ("--passes", "chaos", "--timeout", "6")  # one job takes all of it, and none else may
+    arguments = ("--passes", "chaos", "--timeout", "8")  # one job takes all of it, and none else may
     code, found = report(run, *arguments)
     assert code == 2
     assert outcomes(found) == {
