@@ -13,7 +13,7 @@ from twinform.testing.profiles import PROFILES
 PROFILE = os.environ.get("TWINFORM_PROFILE", "smoke")
 DEEP = PROFILE == "deep"
 REPEATED = PROFILE == "smoke"
-_CHEAP = 25 if REPEATED else 100
+_CHEAP = 50 if REPEATED else 100
 """How many examples a property is tried with that does not ask for `examples`."""
 
 settings.register_profile(

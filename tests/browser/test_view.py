@@ -102,8 +102,13 @@ class Stage(NamedTuple):
     page: "Page"
     faults: list[str]
 
+    def settle(self) -> None:
+        """Wait until the page has all that was sent; what is replaced before is an error of viser's client."""
+        self.viewer.picture(camera_for(self.viewer.figures), 16, 16)
+
     def show(self, *models: str | bytes | Path, comparison: "Comparison | None" = None) -> None:
         """Show models in place of what was shown, with all joints at zero, and the camera where all is seen."""
+        self.settle()
         self.viewer.show([_subject(model) for model in models], comparison)
         self.viewer.move(ZERO)
         self.viewer.aim()
@@ -259,7 +264,7 @@ def roomy(stage: Stage) -> Iterator[Stage]:
 
 def _begin(stage: Stage, *models: str | bytes | Path) -> None:
     stage.show(*models)
-    stage.viewer.picture(camera_for(stage.viewer.figures), 64, 64)  # everything is there
+    stage.settle()
     for notice in stage.page.locator(".mantine-Notification-closeButton").all():
         notice.click()
 
@@ -269,7 +274,7 @@ def test_names_are_shown_on_hover(roomy: Stage) -> None:
     _assert_hover(roomy, "base", (0.15, -0.15, 0.0), "base")
     _assert_hover(roomy, "upper", (0.0, 0.0, 0.3), "upper\nrevolute joint shoulder")
     roomy.viewer.move({("shoulder", 0): 0.8})
-    roomy.viewer.picture(camera_for(roomy.viewer.figures), 64, 64)
+    roomy.settle()
     _assert_hover(roomy, "slider", (0.15, 0.0, 0.0), "slider\nprismatic joint slide")
     roomy.page.mouse.move(5, 5)
     roomy.page.locator("#twinform-tip").wait_for(state="hidden")
@@ -280,7 +285,7 @@ def test_what_is_hidden_has_no_name_on_hover_and_marks_have_one(roomy: Stage) ->
     roomy.page.get_by_text("Show", exact=True).click()
     roomy.page.get_by_text("Visuals", exact=True).click()
     roomy.page.get_by_text("Skeleton", exact=True).click()
-    roomy.viewer.picture(camera_for(roomy.viewer.figures), 64, 64)
+    roomy.settle()
     says = "joint shoulder\nrevolute, from base to upper\nfrom -1.5 to 1.5 rad"
     _assert_hover(roomy, "upper", (0.0, 0.0, 0.0), says)
     _assert_hover(roomy, "base", (0.19, -0.19, 0.0), "")
@@ -502,6 +507,7 @@ def test_what_is_chosen_stays_when_a_file_is_shown_again(stage: Stage) -> None:
     page.get_by_text("Joint axes", exact=True).click()
     _until(lambda: any("axes" in name for name in viewer.figures[0].labels))
     before = viewer.figures[0].poses["upper"]
+    stage.settle()
     viewer.show([_subject(ARM.replace("0.08", "0.09"))])
     assert viewer.figures[0].poses["upper"] == before
     assert any("axes" in name for name in viewer.figures[0].labels)

@@ -12,11 +12,8 @@ _OWN = ("http://127.0.0.1:", "ws://127.0.0.1:", "file:", "data:", "blob:", "abou
 _QUIET = frozenset({"log", "info", "debug"})
 _KNOWN = ("THREE.Clock: This module has been deprecated.", "GPU stall due to ReadPixels")
 """Warnings of viser's client, and of renderers in software."""
-_HARMLESS = (
-    "Unable to preventDefault inside passive event listener",  # Chromium, when a part is dragged
-    "Tried to update non-existent component",  # viser, when a panel is replaced before all of it was there
-)
-"""Errors of viser's client that nobody sees anything of."""
+_INTERVENTION = "Unable to preventDefault inside passive event listener"
+"""What Chromium says of viser's client when a part is dragged."""
 
 
 class Watched:
@@ -69,4 +66,4 @@ def strict_page(browser: "Browser") -> "Generator[tuple[Page, list[str]]]":
 
 
 def _is_fault(message: "ConsoleMessage") -> bool:
-    return message.type == "error" and not any(each in message.text for each in _HARMLESS)
+    return message.type == "error" and _INTERVENTION not in message.text

@@ -88,10 +88,10 @@ def chunks(*kinds: Kind) -> dict[str, tuple[CorpusFile, ...]]:
 
 
 def portions(wanted: Iterable[CorpusFile]) -> dict[str, tuple[CorpusFile, ...]]:
-    """Some files in portions of one repository: every twentieth of each, and all of them in the deep profile."""
+    """Some files in portions of one repository: every twelfth of each, and all of them in the deep profile."""
     found: dict[str, tuple[CorpusFile, ...]] = {}
     for repository, group in groupby(wanted, key=lambda file: file.repository):
-        files = tuple(group)[:: 1 if DEEP else 20]
+        files = tuple(group)[:: 1 if DEEP else 12]
         found |= {f"{repository}-{i}": files[i : i + _PORTION] for i in range(0, len(files), _PORTION)}
     # without a corpus one empty portion stays, for the test to skip with its reason
     return found or {"none": ()}

@@ -22,6 +22,7 @@ URDF = f"""<robot name="r"><link name="a"><inertial>{BODY}</inertial>
 <visual><geometry><box size="1 1 1"/></geometry><material name="m"><color rgba="1 0 0 1"/></material></visual></link>
 <link name="b"><inertial>{BODY}</inertial></link>
 <joint name="j" type="continuous"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/></joint></robot>"""
+# of a version in which unknown elements may have names with "::", as libsdformat takes them
 SDF = """<sdf version="1.7"><model name="r"><link name="a"><pose>1 2 3 0.1 0.2 0.3</pose></link><link name="b"/>
 <joint name="j" type="ball"><parent>a</parent><child>b</child></joint>
 <frame name="f" attached_to="a"/></model></sdf>"""

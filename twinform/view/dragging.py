@@ -8,8 +8,8 @@ from typing import Any
 from twinform.compiler.scene import Degree, Positions, SceneJoint
 from twinform.ir import Vector3
 from twinform.ir.transform import Transform
+from twinform.ir.vectors import across, cross, dot, minus
 from twinform.view.figure import Figure
-from twinform.view.vectors import across, cross, dot, minus
 
 MODIFIER = "shift"
 """The key to hold: without it the mouse turns the camera."""

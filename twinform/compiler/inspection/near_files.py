@@ -7,12 +7,11 @@ from pathlib import Path
 from posixpath import normpath
 from urllib.parse import unquote
 
-from twinform.compiler.search.packages import package_name
+from twinform.compiler.search.packages import MODEL_CONFIG, package_name
 from twinform.compiler.search.search_roots import folders_around
 from twinform.compiler.search.uris import SearchPath, UriError, exists
 from twinform.diagnostics import nearest_name
 
-_MODEL_CONFIG = "model.config"
 _MOST_ENTRIES = 2000
 """Entries of a folder that are looked at."""
 _ALIKE = 0.75
@@ -91,7 +90,7 @@ def _known(scheme: str, search: SearchPath, beside: Path) -> Iterator[str]:
             yield from filter(None, (package_name(folder), *(package_name(folder / name) for name in _entries(folder))))
         return
     for folder in (*search.own, *search.models, *around, *(each / "models" for each in around)):
-        yield from (name for name in _entries(folder) if exists(folder / name / _MODEL_CONFIG))
+        yield from (name for name in _entries(folder) if exists(folder / name / MODEL_CONFIG))
 
 
 def _entries(folder: Path) -> list[str]:

@@ -6,7 +6,7 @@ from pathlib import Path
 from twinform.compiler.search.search_roots import folders_around
 from twinform.compiler.search.uris import LocalAssets
 
-_HIGHEST = 8
+HIGHEST = 8
 """So many folders up a package or model is looked for."""
 
 
@@ -43,7 +43,7 @@ class Origins:
 
     def _holder(self, folder: Path) -> tuple[Path, str] | None:
         """The nearest folder around that has a package.xml or model.config, and its name."""
-        for around in (folder, *folder.parents)[:_HIGHEST]:
+        for around in (folder, *folder.parents)[:HIGHEST]:
             if around not in self._known:
                 name = self.assets.holder(around, "package") or self.assets.holder(around, "model")
                 self._known[around] = (around, name) if name else None

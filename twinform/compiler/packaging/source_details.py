@@ -6,12 +6,10 @@ from pathlib import Path
 from lxml import etree
 
 from twinform.compiler.packaging.order import PLACEHOLDERS, Details
-from twinform.compiler.search.packages import MANIFEST, read_manifest
+from twinform.compiler.packaging.origins import HIGHEST
+from twinform.compiler.search.packages import MANIFEST, MODEL_CONFIG, read_manifest
 from twinform.schemas import XmlElement
 
-_MODEL_CONFIG = "model.config"
-_HIGHEST = 8
-"""So many folders up a package or model is looked for."""
 _TEXTS = etree.Element
 """Elements have texts that count: neither comments nor entities, which are not resolved."""
 _UNSAID = frozenset(PLACEHOLDERS.values())
@@ -24,10 +22,10 @@ def details_around(file: Path) -> Details:
     Empty are those fields that it does not have. Several maintainers are the first of them, several licenses stand in a
     row, and a version of two numbers gets a third, which packages of ROS need (REP 149).
     """
-    for folder in file.absolute().parents[:_HIGHEST]:
+    for folder in file.absolute().parents[:HIGHEST]:
         if (package := read_manifest(folder / MANIFEST)) is not None:
             return _of_package(package)
-        if (model := read_manifest(folder / _MODEL_CONFIG)) is not None:
+        if (model := read_manifest(folder / MODEL_CONFIG)) is not None:
             return _of_model(model)
     return Details()
 

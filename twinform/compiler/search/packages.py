@@ -12,6 +12,8 @@ from twinform.schemas import XmlElement
 
 MANIFEST = "package.xml"
 """What makes a folder a package."""
+MODEL_CONFIG = "model.config"
+"""What makes a folder a model of Gazebo."""
 _LARGEST = 2**20
 _DEEPEST = 5
 _MOST = 2000

@@ -9,14 +9,13 @@ from typing import Literal, Self
 from urllib.parse import unquote, urlsplit
 
 from twinform.compiler.search import fuel
-from twinform.compiler.search.packages import PackageIndex, is_package, package_name
+from twinform.compiler.search.packages import MODEL_CONFIG, PackageIndex, is_package, package_name
 from twinform.compiler.search.search_roots import folders_around
 from twinform.diagnostics.rules import files as rules
 from twinform.passes import AssetError
 
 _MODEL_VARIABLES = ("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "SDF_PATH", "GAZEBO_MODEL_PATH")
 _MOST_SHOWN = 6
-_MODEL_CONFIG = "model.config"
 
 
 class UriError(AssetError):
@@ -199,7 +198,7 @@ class LocalAssets:
         """What the package of ROS or the model of Gazebo is called that a folder is; None where it is none."""
         if kind == "package":
             return package_name(folder)
-        if not exists(folder / _MODEL_CONFIG):
+        if not exists(folder / MODEL_CONFIG):
             return None
         name = fuel.name_of(folder, self.search.fuel)
         return name.name if name else folder.name

@@ -12,6 +12,7 @@ from twinform.ir import Capsule, Cylinder, Format, Joint, Model, Shape, Sphere, 
 from twinform.ir.defaults import direction
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.transform import Transform
+from twinform.ir.vectors import cross, dot
 
 _PARALLEL = 0.999
 """The cosine above which two directions are taken as one."""
@@ -89,7 +90,7 @@ def wheelbase_of(front: Sequence[Wheel], rear: Sequence[Wheel], across: Sequence
         NotMeasuredError: the axles do not point the same way, or are one.
     """
     axle = _common_axle(across)
-    forward = _unit(_cross(axle, (0.0, 0.0, 1.0)))
+    forward = _unit(cross(axle, (0.0, 0.0, 1.0)))
     distance = abs(_mean([each.origin for each in front], forward) - _mean([each.origin for each in rear], forward))
     return _more_than_nothing(distance, "the front and rear wheels are at the same place along the way")
 
@@ -102,13 +103,13 @@ def _more_than_nothing(distance: float, otherwise: str) -> float:
 
 def _common_axle(wheels: Sequence[Wheel]) -> Vector3:
     axle = wheels[0].axle
-    if any(abs(_dot(axle, each.axle)) < _PARALLEL for each in wheels):
+    if any(abs(dot(axle, each.axle)) < _PARALLEL for each in wheels):
         raise NotMeasuredError("the axles of the wheels do not point the same way")
     return axle
 
 
 def _mean(points: Sequence[Vector3], direction: Vector3) -> float:
-    return sum(_dot(each, direction) for each in points) / len(points)
+    return sum(dot(each, direction) for each in points) / len(points)
 
 
 def _axle(graph: FrameGraph, joint: Joint, place: Transform, format_: Format) -> Vector3:
@@ -156,15 +157,7 @@ def _radius(shape: Shape | None, at: Transform, axle: Vector3) -> float | None:
     if not isinstance(shape, Cylinder | Capsule):
         return None
     along = at.rotate((0.0, 0.0, 1.0))
-    return shape.radius if abs(_dot(along, axle)) > _PARALLEL else None
-
-
-def _dot(a: Vector3, b: Vector3) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def _cross(a: Vector3, b: Vector3) -> Vector3:
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+    return shape.radius if abs(dot(along, axle)) > _PARALLEL else None
 
 
 def _unit(vector: Vector3) -> Vector3:

@@ -3,10 +3,11 @@
 from collections.abc import Iterator, Mapping
 
 from twinform.compiler.packaging.collecting import Collection
-from twinform.compiler.packaging.gazebo_model.model_config import FILE, model_config
+from twinform.compiler.packaging.gazebo_model.model_config import model_config
 from twinform.compiler.packaging.gazebo_model.thumbnail import thumbnail
 from twinform.compiler.packaging.order import Order
 from twinform.compiler.packaging.package import Content
+from twinform.compiler.search.packages import MODEL_CONFIG
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Include, Model
 from twinform.schemas import parse_version
@@ -17,7 +18,7 @@ _OF_MODELS = ("model://", "http://", "https://")
 
 def reserve_names(collection: Collection) -> None:
     """Keep the places free that every folder needs."""
-    for path in (FILE, _PICTURE):
+    for path in (MODEL_CONFIG, _PICTURE):
         collection.reserve(path)
 
 
@@ -34,7 +35,7 @@ def folder_files(
     names = sdf_names(iter(texts))
     files: dict[str, Content] = {file: texts[version].encode() for version, file in names.items()}
     includes = [uri for model in document.models for uri in _includes(model)]
-    files[FILE] = model_config(name, order.details, names, includes)
+    files[MODEL_CONFIG] = model_config(name, order.details, names, includes)
     if order.thumbnail and (picture := thumbnail(document, collection, sink)):
         files[_PICTURE] = picture
     return collection.files | files

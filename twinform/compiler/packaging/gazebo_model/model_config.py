@@ -7,8 +7,6 @@ from lxml import etree
 from twinform.compiler.packaging.order import Details
 from twinform.schemas import XmlElement
 
-FILE = "model.config"
-
 
 def model_config(name: str, details: Details, sdf_files: Mapping[str, str], includes: Iterable[str] = ()) -> bytes:
     """The text of a model.config.

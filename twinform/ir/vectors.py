@@ -1,6 +1,6 @@
 """Arithmetic of vectors."""
 
-from twinform.ir import Vector3
+from twinform.ir.node import Vector3
 
 
 def dot(a: Vector3, b: Vector3) -> float:
