@@ -79,6 +79,8 @@ def main() -> None:
 
 def program() -> NoReturn:
     """Run the command line and leave the process, as the installed script does; `main` is for other programs."""
+    from twinform.cli.current_folder import distrust_current_folder  # noqa: PLC0415 - it is for the program alone
     from twinform.cli.leaving import run  # noqa: PLC0415 - who imports the commands stays
 
+    distrust_current_folder()
     run(main)

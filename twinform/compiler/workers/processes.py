@@ -12,12 +12,12 @@ from typing import Any, ParamSpec, TypeVar
 
 from pebble import ProcessExpired, ProcessPool
 
+from twinform.child_python import spawn_context
 from twinform.compiler.workers.running import Failure, Runner, run_on
 
 Arguments = ParamSpec("Arguments")
 Job = TypeVar("Job")
 Result = TypeVar("Result")
-_SPAWN: Any = multiprocessing.get_context("spawn")  # pebble describes contexts more narrowly than they are
 _MOST_JOBS = 1000
 """Jobs after which a process gives way to a new one, whatever memory its libraries have kept."""
 _PATIENCE = 120.0
@@ -41,7 +41,8 @@ class ProcessExecutor(Executor):
         """
         if self._pool is None:
             # that the task comes along imports what it needs before a job is taken, and its time begins
-            self._pool = ProcessPool(self._processes, self._most_jobs, _begin, (fn,), _SPAWN)
+            context: Any = spawn_context()  # pebble describes contexts more narrowly than they are
+            self._pool = ProcessPool(self._processes, self._most_jobs, _begin, (fn,), context)
         try:
             return self._pool.schedule(fn, args, kwargs, self._seconds)
         except RuntimeError as error:

@@ -3,11 +3,11 @@
 import atexit
 import os
 import subprocess
-import sys
 import threading
 from dataclasses import dataclass, field
 from typing import BinaryIO, cast
 
+from twinform.child_python import python_command
 from twinform.passes.meshes.job import BadMessageError, Job, Result
 
 MEMORY = 4 * 2**30
@@ -56,9 +56,8 @@ class MeshProcess:
 
     def _running(self) -> "subprocess.Popen[bytes]":
         if self._child is None or self._child.poll() is not None:
-            command = [sys.executable, "-P", "-m", "twinform.passes.meshes.child", str(self.memory)]
             self._child = subprocess.Popen(  # noqa: S603 - our own module
-                command,
+                python_command("-m", "twinform.passes.meshes.child", str(self.memory)),
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.DEVNULL,

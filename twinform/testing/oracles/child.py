@@ -10,6 +10,8 @@ import sys
 from collections.abc import Callable
 from typing import Any, TypeVar
 
+from twinform.child_python import python_command
+
 Result = TypeVar("Result")
 
 
@@ -23,7 +25,7 @@ def call(function: Callable[..., Result], *arguments: Any, seconds: float | None
     Raises:
         ChildDiedError: the process ended, or did not within so many seconds.
     """
-    command = [sys.executable, "-m", "twinform.testing.oracles.child"]
+    command = python_command("-m", "twinform.testing.oracles.child")
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(part for part in sys.path if part)}
     question = pickle.dumps((function, arguments))
     try:

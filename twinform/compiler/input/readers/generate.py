@@ -5,6 +5,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from twinform.child_python import python_command
 from twinform.compiler.input.readers.functions import ModuleWriter
 from twinform.schemas import table
 
@@ -24,7 +25,7 @@ def stale() -> list[Path]:
 
 def _formatted(text: str) -> str:
     """The text as `make fmt` leaves it."""
-    command = [sys.executable, "-m", "ruff", "format", "-"]
+    command = python_command("-m", "ruff", "format", "-")
     return subprocess.run(command, input=text, capture_output=True, text=True, check=True).stdout  # noqa: S603 - ours
 
 

@@ -4,7 +4,6 @@ import json
 import os
 import site
 import subprocess
-import sys
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from importlib.machinery import PathFinder
@@ -12,6 +11,7 @@ from pathlib import Path
 from threading import Timer
 from typing import Any, Self, cast
 
+from twinform.child_python import python_command
 from twinform.compiler.input.limits import LARGEST
 from twinform.compiler.input.xacro.files import Files, OutsideError
 from twinform.compiler.input.xacro.variables import variable
@@ -72,10 +72,10 @@ def _library_folders() -> tuple[str, ...]:
 
 def _ask(path: Path, search: SearchPath, task: Mapping[str, object], folders: tuple[str, ...]) -> dict[str, Any]:
     """What becomes of a task in a process of its own."""
-    # -P: the folder of the script is no place to import from. -W: what Python warns of is not the file's to know.
+    # -W: what Python warns of is not the file's to know.
     # -S: nothing is run that packages have left for the start of Python
     bare = ["-S", "-s"] if folders else []
-    command = [sys.executable, *bare, "-P", "-W", "ignore", str(_WORKER), *folders]
+    command = python_command(*bare, "-W", "ignore", str(_WORKER), *folders)
     pipe = subprocess.PIPE
     with subprocess.Popen(  # noqa: S603 - our own script, and no shell
         command, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, env=environment()

@@ -5,7 +5,6 @@ import os
 import re
 import shutil
 import subprocess
-import sys
 import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -15,6 +14,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+from twinform.child_python import python_command
 from twinform.testing.oracles import libsdformat
 from twinform.testing.oracles.readers import parsers
 from twinform.testing.oracles.readers.answers import Kept
@@ -90,7 +90,7 @@ class Reader:
         return json.loads(line)
 
     def _started(self) -> subprocess.Popen[str]:
-        command = [sys.executable, "-m", "twinform.testing.oracles.readers.child", self.name]
+        command = python_command("-m", "twinform.testing.oracles.readers.child", self.name)
         quiet, folder = subprocess.DEVNULL, tempfile.gettempdir()  # some leave a log where they are
         return subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=quiet, text=True, cwd=folder
