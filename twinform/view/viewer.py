@@ -15,6 +15,7 @@ from typing import Any
 from twinform.compiler.compare.comparison import Comparison
 from twinform.compiler.scene import Positions
 from twinform.view import page_script
+from twinform.view.access import Access
 from twinform.view.camera import Camera
 from twinform.view.errors import PortTakenError, ViewError
 from twinform.view.figure import Figure, Handle, Look
@@ -46,7 +47,8 @@ class Viewer:
     """
 
     def __init__(self, port: int = 0) -> None:
-        with _silence():
+        self._access = Access()
+        with _silence(), self._access.guard():
             self._server: Any = viser.ViserServer(host=HOST, port=_free(port), label="twinform", verbose=False)
         self._lock = RLock()
         self._panel: Panel | None = None
@@ -55,8 +57,8 @@ class Viewer:
 
     @property
     def address(self) -> str:
-        """Where a browser finds it."""
-        return f"http://{HOST}:{self._server.get_port()}"
+        """Where a browser finds it; whoever does not know all of it is refused."""
+        return f"http://{HOST}:{self._server.get_port()}/{self._access.token}"
 
     @property
     def figures(self) -> Sequence[Figure]:
