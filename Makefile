@@ -9,6 +9,8 @@ JOBS ?= 2
 # of `make report`: which one, and its options; of `make bench` too
 NAME ?=
 ARGS ?=
+# of `make fuzz`, which NAME is for too
+SECONDS ?= 600
 # of `make bench`: the folder of an older checkout
 BEFORE ?=
 BIN := .venv/bin
@@ -104,11 +106,9 @@ prove: $(ORACLES) ## all tests at depth: 1,000 examples of each property, 100,00
 coverage: $(ORACLES) # how much of the package the tests run, branches and child processes too
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal --cov --cov-report=term --cov-report=html:out/coverage
 
-fuzz: $(SYNCED) # ten minutes of atheris for each target; docs/evidence/proof.md has how to run it for hours
+fuzz: $(SYNCED) # atheris: SECONDS for each target of tests/fuzz/table.py, or for NAME alone
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --group fuzz
-	mkdir -p out/fuzz/load out/fuzz/pipeline
-	PYTHONPATH=. $(BIN)/python fuzz/load.py out/fuzz/load tests/fuzz/found/load examples -max_total_time=600
-	PYTHONPATH=. $(BIN)/python fuzz/pipeline.py out/fuzz/pipeline tests/fuzz/found/pipeline -max_total_time=600
+	$(BIN)/python -m fuzz.run $(SECONDS) $(NAME)
 
 test: $(SYNCED) ## all tests
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal

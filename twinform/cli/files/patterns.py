@@ -1,6 +1,7 @@
 """Patterns of paths in the notation of `.gitignore`: for `exclude`, settings of some files, and `.gitignore` itself."""
 
 import os
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -26,7 +27,7 @@ class PathPatterns:
         """
         try:
             return cls(os.path.abspath(folder), GitIgnoreSpec.from_lines(lines))  # noqa: PTH100 - links stay links
-        except ValueError as error:
+        except (ValueError, re.error) as error:
             raise PatternError(str(error)) from error
 
     def is_around(self, path: str) -> bool:

@@ -65,15 +65,22 @@ def _unpack(archive: Path, folder: Path) -> None:
         left = max(LEAST_BYTES, MOST_TIMES * archive.stat().st_size)
         members = _zip(archive) if archive.name.lower().endswith(".zip") else _tar(archive)
         for number, member in enumerate(members):
-            if number >= MOST_FILES:
-                raise FolderError(f"{archive} has more than {MOST_FILES:,} files")
+            _require_few(number, archive)
             path = folder / _place(member.name, archive)
             path.parent.mkdir(parents=True, exist_ok=True)
             left -= _write(member, path, left, archive)
-    except (tarfile.TarError, zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError) as error:
+    except FolderError:
+        raise
+    # zipfile raises ValueError, too, such as for names and times that are none
+    except (tarfile.TarError, zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, ValueError) as error:
         raise FolderError(f"{archive} cannot be unpacked: {error}") from error
     except OSError as error:
         raise FolderError(f"{archive} cannot be unpacked: {error.strerror or error}") from error
+
+
+def _require_few(number: int, archive: Path) -> None:
+    if number >= MOST_FILES:
+        raise FolderError(f"{archive} has more than {MOST_FILES:,} files")
 
 
 def _write(member: _Member, path: Path, left: int, archive: Path) -> int:
@@ -111,7 +118,8 @@ def _zip(archive: Path) -> Iterator[_Member]:
     with zipfile.ZipFile(archive) as file:
         for each in file.infolist():
             kind = stat.S_IFMT(each.external_attr >> 16)
-            if not each.is_dir() and kind in {0, stat.S_IFREG}:
+            # ZipInfo.is_dir raises for a member whose name is empty
+            if not each.filename.endswith("/") and kind in {0, stat.S_IFREG}:
                 with file.open(each) as content:
                     yield _Member(each.orig_filename, _time(each), content)
 
