@@ -27,13 +27,14 @@ class ChildRequest(TypedDict):
     folder: str
     memory: int
     seconds: int
+    written: int
 
 
-def limit(memory: int, seconds: int) -> None:
-    """Hold this process to so many bytes of memory and seconds of the processor, and to no file written."""
+def limit(memory: int, seconds: int, written: int = 0) -> None:
+    """Hold this process to so many bytes of memory, seconds of the processor, and bytes of a file that it writes."""
     resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
     resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
-    resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
+    resource.setrlimit(resource.RLIMIT_FSIZE, (written, written))
 
 
 def _run(arguments: Sequence[str]) -> None:
@@ -74,7 +75,7 @@ def _begun(request: ChildRequest, streams: Sequence[int]) -> list[str]:
         os.dup2(stream, number)
         os.close(stream)
     os.chdir(request["folder"])
-    limit(request["memory"], request["seconds"])
+    limit(request["memory"], request["seconds"], request["written"])
     return request["arguments"]
 
 

@@ -1,9 +1,11 @@
 """Unpacks models from a tar or zip archive, which may be anybody's: within limits, and nothing leaves its folder."""
 
+import io
+import lzma
 import os
 import shutil
 import stat
-import tarfile
+import struct
 import time
 import zipfile
 import zlib
@@ -12,20 +14,33 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from tempfile import mkdtemp
-from typing import IO
 
 from twinform.compiler.batch.entries import FolderError
+from twinform.compiler.batch.tar_reader import BrokenArchiveError, ByteStream, LargeArchiveError, members, opened
 
-MOST_FILES = 4_000_000
-LEAST_BYTES = 2**30
+LEAST_FILES = 5_000
+"""Files and folders that any archive may have."""
+BYTES_PER_FILE = 200
+"""For so many of its own bytes an archive may have one more; a small compressed model takes twice as much."""
+LEAST_BYTES = 2**28
 """What any archive may unpack to."""
 MOST_TIMES = 100
 """An archive may unpack to so many times its own size; XML shrinks to a tenth or twentieth."""
+_HEADERS = 3
+"""Headers that a file in a tar archive has at most: its own and two for a long name, or its attributes."""
 _TOP = ".hg"
 """Marks a folder as the top of a repository: files are not looked for above it."""
 _PIECE = 2**20
 _LONGEST = 1024
+_DEEPEST = 64
+_LATEST = 2**33
+"""Seconds since 1970, as a time of a file; what is beyond them is nonsense, and an error of some systems."""
+_DIRECTORY = 2**22
+"""Bytes of a zip archive's list of files that are read in any case, which `zipfile` keeps in memory."""
+_METHODS = frozenset({zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED, zipfile.ZIP_BZIP2})
+"""What zip archives are made with; LZMA is not, and asks for up to 4 GiB of memory."""
 _ENDINGS = (".zip", ".tar", ".tar.gz", ".tgz", ".tar.bz2", ".tbz2", ".tar.xz", ".txz")
+_ADVICE = "unpack it yourself if this is meant, and name the folder"
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +49,7 @@ class _Member:
 
     name: str
     time: float
-    content: IO[bytes]
+    content: ByteStream
 
 
 def is_archive(path: Path) -> bool:
@@ -62,66 +77,116 @@ def unpacked(archive: Path) -> Generator[Path]:
 
 def _unpack(archive: Path, folder: Path) -> None:
     try:
-        left = max(LEAST_BYTES, MOST_TIMES * archive.stat().st_size)
-        members = _zip(archive) if archive.name.lower().endswith(".zip") else _tar(archive)
-        for number, member in enumerate(members):
-            _require_few(number, archive)
-            path = folder / _place(member.name, archive)
-            path.parent.mkdir(parents=True, exist_ok=True)
-            left -= _write(member, path, left, archive)
-    except FolderError:
-        raise
-    # zipfile raises ValueError, too, such as for names and times that are none
-    except (tarfile.TarError, zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, ValueError) as error:
-        raise FolderError(f"{archive} cannot be unpacked: {error}") from error
+        room = _Room.of(archive, folder)
+        for member in _zip(archive, room) if archive.name.lower().endswith(".zip") else _tar(archive, room):
+            room.write(member)
     except OSError as error:
         raise FolderError(f"{archive} cannot be unpacked: {error.strerror or error}") from error
+    except LargeArchiveError as error:
+        raise FolderError(f"{archive} is not unpacked: {error}; {_ADVICE}") from error
+    except _FAULTS as error:
+        raise FolderError(f"{archive} cannot be unpacked: {error}") from error
 
 
-def _require_few(number: int, archive: Path) -> None:
-    if number >= MOST_FILES:
-        raise FolderError(f"{archive} has more than {MOST_FILES:,} files")
+_FAULTS = (ValueError, zipfile.BadZipFile, zlib.error, lzma.LZMAError, struct.error, EOFError, RuntimeError)
+"""What the readers of archives and of compressed data raise."""
 
 
-def _write(member: _Member, path: Path, left: int, archive: Path) -> int:
-    """Write a file; gives its size. The size in its header is not believed."""
-    size = 0
-    path.unlink(missing_ok=True)
-    with path.open("xb") as file:
-        while piece := member.content.read(_PIECE):
-            size += len(piece)
-            if size > left:
-                raise FolderError(f"{archive} unpacks to more than {MOST_TIMES} times its size")
-            file.write(piece)
-    os.utime(path, (member.time, member.time))
-    return size
+@dataclass(slots=True)
+class _Room:
+    """The folder that an archive is unpacked to, and what may still be put there."""
+
+    folder: Path
+    most_bytes: int
+    most_files: int
+    _bytes: int = 0
+    _files: int = 0
+
+    @classmethod
+    def of(cls, archive: Path, folder: Path) -> "_Room":
+        size = archive.stat().st_size
+        return cls(folder, max(LEAST_BYTES, MOST_TIMES * size), LEAST_FILES + size // BYTES_PER_FILE)
+
+    def write(self, member: _Member) -> None:
+        """Write a file. The size in its header is not believed."""
+        path = self.folder / _place(member.name)
+        try:
+            self._make_folder(path.parent)
+            self._count_file()
+            path.unlink(missing_ok=True)
+            with path.open("xb") as file:
+                while piece := member.content.read(_PIECE):
+                    self._bytes += len(piece)
+                    if self._bytes > self.most_bytes:
+                        raise LargeArchiveError(
+                            f"with {member.name!r} in it, it unpacks to more than {self.most_bytes:,} bytes"
+                        )
+                    file.write(piece)
+        except (FileExistsError, IsADirectoryError, NotADirectoryError) as error:
+            raise BrokenArchiveError(f"{member.name!r} is a file in it, and a folder as well") from error
+        written = member.time if 0 <= member.time < _LATEST else 0.0
+        os.utime(path, (written, written))
+
+    def _make_folder(self, folder: Path) -> None:
+        missing: list[Path] = []
+        while not folder.is_dir():
+            missing.append(folder)
+            folder = folder.parent
+        for each in reversed(missing):
+            self._count_file()
+            each.mkdir()
+
+    def _count_file(self) -> None:
+        self._files += 1
+        if self._files > self.most_files:
+            raise LargeArchiveError(f"it has more than {self.most_files:,} files and folders")
 
 
-def _place(name: str, archive: Path) -> PurePosixPath:
+def _place(name: str) -> PurePosixPath:
     path = PurePosixPath(name)
     strange = "\\" in name or "\0" in name or ":" in path.parts[0] if path.parts else True
-    if strange or path.is_absolute() or ".." in path.parts or len(name) > _LONGEST:
-        raise FolderError(f"{archive} is not unpacked: the name {name!r} in it leads out of it, or is none everywhere")
+    if strange or path.is_absolute() or ".." in path.parts:
+        raise BrokenArchiveError(f"the name {name[:_LONGEST]!r} in it leads out of it, or is none everywhere")
+    if len(name) > _LONGEST or len(path.parts) > _DEEPEST:
+        raise BrokenArchiveError(
+            f"a name in it has more than {_LONGEST} letters or {_DEEPEST} folders: {name[:50]!r}..."
+        )
     return path
 
 
-def _tar(archive: Path) -> Iterator[_Member]:
-    with tarfile.open(archive, errors="surrogateescape") as tar:
-        for each in tar:
-            tar.members = []  # type: ignore[misc] - it remembers all, and there may be millions
-            content = tar.extractfile(each) if each.isreg() else None
-            if content is not None:
-                yield _Member(each.name, max(0.0, float(each.mtime)), content)
+def _tar(archive: Path, room: _Room) -> Iterator[_Member]:
+    with opened(archive) as stream:
+        for each in members(stream, room.most_bytes, _HEADERS * room.most_files):
+            yield _Member(each.name, each.time, each)
 
 
-def _zip(archive: Path) -> Iterator[_Member]:
-    with zipfile.ZipFile(archive) as file:
-        for each in file.infolist():
+class _InPieces(io.BufferedReader):
+    """A zip archive, whose list of files `zipfile` reads at once, and whose contents in pieces."""
+
+    def __init__(self, archive: Path) -> None:
+        super().__init__(io.FileIO(archive))
+        self._most = max(_DIRECTORY, archive.stat().st_size // 10)
+
+    def read(self, size: int | None = -1, /) -> bytes:
+        if size is not None and size > self._most:
+            raise LargeArchiveError(f"its list of files has more than {self._most:,} bytes")
+        return super().read(size)
+
+
+def _zip(archive: Path, room: _Room) -> Iterator[_Member]:
+    with _InPieces(archive) as data, zipfile.ZipFile(data) as file:
+        listed = file.infolist()
+        if sum(each.file_size for each in listed) > room.most_bytes:
+            raise LargeArchiveError(f"it unpacks to more than {room.most_bytes:,} bytes")
+        for each in listed:
             kind = stat.S_IFMT(each.external_attr >> 16)
             # ZipInfo.is_dir raises for a member whose name is empty
-            if not each.filename.endswith("/") and kind in {0, stat.S_IFREG}:
-                with file.open(each) as content:
-                    yield _Member(each.orig_filename, _time(each), content)
+            if each.filename.endswith("/") or kind not in {0, stat.S_IFREG}:
+                continue
+            if each.compress_type not in _METHODS:
+                raise BrokenArchiveError(f"{each.orig_filename!r} in it is compressed in a way that is not read here")
+            with file.open(each) as content:
+                yield _Member(each.orig_filename, _time(each), content)
 
 
 def _time(info: zipfile.ZipInfo) -> float:
