@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, TypedDict, TypeVar
 
 import click
 
-from twinform.cli.config import config_options, settings_of
+from twinform.cli.config import config_options, hold_limit, settings_of
 from twinform.cli.files import Exclusion, NothingFoundError, PatternError, discover
 from twinform.cli.files.model_files import Kind, is_model
 from twinform.cli.source import Source, open_source
@@ -22,11 +22,16 @@ if TYPE_CHECKING:
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 
-def _size(_ctx: click.Context, _option: click.Parameter, value: str) -> int:
+def _size(ctx: click.Context, option: click.Parameter, value: str) -> int:
     try:
-        return parse_size(value)
+        size = parse_size(value)
     except ValueError as error:
         raise click.BadParameter(str(error)) from error
+    return hold_limit(ctx, option, size, LARGEST)
+
+
+def _tags(ctx: click.Context, option: click.Parameter, value: int) -> int:
+    return hold_limit(ctx, option, value, MOST_TAGS)
 
 
 _ARGUMENT = re.compile(r"(?P<name>[A-Za-z_][\w.-]*):=(?P<value>.*)", re.DOTALL)
@@ -64,6 +69,7 @@ _OPTIONS = (
         type=click.IntRange(min=1),
         metavar="N",
         default=MOST_TAGS,
+        callback=_tags,
         help=f"The most tags of a file, or parts of a JSON document; by default {MOST_TAGS:,}.",
     ),
 )

@@ -5,8 +5,10 @@ import os
 from pathlib import Path
 
 import pytest
+from pydantic import BaseModel
 
-from twinform.cli.config.trust import is_own
+from twinform.cli.config.settings import FileSettings, FormatSettings, Settings
+from twinform.cli.config.trust import HELD, is_own
 
 from .conftest import GOOD, Run
 
@@ -254,3 +256,30 @@ def test_the_search_ends_at_the_home_of_the_user(run: Run, here: Path, monkeypat
     assert run("check", "r.urdf").exit_code == 0
     configure("strct = true")
     assert run("check", "r.urdf").exit_code == 2
+
+
+def test_every_setting_is_held_to_something_and_the_page_says_to_what() -> None:
+    settings = {**_keys(Settings), **{f"files.{key}": "" for key in _keys(FileSettings)}}
+    settings |= {f"format.{key}": "" for key in _keys(FormatSettings)}
+    assert HELD.keys() == settings.keys() - {"files", "format"}
+    page = (Path(__file__).parents[3] / "docs/how-to/set-up-a-project.md").read_text()
+    rows = [line.strip("| \n").split(" | ") for line in page.splitlines() if line.startswith("| `")]
+    said = {key.strip("`"): hold for keys, hold, *_ in rows for key in keys.split(", ")}
+    assert said == HELD
+
+
+def _keys(model: type[BaseModel]) -> dict[str, str]:
+    return {field.alias or name: "" for name, field in model.model_fields.items()}
+
+
+@pytest.mark.usefixtures("foreign")
+def test_a_pass_of_another_package_is_nothing_for_somebody_elses_configuration(
+    run: Run, here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    configure("passes = 'check-limits'")
+    assert run("convert", "r.urdf", "-o", "r.sdf").exit_code == 0
+    monkeypatch.setattr("twinform.cli.config.trust.BUILT_IN", {})
+    done = run("convert", "r.urdf", "-o", "r.sdf")
+    assert done.exit_code == 2
+    assert "check-limits comes from another package, and the configuration is somebody else's" in done.stderr
+    assert run("convert", "r.urdf", "-o", "r.sdf", "--trust-config").exit_code == 0

@@ -2,6 +2,7 @@
 
 import os
 import re
+import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import cast
@@ -12,7 +13,11 @@ from twinform.compiler.search.search_roots import TOPS
 OWN = "twinform.toml"
 _SHARED = "pyproject.toml"
 _LARGEST = 2**20
+_DEEPEST = 64
+_DEEP_KEY = re.compile(rb"""(?:\.[ \t]*(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*){%d}""" % _DEEPEST)
+"""A key of so many parts, for each of which `tomllib` goes through all before it."""
 _LINE = re.compile(r" \(at line (\d+), column \d+\)")
+_LONG_NUMBER = re.compile(rb"[0-9_]{%d}" % sys.get_int_max_str_digits())
 Table = Mapping[str, object]
 
 
@@ -56,10 +61,27 @@ def section(path: Path) -> Table | None:
         ConfigError: the file cannot be read.
     """
     found = _parsed(path)
-    if path.name != _SHARED:
-        return found
-    tool = _table(found.get("tool", {}), path, "tool")
-    return _table(tool["twinform"], path, "tool.twinform") if "twinform" in tool else None
+    if path.name == _SHARED:
+        tool = _table(found.get("tool", {}), path, "tool")
+        if "twinform" not in tool:
+            return None
+        found = _table(tool["twinform"], path, "tool.twinform")
+    if any("\0" in text for text in _texts(found)):
+        raise ConfigError(path, "a text in it has a zero character, which no name and no value can have")
+    return found
+
+
+def _texts(value: object) -> Iterator[str]:
+    """All texts in a value, keys of tables among them."""
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, dict):
+        for key, each in cast("Table", value).items():
+            yield key
+            yield from _texts(each)
+    elif isinstance(value, list):
+        for each in cast("list[object]", value):
+            yield from _texts(each)
 
 
 def _table(value: object, path: Path, key: str) -> Table:
@@ -71,16 +93,23 @@ def _table(value: object, path: Path, key: str) -> Table:
 def _parsed(path: Path) -> Table:
     import tomllib  # noqa: PLC0415 - most folders have no configuration
 
+    data = _bytes(path)
+    if deep := _DEEP_KEY.search(data):
+        line = data.count(b"\n", 0, deep.start()) + 1
+        raise ConfigError(path, f"a key has more than {_DEEPEST} parts", line=line)
     try:
-        return tomllib.loads(_bytes(path).decode("utf-8-sig"))
+        return tomllib.loads(data.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
-        line = _bytes(path)[: error.start].count(b"\n") + 1
+        line = data.count(b"\n", 0, error.start) + 1
         raise ConfigError(path, "the file is not UTF-8", line=line) from error
     except tomllib.TOMLDecodeError as error:
         at = _LINE.search(str(error))
         raise ConfigError(path, _LINE.sub("", str(error)), line=int(at[1]) if at else None) from error
     except RecursionError as error:
         raise ConfigError(path, "it is nested too deeply") from error
+    except ValueError as error:  # of `int`, which does not say where
+        line = next((at for at, text in enumerate(data.split(b"\n"), 1) if _LONG_NUMBER.search(text)), None)
+        raise ConfigError(path, f"a number has more than {sys.get_int_max_str_digits():,} digits", line=line) from error
 
 
 def _bytes(path: Path) -> bytes:

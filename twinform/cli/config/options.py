@@ -110,7 +110,7 @@ def config_options(command: Command) -> Command:
         is_eager=True,
         expose_value=False,
         callback=_trust,
-        help="Let the configuration name folders outside of its own, and passes that write files.",
+        help="Let the configuration name folders outside of its own and passes that write files, and raise limits.",
     )(command)
     command = click.option(
         "--no-config", is_flag=True, is_eager=True, expose_value=False, callback=_none, help="Use no configuration."
@@ -130,6 +130,21 @@ def settings_of(ctx: click.Context) -> Project:
     found = ctx.meta.get(_KEY)
     project = found if isinstance(found, Project) else Project()
     return replace(project, trusted=bool(ctx.meta.get(_TRUSTED)))
+
+
+def hold_limit(ctx: click.Context, option: click.Parameter, value: int, usual: int) -> int:
+    """The value of an option that is a limit, which a configuration may lower.
+
+    Raises:
+        ConfigError: it comes from a configuration that raises it.
+    """
+    project = settings_of(ctx)
+    configured = ctx.get_parameter_source(option.name or "") is click.core.ParameterSource.DEFAULT_MAP
+    if configured and project.path is not None and not project.trusted:
+        from twinform.cli.config.trust import require_lower  # noqa: PLC0415 - few projects have limits
+
+        require_lower(project.path, (option.name or "").replace("_", "-"), value, usual)
+    return value
 
 
 def _section(path: Path) -> Table:

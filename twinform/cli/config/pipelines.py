@@ -9,6 +9,11 @@ from twinform.passes.framework.options import nearest
 from twinform.passes.framework.syntax import KEY
 from twinform.passes.framework.tables import TableError, parse_tables
 
+_DEEPEST = 32
+"""Pipelines that may stand for each other, one in the other."""
+_MOST_PASSES = 1000
+"""Passes that a pipeline may stand for: each that names another one twice has twice as many."""
+
 
 class NamedPipelines:
     """Called with a name, gives its pipeline. A pipeline may name others, but not itself."""
@@ -21,6 +26,7 @@ class NamedPipelines:
         """
         self.path, self.raw = path, raw
         self._open: list[str] = []
+        self._known: dict[str, Pipeline] = {}
         for name in raw:
             if not KEY.fullmatch(name):
                 problem = "the name of a pipeline takes letters, digits, _ and -"
@@ -37,17 +43,24 @@ class NamedPipelines:
             raise UnknownPipelineError(f"no pipeline is called {name} in {self.path}{nearest(name, list(self.raw))}")
         if name in self._open:
             raise UnknownPipelineError(f"a pipeline stands for itself: {' -> '.join((*self._open, name))}")
-        self._open.append(name)
-        try:
-            return self._parsed(name)
-        finally:
-            self._open.pop()
+        if len(self._open) >= _DEEPEST:
+            raise UnknownPipelineError(f"more than {_DEEPEST} pipelines stand for each other: {name} is one too many")
+        if name not in self._known:
+            self._open.append(name)
+            try:
+                self._known[name] = self._parsed(name)
+            finally:
+                self._open.pop()
+        return self._known[name]
 
     def _parsed(self, name: str) -> Pipeline:
         raw, key = self.raw[name], f"pipelines.{name}"
         try:
-            return parse_pipeline(raw, names=self) if isinstance(raw, str) else parse_tables(raw, names=self)
+            found = parse_pipeline(raw, names=self) if isinstance(raw, str) else parse_tables(raw, names=self)
         except PipelineError as error:
             raise ConfigError(self.path, str(error), key=key) from error
         except TableError as error:
             raise ConfigError(self.path, error.problem, key=key + error.key) from error
+        if len(found.passes) > _MOST_PASSES:
+            raise ConfigError(self.path, f"it stands for more than {_MOST_PASSES:,} passes", key=key)
+        return found

@@ -14,7 +14,9 @@ from twinform.passes.framework.options import nearest
 from twinform.schemas import versions_of
 
 UrdfVersion = Literal["1.0", "1.1", "1.2"]
-
+_MOST = 1000
+"""Folders, patterns, names of rules and tables of files that a configuration may list."""
+Texts = Annotated[list[str], Field(max_length=_MOST)]
 
 _CONFIG = ConfigDict(frozen=True, extra="forbid", strict=True, alias_generator=lambda name: name.replace("_", "-"))
 
@@ -34,13 +36,13 @@ class FileSettings(BaseModel):
 
     model_config = _CONFIG
 
-    match: list[str] = Field(min_length=1)
+    match: Texts = Field(min_length=1)
     arguments: Mapping[str, str | int | float | bool] = Field(default_factory=dict[str, str | int | float | bool])
     strict: bool | None = None
     passes: str | None = None
     check_passes: str | None = None
-    allow: list[str] = Field(default_factory=list[str])
-    deny: list[str] = Field(default_factory=list[str])
+    allow: Texts = Field(default_factory=list[str])
+    deny: Texts = Field(default_factory=list[str])
 
 
 class Settings(BaseModel):
@@ -56,16 +58,16 @@ class Settings(BaseModel):
     check_passes: str | None = None
     max_size: int | str | None = None
     max_tags: int | None = Field(default=None, gt=0)
-    paths: list[str] = Field(default_factory=list[str])
-    allow: list[str] = Field(default_factory=list[str])
-    deny: list[str] = Field(default_factory=list[str])
+    paths: Texts = Field(default_factory=list[str])
+    allow: Texts = Field(default_factory=list[str])
+    deny: Texts = Field(default_factory=list[str])
     format: FormatSettings = Field(default_factory=FormatSettings)
     pipelines: Mapping[str, object] = Field(default_factory=dict[str, object])
-    exclude: list[str] | None = None
-    extend_exclude: list[str] = Field(default_factory=list[str])
+    exclude: Texts | None = None
+    extend_exclude: Texts = Field(default_factory=list[str])
     baseline: str | None = None
-    files: list[FileSettings] = Field(default_factory=list[FileSettings])
-    profiles: list[str] = Field(default_factory=list[str], alias="for")
+    files: list[FileSettings] = Field(max_length=_MOST, default_factory=list[FileSettings])
+    profiles: Texts = Field(default_factory=list[str], alias="for")
 
     @field_validator("profiles")
     @classmethod

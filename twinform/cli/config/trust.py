@@ -1,19 +1,53 @@
 """How far a configuration is trusted: what it may read and write without `--trust-config`.
 
 Whoever calls the command may not have written the configuration that is found: it may have come with a download, or lie
-in a folder that others write into. So it names no folder or file outside of its own folder, and a pass that makes a
-file may come from it only if the configuration is the caller's own.
+in a folder that others write into. So it names no folder or file outside of its own folder, raises no limit, and a pass
+that makes a file, or that another package brings, may come from it only if the configuration is the caller's own.
+`HELD` says it setting by setting.
 """
 
 import os
 import stat
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 from twinform.cli.config.errors import ConfigError
 from twinform.compiler.output.same_files import is_below
 from twinform.passes import DocumentPass, FilesPass, Pass, Pipeline
+from twinform.passes.framework.built_in import BUILT_IN
 
+Hold = Literal["nothing to hold", "lowers a limit", "inside its folder", "known passes"]
+HELD: Mapping[str, Hold] = {
+    "allow": "nothing to hold",  # errors cannot be allowed
+    "baseline": "inside its folder",
+    "carriers": "nothing to hold",
+    "check-passes": "known passes",
+    "deny": "nothing to hold",
+    "exclude": "nothing to hold",  # it hides files of its own folder, which --no-config shows
+    "extend-exclude": "nothing to hold",
+    "files.allow": "nothing to hold",
+    "files.arguments": "nothing to hold",
+    "files.check-passes": "known passes",
+    "files.deny": "nothing to hold",
+    "files.match": "nothing to hold",
+    "files.passes": "known passes",
+    "files.strict": "nothing to hold",
+    "for": "nothing to hold",
+    "format.indent": "nothing to hold",
+    "format.numbers": "nothing to hold",
+    "format.sort-attributes": "nothing to hold",
+    "max-size": "lowers a limit",
+    "max-tags": "lowers a limit",
+    "passes": "known passes",
+    "paths": "inside its folder",
+    "pipelines": "known passes",
+    "sdf-version": "nothing to hold",
+    "strict": "nothing to hold",
+    "urdf-version": "nothing to hold",
+}
+"""What each setting is held to without `--trust-config`. There is none for what is written, started or connected to."""
 _ADMINISTRATOR = 0
 _ADVICE = "give --trust-config if this is meant"
 
@@ -28,21 +62,43 @@ def require_inside(config: Path, path: Path, key: str) -> None:
         raise ConfigError(config, f"{str(path)!r} leads out of the folder of the configuration; {_ADVICE}", key=key)
 
 
+def require_lower(config: Path, key: str, value: int, usual: int) -> None:
+    """Raise where a configuration raises a limit.
+
+    Raises:
+        ConfigError: it does.
+    """
+    if value > usual:
+        problem = (
+            f"{value:,} is more than the usual {usual:,}; give --{key} yourself, or --trust-config, if this is meant"
+        )
+        raise ConfigError(config, problem, key=key)
+
+
 def confined(config: Path, pipeline: Pipeline, key: str) -> Pipeline:
     """The passes of a configuration, kept from files that are not its business.
 
     Raises:
-        ConfigError: one of them makes a file, and the configuration is somebody else's.
+        ConfigError: one of them makes a file or is of another package, and the configuration is somebody else's.
     """
     return Pipeline(tuple(_confined(config, step, key) for step in pipeline))
 
 
 def _confined(config: Path, step: Pass, key: str) -> Pass:
-    if isinstance(step, FilesPass) and not is_own(config):
+    why = _risk(step)
+    if why and not is_own(config):
         typed = f"type --passes '{Pipeline((step,))}' yourself"
-        problem = f"{step.name} writes a file, and the configuration is somebody else's: {typed}, or {_ADVICE}"
+        problem = f"{step.name} {why}, and the configuration is somebody else's: {typed}, or {_ADVICE}"
         raise ConfigError(config, problem, key=key)
     return step.with_refusal(_Outside(config.parent)) if isinstance(step, DocumentPass) else step
+
+
+def _risk(step: Pass) -> str | None:
+    """What a pass could do at the wish of whoever wrote the configuration, beyond changing the model."""
+    if isinstance(step, FilesPass):
+        return "writes a file"
+    # what it does with its options, nobody here knows
+    return None if step.name in BUILT_IN else "comes from another package"
 
 
 @dataclass(frozen=True, slots=True)

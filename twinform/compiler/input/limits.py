@@ -50,6 +50,7 @@ _COUNTABLE = re.compile(rb"utf-?8|utf-?16.*|utf-?32.*|ucs-?[24].*|us-ascii|ascii
 
 
 _SIZE = re.compile(r"(?P<number>\d{1,15}(?:\.\d{1,15})?)\s*(?P<unit>(?:[kmg]i?)?)b?", re.IGNORECASE | re.ASCII)
+_LONGEST_SIZE = 40
 _UNITS = {"": 1, "k": 10**3, "m": 10**6, "g": 10**9, "ki": 2**10, "mi": 2**20, "gi": 2**30}
 
 LIFTED_BY_SIZE = "if the file is to be trusted, give a larger --max-size, or in Python max_size"
@@ -94,7 +95,8 @@ def parse_size(text: str) -> int:
     found = _SIZE.fullmatch(text.strip())
     size = int(float(found["number"]) * _UNITS[found["unit"].lower()]) if found else 0
     if size <= 0:
-        raise ValueError(f"{text!r} is no size; write a number of bytes, or a number and a unit such as 200MB or 1GiB")
+        said = text if len(text) <= _LONGEST_SIZE else f"{text[:_LONGEST_SIZE]}..."
+        raise ValueError(f"{said!r} is no size; write a number of bytes, or a number and a unit such as 200MB or 1GiB")
     return size
 
 
