@@ -7,11 +7,12 @@ from importlib import import_module
 from typing import Any
 
 from twinform.compiler.input.xacro.worker.channel import Channel, Compiler
-from twinform.compiler.input.xacro.worker.confinement import confine, limit
 from twinform.compiler.input.xacro.worker.expander import Expander
 from twinform.compiler.input.xacro.worker.expressions.budget import ExcessError
 from twinform.compiler.input.xacro.worker.failures import description
+from twinform.compiler.input.xacro.worker.limits import limit
 from twinform.compiler.input.xacro.worker.places import BadFileError, FileLine, places_below
+from twinform.confinement import confine
 
 _MOST_REMARKS = 1000
 _NEEDED_LATER = ("unicodedata", "encodings.cp1252", "encodings.iso8859_15", "encodings.utf_16")

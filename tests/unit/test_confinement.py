@@ -1,4 +1,4 @@
-"""What the operating system holds the process that expands xacro to, layer by layer, whatever code runs in it."""
+"""What the operating system holds a confined process to, layer by layer, whatever code runs in it."""
 
 import json
 import os
@@ -8,9 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from twinform.compiler.input.xacro.worker.confinement import confine, resources, seccomp
+from twinform.compiler.input.xacro.worker.limits import limit
+from twinform.confinement import confine, resources, seccomp
 
-_ROOT = Path(__file__).parents[5]
+_ROOT = Path(__file__).parents[2]
 _TRIES = {
     "read": "open('/etc/passwd')",
     "write": "open('written', 'w')",
@@ -32,7 +33,7 @@ _SCRIPT = """
 import ctypes, json, mmap, os, resource, socket, sys
 from importlib import import_module
 name, tries = sys.argv[1], json.loads(sys.argv[2])
-module = import_module("twinform.compiler.input.xacro.worker.confinement" + (name and "." + name.split(":")[0]))
+module = import_module("twinform.confinement" + (name and "." + name.split(":")[0]))
 sys.stdin.readline()
 held = getattr(module, name.partition(":")[2] or "confine")()
 done = {}
@@ -88,13 +89,13 @@ def test_layers_hold_in_this_order_or_are_left_out(monkeypatch: pytest.MonkeyPat
     tried: list[str] = []
 
     def renounce(name: str, *, holds: bool) -> object:
-        def call() -> bool:
+        def call(**_: bool) -> bool:
             tried.append(name)
             return holds
 
         return call
 
-    package = "twinform.compiler.input.xacro.worker.confinement"
+    package = "twinform.confinement"
     monkeypatch.setattr(f"{package}.landlock.renounce_files", renounce("landlock", holds=False))
     monkeypatch.setattr(f"{package}.renounce_descriptors", renounce("resources", holds=True))
     monkeypatch.setattr(f"{package}.seccomp.renounce_calls", renounce("seccomp", holds=True))
@@ -103,30 +104,38 @@ def test_layers_hold_in_this_order_or_are_left_out(monkeypatch: pytest.MonkeyPat
 
 
 def test_a_python_without_ctypes_is_held_to_limits(monkeypatch: pytest.MonkeyPatch) -> None:
-    package = "twinform.compiler.input.xacro.worker.confinement"
-    monkeypatch.setattr(f"{package}.renounce_descriptors", lambda: True)
+    package = "twinform.confinement"
+    monkeypatch.setattr(f"{package}.renounce_descriptors", lambda **_: True)
     monkeypatch.setitem(sys.modules, f"{package}.landlock", None)
     assert confine() == ["resources"]
 
 
+@pytest.mark.parametrize("threads", [False, True])
 @pytest.mark.parametrize("machine", ["x86_64", "aarch64"])
-def test_the_filter_lets_through_what_is_listed_and_no_other_call(machine: str) -> None:
-    program = list(seccomp.program(machine))
+def test_the_filter_lets_through_what_is_listed_and_no_other_call(machine: str, threads: bool) -> None:
+    program = list(seccomp.program(machine, threads=threads))
     column = list(seccomp.ARCHITECTURES).index(machine)
-    allowed = {numbers[column] for numbers in seccomp.CALLS.values()}
+    calls = seccomp.CALLS | (seccomp.THREAD_CALLS if threads else {})
+    allowed = {numbers[column] for numbers in calls.values()}
+    clone = (56, 220)[column] if threads else None
     mapping = {numbers[column] for numbers in seccomp.MAPPING_CALLS.values()}
     architecture = seccomp.ARCHITECTURES[machine]
     for number in range(500):
         for protection in (0, 3, 4, 7):
             right = number in allowed or (number in mapping and not protection & 4)
-            assert _runs(program, number, architecture, protection) is right
+            if number != clone:
+                assert _runs(program, number, architecture, protection) is right
         assert not _runs(program, number, 0x40000003, 0)
         assert not _runs(program, number | 0x40000000, architecture, 0)
+    assert not clone or not _runs(program, clone, architecture, 0, 0x01200011)  # fork
+    assert not clone or _runs(program, clone, architecture, 0, 0x003D0F00)  # a thread of glibc
 
 
-def _runs(program: list[tuple[int, int, int, int]], number: int, architecture: int, protection: int) -> bool:
+def _runs(
+    program: list[tuple[int, int, int, int]], number: int, architecture: int, protection: int, flags: int = 0
+) -> bool:
     """Whether the machine of the kernel would let a system call through."""
-    data = {0: number, 4: architecture, 32: protection}
+    data = {0: number, 4: architecture, 16: flags, 32: protection}
     register = place = 0
     for _ in range(len(program)):
         code, if_true, if_false, value = program[place]
@@ -164,24 +173,25 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> dict[str, tuple[int, int]]:
             found[kind] = limits
 
     found: dict[str, tuple[int, int]] = {}
-    monkeypatch.setattr(resources, "_resource", Resource)
+    monkeypatch.setattr(resources, "limits", Resource)
+    monkeypatch.setattr("twinform.compiler.input.xacro.worker.limits.limits", Resource)
     monkeypatch.setattr(sys, "setrecursionlimit", _do_nothing)
     monkeypatch.setattr("signal.signal", _do_nothing)
     return found
 
 
 def test_the_process_has_limits(asked: dict[str, tuple[int, int]]) -> None:
-    resources.limit()
+    limit()
     assert asked == {"AS": (2**29, 2**29), "FSIZE": (0, 0), "CPU": (5, 6)}
 
 
 def test_descriptors_are_renounced(asked: dict[str, tuple[int, int]]) -> None:
     assert resources.renounce_descriptors()
-    assert asked == {"NOFILE": (0, 0)}
+    assert asked == {"FSIZE": (0, 0), "NOFILE": (0, 0)}
 
 
 def test_a_system_without_limits_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "resource", None)
     monkeypatch.setattr(sys, "setrecursionlimit", _do_nothing)
-    resources.limit()
+    limit()
     assert not resources.renounce_descriptors()

@@ -12,10 +12,11 @@ from collections.abc import Iterator
 _SET_SECCOMP, _FILTER = 22, 2
 _NO_NEW_PRIVILEGES = 38
 _LOAD, _JUMP_IF_EQUAL, _JUMP_IF_SET, _RETURN = 0x20, 0x15, 0x45, 0x06
-_NUMBER, _ARCHITECTURE, _THIRD_ARGUMENT = 0, 4, 32
+_NUMBER, _ARCHITECTURE, _FIRST_ARGUMENT, _THIRD_ARGUMENT = 0, 4, 16, 32
 """Where they stand in `struct seccomp_data`."""
-_ALLOW, _DENY = 0x7FFF0000, 0x00050001
+_ALLOW, _DENY, _UNKNOWN = 0x7FFF0000, 0x00050001, 0x00050026
 _EXECUTABLE = 0x4
+_THREAD = 0x10000
 
 ARCHITECTURES = {"x86_64": 0xC000003E, "aarch64": 0xC00000B7}
 CALLS = {
@@ -29,6 +30,12 @@ CALLS = {
 """What is allowed, by its numbers on these two machines."""
 MAPPING_CALLS = {"mmap": (9, 222), "mprotect": (10, 226)}
 """What is allowed for memory that is not executable."""
+THREAD_CALLS = {
+    "set_robust_list": (273, 99), "rseq": (334, 293), "sched_yield": (24, 124), "sched_getaffinity": (204, 123),
+    "clock_nanosleep": (230, 115), "set_tid_address": (218, 96), "prlimit64": (302, 261),
+}  # fmt: skip
+"""What threads take besides: in their beginning, while they wait, and to know how large a stack is."""
+_CLONE, _CLONE3 = (56, 220), (435, 435)
 
 
 class _Instruction(ctypes.Structure):
@@ -44,14 +51,14 @@ class _Program(ctypes.Structure):
     _fields_ = (("length", ctypes.c_uint16), ("instructions", ctypes.POINTER(_Instruction)))
 
 
-def renounce_calls() -> bool:
-    """Make no system calls any more but those of the list; whether the kernel holds to that."""
+def renounce_calls(*, threads: bool = False) -> bool:
+    """Make no system calls any more but those of the lists; whether the kernel holds to that."""
     if not sys.platform.startswith("linux") or sys.maxsize < 2**32:
         return False
     machine = os.uname().machine
     if machine not in ARCHITECTURES:
         return False
-    instructions = [_Instruction(*each) for each in program(machine)]
+    instructions = [_Instruction(*each) for each in program(machine, threads=threads)]
     array = (_Instruction * len(instructions))(*instructions)
     loaded = _Program(len(instructions), array)
     libc = ctypes.CDLL(None, use_errno=True)
@@ -60,21 +67,33 @@ def renounce_calls() -> bool:
     return libc.prctl(_SET_SECCOMP, _FILTER, ctypes.byref(loaded), 0, 0) == 0
 
 
-def program(machine: str) -> Iterator[tuple[int, int, int, int]]:
+def program(machine: str, *, threads: bool = False) -> Iterator[tuple[int, int, int, int]]:
     """The program: code, how many instructions to skip if true and if not, value."""
     column = list(ARCHITECTURES).index(machine)
-    plain = [numbers[column] for numbers in CALLS.values()]
-    mapping = [numbers[column] for numbers in MAPPING_CALLS.values()]
-    calls = len(plain) + len(mapping)
+    plain = [numbers[column] for numbers in (CALLS | (THREAD_CALLS if threads else {})).values()]
     yield _LOAD, 0, 0, _ARCHITECTURE
-    yield _JUMP_IF_EQUAL, 0, calls + 1, ARCHITECTURES[machine]
+    yield _JUMP_IF_EQUAL, 1, 0, ARCHITECTURES[machine]
+    yield _RETURN, 0, 0, _DENY
     yield _LOAD, 0, 0, _NUMBER
-    for place, number in enumerate(mapping):
-        yield _JUMP_IF_EQUAL, calls - place, 0, number
-    for place, number in enumerate(plain):
-        yield _JUMP_IF_EQUAL, len(plain) - place + 2, 0, number
+    if threads:
+        # its flags lie in memory, which no filter reads; the C library takes the older call where there is none
+        yield from _if_called(_CLONE3[column], [(_RETURN, 0, 0, _UNKNOWN)])
+        yield from _if_called(_CLONE[column], _only_if(_FIRST_ARGUMENT, _THREAD, right=True))
+    for numbers in MAPPING_CALLS.values():
+        yield from _if_called(numbers[column], _only_if(_THIRD_ARGUMENT, _EXECUTABLE, right=False))
+    for number in plain:
+        yield from _if_called(number, [(_RETURN, 0, 0, _ALLOW)])
     yield _RETURN, 0, 0, _DENY
-    yield _LOAD, 0, 0, _THIRD_ARGUMENT
-    yield _JUMP_IF_SET, 1, 0, _EXECUTABLE
-    yield _RETURN, 0, 0, _ALLOW
-    yield _RETURN, 0, 0, _DENY
+
+
+def _if_called(number: int, then: list[tuple[int, int, int, int]]) -> Iterator[tuple[int, int, int, int]]:
+    """What to do where a call has this number, whose number is loaded."""
+    yield _JUMP_IF_EQUAL, 0, len(then), number
+    yield from then
+
+
+def _only_if(argument: int, flag: int, *, right: bool) -> list[tuple[int, int, int, int]]:
+    """Allow a call only where a flag of one of its arguments is set, or only where it is not."""
+    allowed, denied = (_RETURN, 0, 0, _ALLOW), (_RETURN, 0, 0, _DENY)
+    first, second = (allowed, denied) if right else (denied, allowed)
+    return [(_LOAD, 0, 0, argument), (_JUMP_IF_SET, 0, 1, flag), first, second]

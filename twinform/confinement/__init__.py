@@ -1,0 +1,37 @@
+"""What the operating system holds a process to that reads what may be anybody's, whatever runs in it.
+
+Three layers beneath it, each where the system has it, and none that the process can take back:
+
+* limits of resources (POSIX): no writing, and no new file, connection or process;
+* Landlock (Linux from 5.13 on): nothing in the file system, no TCP, no signals to others;
+* seccomp (Linux on x86-64 and AArch64): no system calls but those of a process that calculates and talks through the
+  pipes that it has.
+
+It stands below all rooms and needs nothing of them: the process that expands xacro imports no other package of ours.
+"""
+
+from importlib import import_module
+
+from twinform.confinement.resources import renounce_descriptors
+
+__all__ = ["confine"]
+
+
+def confine(*, threads: bool = False) -> list[str]:
+    """Give up everything but calculating and the open pipes; the names of the layers that hold from here on.
+
+    With `threads` more of them may begin, which libraries for numbers do.
+    """
+    layers = {"resources": lambda: renounce_descriptors(threads=threads)}
+    try:
+        landlock = import_module("twinform.confinement.landlock")
+        seccomp = import_module("twinform.confinement.seccomp")
+        # in this order: a ruleset needs a descriptor, and limits need a system call
+        layers = {
+            "landlock": landlock.renounce_files,
+            **layers,
+            "seccomp": lambda: seccomp.renounce_calls(threads=threads),
+        }
+    except ImportError:
+        pass  # a Python without ctypes
+    return [name for name, renounce in layers.items() if renounce()]

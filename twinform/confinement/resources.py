@@ -1,0 +1,37 @@
+"""Limits of resources, where the system has them: POSIX."""
+
+from importlib import import_module
+from typing import Any, Literal
+
+Kind = Literal["AS", "CORE", "CPU", "FSIZE", "NOFILE", "NPROC"]
+"""A limit, by the end of its name in `resource`."""
+
+
+def renounce_descriptors(*, threads: bool = False) -> bool:
+    """Open no file or connection and start no process any more; whether the system holds to that."""
+    set_limit("FSIZE", 0)
+    if not threads:  # which count as processes
+        set_limit("NPROC", 0)
+    return set_limit("NOFILE", 0)
+
+
+def set_limit(kind: Kind, most: int, grace: int = 0) -> bool:
+    """Set a limit, and how far it may be raised again; a stricter one stays. Whether the system has it."""
+    resource = limits()
+    if resource is None:
+        return False
+    number = getattr(resource, f"RLIMIT_{kind}")
+    soft, hard = (most + grace if each == resource.RLIM_INFINITY else each for each in resource.getrlimit(number))
+    try:
+        resource.setrlimit(number, (min(most, soft, hard), min(most + grace, hard)))
+    except (OSError, ValueError):
+        return False
+    return True
+
+
+def limits() -> Any:
+    """The module `resource`; None where the system has no such limits."""
+    try:
+        return import_module("resource")
+    except ImportError:  # Windows
+        return None
