@@ -7,12 +7,17 @@ import click
 
 from twinform import __version__
 from twinform.cli.command import Command
+from twinform.cli.config.trust import Outside
 from twinform.cli.failure import FINDINGS, Unusable
+from twinform.cli.findings import paint
 from twinform.compiler import LoadOptions
 from twinform.compiler.includes.other_documents import OtherDocuments
+from twinform.compiler.output.same_files import is_below
 from twinform.compiler.reproducers.files import read_reproducer
 from twinform.compiler.reproducers.reproducer import Reproducer
 from twinform.compiler.search.uris import LocalAssets, SearchPath
+from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.reporters import Findings, concise
 from twinform.passes import PassError, PipelineError, RegistryError
 
 EXAMPLES = {
@@ -35,13 +40,16 @@ def command(ctx: click.Context, file: Path, paths: tuple[Path, ...]) -> None:
     """Run a pass again that failed.
 
     It is given the document that it failed on. FILE is what `twinform convert` names where a pass is at fault. Exit
-    code: 0 the pass does its work now, 1 it fails again, with the whole traceback, 2 the file could not be read.
+    code: 0 the pass does its work now, 1 it fails again, with the whole traceback, 2 the file could not be read. Meshes
+    and other models are read in the folder of FILE, and in those of --path.
     """
     found = _read(file)
     click.echo(f"{found.pipeline} on a document of {found.source}; failed under twinform {found.twinform}", err=True)
     if found.twinform != __version__:
         click.echo(f"this is twinform {__version__}", err=True)
-    error = _run(found, file, SearchPath.of(paths))
+    sink = DiagnosticSink(found.source)
+    error = _run(found, file, SearchPath.of(paths), sink)
+    click.echo(concise([Findings(found.source, tuple(sink.diagnostics))], paint), nl=False, err=True)
     if error is None:
         other = "" if found.again else ", as it did when this file was written: it needs the source, lines and all"
         click.echo(f"it does not fail{other}", err=True)
@@ -60,9 +68,14 @@ def _read(file: Path) -> Reproducer:
         raise Unusable(f"{file} is no reproducer: {str(error).splitlines()[0]}") from error
 
 
-def _run(found: Reproducer, file: Path, search: SearchPath) -> PassError | None:
-    assets = LocalAssets(search, Path(found.source))
+def _run(found: Reproducer, file: Path, search: SearchPath, sink: DiagnosticSink) -> PassError | None:
+    # a reproducer may be anybody's, so the place that it gives for its source opens no folder but its own
+    source = Path(found.source)
+    if not is_below(source, file.parent):
+        source = file.with_name(source.name or file.name)
+    assets = LocalAssets(search, source)
+    reader = OtherDocuments(LoadOptions(search=search), str(source)).read
     try:
-        return found.run(assets, OtherDocuments(LoadOptions(search=search), found.source).read)
+        return found.run(assets, reader, Outside(file.parent, f"{file}, which names it"), sink)
     except (PipelineError, RegistryError) as error:
         raise Unusable(f"{file}: {error}") from error

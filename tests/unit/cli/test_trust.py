@@ -170,24 +170,58 @@ def test_a_file_of_a_pass_is_for_one_input(run: Run, here: Path) -> None:
     assert "bridge-config makes a file beside a result, and a batch has many" in done.stderr
 
 
-def test_a_reproducer_writes_nothing(run: Run, here: Path) -> None:
-    models: list[object] = []
-    document: dict[str, object] = {"format": "sdf", "version": "1.9", "models": models}
+def _reproducer(pipeline: str, source: str) -> None:
+    models: list[object] = [{"name": "r", "links": [{"name": "base"}]}]
     found: dict[str, object] = {
         "twinform": "0.1.0",
         "python": "3.11",
-        "source": "r.sdf",
+        "source": source,
         "fault": "exception",
         "error": "x",
         "traceback": "",
         "again": False,
-        "document": document,
+        "document": {"format": "sdf", "version": "1.9", "models": models},
+        "pipeline": pipeline,
     }
+    Path("repro.json").write_text(json.dumps(found))
+
+
+def test_a_reproducer_writes_nothing(run: Run, here: Path) -> None:
     for pipeline in (BRIDGE, 'bridge-config{file="/tmp/b.yaml"}', 'bridge-config{file="home/.bashrc"}'):
-        Path("repro.json").write_text(json.dumps({**found, "pipeline": pipeline}))
+        _reproducer(pipeline, "r.sdf")
         before = sorted(here.parent.rglob("*"))
         assert run("reproduce", "repro.json").exit_code in {0, 2}
         assert sorted(here.parent.rglob("*")) == before
+
+
+@pytest.mark.parametrize(
+    ("file", "source"),
+    [
+        ("../outside/arm.sdf", "r.sdf"),
+        ("{outside}/arm.sdf", "r.sdf"),
+        ("away/arm.sdf", "r.sdf"),
+        ("model://arm.sdf", "{outside}/r.sdf"),
+        ("model://arm.sdf", "../outside/r.sdf"),
+    ],
+)
+def test_a_reproducer_reads_nothing_outside_of_its_folder(run: Run, here: Path, file: str, source: str) -> None:
+    outside = here.parent / "outside"
+    outside.mkdir(exist_ok=True)
+    (outside / "arm.sdf").write_text('<sdf version="1.9"><model name="arm"><link name="secret"/></model></sdf>')
+    Path("away").symlink_to(outside)
+    named = file.format(outside=outside)
+    _reproducer(f"attach{{file='{named}' to=base}}", source.format(outside=outside))
+    done = run("reproduce", "repro.json")
+    assert "[unread-document]" in done.stderr or "[unresolved-uri]" in done.stderr, done.stderr
+    assert "secret" not in done.stderr
+
+
+def test_a_reproducer_reads_what_lies_beside_it_and_where_path_says(run: Run, here: Path) -> None:
+    (here / "parts").mkdir()
+    for folder in (here, here / "parts"):
+        (folder / "arm.sdf").write_text('<sdf version="1.9"><model name="arm"><link name="a"/></model></sdf>')
+    _reproducer("attach{file=arm.sdf to=base}", "/elsewhere/r.sdf")
+    assert "[unread-document]" not in run("reproduce", "repro.json").stderr
 
 
 LEAVING = {"up": "../outside", "absolute": "{outside}", "a link": "away", "up and down": "sub/../../outside"}

@@ -15,7 +15,7 @@ from typing import Literal
 
 from twinform.cli.config.errors import ConfigError
 from twinform.compiler.output.same_files import is_below
-from twinform.passes import DocumentPass, FilesPass, Pass, Pipeline
+from twinform.passes import FilesPass, Pass, Pipeline
 from twinform.passes.framework.built_in import BUILT_IN
 
 Hold = Literal["nothing to hold", "lowers a limit", "inside its folder", "known passes"]
@@ -81,16 +81,13 @@ def confined(config: Path, pipeline: Pipeline, key: str) -> Pipeline:
     Raises:
         ConfigError: one of them makes a file or is of another package, and the configuration is somebody else's.
     """
-    return Pipeline(tuple(_confined(config, step, key) for step in pipeline))
-
-
-def _confined(config: Path, step: Pass, key: str) -> Pass:
-    why = _risk(step)
-    if why and not is_own(config):
-        typed = f"type --passes '{Pipeline((step,))}' yourself"
-        problem = f"{step.name} {why}, and the configuration is somebody else's: {typed}, or {_ADVICE}"
-        raise ConfigError(config, problem, key=key)
-    return step.with_refusal(_Outside(config.parent)) if isinstance(step, DocumentPass) else step
+    for step in pipeline:
+        why = _risk(step)
+        if why and not is_own(config):
+            typed = f"type --passes '{Pipeline((step,))}' yourself"
+            problem = f"{step.name} {why}, and the configuration is somebody else's: {typed}, or {_ADVICE}"
+            raise ConfigError(config, problem, key=key)
+    return pipeline.with_refusal(Outside(config.parent, f"the configuration that names it; {_ADVICE}"))
 
 
 def _risk(step: Pass) -> str | None:
@@ -102,15 +99,17 @@ def _risk(step: Pass) -> str | None:
 
 
 @dataclass(frozen=True, slots=True)
-class _Outside:
+class Outside:
     """Refuses paths that lead out of a folder. URIs lead into folders of models and packages only, as everywhere."""
 
     folder: Path
+    whose: str
 
     def __call__(self, path: str) -> str | None:
+        """Why a pass must not read the file of a path; None where it may."""
         if "://" in path or is_below(Path(path), self.folder):
             return None
-        return f"{path!r} leads out of the folder of the configuration that names it; {_ADVICE}"
+        return f"{path!r} leads out of the folder of {self.whose}"
 
 
 def is_own(path: Path) -> bool:

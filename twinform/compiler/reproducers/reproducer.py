@@ -15,7 +15,7 @@ from twinform.ir import Document
 from twinform.ir.verify import verify
 from twinform.passes.framework.asset_access import NO_ASSETS, Assets
 from twinform.passes.framework.errors import BrokenPassError, PassError
-from twinform.passes.framework.other_documents import DocumentReader
+from twinform.passes.framework.other_documents import DocumentReader, Refusal
 from twinform.passes.framework.pipeline import Pipeline
 from twinform.passes.framework.text import parse_pipeline
 from twinform.passes.legalise.known import legalisation_kinds
@@ -59,19 +59,30 @@ class Reproducer(BaseModel):
         )
         return found.model_copy(update={"again": found._run(Pipeline((error.step,))) is not None})
 
-    def run(self, assets: Assets = NO_ASSETS, reader: DocumentReader | None = None) -> PassError | None:
+    def run(
+        self,
+        assets: Assets = NO_ASSETS,
+        reader: DocumentReader | None = None,
+        refusal: Refusal | None = None,
+        sink: DiagnosticSink | None = None,
+    ) -> PassError | None:
         """Run the pass again: what it does wrong, or None where it does nothing wrong any more.
 
-        `assets` are the files that the document names, for passes that open them; `reader` reads other models.
+        `assets` are the files that the document names, for passes that open them; `reader` reads other models, except
+        those that `refusal` has a reason against. What the pass finds goes into the `sink`.
 
         Raises:
             PipelineError: the pass is not installed, or has other options now.
         """
-        return self._run(parse_pipeline(self.pipeline, kinds=legalisation_kinds()).with_files(assets, reader))
+        pipeline = parse_pipeline(self.pipeline, kinds=legalisation_kinds())
+        pipeline = pipeline.with_files(assets, reader)
+        return self._run(pipeline.with_refusal(refusal) if refusal else pipeline, sink)
 
-    def _run(self, pipeline: Pipeline) -> PassError | None:
+    def _run(self, pipeline: Pipeline, sink: DiagnosticSink | None = None) -> PassError | None:
         try:
-            pipeline.run(self.document, DiagnosticSink(), verify=verify if self.fault == "invalid document" else None)
+            pipeline.run(
+                self.document, sink or DiagnosticSink(), verify=verify if self.fault == "invalid document" else None
+            )
         except PassError as error:
             return error
         return None

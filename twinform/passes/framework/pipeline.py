@@ -10,7 +10,7 @@ from twinform.passes.framework.assets import AssetPass
 from twinform.passes.framework.base import Pass
 from twinform.passes.framework.errors import BrokenPassError, FailedPassError
 from twinform.passes.framework.instrumentation import PassInstrumentation
-from twinform.passes.framework.other_documents import DocumentPass, DocumentReader
+from twinform.passes.framework.other_documents import DocumentPass, DocumentReader, Refusal
 
 Verifier = Callable[[Document, DiagnosticSink], None]
 """Reports what is wrong with a document; it is a function of `twinform.ir.verify`."""
@@ -43,6 +43,10 @@ class Pipeline:
     def with_files(self, assets: Assets, reader: DocumentReader | None = None) -> "Pipeline":
         """The same passes; those that open files know where they are, those that need other models who reads them."""
         return Pipeline(tuple(_lend(each, assets, reader) for each in self.passes))
+
+    def with_refusal(self, refusal: Refusal) -> "Pipeline":
+        """The same passes; those that need other models do not get the ones that are refused."""
+        return Pipeline(tuple(each.with_refusal(refusal) if isinstance(each, DocumentPass) else each for each in self))
 
     def __iter__(self) -> Iterator[Pass]:
         return iter(self.passes)
