@@ -112,8 +112,8 @@ def _against_text(data: bytes, mended: Mended) -> Iterator[str]:
 
 
 def _words(comment: str) -> str:
-    """A comment without its blanks and hyphens, which may have been too many."""
-    return "".join(comment.replace("-", "").split())
+    """A comment without its blanks, hyphens and control characters, which may have been too many."""
+    return "".join(each for each in comment if each.isprintable() and each not in "- ")
 
 
 def _spans(mended: Mended) -> Iterator[Span]:

@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 from types import ModuleType
 
-_AROUND = ("twinform.compiler.input.xacro", "twinform.compiler", "twinform")
+_AROUND = ("twinform.compiler.input.xacro", "twinform.compiler.input", "twinform.compiler", "twinform")
 
 
 def _start() -> None:
